@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Static bounds of a model. The reader refuses what exceeds them, the compiler never writes it,
+/// and the cycle's cost follows from them. Stated here and nowhere else.
+namespace plumb::format {
+
+inline constexpr int kMaxJoints = 9;
+inline constexpr int kMaxEffects = 64;
+inline constexpr int kMaxEffectParameters = 128;
+inline constexpr int kTreeAxes = 3;          // x, y, z of the base frame
+inline constexpr int kMaxTreeLeaves = 4096;  // per axis
+inline constexpr int kMaxTreeDepth = 64;
+inline constexpr int kMaxParameters = 160;   // fitted parameters with a covariance
+inline constexpr int kMaxFileBytes = 16 << 20;
+
+}  // namespace plumb::format

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cell/problem.hpp"
+#include "plumb/format/model.hpp"
+
+namespace plumb::offline {
+
+/// Optional mechanical data of a joint and its link, for the effects that need them. SI.
+struct JointMechanics {
+  std::optional<double> gear_ratio;
+  std::optional<double> stiffness_Nm_per_rad;
+  std::optional<double> link_mass_kg;
+  std::optional<std::array<double, 3>> link_com_m;
+  std::optional<double> length_m, EI_Nm2, GJ_Nm2, kg_per_m;
+  bool parallel_next = false;  // its axis is nominally parallel to the next one
+};
+
+struct Payload {
+  double mass_kg = 0.0;
+  std::array<double, 3> com_m{};  // flange frame
+};
+
+/// How the held-out poses are chosen.
+struct HeldOutRule {
+  enum class Kind { kAuto, kShare, kFolds, kColumn, kFile } kind = Kind::kAuto;
+  double share = 0.2;          // kShare
+  int folds = 5;               // kFolds
+  std::string column = "set";  // kColumn
+  std::filesystem::path file;  // kFile, absolute
+};
+
+struct MeasurementSettings {
+  std::vector<std::filesystem::path> files;  // absolute
+  bool fit_frame = true;
+  format::Pose X_MB;  // base in the measurement frame, if not fitted
+  bool fit_target = true;
+  std::array<double, 3> target_T{};     // reflector in the tool frame [m], if not fitted
+  std::optional<double> sigma_m;        // 1 sigma per axis
+  std::optional<double> sigma_rad;      // 1 sigma per axis of measured orientations (sigma_urad)
+  HeldOutRule held_out;
+  std::uint64_t seed = 1;
+};
+
+/// One entry of [effects]; `geometry` is always first and always there.
+struct EffectEntry {
+  using Value = std::variant<bool, double, std::string, std::vector<std::string>>;
+  std::string name;
+  std::vector<int> joints;  // zero-based, empty = all
+  std::map<std::string, Value> options;
+  Place place;
+};
+
+struct FitSettings {
+  std::vector<std::string> fixed;  // parameters held at nominal, "J2.d"
+  enum class Model { kDh, kComplete } model = Model::kDh;
+};
+
+struct DeploySettings {
+  double cycle_s = 0.004;
+  double max_correction_m = 0.003;
+};
+
+/// A cell file, read and checked. SI inside: [m], [rad]; places keep the text for messages.
+struct Cell {
+  std::filesystem::path file;       // absolute path of cell.toml
+  std::filesystem::path directory;  // its folder
+  std::string text;                 // as read, for in-place edits and hashes
+  std::string name, serial;
+  double tolerance_m = 1e-4;
+  std::string robot_name;
+  std::string length_unit = "mm", angle_unit = "deg";  // as written, for display
+  format::Chain nominal;
+  std::vector<JointMechanics> mechanics;  // one per joint
+  std::array<double, 3> gravity{0.0, 0.0, -9.81};
+  Payload payload;
+  MeasurementSettings measurement;
+  std::vector<EffectEntry> effects;
+  FitSettings fit;
+  DeploySettings deploy;
+  std::vector<Problem> remarks;  // warnings and notes found while reading
+  int joints() const { return static_cast<int>(nominal.joints.size()); }
+};
+
+/// Reads and checks a cell file; throws Failure with all problems (exit 3), unknown keys included.
+Cell read_cell(const std::filesystem::path& cell_toml);
+
+/// cell.toml in `start` or the nearest folder above it. Throws Failure (kInput) with help if none.
+std::filesystem::path find_cell(const std::filesystem::path& start);
+
+/// A commented cell.toml for `cell`; read_cell of it gives the same cell.
+std::string write_cell(const Cell& cell);
+
+/// Names known to [effects]. One line each: the catalogue.
+const std::vector<std::string>& known_effects();
+
+}  // namespace plumb::offline

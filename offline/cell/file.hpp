@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace plumb::offline {
+
+/// Whole file as text. Throws Failure (kInput) if missing, a directory or unreadable.
+std::string read_file(const std::filesystem::path& file);
+
+/// Writes all or nothing: a temporary file beside the target, fsync, rename, fsync of the folder.
+/// Throws Failure (kEnvironment) with the system's reason; the temporary file is removed.
+void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
+
+/// The same, but refuses (kUsage, E-EXISTS) to replace a file unless `force`.
+enum class Overwrite { kNo, kForce };
+void write_new_file(const std::filesystem::path& file, std::string_view bytes, Overwrite overwrite);
+
+/// 64 lower-case hex digits.
+std::string sha256(std::string_view bytes);
+
+}  // namespace plumb::offline

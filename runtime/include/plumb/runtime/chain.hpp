@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "plumb/format/model.hpp"
+#include "plumb/runtime/transform.hpp"
+
+namespace plumb {
+
+using format::kMaxJoints;
+
+/// Frames of one pose: P_i is the frame just behind the motion of joint i; its z is the joint's
+/// axis. All in the base frame B of the cell.
+template <class S>
+struct ChainFrames {
+  std::array<Transform<S>, kMaxJoints> joint;  // X_BPi
+  Transform<S> tip;                            // X_BT
+};
+
+/// Serial chain, ready to evaluate: T(q) = C_0 M_1(q_1') C_1 M_2(q_2') ... M_n(q_n') C_n with
+/// M = Rz(q') or Tz(q'), q' = scale q + offset + theta (or d). Every DH convention, Hayati's beta
+/// and all constant twists are folded into the C_i when the chain is built.
+///
+/// Cost of an evaluation: n sin_cos and n transform products, whatever q is. Wait-free, any thread.
+class Chain {
+ public:
+  Chain() = default;
+
+  /// Folds the parameters; slow compared with an evaluation. Precondition: 1 to 9 joints, finite.
+  explicit Chain(const format::Chain& parameters) noexcept;
+
+  int joints() const noexcept { return joints_; }
+  bool revolute(int i) const noexcept { return revolute_[i]; }
+
+  /// Tool pose X_BT for joint positions q, shape (n,), [rad] or [m].
+  template <class S>
+  Transform<S> forward(std::span<const S> q) const;
+
+  /// The same, with the frame behind every joint.
+  template <class S>
+  void frames(std::span<const S> q, ChainFrames<S>& out) const;
+
+  /// The constant C_i (0 .. n) of the formula above; frame P_i to the zero position of joint i + 1.
+  const Transformd& constant(int i) const noexcept { return constant_[i]; }
+
+ private:
+  template <class S>
+  Transform<S> moved(const Transform<S>& X, int i, const S& q) const;
+
+  int joints_ = 0;
+  std::array<bool, kMaxJoints> revolute_{};
+  std::array<double, kMaxJoints> scale_{};
+  std::array<double, kMaxJoints> zero_{};
+  std::array<Transformd, kMaxJoints + 1> constant_{};
+};
+
+/// Column i: displacement [m] and rotation [rad] of the tip per unit of joint i, base frame.
+/// Rows 0-2 translation, rows 3-5 rotation; columns n and up are zero.
+using Jacobian = Eigen::Matrix<double, 6, kMaxJoints, Eigen::DontAlign>;
+void jacobian(const Chain& chain, const ChainFrames<double>& frames, Jacobian& out) noexcept;
+
+// --- implementation ------------------------------------------------------------------------------
+
+template <class S>
+Transform<S> Chain::moved(const Transform<S>& X, int i, const S& q) const {
+  Transform<S> out;
+  const S position = q * scale_[i] + zero_[i];
+  if (revolute_[i]) {
+    using portable::sin_cos;
+    const auto t = sin_cos(position);
+    for (int k = 0; k < 3; ++k) {
+      out.R(k, 0) = X.R(k, 0) * t.cos + X.R(k, 1) * t.sin;
+      out.R(k, 1) = X.R(k, 1) * t.cos - X.R(k, 0) * t.sin;
+      out.R(k, 2) = X.R(k, 2);
+    }
+    out.p = X.p;
+  } else {
+    out.R = X.R;
+    for (int k = 0; k < 3; ++k) out.p(k) = X.p(k) + X.R(k, 2) * position;
+  }
+  return out;
+}
+
+template <class S>
+Transform<S> constant_as(const Transformd& X) {
+  if constexpr (std::is_same_v<S, double>) {
+    return X;
+  } else {
+    return {X.R.template cast<S>(), X.p.template cast<S>()};
+  }
+}
+
+template <class S>
+Transform<S> Chain::forward(std::span<const S> q) const {
+  Transform<S> X = constant_as<S>(constant_[0]);
+  for (int i = 0; i < joints_; ++i) X = moved(X, i, q[i]) * constant_as<S>(constant_[i + 1]);
+  return X;
+}
+
+template <class S>
+void Chain::frames(std::span<const S> q, ChainFrames<S>& out) const {
+  Transform<S> X = constant_as<S>(constant_[0]);
+  for (int i = 0; i < joints_; ++i) {
+    out.joint[i] = moved(X, i, q[i]);
+    X = out.joint[i] * constant_as<S>(constant_[i + 1]);
+  }
+  out.tip = X;
+}
+
+extern template Transform<double> Chain::forward(std::span<const double>) const;
+extern template void Chain::frames(std::span<const double>, ChainFrames<double>&) const;
+
+}  // namespace plumb

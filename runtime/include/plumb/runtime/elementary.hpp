@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Elementary functions that give the same bits on every machine.
+///
+/// Made of +, -, *, / and integer operations only, in a fixed order; never libm, never a fused
+/// multiply-add. Error below 1 ulp or as stated. Any thread, no state, fixed cost.
+/// NaN in gives NaN out; nothing traps, nothing sets errno.
+namespace plumb::portable {
+
+template <class S>
+struct SinCos {
+  S sin;
+  S cos;
+};
+
+/// Sine and cosine of x [rad]; |x| <= 1e5, NaN beyond.
+SinCos<double> sin_cos(double x) noexcept;
+
+/// Angle of (x, y) in [-pi, pi] [rad]; atan2(0, 0) = 0 with the sign of y.
+double atan2(double y, double x) noexcept;
+
+/// e^x; 0 below -708, +inf above 709.7 (never a denormal).
+double exp(double x) noexcept;
+
+/// Natural logarithm; -inf at 0, NaN below.
+double log(double x) noexcept;
+
+double tanh(double x) noexcept;
+
+/// x^y for x > 0; x^0 = 1; integer y also for x < 0.
+double pow(double x, double y) noexcept;
+
+/// Hardware square root, correctly rounded; NaN below 0.
+inline double sqrt(double x) noexcept { return __builtin_sqrt(x); }
+
+}  // namespace plumb::portable

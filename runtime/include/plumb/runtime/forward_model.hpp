@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "plumb/format/model.hpp"
+#include "plumb/runtime/chain.hpp"
+#include "plumb/runtime/status.hpp"
+#include "plumb/runtime/tree.hpp"
+
+namespace plumb {
+
+/// Where the true arm is, as far as the model knows.
+struct Prediction {
+  Transformd X_BT;          // tool pose in the base frame, tree included
+  Vector3 tree_B;           // what the tree added to the position [m]
+  Status status;            // kOk or kOutsideDomain; kNotFinite leaves X_BT at identity
+};
+
+/// The true arm T(q): calibrated chain, effects, local linear model tree.
+/// Refers to the model's memory: the model must outlive it.
+class ForwardModel {
+ public:
+  ForwardModel() = default;
+  explicit ForwardModel(const format::Model& model) noexcept;
+
+  int joints() const noexcept { return chain_.joints(); }
+  const Chain& chain() const noexcept { return chain_; }
+
+  /// q: joint positions [rad] or [m], shape (n,). Cost: fixed for a given model. Any thread.
+  Prediction predict(std::span<const double> q) const noexcept;
+
+  /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
+  Vector3 tree_error(std::span<const double> q) const noexcept;
+
+ private:
+  Chain chain_;
+  TrainedDomain domain_;
+  std::array<TreeView, format::kTreeAxes> trees_;
+  bool has_tree_ = false;
+};
+
+}  // namespace plumb

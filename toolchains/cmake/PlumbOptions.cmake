@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target of ours is compiled with. Linked privately, so nothing of it reaches those who embed us.
+add_library(plumb_options INTERFACE)
+if(PLUMB_STRICT)
+  target_compile_options(plumb_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                 -Wnon-virtual-dtor -Wold-style-cast -Werror)
+endif()
+if(PLUMB_SANITIZE)
+  add_compile_options(-fsanitize=${PLUMB_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${PLUMB_SANITIZE})
+endif()
+if(PLUMB_COVERAGE)
+  add_compile_options(--coverage)
+  add_link_options(--coverage)
+endif()
