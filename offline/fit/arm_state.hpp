@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cell/measurements.hpp"
+#include "plumb/format/model.hpp"
+#include "plumb/runtime/forward_model.hpp"
+
+namespace plumb::offline {
+
+/// Everything that turns joint positions into a measured point: the arm, and the measurement's own
+/// frame and target, which belong to the measurement and are never compiled.
+struct ArmState {
+  format::Model arm;       // calibrated chain, trees, domain; the rest may be empty
+  format::Pose X_MB;       // base in the measurement frame
+  format::Pose X_TG;       // reflector (gauge) in the tool frame
+};
+
+/// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code.
+Rows3 predict_points(const ArmState& state, const RowsN& q);
+
+/// Predicted orientation of the reflector in the measurement frame, (w, x, y, z), shape (n, 4).
+Rows4 predict_orientations(const ArmState& state, const RowsN& q);
+
+/// measured - predicted [m]; missing axes are 0.
+Rows3 residuals(const Measurements& measured, const Rows3& predicted);
+
+/// Rotates measurement-frame vectors into the base frame.
+Rows3 to_base(const ArmState& state, const Rows3& v_M);
+
+}  // namespace plumb::offline

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/arm_state.hpp"
+
+namespace plumb::offline {
+
+/// A fitted number. SI.
+struct Estimate {
+  std::string name;  // "J2.d", "frame.x", "target.z"
+  bool is_length = false;
+  bool of_robot = false;  // false: of the measurement, thrown away
+  double value = 0.0;     // frame: change from the start, so 0 is not meaningful
+  double nominal = 0.0;
+  double std = 0.0;       // 1 sigma
+};
+
+struct Calibration {
+  ArmState state;
+  std::vector<Estimate> estimates;       // the identifiable subset, in covariance order
+  std::vector<std::string> held;         // parameters kept at nominal: not identifiable here
+  Eigen::MatrixXd covariance;            // SI
+  int rank = 0;                          // = estimates.size()
+  double calibrability = 0.0;            // cond_2(J^T J), SI columns
+  double sigma0 = 0.0;                   // sqrt(chi^2 / dof) of the weighted residuals
+  int iterations = 0;
+};
+
+/// Calibrates the geometry of `cell` on the given rows: DH with Hayati's beta where neighbours are
+/// near parallel (or complete link twists), tracker frame and target, weighted by sigma.
+/// Parameters that the poses cannot tell apart are held at nominal.
+/// Throws Failure (kNumbersSayNo) with the reason if it does not converge, (kInput) if the rows are
+/// fewer than the parameters need.
+Calibration calibrate(const Cell& cell, const Measurements& measured, const std::vector<int>& rows);
+
+}  // namespace plumb::offline

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+namespace plumb::offline {
+
+/// Summary of 3-D position errors [m]; all zero if n == 0. p95 is the smallest error that at least
+/// 95 % of the poses do not exceed.
+struct ErrorStats {
+  int n = 0;
+  double mean = 0.0;
+  double rms = 0.0;
+  double p95 = 0.0;
+  double max = 0.0;
+};
+
+ErrorStats summarise(std::vector<double> errors_m);
+
+}  // namespace plumb::offline

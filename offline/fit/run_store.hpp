@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/fit.hpp"
+
+namespace plumb::offline {
+
+/// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made.
+struct Run {
+  int number = 0;
+  std::filesystem::path directory;
+  std::string created;      // ISO 8601, UTC
+  std::string cell_sha256;  // of cell.toml as it was
+  std::vector<format::InputHash> inputs;
+  std::vector<std::string> effects;
+  Fit fit;
+};
+
+/// Writes the next run; all or nothing.
+Run save_run(const Cell& cell, const Measurements& measured, Fit fit);
+
+/// Every run, oldest first; a damaged one is skipped with a warning in `remarks`.
+std::vector<int> list_runs(const Cell& cell);
+
+/// Throws Failure (kInput) if there is no such run or it is damaged.
+Run load_run(const Cell& cell, int number);
+
+/// The latest run of the present cell file and data, if there is one.
+std::optional<Run> current_run(const Cell& cell, const Measurements& measured);
+
+}  // namespace plumb::offline
