@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cell/cell.hpp"
@@ -12,40 +15,78 @@ namespace plumb::offline {
 
 /// What the simulated arm does that its nominal model does not know. SI.
 struct HiddenTruth {
-  double geometry_m = 0.0;    // 1 sigma of every length error
-  double geometry_rad = 0.0;  // 1 sigma of every angle error
-  std::vector<std::string> effects;  // names of the simulator's own laws, "joint_compliance:J2,J3"
-  format::Pose X_MB;                 // where the tracker stands
-  std::array<double, 3> target_T{};  // where the reflector sits on the tool
+  double geometry_m = 0.0;            // 1 sigma of every length error
+  double geometry_rad = 0.0;          // 1 sigma of every angle error
+  std::vector<std::string> effects;   // laws of the simulator, see parse_hidden_effect
+  std::optional<std::uint64_t> seed;  // of the arm and its set-up; the plan's if not given: state
+                                      // it to measure one arm at fresh poses
+  std::optional<format::Pose> X_MB;  // base in the tracker frame; else the cell's, else random
+  std::optional<std::array<double, 3>> target_T;  // reflector in the tool frame; likewise
 };
 
+/// How the arm is measured. SI.
 struct SimulationPlan {
-  int poses = 150;
-  int repeats = 1;  // of every tenth pose, for the noise floor, if > 1
-  double noise_m = 10e-6;
-  std::uint64_t seed = 1;
+  int poses = 150;                  // distinct, uniform inside the joint limits
+  RowsN q;                          // (poses, joints) instead of random ones, if it has rows
+  int repeats = 1;                  // of every tenth pose, one after the other, for the noise floor
+  double noise_m = 10e-6;           // 1 sigma per axis
+  std::optional<double> noise_rad;  // if given, the orientation of the tool is measured too
+  std::array<bool, 3> axes{true, true, true};  // which of x, y, z are measured
+  double seconds_per_pose = 30.0;
+  enum class Directions { kIfNeeded, kRecorded } directions = Directions::kIfNeeded;
+  std::uint64_t seed = 1;  // of poses and noise
   HiddenTruth truth;
 };
 
 struct Simulation {
-  Measurements measured;
-  Rows3 true_p_M;          // without noise
+  Measurements measured;        // its one table holds the context columns
+  std::vector<Column> context;  // t_s; dir_jN and travel_jN_deg where recorded
+  Rows3 true_p_M;               // without noise [m]
+  format::Chain true_chain;     // the geometry that was drawn
+  format::Pose X_MB;
+  std::array<double, 3> target_T{};
   std::string truth_json;  // every true parameter, for the scorer only
 };
 
-/// Measures a simulated arm. Its laws and its kinematics are its own: nothing of the runtime's
-/// effects is used here, so a test against it is a test.
+/// Measures a simulated arm. Its laws and its kinematics are its own: nothing of the runtime is
+/// used here, so a test against it is a test. The same plan gives the same numbers.
+/// Throws Failure (kUsage) for a plan that makes no sense or an effect it does not know.
 Simulation simulate(const Cell& cell, const SimulationPlan& plan);
+
+/// The measurements as a canonical CSV file, context columns included.
+std::string simulated_csv(const Cell& cell, const Simulation& simulation);
+
+/// A hidden effect as asked for: NAME[=SIZE][:JOINT[=SIZE],...], for example "drift=100um",
+/// "gear_harmonics:J2,J3" or "joint_compliance:J2=150urad". Units: um, mm, m, urad, mrad, rad, deg.
+struct HiddenEffect {
+  struct Part {
+    int joint = 0;  // zero-based
+    std::optional<double> size;
+  };
+  std::string name;
+  std::optional<double> size;  // SI; of every joint without its own
+  std::vector<Part> joints;    // empty: the joints the law is usual on
+};
+
+/// Throws Failure (kUsage) with a caret and "did you mean".
+HiddenEffect parse_hidden_effect(const std::string& spec, const Cell& cell);
 
 /// Effects the simulator knows, one line each for --help.
 const std::vector<std::pair<std::string, std::string>>& simulated_effects();
 
-/// Sample cells of `plumb demo`: name and one line about it.
+/// Sample cells of `plumb demo`: name and one line about it; the first is the default.
 const std::vector<std::pair<std::string, std::string>>& demo_cells();
 struct Demo {
   Cell cell;
   SimulationPlan plan;
 };
+
+/// An empty name gives the default. Throws Failure (kUsage) for a name it does not know.
 Demo make_demo(const std::string& name);
+
+/// A random arm of sensible shape, round nominal values, limits and a 100 to 200 mm tool.
+/// kRevolute: 4 to 7 joints; kScara: 4, the third one slides.
+enum class ArmKind { kRevolute, kScara };
+Cell random_cell(std::uint64_t seed, int joints, format::Convention convention, ArmKind kind);
 
 }  // namespace plumb::offline
