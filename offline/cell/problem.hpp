@@ -35,10 +35,10 @@ struct Place {
 
 struct Problem {
   Severity severity = Severity::kError;
-  std::string code;     // stable, for example "E-CSV-UNIT"
-  std::string message;  // one sentence without a full stop
-  std::optional<Place> place;
-  std::string help;  // one line that can be pasted
+  std::string code = {};     // stable, for example "E-CSV-UNIT"
+  std::string message = {};  // one sentence without a full stop
+  std::optional<Place> place = std::nullopt;
+  std::string help = {};  // one line that can be pasted
 };
 
 /// error[E-CSV-UNIT]: column 'x' has no unit

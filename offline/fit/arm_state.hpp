@@ -12,9 +12,9 @@ namespace plumb::offline {
 /// Everything that turns joint positions into a measured point: the arm, and the measurement's own
 /// frame and target, which belong to the measurement and are never compiled.
 struct ArmState {
-  format::Model arm;       // calibrated chain, trees, domain; the rest may be empty
-  format::Pose X_MB;       // base in the measurement frame
-  format::Pose X_TG;       // reflector (gauge) in the tool frame
+  format::Model arm;  // calibrated chain, trees, domain; the rest may be empty
+  format::Pose X_MB;  // base in the measurement frame
+  format::Pose X_TG;  // reflector (gauge) in the tool frame
 };
 
 /// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code.

@@ -18,17 +18,17 @@ struct Estimate {
   bool of_robot = false;  // false: of the measurement, thrown away
   double value = 0.0;     // frame: change from the start, so 0 is not meaningful
   double nominal = 0.0;
-  double std = 0.0;       // 1 sigma
+  double std = 0.0;  // 1 sigma
 };
 
 struct Calibration {
   ArmState state;
-  std::vector<Estimate> estimates;       // the identifiable subset, in covariance order
-  std::vector<std::string> held;         // parameters kept at nominal: not identifiable here
-  Eigen::MatrixXd covariance;            // SI
-  int rank = 0;                          // = estimates.size()
-  double calibrability = 0.0;            // cond_2(J^T J), SI columns
-  double sigma0 = 0.0;                   // sqrt(chi^2 / dof) of the weighted residuals
+  std::vector<Estimate> estimates;  // the identifiable subset, in covariance order
+  std::vector<std::string> held;    // parameters kept at nominal: not identifiable here
+  Eigen::MatrixXd covariance;       // SI
+  int rank = 0;                     // = estimates.size()
+  double calibrability = 0.0;       // cond_2(J^T J), SI columns
+  double sigma0 = 0.0;              // sqrt(chi^2 / dof) of the weighted residuals
   int iterations = 0;
 };
 
@@ -38,5 +38,9 @@ struct Calibration {
 /// Throws Failure (kNumbersSayNo) with the reason if it does not converge, (kInput) if the rows are
 /// fewer than the parameters need.
 Calibration calibrate(const Cell& cell, const Measurements& measured, const std::vector<int>& rows);
+
+/// The nominal arm with only tracker frame and target fitted: what the controller believes today.
+ArmState place_nominal(const Cell& cell, const Measurements& measured,
+                       const std::vector<int>& rows);
 
 }  // namespace plumb::offline

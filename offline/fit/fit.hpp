@@ -9,29 +9,22 @@
 #include "cell/measurements.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/error_stats.hpp"
+#include "fit/noise_floor.hpp"
 #include "fit/split.hpp"
 #include "fit/tree_trainer.hpp"
 
 namespace plumb::offline {
-
-/// What noise alone would leave.
-struct NoiseFloor {
-  double sigma_m = 0.0;  // 1 sigma per axis
-  double mean_m = 0.0;   // mean 3-D error: 1.596 sigma with three axes
-  double rms_m = 0.0;
-  enum class Source { kNone, kRepeats, kSigma } source = Source::kNone;
-};
 
 /// One calibration with its evidence: what `plumb fit` makes and a run keeps.
 struct Fit {
   Calibration calibration;         // on the fit poses
   std::optional<TreeChoice> tree;  // if [effects.local_tree] is listed
   Split split;
-  Rows3 predicted_M;               // per pose: by the final model, or out of fold where held out
-  ErrorStats nominal_held;         // before: only frame and target fitted, same held-out poses
-  ErrorStats held;                 // after
-  ErrorStats geometry_held;        // geometry without the tree
-  ErrorStats fit;                  // in-sample: never accuracy
+  Rows3 predicted_M;         // per pose: by the final model, or out of fold where held out
+  ErrorStats nominal_held;   // before: only frame and target fitted, same held-out poses
+  ErrorStats held;           // after
+  ErrorStats geometry_held;  // geometry without the tree
+  ErrorStats fit;            // in-sample: never accuracy
   NoiseFloor floor;
   std::vector<Problem> remarks;
 };

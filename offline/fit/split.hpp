@@ -13,19 +13,19 @@ namespace plumb::offline {
 /// With folds, every used pose is fitted in all folds but its own and held out in that one; the
 /// final model then uses them all. Replicates of a pose are never split.
 struct Split {
-  int folds = 0;          // 0: one held-out set
-  std::vector<int> fold;  // per row: its fold (0 …), or -1 = always fitted
-  std::vector<bool> held; // per row: held out from the final model
-  std::vector<bool> used; // per row: false = `set` says ignore
+  int folds = 0;           // 0: one held-out set
+  std::vector<int> fold;   // per row: its fold (0 …), or -1 = always fitted
+  std::vector<bool> held;  // per row: held out from the final model
+  std::vector<bool> used;  // per row: false = `set` says ignore
 };
 
 /// Stratified in joint space: neighbours along a k-d order share a stratum, and each stratum gives
 /// its share. Deterministic in the seed. Throws Failure (kInput) if the rule cannot be met.
 Split split_poses(const Measurements& measurements, const HeldOutRule& rule, std::uint64_t seed);
 
-std::vector<int> fit_rows(const Split& split);               // of the final model
-std::vector<int> fit_rows(const Split& split, int fold);     // of one fold
+std::vector<int> fit_rows(const Split& split);            // of the final model
+std::vector<int> fit_rows(const Split& split, int fold);  // of one fold
 std::vector<int> held_rows(const Split& split, int fold);
-std::vector<int> held_rows(const Split& split);              // every row that has a held-out error
+std::vector<int> held_rows(const Split& split);  // every row that has a held-out error
 
 }  // namespace plumb::offline

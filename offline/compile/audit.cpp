@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compile/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/geometry.hpp"
+#include "fit/random.hpp"
+#include "plumb/format/writer.hpp"
+#include "plumb/runtime/forward_model.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kBorderPoints = 32;  // looked at on each leaf border
+
+using Box = std::vector<std::pair<double, double>>;
+
+std::vector<double> somewhere_in(const Box& box, Random& random) {
+  std::vector<double> out;
+  for (const auto& [low, high] : box) out.push_back(low + random.unit() * (high - low));
+  return out;
+}
+
+Box trained_box(const format::Model& model) {
+  Box out;
+  for (std::size_t i = 0; i < model.nominal.joints.size(); ++i) {
+    const auto& row = model.nominal.joints[i];
+    const bool trained = i < model.domain.q_min.size();
+    out.emplace_back(trained ? model.domain.q_min[i] : row.q_min,
+                     trained ? model.domain.q_max[i] : row.q_max);
+  }
+  return out;
+}
+
+void look_at_corrections(const format::Model& model, Audit& out) {
+  const ForwardModel true_arm(model);
+  const Chain nominal(model.nominal);
+  const Box box = trained_box(model);
+  Random random(1);
+  for (int i = 0; i < kAuditPoses; ++i) {
+    const auto q = somewhere_in(box, random);
+    const Transformd X_BT = true_arm.predict(q).X_BT;
+    const Transformd X_BN = nominal.forward<double>(q);
+    const double shift = (X_BT.p - X_BN.p).norm();
+    const double turn = rotation_vector(X_BT.R * X_BN.R.transpose()).norm();
+    if (shift > out.worst_correction_m) {
+      out.worst_correction_m = shift;
+      out.worst_q = q;
+    }
+    out.worst_rotation_rad = std::max(out.worst_rotation_rad, turn);
+  }
+}
+
+/// Jump over the border of `node`, somewhere inside the cell it divides.
+double jump_at(const format::Tree& tree, const TreeView& view, int node, const Box& cell,
+               Random& random) {
+  const auto& border = tree.nodes[node];
+  double worst = 0.0;
+  for (int i = 0; i < kBorderPoints; ++i) {
+    auto u = somewhere_in(cell, random);
+    u[border.input] = border.threshold;
+    const double low = view.evaluate(u);
+    u[border.input] = std::nextafter(border.threshold, 2.0);
+    worst = std::max(worst, std::abs(view.evaluate(u) - low));
+  }
+  return worst;
+}
+
+double worst_jump(const format::Tree& tree, int inputs, Random& random) {
+  const TreeView view(tree, inputs);
+  double worst = 0.0;
+  std::vector<Box> cells(tree.nodes.size(), Box(inputs, {-1.0, 1.0}));
+  for (std::size_t node = 0; node < tree.nodes.size(); ++node) {
+    const auto& n = tree.nodes[node];
+    worst = std::max(worst, jump_at(tree, view, static_cast<int>(node), cells[node], random));
+    if (n.low >= 0) {
+      cells[n.low] = cells[node];
+      cells[n.low][n.input].second = n.threshold;
+    }
+    if (n.high >= 0) {
+      cells[n.high] = cells[node];
+      cells[n.high][n.input].first = n.threshold;
+    }
+  }
+  return worst;
+}
+
+Eigen::MatrixXd covariance_of(const format::Provenance& p) {
+  const auto n = static_cast<Eigen::Index>(p.parameter_names.size());
+  Eigen::MatrixXd out(n, n);
+  std::size_t next = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k <= i; ++k)
+      out(i, k) = out(k, i) = static_cast<double>(p.covariance[next++]);
+  return out;
+}
+
+void look_at_uncertainty(const format::Model& model, Audit& out) {
+  if (model.provenance.covariance.empty()) return;
+  std::vector<Parameter> parameters;
+  for (const auto& name : model.provenance.parameter_names) {
+    const auto parameter = robot_parameter(model.calibrated, name);
+    if (!parameter) return;
+    parameters.push_back(*parameter);
+  }
+  ArmState state;
+  state.arm.calibrated = model.calibrated;
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
+  const Eigen::MatrixXd covariance = covariance_of(model.provenance);
+  const Box box = trained_box(model);
+  Random random(1);
+  GeometryDerivative::Point point;
+  for (int i = 0; i < kAuditPoses; ++i) {
+    const auto q = somewhere_in(box, random);
+    geometry.evaluate(q, point);
+    const auto J = point.columns.topRows<3>();
+    const double sigma = std::sqrt(std::max(0.0, (J * covariance * J.transpose()).trace()));
+    out.sigma_tool_mean_m += sigma / kAuditPoses;
+    out.sigma_tool_max_m = std::max(out.sigma_tool_max_m, sigma);
+  }
+}
+
+void judge(const format::Model& model, Audit& out) {
+  if (out.worst_correction_m > model.guard.max_correction_m)
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-AUDIT-LIMIT",
+         .message = fmt::format("the largest correction, {:.3f} mm, exceeds the guard's limit of "
+                                "{:.3f} mm and would be cut",
+                                out.worst_correction_m * 1e3, model.guard.max_correction_m * 1e3),
+         .help = fmt::format("if that is right for this arm: [deploy] max_correction_mm = {:.1f}",
+                             std::ceil(out.worst_correction_m * 1.2e4) / 10.0)});
+  if (model.provenance.held_out.poses == 0)
+    out.remarks.push_back({.severity = Severity::kWarning,
+                           .code = "W-AUDIT-HELD",
+                           .message = "this model carries no held-out figure",
+                           .help = "compile without --refit-all, or verify on fresh poses"});
+}
+
+}  // namespace
+
+Audit audit(const format::Model& model) {
+  Audit out;
+  look_at_corrections(model, out);
+  Random random(1);
+  const int inputs = static_cast<int>(model.nominal.joints.size());
+  for (const auto& tree : model.trees) {
+    out.leaves += static_cast<int>(tree.bounds.size() / 2);
+    out.worst_jump_m = std::max(out.worst_jump_m, worst_jump(tree, inputs, random));
+  }
+  look_at_uncertainty(model, out);
+  out.bytes = format::write_model(model).size();
+  judge(model, out);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cell/problem.hpp"
+#include "plumb/format/model.hpp"
+
+namespace plumb::offline {
+
+/// What a person should know before a model moves a robot. SI.
+struct Audit {
+  double worst_correction_m = 0.0;  // largest |T(q) - N(q)| at the tool over the trained domain
+  double worst_rotation_rad = 0.0;
+  std::vector<double> worst_q;     // where
+  double worst_jump_m = 0.0;       // largest step of a tree at a leaf border, one axis
+  double sigma_tool_mean_m = 0.0;  // predicted 1 sigma of the tool point (3-D), from the covariance
+  double sigma_tool_max_m = 0.0;
+  int leaves = 0;
+  std::size_t bytes = 0;
+  std::vector<Problem> remarks;  // a correction above the guard's limit, and such
+};
+
+/// Looks at `kAuditPoses` poses spread over the trained domain, the same ones every time.
+inline constexpr int kAuditPoses = 2000;
+Audit audit(const format::Model& model);
+
+}  // namespace plumb::offline

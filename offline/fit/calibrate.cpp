@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fit/parameter_subset.hpp"
+#include "fit/placement.hpp"
+#include "fit/weights.hpp"
+
+namespace plumb::offline {
+namespace {
+
+// Independence asked for before the noise is known, and after.
+constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
+constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
+
+void check_enough(const FitData& data, std::size_t parameters) {
+  if (data.residual_count() > static_cast<int>(parameters)) return;
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-FIT-FEW",
+                 .message = fmt::format("{} poses give {} coordinates, too few for {} parameters",
+                                        data.rows.size(), data.residual_count(), parameters),
+                 .help = "measure more poses, or hold parameters with [fit] fixed = [\"J6.a\"]"});
+}
+
+void check_converged(const Solution& solution) {
+  if (solution.converged) return;
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-FIT-CONVERGE",
+                 .message = "the calibration did not converge: " + solution.reason,
+                 .help = "look for wrong units, joint signs or DH convention in cell.toml"});
+}
+
+std::vector<Estimate> estimates(const ArmState& state, const ArmState& nominal,
+                                const std::vector<Parameter>& parameters,
+                                const Eigen::MatrixXd& covariance) {
+  std::vector<Estimate> out;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    out.push_back({.name = p.name,
+                   .is_length = p.is_length(),
+                   .of_robot = p.of_robot(),
+                   .value = value_of(state, p),
+                   .nominal = value_of(nominal, p),
+                   .std = std::sqrt(std::max(0.0, covariance(i, i)))});
+  }
+  return out;
+}
+
+/// (J^T J)^-1 by QR of the scaled Jacobian.
+Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
+  const Eigen::VectorXd scale = J.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J * scale.asDiagonal());
+  const Eigen::MatrixXd R_inverse =
+      qr.matrixQR().topRows(J.cols()).triangularView<Eigen::Upper>().solve(
+          Eigen::MatrixXd::Identity(J.cols(), J.cols()));
+  return scale.asDiagonal() * (R_inverse * R_inverse.transpose()) * scale.asDiagonal();
+}
+
+/// cond_2(J^T J) in SI columns, robot parameters only.
+double calibrability(const Eigen::MatrixXd& information, const std::vector<Parameter>& parameters) {
+  std::vector<Eigen::Index> robot;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].of_robot()) robot.push_back(static_cast<Eigen::Index>(i));
+  if (robot.empty()) return 0.0;
+  const Eigen::MatrixXd part = information(robot, robot);
+  const Eigen::VectorXd w = part.jacobiSvd().singularValues();
+  return w(w.size() - 1) > 0 ? w(0) / w(w.size() - 1) : 0.0;
+}
+
+ArmState nominal_state(const Cell& cell) {
+  ArmState state;
+  state.arm.calibrated = cell.nominal;
+  state.X_MB = cell.measurement.X_MB;
+  state.X_TG.p = cell.measurement.target_T;
+  return state;
+}
+
+FitData fit_data(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
+  FitData data;
+  data.measured = &measured;
+  data.rows = rows;
+  data.sigma_m = stated_sigma(cell, measured);
+  if (measured.has_orientation()) data.sigma_rad = cell.measurement.sigma_rad.value_or(0.0);
+  return data;
+}
+
+Rows3 picked(const Rows3& all, const std::vector<int>& rows) { return all(rows, Eigen::all); }
+
+void widen(FitData& data, double tau) {
+  data.sigma_m = (data.sigma_m.array().square() + tau * tau).sqrt().matrix();
+}
+
+double excess_of(const FitData& data, const Solution& solution, std::size_t parameters) {
+  const Measurements some = pick(*data.measured, data.rows);
+  const Rows3 residual = residuals(some, predict_points(solution.state, some.q));
+  return excess_sigma(residual, picked(data.sigma_m, data.rows), data.measured->has_axis,
+                      static_cast<int>(parameters));
+}
+
+std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
+  const bool turns = data.sigma_rad > 0.0;
+  return candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
+}
+
+Calibration summary(const FitData& data, const ArmState& nominal, const Solution& solution,
+                    const ParameterSubset& subset) {
+  const auto count = static_cast<Eigen::Index>(subset.kept.size());
+  const auto dof = std::max<Eigen::Index>(1, solution.residual.size() - count);
+  const double sigma = data.sigma_m(data.rows.front(), 0);
+  const Eigen::MatrixXd& J = solution.jacobian;
+  Calibration out;
+  out.sigma0 = std::sqrt(solution.residual.squaredNorm() / static_cast<double>(dof));
+  out.covariance = inverse_information(J) * std::pow(std::max(1.0, out.sigma0), 2);
+  out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
+  out.state = solution.state;
+  out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
+  out.held = subset.held;
+  out.rank = static_cast<int>(count);
+  out.iterations = solution.iterations;
+  return out;
+}
+
+}  // namespace
+
+Calibration calibrate(const Cell& cell, const Measurements& measured,
+                      const std::vector<int>& rows) {
+  FitData data = fit_data(cell, measured, rows);
+  const Rows3 stated = data.sigma_m;
+  const ArmState nominal = nominal_state(cell);
+  const auto candidates = candidates_of(cell, data);
+  check_enough(data, 0);
+
+  // Before the model fits, no reading deserves more trust than another.
+  data.sigma_m.setConstant(picked(stated, rows).mean());
+  Solution solution = place(data, nominal, candidates);
+  auto subset = identifiable_parameters(data, solution.state, candidates, kCoarse);
+  check_enough(data, subset.kept.size());
+  solution = solve(data, solution.state, subset.kept);
+
+  data.sigma_m = stated;
+  widen(data, excess_of(data, solution, subset.kept.size()));
+  subset = identifiable_parameters(data, solution.state, candidates, kFine);
+  solution = solve(data, solution.state, subset.kept);
+  check_converged(solution);
+  return summary(data, nominal, solution, subset);
+}
+
+ArmState place_nominal(const Cell& cell, const Measurements& measured,
+                       const std::vector<int>& rows) {
+  FitData data = fit_data(cell, measured, rows);
+  data.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
+  return place(data, nominal_state(cell), candidates_of(cell, data)).state;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/frame_start.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+namespace plumb::offline {
+
+format::Pose align(const Rows3& p_B, const Rows3& p_M) {
+  const Eigen::RowVector3d mean_B = p_B.colwise().mean();
+  const Eigen::RowVector3d mean_M = p_M.colwise().mean();
+  const Matrix3 H = (p_M.rowwise() - mean_M).transpose() * (p_B.rowwise() - mean_B);
+  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
+  Transformd X_MB;
+  X_MB.R = svd.matrixU() * Vector3(1, 1, handed).asDiagonal() * svd.matrixV().transpose();
+  X_MB.p = mean_M.transpose() - X_MB.R * mean_B.transpose();
+  return to_pose(X_MB);
+}
+
+std::array<double, 4> align_target(const ArmState& state, const Measurements& measured,
+                                   const std::vector<int>& rows) {
+  // Mean of quaternions as the leading eigenvector of sum q q^T [Markley 2007].
+  const ForwardModel arm(state.arm);
+  const Transformd X_MB = from_pose(state.X_MB);
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for (int i : rows) {
+    const std::span<const double> q(measured.q.row(i).data(),
+                                    static_cast<std::size_t>(measured.q.cols()));
+    const auto m = measured.quat_M.row(i);
+    Transformd X_MG = from_pose({{}, {m(0), m(1), m(2), m(3)}});
+    X_MG.p.setZero();
+    const auto q_TG = to_pose((X_MB * arm.predict(q).X_BT).inverse() * X_MG).q;
+    const Eigen::Map<const Eigen::Vector4d> v(q_TG.data());
+    sum += v * v.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(sum);
+  Eigen::Vector4d mean = eigen.eigenvectors().col(3);
+  if (mean(0) < 0) mean = -mean;
+  return {mean(0), mean(1), mean(2), mean(3)};
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+using Kind = Parameter::Kind;
+
+constexpr double kNearParallel_rad = 0.05;
+constexpr int kSlotFrame = -2;   // acts on X_MB, seen from the base
+constexpr int kSlotTarget = -3;  // acts on X_TG, seen from the tool
+
+const char* const kTwistNames[] = {"dx", "dy", "dz", "ex", "ey", "ez"};
+const char* const kPoseNames[] = {"x", "y", "z", "rx", "ry", "rz"};
+
+Vector3 axis(int k) { return Vector3::Unit(k); }
+
+bool near_parallel(const format::JointRow& link) {
+  return std::abs(std::sin(link.alpha)) < kNearParallel_rad;
+}
+
+/// The row whose link connects joint i and joint i + 1.
+int link_row(const format::Chain& chain, int joint) {
+  return chain.convention == format::Convention::kStandard ? joint : joint + 1;
+}
+
+void add_dh_candidates(const Cell& cell, std::vector<Parameter>& out) {
+  const auto& chain = cell.nominal;
+  const int n = cell.joints();
+  std::vector<bool> beta(n, false), hold_d(n, false);
+  for (int i = 0; i + 1 < n; ++i) {
+    const int row = link_row(chain, i);
+    if (!cell.mechanics[i].parallel_next && !near_parallel(chain.joints[row])) continue;
+    beta[row] = true;
+    // A sliding joint keeps its d: its own travel already carries the parallel shift.
+    if (chain.joints[i].type == format::JointType::kRevolute) hold_d[i] = true;
+  }
+  for (int i = 0; i < n; ++i) {
+    const auto add = [&](Kind kind, const char* name) {
+      out.push_back({kind, i, 0, chain.joints[i].name + "." + name});
+    };
+    add(Kind::kTheta, "theta");
+    if (!hold_d[i]) add(Kind::kD, "d");
+    add(Kind::kA, "a");
+    add(Kind::kAlpha, "alpha");
+    if (beta[i]) add(Kind::kBeta, "beta");
+  }
+}
+
+void add_twist_candidates(const Cell& cell, std::vector<Parameter>& out) {
+  for (int i = 0; i < cell.joints(); ++i)
+    for (int k = 0; k < 6; ++k)
+      out.push_back(
+          {Kind::kLinkTwist, i, k, cell.nominal.joints[i].name + ".post." + kTwistNames[k]});
+}
+
+double& dh_value(format::JointRow& row, Kind kind) {
+  switch (kind) {
+    case Kind::kTheta:
+      return row.theta;
+    case Kind::kD:
+      return row.d;
+    case Kind::kA:
+      return row.a;
+    case Kind::kAlpha:
+      return row.alpha;
+    default:
+      return row.beta;
+  }
+}
+
+double& twist_value(format::Twist& twist, int component) {
+  return component < 3 ? twist.d[component] : twist.e[component - 3];
+}
+
+/// Left Jacobian of SO(3) at e: d/de of exp(e) v = -[exp(e) v]x J(e).
+Matrix3 left_jacobian(const Vector3& e) {
+  const double angle = e.norm();
+  Matrix3 k;
+  k << 0, -e(2), e(1), e(2), 0, -e(0), -e(1), e(0), 0;
+  if (angle < 1e-6) return Matrix3::Identity() + 0.5 * k + k * k / 6.0;
+  return Matrix3::Identity() + (1 - std::cos(angle)) / (angle * angle) * k +
+         (angle - std::sin(angle)) / (angle * angle * angle) * k * k;
+}
+
+/// Turns of frame and target, gathered from the change vector.
+Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change, Kind kind,
+                 int first_component) {
+  Vector3 out = Vector3::Zero();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const int k = parameters[i].component - first_component;
+    if (parameters[i].kind == kind && k >= 0 && k < 3) out(k) = change(i);
+  }
+  return out;
+}
+
+Transformd turned(const Vector3& e) { return exp({{0, 0, 0}, {e(0), e(1), e(2)}}); }
+
+}  // namespace
+
+bool Parameter::is_length() const {
+  switch (kind) {
+    case Kind::kD:
+    case Kind::kA:
+    case Kind::kTarget:
+      return true;
+    case Kind::kLinkTwist:
+    case Kind::kFrame:
+      return component < 3;
+    default:
+      return false;
+  }
+}
+
+bool Parameter::of_robot() const {
+  return kind != Kind::kFrame && kind != Kind::kTarget && kind != Kind::kTargetRotation;
+}
+
+double reach(const format::Chain& chain) {
+  double sum = 0.0;
+  for (const auto& row : chain.joints) sum += std::abs(row.a) + std::abs(row.d);
+  return std::max(0.1, sum);
+}
+
+std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {
+  std::vector<Parameter> out;
+  if (cell.measurement.fit_frame)
+    for (int k = 0; k < 6; ++k)
+      out.push_back({Kind::kFrame, 0, k, std::string("frame.") + kPoseNames[k]});
+  if (cell.measurement.fit_target) {
+    for (int k = 0; k < 3; ++k)
+      out.push_back({Kind::kTarget, 0, k, std::string("target.") + kPoseNames[k]});
+    if (orientation == Orientation::kUsed)
+      for (int k = 0; k < 3; ++k)
+        out.push_back({Kind::kTargetRotation, 0, k, std::string("target.") + kPoseNames[k + 3]});
+  }
+  if (cell.effects.empty() || cell.effects.front().name != "geometry") return out;
+  if (cell.fit.model == FitSettings::Model::kDh)
+    add_dh_candidates(cell, out);
+  else
+    add_twist_candidates(cell, out);
+  std::erase_if(out, [&](const Parameter& p) {
+    return std::find(cell.fit.fixed.begin(), cell.fit.fixed.end(), p.name) != cell.fit.fixed.end();
+  });
+  return out;
+}
+
+std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name) {
+  static const std::pair<const char*, Kind> kDh[] = {{"theta", Kind::kTheta},
+                                                     {"d", Kind::kD},
+                                                     {"a", Kind::kA},
+                                                     {"alpha", Kind::kAlpha},
+                                                     {"beta", Kind::kBeta}};
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const std::string prefix = chain.joints[i].name + ".";
+    if (!name.starts_with(prefix)) continue;
+    const std::string rest = name.substr(prefix.size());
+    for (const auto& [text, kind] : kDh)
+      if (rest == text) return Parameter{kind, static_cast<int>(i), 0, name};
+    for (int k = 0; k < 6; ++k)
+      if (rest == std::string("post.") + kTwistNames[k])
+        return Parameter{Kind::kLinkTwist, static_cast<int>(i), k, name};
+  }
+  return std::nullopt;
+}
+
+ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
+               const Eigen::VectorXd& change) {
+  ArmState out = start;
+  auto& rows = out.arm.calibrated.joints;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    switch (p.kind) {
+      case Kind::kLinkTwist:
+        twist_value(rows[p.joint].post, p.component) += change(i);
+        break;
+      case Kind::kTarget:
+        out.X_TG.p[p.component] += change(i);
+        break;
+      case Kind::kFrame:
+      case Kind::kTargetRotation:
+        break;
+      default:
+        dh_value(rows[p.joint], p.kind) += change(i);
+    }
+  }
+  const Vector3 shift = gathered(parameters, change, Kind::kFrame, 0);
+  const Vector3 turn = gathered(parameters, change, Kind::kFrame, 3);
+  if (!shift.isZero(0.0) || !turn.isZero(0.0))
+    out.X_MB =
+        to_pose(from_pose(start.X_MB) * translation(shift(0), shift(1), shift(2)) * turned(turn));
+  const Vector3 target_turn = gathered(parameters, change, Kind::kTargetRotation, 0);
+  if (!target_turn.isZero(0.0)) {
+    const auto turned_target = to_pose(from_pose({{}, start.X_TG.q}) * turned(target_turn));
+    out.X_TG.q = turned_target.q;
+  }
+  return out;
+}
+
+double value_of(const ArmState& state, const Parameter& parameter) {
+  auto row = state.arm.calibrated.joints[parameter.joint];
+  switch (parameter.kind) {
+    case Kind::kLinkTwist:
+      return twist_value(row.post, parameter.component);
+    case Kind::kTarget:
+      return state.X_TG.p[parameter.component];
+    case Kind::kFrame:
+      if (parameter.component < 3) return state.X_MB.p[parameter.component];
+      return rotation_vector(from_pose(state.X_MB).R)(parameter.component - 3);
+    case Kind::kTargetRotation:
+      return rotation_vector(from_pose(state.X_TG).R)(parameter.component);
+    default:
+      return dh_value(row, parameter.kind);
+  }
+}
+
+GeometryDerivative::GeometryDerivative(const ArmState& start,
+                                       const std::vector<Parameter>& parameters,
+                                       const Eigen::VectorXd& change)
+    : state_(moved(start, parameters, change)),
+      chain_(state_.arm.calibrated),
+      X_MB_(from_pose(state_.X_MB)),
+      X_TG_(from_pose(state_.X_TG)) {
+  twists_.reserve(parameters.size());
+  const Matrix3 frame_turn = left_jacobian(gathered(parameters, change, Kind::kFrame, 3));
+  const Matrix3 target_turn = left_jacobian(gathered(parameters, change, Kind::kTargetRotation, 0));
+  const Matrix3 R_MB0 = from_pose(start.X_MB).R;
+  const Matrix3 R_TG0 = from_pose({{}, start.X_TG.q}).R;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    if (p.kind == Kind::kFrame) {
+      // Seen in the measurement frame: the turn acts about the base origin.
+      const bool shift = p.component < 3;
+      twists_.push_back(
+          {kSlotFrame, shift ? Vector3(R_MB0 * axis(p.component)) : Vector3::Zero(),
+           shift ? Vector3::Zero() : Vector3(R_MB0 * frame_turn * axis(p.component - 3))});
+    } else if (p.kind == Kind::kTarget) {
+      twists_.push_back({kSlotTarget, axis(p.component), Vector3::Zero()});
+    } else if (p.kind == Kind::kTargetRotation) {
+      twists_.push_back(
+          {kSlotTarget, Vector3::Zero(), Vector3(R_TG0 * target_turn * axis(p.component))});
+    } else {
+      twists_.push_back(slot_twist(p));
+    }
+  }
+}
+
+/// Where the motion of a parameter happens, as a constant twist behind a joint.
+GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p) const {
+  const auto& chain = state_.arm.calibrated;
+  const auto& row = chain.joints[p.joint];
+  const bool standard = chain.convention == format::Convention::kStandard;
+  const auto behind_motion = [&](const format::JointRow& r) {
+    return r.type == format::JointType::kRevolute ? translation(0, 0, r.d) : Transformd{};
+  };
+  Transformd X;  // from the slot's frame to where the elementary motion acts
+  int slot = p.joint;
+  switch (p.kind) {
+    case Kind::kTheta:
+      return {slot, Vector3::Zero(), axis(2)};
+    case Kind::kD:
+      return {slot, axis(2), Vector3::Zero()};
+    case Kind::kLinkTwist:
+      X = behind_motion(row);
+      break;
+    default:
+      if (standard) {
+        X = behind_motion(row) * exp(row.post);
+      } else if (p.joint > 0) {
+        slot = p.joint - 1;
+        X = behind_motion(chain.joints[slot]) * exp(chain.joints[slot].post);
+      } else {
+        slot = -1;
+        X = from_pose(chain.base) * exp(chain.base_twist);
+      }
+  }
+  Vector3 d = Vector3::Zero(), e = Vector3::Zero();
+  switch (p.kind) {
+    case Kind::kLinkTwist:
+      (p.component < 3 ? d : e)(p.component % 3) = 1.0;
+      break;
+    case Kind::kA:
+      d = axis(0);
+      break;
+    case Kind::kAlpha:
+      X = X * translation(row.a, 0, 0);
+      e = axis(0);
+      break;
+    default:
+      X = X * translation(row.a, 0, 0) * rot_x(row.alpha);
+      e = axis(1);
+  }
+  const Vector3 e_slot = X.R * e;
+  return {slot, X.R * d + X.p.cross(e_slot), e_slot};
+}
+
+void GeometryDerivative::evaluate(std::span<const double> q, Point& out) const {
+  ChainFrames<double> frames;
+  chain_.frames(q, frames);
+  const Transformd X_BG = frames.tip * X_TG_;
+  const Matrix3& R_MB = X_MB_.R;
+  out.p_M = X_MB_ * X_BG.p;
+  out.R_MG = R_MB * X_BG.R;
+  const auto count = static_cast<Eigen::Index>(twists_.size());
+  if (out.columns.cols() != count) out.columns.resize(6, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto& t = twists_[k];
+    Vector3 d_M, e_M;
+    if (t.slot == kSlotFrame) {
+      d_M = t.d + t.e.cross(out.p_M - X_MB_.p);
+      e_M = t.e;
+    } else if (t.slot == kSlotTarget) {
+      const Matrix3 R_MT = R_MB * frames.tip.R;
+      d_M = R_MT * t.d;
+      e_M = R_MT * t.e;
+    } else {
+      const Matrix3 R = t.slot < 0 ? Matrix3::Identity() : frames.joint[t.slot].R;
+      const Vector3 o = t.slot < 0 ? Vector3::Zero() : frames.joint[t.slot].p;
+      const Vector3 e_B = R * t.e;
+      d_M = R_MB * (R * t.d + e_B.cross(X_BG.p - o));
+      e_M = R_MB * e_B;
+    }
+    out.columns.col(k) << d_M, e_M;
+  }
+}
+
+}  // namespace plumb::offline

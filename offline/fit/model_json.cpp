@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/model_json.hpp"
+
+namespace plumb::format {
+
+using Json = nlohmann::ordered_json;
+
+void to_json(Json& j, const Pose& pose) { j = {{"p", pose.p}, {"q", pose.q}}; }
+void from_json(const Json& j, Pose& pose) {
+  j.at("p").get_to(pose.p);
+  j.at("q").get_to(pose.q);
+}
+
+void to_json(Json& j, const Twist& twist) { j = {{"d", twist.d}, {"e", twist.e}}; }
+void from_json(const Json& j, Twist& twist) {
+  j.at("d").get_to(twist.d);
+  j.at("e").get_to(twist.e);
+}
+
+void to_json(Json& j, const JointRow& row) {
+  j = {{"name", row.name},     {"prismatic", row.type == JointType::kPrismatic},
+       {"alpha", row.alpha},   {"a", row.a},
+       {"d", row.d},           {"theta", row.theta},
+       {"beta", row.beta},     {"scale", row.scale},
+       {"offset", row.offset}, {"q_min", row.q_min},
+       {"q_max", row.q_max},   {"pre", row.pre},
+       {"post", row.post}};
+}
+void from_json(const Json& j, JointRow& row) {
+  j.at("name").get_to(row.name);
+  row.type = j.at("prismatic").get<bool>() ? JointType::kPrismatic : JointType::kRevolute;
+  j.at("alpha").get_to(row.alpha);
+  j.at("a").get_to(row.a);
+  j.at("d").get_to(row.d);
+  j.at("theta").get_to(row.theta);
+  j.at("beta").get_to(row.beta);
+  j.at("scale").get_to(row.scale);
+  j.at("offset").get_to(row.offset);
+  j.at("q_min").get_to(row.q_min);
+  j.at("q_max").get_to(row.q_max);
+  j.at("pre").get_to(row.pre);
+  j.at("post").get_to(row.post);
+}
+
+void to_json(Json& j, const Chain& chain) {
+  j = {{"modified", chain.convention == Convention::kModified},
+       {"base", chain.base},
+       {"base_twist", chain.base_twist},
+       {"joints", chain.joints},
+       {"tool_twist", chain.tool_twist},
+       {"tool", chain.tool}};
+}
+void from_json(const Json& j, Chain& chain) {
+  chain.convention = j.at("modified").get<bool>() ? Convention::kModified : Convention::kStandard;
+  j.at("base").get_to(chain.base);
+  j.at("base_twist").get_to(chain.base_twist);
+  j.at("joints").get_to(chain.joints);
+  j.at("tool_twist").get_to(chain.tool_twist);
+  j.at("tool").get_to(chain.tool);
+}
+
+void to_json(Json& j, const Tree& tree) {
+  Json nodes = Json::array();
+  for (const auto& n : tree.nodes) nodes.push_back({n.threshold, n.input, n.low, n.high});
+  j = {{"depth", tree.depth},
+       {"nodes", nodes},
+       {"coefficients", tree.coefficients},
+       {"bounds", tree.bounds}};
+}
+void from_json(const Json& j, Tree& tree) {
+  j.at("depth").get_to(tree.depth);
+  tree.nodes.clear();
+  for (const auto& n : j.at("nodes"))
+    tree.nodes.push_back({.threshold = n.at(0).get<double>(),
+                          .input = n.at(1).get<std::uint16_t>(),
+                          .low = n.at(2).get<std::int16_t>(),
+                          .high = n.at(3).get<std::int16_t>()});
+  j.at("coefficients").get_to(tree.coefficients);
+  j.at("bounds").get_to(tree.bounds);
+}
+
+void to_json(Json& j, const Domain& domain) {
+  j = {{"q_min", domain.q_min}, {"q_max", domain.q_max}, {"fade", domain.fade}};
+}
+void from_json(const Json& j, Domain& domain) {
+  j.at("q_min").get_to(domain.q_min);
+  j.at("q_max").get_to(domain.q_max);
+  j.at("fade").get_to(domain.fade);
+}
+
+void to_json(Json& j, const InputHash& input) {
+  j = {{"file", input.name}, {"sha256", input.sha256}};
+}
+void from_json(const Json& j, InputHash& input) {
+  j.at("file").get_to(input.name);
+  j.at("sha256").get_to(input.sha256);
+}
+
+}  // namespace plumb::format

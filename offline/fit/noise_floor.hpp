@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// What noise alone would leave of the error, whatever the model.
+struct NoiseFloor {
+  double sigma_m = 0.0;  // 1 sigma per axis
+  double mean_m = 0.0;   // mean error: 1.596 sigma with three axes, 1.253 with two
+  double rms_m = 0.0;    // sqrt(axes) sigma
+  enum class Source { kNone, kRepeats, kSigma } source = Source::kNone;
+};
+
+/// From repeats of a pose if there are at least five degrees of freedom, else from the stated
+/// sigma.
+NoiseFloor noise_floor(const Cell& cell, const Measurements& measured);
+
+}  // namespace plumb::offline

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/run_json.hpp"
+
+#include <fmt/format.h>
+
+#include "cell/problem.hpp"
+#include "fit/model_json.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "run/1";
+
+Json to_json(const ErrorStats& s) {
+  return {{"n", s.n}, {"mean_m", s.mean}, {"rms_m", s.rms}, {"p95_m", s.p95}, {"max_m", s.max}};
+}
+ErrorStats stats_from(const Json& j) {
+  return {.n = j.at("n"),
+          .mean = j.at("mean_m"),
+          .rms = j.at("rms_m"),
+          .p95 = j.at("p95_m"),
+          .max = j.at("max_m")};
+}
+
+Json to_json(const Estimate& e) {
+  return {{"name", e.name},   {"length", e.is_length}, {"robot", e.of_robot},
+          {"value", e.value}, {"nominal", e.nominal},  {"std", e.std}};
+}
+Estimate estimate_from(const Json& j) {
+  return {.name = j.at("name"),
+          .is_length = j.at("length"),
+          .of_robot = j.at("robot"),
+          .value = j.at("value"),
+          .nominal = j.at("nominal"),
+          .std = j.at("std")};
+}
+
+/// Lower triangle, row by row.
+Json packed(const Eigen::MatrixXd& m) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    for (Eigen::Index k = 0; k <= i; ++k) out.push_back(m(i, k));
+  return out;
+}
+Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
+  Eigen::MatrixXd m(size, size);
+  std::size_t next = 0;
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index k = 0; k <= i; ++k) m(i, k) = m(k, i) = j.at(next++).get<double>();
+  return m;
+}
+
+Json to_json(const Calibration& c) {
+  Json estimates = Json::array();
+  for (const auto& e : c.estimates) estimates.push_back(to_json(e));
+  return {{"chain", c.state.arm.calibrated},
+          {"domain", c.state.arm.domain},
+          {"frame", c.state.X_MB},
+          {"target", c.state.X_TG},
+          {"estimates", estimates},
+          {"held", c.held},
+          {"covariance", packed(c.covariance)},
+          {"rank", c.rank},
+          {"calibrability", c.calibrability},
+          {"sigma0", c.sigma0},
+          {"iterations", c.iterations}};
+}
+Calibration calibration_from(const Json& j) {
+  Calibration c;
+  j.at("chain").get_to(c.state.arm.calibrated);
+  j.at("domain").get_to(c.state.arm.domain);
+  j.at("frame").get_to(c.state.X_MB);
+  j.at("target").get_to(c.state.X_TG);
+  for (const auto& e : j.at("estimates")) c.estimates.push_back(estimate_from(e));
+  j.at("held").get_to(c.held);
+  c.covariance = unpacked(j.at("covariance"), static_cast<Eigen::Index>(c.estimates.size()));
+  j.at("rank").get_to(c.rank);
+  j.at("calibrability").get_to(c.calibrability);
+  j.at("sigma0").get_to(c.sigma0);
+  j.at("iterations").get_to(c.iterations);
+  return c;
+}
+
+Json to_json(const TreeChoice& t) {
+  return {{"trees", t.trees},           {"domain", t.domain},
+          {"leaves", t.leaves},         {"cv_before_m", t.cv_before_m},
+          {"cv_after_m", t.cv_after_m}, {"gain_se_m", t.gain_se_m},
+          {"reason", t.reason}};
+}
+TreeChoice tree_from(const Json& j) {
+  TreeChoice t;
+  j.at("trees").get_to(t.trees);
+  j.at("domain").get_to(t.domain);
+  j.at("leaves").get_to(t.leaves);
+  j.at("cv_before_m").get_to(t.cv_before_m);
+  j.at("cv_after_m").get_to(t.cv_after_m);
+  j.at("gain_se_m").get_to(t.gain_se_m);
+  j.at("reason").get_to(t.reason);
+  return t;
+}
+
+const Column& column(const Table& table, const char* name) {
+  if (const Column* found = table.find(name)) return *found;
+  throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
+                               .message = fmt::format("{} lacks column '{}'", table.file, name),
+                               .help = "delete this run and fit again: plumb fit"});
+}
+
+}  // namespace
+
+Json run_to_json(const Run& run) {
+  const Fit& fit = run.fit;
+  Json out = {{"schema", kSchema},
+              {"number", run.number},
+              {"created", run.created},
+              {"cell_sha256", run.cell_sha256},
+              {"inputs", run.inputs},
+              {"effects", run.effects},
+              {"calibration", to_json(fit.calibration)},
+              {"tree", nullptr},
+              {"folds", fit.split.folds},
+              {"held_out", to_json(fit.held)},
+              {"held_out_nominal", to_json(fit.nominal_held)},
+              {"held_out_geometry", to_json(fit.geometry_held)},
+              {"fit", to_json(fit.fit)},
+              {"noise_floor",
+               {{"sigma_m", fit.floor.sigma_m},
+                {"mean_m", fit.floor.mean_m},
+                {"rms_m", fit.floor.rms_m},
+                {"source", static_cast<int>(fit.floor.source)}}}};
+  if (fit.tree) out["tree"] = to_json(*fit.tree);
+  return out;
+}
+
+Run run_from_json(const Json& j) {
+  if (j.at("schema") != kSchema)
+    throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
+                                 .message = "run.json is of another schema",
+                                 .help = "fit again: plumb fit"});
+  Run run;
+  j.at("number").get_to(run.number);
+  j.at("created").get_to(run.created);
+  j.at("cell_sha256").get_to(run.cell_sha256);
+  j.at("inputs").get_to(run.inputs);
+  j.at("effects").get_to(run.effects);
+  Fit& fit = run.fit;
+  fit.calibration = calibration_from(j.at("calibration"));
+  if (!j.at("tree").is_null()) {
+    fit.tree = tree_from(j.at("tree"));
+    fit.calibration.state.arm.trees = fit.tree->trees;
+    fit.calibration.state.arm.domain = fit.tree->domain;
+  }
+  j.at("folds").get_to(fit.split.folds);
+  fit.held = stats_from(j.at("held_out"));
+  fit.nominal_held = stats_from(j.at("held_out_nominal"));
+  fit.geometry_held = stats_from(j.at("held_out_geometry"));
+  fit.fit = stats_from(j.at("fit"));
+  const Json& floor = j.at("noise_floor");
+  fit.floor = {.sigma_m = floor.at("sigma_m"),
+               .mean_m = floor.at("mean_m"),
+               .rms_m = floor.at("rms_m"),
+               .source = static_cast<NoiseFloor::Source>(floor.at("source").get<int>())};
+  return run;
+}
+
+std::string predictions_to_csv(const Measurements& measured, const Fit& fit) {
+  std::string out = "pose,set,fold,px_m,py_m,pz_m\n";
+  for (int i = 0; i < measured.size(); ++i) {
+    const auto p = fit.predicted_M.row(i);
+    const char* set = !fit.split.used[i]                            ? "ignore"
+                      : fit.split.held[i] || fit.split.fold[i] >= 0 ? "held"
+                                                                    : "fit";
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{}\n", i + 1, set, fit.split.fold[i],
+                   p(0), p(1), p(2));
+  }
+  return out;
+}
+
+void predictions_from_csv(const std::filesystem::path& file, Fit& fit) {
+  const Table table = read_table(file);
+  const Column& set = column(table, "set");
+  const Column& fold = column(table, "fold");
+  const int n = table.rows();
+  fit.split.fold.resize(n);
+  fit.split.held.resize(n);
+  fit.split.used.resize(n);
+  fit.predicted_M.resize(n, 3);
+  for (int k = 0; k < 3; ++k) {
+    const Column& axis = column(table, k == 0 ? "px" : k == 1 ? "py" : "pz");
+    for (int i = 0; i < n; ++i) fit.predicted_M(i, k) = axis.values[i];
+  }
+  for (int i = 0; i < n; ++i) {
+    fit.split.fold[i] = static_cast<int>(fold.values[i]);
+    fit.split.used[i] = set.text[i] != "ignore";
+    fit.split.held[i] = set.text[i] == "held" && fit.split.fold[i] < 0;
+  }
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "fit/run_store.hpp"
+
+namespace plumb::offline {
+
+/// run.json: everything of a run but the poses. SI, full precision.
+nlohmann::ordered_json run_to_json(const Run& run);
+
+/// The reverse. Throws nlohmann::json::exception on content that is not a run.
+Run run_from_json(const nlohmann::ordered_json& j);
+
+/// predictions.csv: pose, set, fold, predicted point.
+std::string predictions_to_csv(const Measurements& measured, const Fit& fit);
+
+/// Fills split and predictions of `fit` from predictions.csv.
+/// Throws Failure (kInput) if it is damaged.
+void predictions_from_csv(const std::filesystem::path& file, Fit& fit);
+
+}  // namespace plumb::offline

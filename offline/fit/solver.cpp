@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/solver.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+
+namespace plumb::offline {
+namespace {
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kDenseQrUpTo = 6000;  // residuals; beyond it the normal equations are much faster
+
+/// All poses as one residual block, so the chain is folded once an evaluation.
+class GeometryCost final : public ceres::CostFunction {
+ public:
+  GeometryCost(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters)
+      : data_(data), start_(start), parameters_(parameters) {
+    set_num_residuals(data.residual_count());
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
+  }
+
+  bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
+    const auto count = static_cast<Eigen::Index>(parameters_.size());
+    const GeometryDerivative geometry(start_, parameters_,
+                                      Eigen::Map<const Eigen::VectorXd>(x[0], count));
+    double* const jacobian = jacobians == nullptr ? nullptr : jacobians[0];
+    GeometryDerivative::Point point;
+    Eigen::Index row = 0;
+    const auto emit = [&](double error, double sigma, int column_row) {
+      residual[row] = error / sigma;
+      if (jacobian != nullptr)
+        Eigen::Map<Eigen::RowVectorXd>(jacobian + row * count, count) =
+            point.columns.row(column_row) / -sigma;
+      ++row;
+    };
+    const auto& m = *data_.measured;
+    for (int i : data_.rows) {
+      geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())}, point);
+      for (int k = 0; k < 3; ++k)
+        if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
+      if (data_.sigma_rad <= 0.0) continue;
+      const auto quat = m.quat_M.row(i);
+      const Matrix3 R_MG = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
+      const Vector3 turn = rotation_vector(R_MG * point.R_MG.transpose());
+      for (int k = 0; k < 3; ++k) emit(turn(k), data_.sigma_rad, 3 + k);
+    }
+    return std::all_of(residual, residual + row, [](double r) { return std::isfinite(r); });
+  }
+
+ private:
+  const FitData& data_;
+  const ArmState& start_;
+  const std::vector<Parameter>& parameters_;
+};
+
+}  // namespace
+
+int FitData::residual_count() const {
+  int axes = sigma_rad > 0.0 ? 3 : 0;
+  for (bool has : measured->has_axis) axes += has ? 1 : 0;
+  return static_cast<int>(rows.size()) * axes;
+}
+
+Solution evaluate(const FitData& data, const ArmState& start,
+                  const std::vector<Parameter>& parameters) {
+  const GeometryCost cost(data, start, parameters);
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  Solution out;
+  out.state = start;
+  out.residual.resize(data.residual_count());
+  RowMajorMatrix jacobian(data.residual_count(), count);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(count);
+  const double* x = zero.data();
+  double* j = jacobian.data();
+  cost.Evaluate(&x, out.residual.data(), count > 0 ? &j : nullptr);
+  out.jacobian = -jacobian;
+  out.cost = 0.5 * out.residual.squaredNorm();
+  out.converged = true;
+  return out;
+}
+
+Solution solve(const FitData& data, const ArmState& start,
+               const std::vector<Parameter>& parameters) {
+  if (parameters.empty()) return evaluate(data, start, parameters);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  GeometryCost cost(data, start, parameters);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, x.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type =
+      data.residual_count() > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+  options.max_num_iterations = 100;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-14;
+  options.gradient_tolerance = 1e-16;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  Solution out = evaluate(data, moved(start, parameters, x), parameters);
+  out.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  out.converged = summary.termination_type == ceres::CONVERGENCE;
+  out.reason = summary.message;
+  return out;
+}
+
+}  // namespace plumb::offline

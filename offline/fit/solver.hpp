@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fit/geometry.hpp"
+
+namespace plumb::offline {
+
+/// What a geometric fit is weighed with: rows used, and 1 sigma of each coordinate.
+struct FitData {
+  const Measurements* measured = nullptr;
+  std::vector<int> rows;
+  Rows3 sigma_m;           // shape (all poses, 3)
+  double sigma_rad = 0.0;  // 0: orientation is not used
+  int residual_count() const;
+};
+
+struct Solution {
+  ArmState state;
+  Eigen::VectorXd residual;  // whitened, measured - predicted
+  Eigen::MatrixXd jacobian;  // whitened, of the prediction, shape (residuals, parameters)
+  double cost = 0.0;         // half the sum of squares
+  int iterations = 0;
+  bool converged = false;
+  std::string reason;  // why not, in the solver's words
+};
+
+/// Least squares over `parameters` from `start` with Ceres (Levenberg-Marquardt, exact
+/// derivatives). With `parameters` empty it only evaluates.
+Solution solve(const FitData& data, const ArmState& start,
+               const std::vector<Parameter>& parameters);
+
+/// Whitened residuals and derivatives at `start`, without solving.
+Solution evaluate(const FitData& data, const ArmState& start,
+                  const std::vector<Parameter>& parameters);
+
+}  // namespace plumb::offline

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/split.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "fit/random.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kFoldsBelow = 60;  // "auto": folds when poses are scarce
+
+/// One row of each replicate group that is used.
+std::vector<int> representatives(const Measurements& m, const std::vector<bool>& used) {
+  std::map<int, int> first;
+  for (int i = 0; i < m.size(); ++i)
+    if (used[i]) first.emplace(m.replicate_group[i], i);
+  std::vector<int> out;
+  for (const auto& [group, row] : first) out.push_back(row);
+  return out;
+}
+
+/// Orders rows so that neighbours in the list are neighbours in joint space: halves along the
+/// widest joint, again and again.
+void order_by_joints(const RowsN& q, std::vector<int>::iterator begin,
+                     std::vector<int>::iterator end) {
+  const auto count = end - begin;
+  if (count < 3) return;
+  Eigen::Index widest = 0;
+  double width = -1.0;
+  for (Eigen::Index k = 0; k < q.cols(); ++k) {
+    const auto [low, high] =
+        std::minmax_element(begin, end, [&](int a, int b) { return q(a, k) < q(b, k); });
+    if (q(*high, k) - q(*low, k) > width) {
+      width = q(*high, k) - q(*low, k);
+      widest = k;
+    }
+  }
+  const auto middle = begin + count / 2;
+  std::nth_element(begin, middle, end, [&](int a, int b) {
+    return q(a, widest) != q(b, widest) ? q(a, widest) < q(b, widest) : a < b;
+  });
+  order_by_joints(q, begin, middle);
+  order_by_joints(q, middle, end);
+}
+
+std::vector<int> strata_order(const Measurements& m, const std::vector<bool>& used) {
+  auto rows = representatives(m, used);
+  order_by_joints(m.q, rows.begin(), rows.end());
+  return rows;
+}
+
+/// Gives every row the mark of its replicate group.
+template <class T>
+void spread(const Measurements& m, const std::map<int, T>& by_group, std::vector<T>& out) {
+  for (int i = 0; i < m.size(); ++i)
+    if (const auto it = by_group.find(m.replicate_group[i]); it != by_group.end())
+      out[i] = it->second;
+}
+
+[[noreturn]] void fail(std::string message, std::string help) {
+  throw Failure(Exit::kInput,
+                {.code = "E-SPLIT", .message = std::move(message), .help = std::move(help)});
+}
+
+void hold_share(const Measurements& m, double share, Random& random, Split& split) {
+  const auto order = strata_order(m, split.used);
+  const int n = static_cast<int>(order.size());
+  const int wanted = std::max(1, static_cast<int>(share * n + 0.5));
+  if (wanted >= n)
+    fail(fmt::format("{} poses cannot give a held-out share of {:.0f}%", n, 100 * share),
+         "set [measurement] held_out = \"kfold:5\"");
+  std::map<int, bool> held;
+  for (int k = 0; k < wanted; ++k) {
+    const int begin = static_cast<int>(static_cast<long long>(k) * n / wanted);
+    const int end = static_cast<int>(static_cast<long long>(k + 1) * n / wanted);
+    held[m.replicate_group[order[begin + random.below(end - begin)]]] = true;
+  }
+  std::vector<bool> marks(m.size(), false);
+  for (int i = 0; i < m.size(); ++i)
+    marks[i] = split.used[i] && held.contains(m.replicate_group[i]);
+  split.held = marks;
+}
+
+void make_folds(const Measurements& m, int folds, Random& random, Split& split) {
+  const auto order = strata_order(m, split.used);
+  const int n = static_cast<int>(order.size());
+  if (n < folds)
+    fail(fmt::format("{} different poses cannot be split into {} folds", n, folds),
+         "measure more poses");
+  std::map<int, int> fold;
+  std::vector<int> deal(folds);
+  for (int begin = 0; begin < n; begin += folds) {
+    std::iota(deal.begin(), deal.end(), 0);
+    for (int k = folds - 1; k > 0; --k) std::swap(deal[k], deal[random.below(k + 1)]);
+    for (int k = 0; k < folds && begin + k < n; ++k)
+      fold[m.replicate_group[order[begin + k]]] = deal[k];
+  }
+  split.folds = folds;
+  spread(m, fold, split.fold);
+  for (int i = 0; i < m.size(); ++i)
+    if (!split.used[i]) split.fold[i] = -1;
+}
+
+void hold_marked(const Measurements& m, Split& split) {
+  for (int i = 0; i < m.size(); ++i) split.held[i] = m.set[i] == SetMark::kHeld;
+  if (std::none_of(split.held.begin(), split.held.end(), [](bool b) { return b; }))
+    fail("no row is marked 'held' in column 'set'", "mark some, or set held_out = \"20%\"");
+}
+
+void hold_last_file(const Measurements& m, Split& split) {
+  if (m.tables.size() < 2) fail("the held-out file gave no rows", "check [measurement] held_out");
+  const int first = m.size() - m.tables.back().rows();
+  for (int i = first; i < m.size(); ++i) split.held[i] = split.used[i];
+}
+
+}  // namespace
+
+Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed) {
+  Split split;
+  split.fold.assign(m.size(), -1);
+  split.held.assign(m.size(), false);
+  split.used.resize(m.size());
+  for (int i = 0; i < m.size(); ++i) split.used[i] = m.set[i] != SetMark::kIgnore;
+  Random random(seed);
+  using Kind = HeldOutRule::Kind;
+  switch (rule.kind) {
+    case Kind::kAuto:
+      if (static_cast<int>(representatives(m, split.used).size()) < kFoldsBelow)
+        make_folds(m, 5, random, split);
+      else
+        hold_share(m, 0.2, random, split);
+      break;
+    case Kind::kShare:
+      hold_share(m, rule.share, random, split);
+      break;
+    case Kind::kFolds:
+      make_folds(m, rule.folds, random, split);
+      break;
+    case Kind::kColumn:
+      hold_marked(m, split);
+      break;
+    case Kind::kFile:
+      hold_last_file(m, split);
+      break;
+  }
+  return split;
+}
+
+std::vector<int> fit_rows(const Split& split) { return fit_rows(split, -2); }
+
+std::vector<int> fit_rows(const Split& split, int fold) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < split.used.size(); ++i)
+    if (split.used[i] && !split.held[i] && split.fold[i] != fold)
+      out.push_back(static_cast<int>(i));
+  return out;
+}
+
+std::vector<int> held_rows(const Split& split, int fold) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < split.used.size(); ++i)
+    if (split.used[i] && split.fold[i] == fold) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+std::vector<int> held_rows(const Split& split) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < split.used.size(); ++i)
+    if (split.used[i] && (split.held[i] || split.fold[i] >= 0)) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+}  // namespace plumb::offline
