@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compile/compiler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compile/audit.hpp"
+#include "plumb/format/reader.hpp"
+#include "plumb/format/writer.hpp"
+#include "plumb/runtime/corrector.hpp"
+#include "simulate/simulate.hpp"
+
+namespace plumb::offline {
+namespace {
+
+struct Line {
+  Cell cell;
+  Simulation simulation;
+  Run run;
+};
+
+Line whole_line(std::vector<std::string> effects, bool tree) {
+  Line out;
+  out.cell = random_cell(1, 6, format::Convention::kStandard, ArmKind::kRevolute);
+  if (tree) {
+    EffectEntry entry;
+    entry.name = "local_tree";
+    out.cell.effects.push_back(entry);
+  }
+  SimulationPlan plan;
+  plan.poses = 1200;
+  plan.truth.geometry_m = plan.truth.geometry_rad = 3e-4;
+  plan.truth.effects = std::move(effects);
+  out.simulation = simulate(out.cell, plan);
+  out.run.created = "2026-01-01T00:00:00Z";
+  out.run.cell_sha256 = std::string(64, '0');
+  out.run.number = 1;
+  out.run.fit = fit_cell(out.cell, out.simulation.measured);
+  return out;
+}
+
+format::Model through_the_file(const format::Model& model) {
+  const auto read = format::read_model(format::write_model(model));
+  EXPECT_TRUE(std::holds_alternative<format::Model>(read));
+  return std::get<format::Model>(read);
+}
+
+TEST(Compile, WhatIsFittedIsWhatRuns) {
+  for (bool tree : {false, true}) {
+    const Line line = whole_line({"joint_compliance"}, tree);
+    const format::Model model = through_the_file(compile(line.cell, line.run));
+    const ForwardModel arm(model);
+    const ArmState& state = line.run.fit.calibration.state;
+    const Rows3 fitted = predict_points(state, line.simulation.measured.q);
+    const Transformd X_MB = from_pose(state.X_MB);
+    const Vector3 target(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
+    for (int i = 0; i < line.simulation.measured.size(); ++i) {
+      const auto row = line.simulation.measured.q.row(i);
+      const auto X_BT = arm.predict({row.data(), 6}).X_BT;
+      EXPECT_LT((X_MB * (X_BT * target) - fitted.row(i).transpose()).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(Audit, WorstCorrectionIsNotExceededOnFreshPosesByMuchAndItsPlaceIsInTheBox) {
+  const Line line = whole_line({}, false);
+  const format::Model model = compile(line.cell, line.run);
+  const Audit a = audit(model);
+  const ForwardModel arm(model);
+  const Chain nominal(model.nominal);
+  for (int i = 0; i < line.simulation.measured.size(); ++i) {
+    const auto row = line.simulation.measured.q.row(i);
+    const std::span<const double> q(row.data(), 6);
+    EXPECT_LT((arm.predict(q).X_BT.p - nominal.forward<double>(q).p).norm(),
+              1.1 * a.worst_correction_m);
+  }
+  ASSERT_EQ(a.worst_q.size(), 6u);
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_GE(a.worst_q[k], model.domain.q_min[k]);
+    EXPECT_LE(a.worst_q[k], model.domain.q_max[k]);
+  }
+}
+
+TEST(Audit, OneSigmaAtTheToolIsWhatTheTrueErrorShows) {
+  // 20 arms: the mean squared true error over the mean squared predicted sigma is about one.
+  double truth = 0.0, predicted = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Cell cell = random_cell(seed, 6, format::Convention::kModified, ArmKind::kRevolute);
+    // Frame and target given, so that the tool error is the arm's alone.
+    cell.measurement.fit_frame = cell.measurement.fit_target = false;
+    SimulationPlan plan;
+    plan.poses = 100;
+    plan.seed = seed;
+    plan.noise_m = 10e-6;
+    plan.truth.geometry_m = plan.truth.geometry_rad = 3e-4;
+    const Simulation simulation = simulate(cell, plan);
+    Run run;
+    run.created = "2026-01-01T00:00:00Z";
+    run.cell_sha256 = std::string(64, '0');
+    run.fit = fit_all(cell, simulation.measured);
+    const format::Model model = compile(cell, run);
+    const Rows3 p = predict_points(run.fit.calibration.state, simulation.measured.q);
+    truth += (simulation.true_p_M - p).rowwise().squaredNorm().mean();
+    predicted += std::pow(audit(model).sigma_tool_mean_m, 2);
+  }
+  EXPECT_NEAR(std::sqrt(truth / predicted), 1.0, 0.2);
+}
+
+TEST(Audit, ACorrectionOverTheGuardsLimitIsAWarning) {
+  Line line = whole_line({}, false);
+  line.cell.deploy.max_correction_m = 1e-6;
+  const Audit a = audit(compile(line.cell, line.run));
+  ASSERT_FALSE(a.remarks.empty());
+  EXPECT_EQ(a.remarks.front().code, "W-AUDIT-LIMIT");
+}
+
+}  // namespace
+}  // namespace plumb::offline

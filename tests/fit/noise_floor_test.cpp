@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/noise_floor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fit/error_stats.hpp"
+#include "fit/random.hpp"
+#include "fit/weights.hpp"
+
+namespace plumb::offline {
+namespace {
+
+double normal(Random& random) {
+  return std::sqrt(-2.0 * std::log(1.0 - random.unit())) * std::cos(2.0 * M_PI * random.unit());
+}
+
+Measurements repeats_of(int groups, int times, double sigma, std::uint64_t seed) {
+  Random random(seed);
+  Measurements m;
+  const int n = groups * times;
+  m.q = RowsN::Zero(n, 1);
+  m.p_M.resize(n, 3);
+  for (int i = 0; i < n; ++i) {
+    m.replicate_group.push_back(i / times);
+    for (int k = 0; k < 3; ++k) m.p_M(i, k) = i / times + sigma * normal(random);
+  }
+  return m;
+}
+
+TEST(NoiseFloor, RepeatsGiveTheirOwnSigmaAndTheMeanOfAThreeDimensionalNormal) {
+  const NoiseFloor floor = noise_floor(Cell{}, repeats_of(2000, 3, 1e-5, 1));
+  EXPECT_EQ(floor.source, NoiseFloor::Source::kRepeats);
+  EXPECT_NEAR(floor.sigma_m, 1e-5, 2e-7);
+  EXPECT_NEAR(floor.mean_m / floor.sigma_m, 1.596, 0.001);
+  EXPECT_NEAR(floor.rms_m / floor.sigma_m, std::sqrt(3.0), 1e-12);
+}
+
+TEST(NoiseFloor, WithoutRepeatsTheStatedSigmaCountsAndWithoutBothNothingIsClaimed) {
+  Cell cell;
+  const Measurements m = repeats_of(50, 1, 1e-5, 1);
+  EXPECT_EQ(noise_floor(cell, m).source, NoiseFloor::Source::kNone);
+  cell.measurement.sigma_m = 2e-5;
+  EXPECT_EQ(noise_floor(cell, m).sigma_m, 2e-5);
+}
+
+TEST(ErrorStats, AgreeWithNumbersDoneByHand) {
+  const ErrorStats s = summarise({3.0, 1.0, 2.0, 4.0});
+  EXPECT_DOUBLE_EQ(s.mean, 2.5);
+  EXPECT_DOUBLE_EQ(s.rms, std::sqrt(7.5));
+  EXPECT_DOUBLE_EQ(s.p95, 4.0);
+  EXPECT_DOUBLE_EQ(s.max, 4.0);
+  EXPECT_EQ(summarise({}).n, 0);
+}
+
+TEST(ExcessSigma, FindsWhatIsThereBesidesTheStatedNoiseAndNothingIfNothingIs) {
+  Random random(3);
+  const int n = 20000;
+  Rows3 sigma(n, 3), quiet(n, 3), loud(n, 3);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) {
+      sigma(i, k) = 1e-5 * (1.0 + random.unit());
+      quiet(i, k) = 0.9 * sigma(i, k) * normal(random);
+      loud(i, k) = sigma(i, k) * normal(random) + 1e-4 * normal(random);
+    }
+  EXPECT_EQ(excess_sigma(quiet, sigma, {true, true, true}, 30), 0.0);
+  EXPECT_NEAR(excess_sigma(loud, sigma, {true, true, true}, 30), 1e-4, 2e-6);
+}
+
+}  // namespace
+}  // namespace plumb::offline

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/split.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "fit/random.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// `groups` random poses, every third of them measured three times.
+Measurements random_poses(int groups, std::uint64_t seed) {
+  Random random(seed);
+  Measurements m;
+  std::vector<std::array<double, 2>> q;
+  for (int g = 0; g < groups; ++g) {
+    const std::array<double, 2> at{random.unit(), random.unit()};
+    for (int k = 0; k < (g % 3 == 0 ? 3 : 1); ++k) {
+      q.push_back(at);
+      m.replicate_group.push_back(g);
+    }
+  }
+  const int n = static_cast<int>(q.size());
+  m.q.resize(n, 2);
+  for (int i = 0; i < n; ++i) m.q.row(i) << q[i][0], q[i][1];
+  m.p_M = Rows3::Zero(n, 3);
+  m.set.assign(n, SetMark::kUnmarked);
+  m.pose.assign(n, "p");
+  return m;
+}
+
+HeldOutRule share(double value) { return {.kind = HeldOutRule::Kind::kShare, .share = value}; }
+HeldOutRule folds(int count) { return {.kind = HeldOutRule::Kind::kFolds, .folds = count}; }
+
+TEST(Split, NeverSeparatesReplicates) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const Measurements m = random_poses(100, seed);
+    const Split one = split_poses(m, share(0.2), seed), many = split_poses(m, folds(5), seed);
+    for (int i = 1; i < m.size(); ++i) {
+      if (m.replicate_group[i] != m.replicate_group[i - 1]) continue;
+      EXPECT_EQ(one.held[i], one.held[i - 1]);
+      EXPECT_EQ(many.fold[i], many.fold[i - 1]);
+    }
+  }
+}
+
+TEST(Split, HoldsTheShareAskedForCountedInDifferentPoses) {
+  for (double wanted : {0.1, 0.2, 0.3, 0.5}) {
+    const Measurements m = random_poses(200, 4);
+    const Split split = split_poses(m, share(wanted), 1);
+    std::set<int> held;
+    for (int i : held_rows(split)) held.insert(m.replicate_group[i]);
+    EXPECT_EQ(static_cast<int>(held.size()), static_cast<int>(std::lround(200 * wanted)));
+  }
+}
+
+TEST(Split, EveryPoseIsHeldOutOnceAndNeverInItsOwnFit) {
+  const Measurements m = random_poses(53, 2);
+  const Split split = split_poses(m, folds(5), 3);
+  std::vector<int> times(m.size(), 0);
+  for (int k = 0; k < 5; ++k) {
+    const auto fit = fit_rows(split, k), held = held_rows(split, k);
+    EXPECT_EQ(fit.size() + held.size(), static_cast<std::size_t>(m.size()));
+    for (int i : held) ++times[i];
+    for (int i : fit) EXPECT_NE(split.fold[i], k);
+  }
+  for (int t : times) EXPECT_EQ(t, 1);
+}
+
+TEST(Split, AutoMeansFiveFoldsBelowSixtyPosesAndAFifthFromThere) {
+  EXPECT_EQ(split_poses(random_poses(59, 1), {}, 1).folds, 5);
+  const Split split = split_poses(random_poses(60, 1), {}, 1);
+  EXPECT_EQ(split.folds, 0);
+  EXPECT_GT(held_rows(split).size(), 0u);
+}
+
+TEST(Split, SameSeedSamePosesOtherSeedOtherPoses) {
+  const Measurements m = random_poses(100, 9);
+  EXPECT_EQ(split_poses(m, share(0.2), 1).held, split_poses(m, share(0.2), 1).held);
+  EXPECT_NE(split_poses(m, share(0.2), 1).held, split_poses(m, share(0.2), 2).held);
+}
+
+TEST(Split, HeldOutPosesAreSpreadOverJointSpaceMoreEvenlyThanByChance) {
+  // Quarters of the unit square: a stratified fifth of 400 puts close to 20 in each.
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Measurements m = random_poses(400, seed);
+    std::array<std::set<int>, 4> held, all;
+    const Split split = split_poses(m, share(0.2), seed);
+    for (int i = 0; i < m.size(); ++i) {
+      const int quarter = (m.q(i, 0) > 0.5 ? 1 : 0) + (m.q(i, 1) > 0.5 ? 2 : 0);
+      all[quarter].insert(m.replicate_group[i]);
+      if (split.held[i]) held[quarter].insert(m.replicate_group[i]);
+    }
+    for (int k = 0; k < 4; ++k)
+      squares += std::pow(static_cast<double>(held[k].size()) - 0.2 * all[k].size(), 2) / 80.0;
+  }
+  // Simple random sampling gives a variance of about 0.2 * 0.8 * 100 = 16.
+  EXPECT_LT(squares, 4.0);
+}
+
+TEST(Split, IgnoredRowsAreNeitherFittedNorHeld) {
+  Measurements m = random_poses(100, 5);
+  for (int i = 0; i < 30; ++i) m.set[i] = SetMark::kIgnore;
+  const Split split = split_poses(m, share(0.2), 1);
+  for (int i : fit_rows(split)) EXPECT_GE(i, 30);
+  for (int i : held_rows(split)) EXPECT_GE(i, 30);
+}
+
+TEST(Split, AColumnWithoutAHeldRowIsRefused) {
+  const Measurements m = random_poses(100, 5);
+  EXPECT_THROW(split_poses(m, {.kind = HeldOutRule::Kind::kColumn}, 1), Failure);
+  EXPECT_THROW(split_poses(random_poses(3, 5), folds(5), 1), Failure);
+}
+
+}  // namespace
+}  // namespace plumb::offline
