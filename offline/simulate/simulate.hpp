@@ -20,7 +20,7 @@ struct HiddenTruth {
   std::vector<std::string> effects;   // laws of the simulator, see parse_hidden_effect
   std::optional<std::uint64_t> seed;  // of the arm and its set-up; the plan's if not given: state
                                       // it to measure one arm at fresh poses
-  std::optional<format::Pose> X_MB;  // base in the tracker frame; else the cell's, else random
+  std::optional<format::Pose> X_MB;   // base in the tracker frame; else the cell's, else random
   std::optional<std::array<double, 3>> target_T;  // reflector in the tool frame; likewise
 };
 
@@ -30,7 +30,7 @@ struct SimulationPlan {
   RowsN q;                          // (poses, joints) instead of random ones, if it has rows
   int repeats = 1;                  // of every tenth pose, one after the other, for the noise floor
   double noise_m = 10e-6;           // 1 sigma per axis
-  std::optional<double> noise_rad;  // if given, the orientation of the tool is measured too
+  std::optional<double> noise_rad;  // if given, the reflector's orientation is measured too
   std::array<bool, 3> axes{true, true, true};  // which of x, y, z are measured
   double seconds_per_pose = 30.0;
   enum class Directions { kIfNeeded, kRecorded } directions = Directions::kIfNeeded;
@@ -44,7 +44,7 @@ struct Simulation {
   Rows3 true_p_M;               // without noise [m]
   format::Chain true_chain;     // the geometry that was drawn
   format::Pose X_MB;
-  std::array<double, 3> target_T{};
+  format::Pose X_TG;       // reflector G in the tool frame; turned if its place is fitted
   std::string truth_json;  // every true parameter, for the scorer only
 };
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "simulate/law.hpp"
+
+namespace plumb::offline::sim {
+namespace {
+
+constexpr double kHour_s = 3600.0;
+constexpr double kLag_s = 1200.0;
+constexpr double kLagShare = 0.6;
+constexpr double kUsualSize_m = 0.15e-3;
+
+/// Base twist = (d, e) g(t), g = a (1 - exp(-t/T)) / (1 - exp(-1 h/T)) + (1 - a) t / 1 h.
+class Drift : public Law {
+ public:
+  Drift(const Vector3d& d, const Vector3d& e, const World& world) : d_(d), e_(e), world_(world) {}
+
+  void bend(int row, const Frames&, const Loads&, Deflection& out) const override {
+    const double t = world_.visits[row].time_s;
+    const double lag = std::expm1(-t / kLag_s) / std::expm1(-kHour_s / kLag_s);
+    const double g = kLagShare * lag + (1.0 - kLagShare) * t / kHour_s;
+    out.base = exp(d_ * g, e_ * g) * out.base;
+  }
+
+  nlohmann::ordered_json truth() const override {
+    const Vector3d d_um = d_ * 1e6, e_urad = e_ * 1e6;
+    return {{"shift_um_in_first_hour", {d_um.x(), d_um.y(), d_um.z()}},
+            {"rotation_urad_in_first_hour", {e_urad.x(), e_urad.y(), e_urad.z()}},
+            {"lag_s", kLag_s},
+            {"lag_share", kLagShare}};
+  }
+
+ private:
+  Vector3d d_, e_;
+  const World& world_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_drift(const HiddenEffect& effect, const World& world) {
+  Random random(world.seed, "drift");
+  const double size = effect.size.value_or(kUsualSize_m);
+  const Vector3d d = size * random.direction();
+  const Vector3d e = 0.5 * size / world.arm.reach() * random.direction();
+  return std::make_unique<Drift>(d, e, world);
+}
+
+}  // namespace plumb::offline::sim

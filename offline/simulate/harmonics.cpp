@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "simulate/law.hpp"
+
+namespace plumb::offline::sim {
+namespace {
+
+constexpr std::array kShare{1.0, 0.6, 0.08};  // of the first, second and third harmonic
+constexpr double kLoadShare = 0.15;           // growth of the amplitude at the largest torque
+constexpr double kUsualSize_rad = 100e-6;
+
+/// dq = size (1 + m torque / largest torque) sum_h share_h sin(h q + phase_h).
+struct Gear {
+  SizedJoint at;
+  std::array<double, kShare.size()> phase{};
+  double torque = 0.0;  // largest at the reference poses [N m]; 0: no load
+};
+
+class GearHarmonics : public Law {
+ public:
+  GearHarmonics(std::vector<Gear> gears, const World& world)
+      : gears_(std::move(gears)), world_(world) {}
+
+  void bend(int row, const Frames&, const Loads& loads, Deflection& out) const override {
+    for (const auto& gear : gears_) {
+      const double q = world_.visits[row].q(gear.at.joint);
+      double sum = 0.0;
+      for (std::size_t h = 0; h < kShare.size(); ++h) {
+        sum += kShare[h] * std::sin(static_cast<double>(h + 1) * q + gear.phase[h]);
+      }
+      const double load = gear.torque > 0.0 ? loads.torque(gear.at.joint) / gear.torque : 0.0;
+      out.dq(gear.at.joint) += gear.at.size * (1.0 + kLoadShare * load) * sum;
+    }
+  }
+
+  nlohmann::ordered_json truth() const override {
+    auto out = nlohmann::ordered_json::array();
+    for (const auto& gear : gears_) {
+      auto harmonics = nlohmann::ordered_json::array();
+      for (std::size_t h = 0; h < kShare.size(); ++h) {
+        harmonics.push_back({{"cycles_per_turn", h + 1},
+                             {"amplitude_urad", gear.at.size * kShare[h] * 1e6},
+                             {"phase_rad", gear.phase[h]}});
+      }
+      out.push_back({{"joint", gear.at.name},
+                     {"harmonics", harmonics},
+                     {"load_share", gear.torque > 0.0 ? kLoadShare : 0.0},
+                     {"largest_torque_Nm", gear.torque}});
+    }
+    return out;
+  }
+
+ private:
+  std::vector<Gear> gears_;
+  const World& world_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_gear_harmonics(const HiddenEffect& effect, const World& world) {
+  std::vector<bool> turns;
+  for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
+  Random random(world.seed, "gear phases");
+  std::vector<std::array<double, kShare.size()>> phase(turns.size());
+  for (auto& joint : phase) {
+    for (double& p : joint) p = random.uniform(-std::numbers::pi, std::numbers::pi);
+  }
+  const VectorXd torque = largest_torque(world);
+  std::vector<Gear> gears;
+  for (const auto& at : sized_joints(effect, world, turns, turns, kUsualSize_rad, "it slides")) {
+    gears.push_back({at, phase[at.joint], torque(at.joint) > 1e-6 ? torque(at.joint) : 0.0});
+  }
+  return std::make_unique<GearHarmonics>(std::move(gears), world);
+}
+
+}  // namespace plumb::offline::sim

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline::sim {
+namespace {
+
+constexpr int kReferencePoses = 500;
+
+}  // namespace
+
+std::vector<Visit> drive(const RowsN& q, const VectorXd& start, double seconds_per_pose) {
+  std::vector<Visit> visits;
+  Visit now{start, VectorXd::Zero(start.size()), VectorXd::Zero(start.size())};
+  for (int row = 0; row < q.rows(); ++row) {
+    now.time_s = row * seconds_per_pose;
+    for (int j = 0; j < start.size(); ++j) {
+      const double step = q(row, j) - now.q(j);
+      if (step == 0.0) continue;
+      now.direction(j) = step > 0.0 ? 1.0 : -1.0;
+      now.travel(j) = std::abs(step);
+    }
+    now.q = q.row(row).transpose();
+    visits.push_back(now);
+  }
+  return visits;
+}
+
+std::vector<VectorXd> reference_poses(const World& world) {
+  Random random(world.seed, "reference poses");
+  std::vector<VectorXd> poses;
+  for (int k = 0; k < kReferencePoses; ++k) {
+    VectorXd q(world.q_min.size());
+    for (int j = 0; j < q.size(); ++j) q(j) = random.uniform(world.q_min(j), world.q_max(j));
+    poses.push_back(q);
+  }
+  return poses;
+}
+
+VectorXd largest_torque(const World& world) {
+  VectorXd largest = VectorXd::Zero(world.arm.joints());
+  for (const auto& q : reference_poses(world)) {
+    const Loads loads(world.masses, world.arm.frames(q));
+    for (int j = 0; j < largest.size(); ++j) {
+      largest(j) = std::max(largest(j), std::abs(loads.torque(j)));
+    }
+  }
+  return largest;
+}
+
+std::vector<SizedJoint> sized_joints(const HiddenEffect& effect, const World& world,
+                                     const std::vector<bool>& possible,
+                                     const std::vector<bool>& usual, double fallback,
+                                     const std::string& why_not) {
+  std::vector<SizedJoint> out;
+  const double common = effect.size.value_or(fallback);
+  const auto& rows = world.cell.nominal.joints;
+  for (const auto& part : effect.joints) {
+    if (!possible[part.joint]) {
+      throw Failure(Exit::kUsage,
+                    {Severity::kError, "E-SIM-JOINT",
+                     effect.name + " is not possible on " + rows[part.joint].name + ": " + why_not,
+                     std::nullopt, "name other joints, or none for the usual ones"});
+    }
+    out.push_back({part.joint, rows[part.joint].name, part.size.value_or(common)});
+  }
+  if (!effect.joints.empty()) return out;
+  for (int j = 0; j < world.arm.joints(); ++j) {
+    if (possible[j] && usual[j]) out.push_back({j, rows[j].name, common});
+  }
+  if (out.empty()) {
+    throw Failure(Exit::kUsage, {Severity::kError, "E-SIM-JOINT",
+                                 effect.name + " is not possible on this arm: " + why_not,
+                                 std::nullopt, "plumb simulate --help lists the effects"});
+  }
+  return out;
+}
+
+const std::vector<LawEntry>& law_entries() {
+  using Size = LawEntry::Size;
+  static const std::vector<LawEntry> entries{
+      {"joint_compliance", "joints yield under gravity, softer at high load; size: largest angle",
+       Size::kAngle, true, false, make_joint_compliance},
+      {"gear_harmonics", "once, twice and a little thrice per turn, more under load; size: first",
+       Size::kAngle, true, false, make_gear_harmonics},
+      {"link_flexure", "links bend as tapered beams; size: largest rotation of the link's end",
+       Size::kAngle, true, false, make_link_flexure},
+      {"drift", "the base moves slowly against the tracker; size: shift in the first hour",
+       Size::kLength, false, false, make_drift},
+      {"reversal", "joints stop short by the side they come from; size: half the gap", Size::kAngle,
+       true, true, make_reversal},
+      {"planar_published", "beams of the planar study, as its printed figures need them",
+       Size::kNone, false, false, make_planar_published},
+      {"planar_printed", "beams of the planar study, printed dimensions and correct statics",
+       Size::kNone, false, false, make_planar_printed},
+  };
+  return entries;
+}
+
+const LawEntry* find_law(const std::string& name) {
+  const auto& entries = law_entries();
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const LawEntry& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace plumb::offline::sim

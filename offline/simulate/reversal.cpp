@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+
+#include "simulate/law.hpp"
+
+namespace plumb::offline::sim {
+namespace {
+
+constexpr double kUsualSize_rad = 100e-6;
+constexpr double kTravel_rad = std::numbers::pi / 180.0;  // until the other flank carries
+
+/// Hysteresis with memory: b <- b + (-size sgn(d) - b) (1 - exp(-travel / q_c)) at every move,
+/// dq = b; after long moves dq = -size sgn(d).
+class Reversal : public Law {
+ public:
+  Reversal(std::vector<SizedJoint> joints, const World& world) : joints_(std::move(joints)) {
+    dq_.assign(world.visits.size(), VectorXd::Zero(world.arm.joints()));
+    for (const auto& at : joints_) wind(at, world);
+  }
+
+  void bend(int row, const Frames&, const Loads&, Deflection& out) const override {
+    out.dq += dq_[row];
+  }
+
+  nlohmann::ordered_json truth() const override {
+    auto out = nlohmann::ordered_json::array();
+    for (const auto& at : joints_) {
+      out.push_back({{"joint", at.name},
+                     {"half_gap_urad", at.size * 1e6},
+                     {"travel_deg", kTravel_rad * 180.0 / std::numbers::pi}});
+    }
+    return out;
+  }
+
+ private:
+  void wind(const SizedJoint& at, const World& world) {
+    double b = 0.0, last_q = 0.5 * (world.q_min(at.joint) + world.q_max(at.joint));
+    for (std::size_t row = 0; row < world.visits.size(); ++row) {
+      const auto& visit = world.visits[row];
+      const double flank = -at.size * visit.direction(at.joint);
+      const double step = std::abs(visit.q(at.joint) - last_q);
+      b -= (flank - b) * std::expm1(-step / kTravel_rad);
+      last_q = visit.q(at.joint);
+      dq_[row](at.joint) = b;
+    }
+  }
+
+  std::vector<SizedJoint> joints_;
+  std::vector<VectorXd> dq_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_reversal(const HiddenEffect& effect, const World& world) {
+  std::vector<bool> turns;
+  for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
+  return std::make_unique<Reversal>(
+      sized_joints(effect, world, turns, turns, kUsualSize_rad, "it slides"), world);
+}
+
+}  // namespace plumb::offline::sim

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulate/law.hpp"
+
+namespace plumb::offline::sim {
+
+/// A hidden effect and the law it became.
+struct HiddenLaw {
+  std::string name;
+  std::unique_ptr<Law> law;
+};
+
+/// The nominal chain with an error drawn for every length (sigma geometry_m) and every angle
+/// (geometry_rad): theta, d, a, alpha of each row; between near-parallel axes Hayati's beta in
+/// place of d.
+format::Chain draw_geometry(const Cell& cell, const HiddenTruth& truth, Random random);
+
+/// Everything true as one JSON text, keys in a fixed order: parameters with unit, frame, target,
+/// effects, noise, and each row's point without noise.
+std::string truth_json(const Cell& cell, const SimulationPlan& plan, const Simulation& simulation,
+                       const std::vector<HiddenLaw>& laws);
+
+}  // namespace plumb::offline::sim
