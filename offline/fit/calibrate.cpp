@@ -19,6 +19,7 @@ namespace {
 // Independence asked for before the noise is known, and after.
 constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
+constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
 void check_enough(const FitData& data, std::size_t parameters) {
   if (data.residual_count() > static_cast<int>(parameters)) return;
@@ -122,7 +123,6 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   out.state = solution.state;
   out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
   out.held = subset.held;
-  out.rank = static_cast<int>(count);
   out.iterations = solution.iterations;
   return out;
 }
@@ -149,7 +149,10 @@ Calibration calibrate(const Cell& cell, const Measurements& measured,
   subset = identifiable_parameters(data, solution.state, candidates, kFine);
   solution = solve(data, solution.state, subset.kept);
   check_converged(solution);
-  return summary(data, nominal, solution, subset);
+  Calibration out = summary(data, nominal, solution, subset);
+  out.rank = static_cast<int>(
+      identifiable_parameters(data, solution.state, candidates, kRank).kept.size());
+  return out;
 }
 
 ArmState place_nominal(const Cell& cell, const Measurements& measured,

@@ -24,9 +24,9 @@ struct Estimate {
 struct Calibration {
   ArmState state;
   std::vector<Estimate> estimates;  // the identifiable subset, in covariance order
-  std::vector<std::string> held;    // parameters kept at nominal: not identifiable here
+  std::vector<std::string> held;    // kept at nominal: these poses say less about them
   Eigen::MatrixXd covariance;       // SI
-  int rank = 0;                     // = estimates.size()
+  int rank = 0;                     // independent columns, of all candidates
   double calibrability = 0.0;       // cond_2(J^T J), SI columns
   double sigma0 = 0.0;              // sqrt(chi^2 / dof) of the weighted residuals
   int iterations = 0;
@@ -34,9 +34,10 @@ struct Calibration {
 
 /// Calibrates the geometry of `cell` on the given rows: DH with Hayati's beta where neighbours are
 /// near parallel (or complete link twists), tracker frame and target, weighted by sigma.
-/// Parameters that the poses cannot tell apart are held at nominal.
-/// Throws Failure (kNumbersSayNo) with the reason if it does not converge, (kInput) if the rows are
-/// fewer than the parameters need.
+/// Parameters that the poses cannot tell apart are held at nominal, and so are those whose standard
+/// deviation would exceed 5 mm or 5 mrad: of a reflector on the last axis, say, or of poses too
+/// few. Throws Failure (kNumbersSayNo) with the reason if it does not converge, (kInput) if the
+/// rows are fewer than the parameters need.
 Calibration calibrate(const Cell& cell, const Measurements& measured, const std::vector<int>& rows);
 
 /// The nominal arm with only tracker frame and target fitted: what the controller believes today.

@@ -100,6 +100,14 @@ ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
   return summarise(std::move(norms));
 }
 
+void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& out) {
+  if (!measured.has_orientation() || cell.measurement.sigma_rad) return;
+  out.remarks.push_back({.severity = Severity::kNote,
+                         .code = "N-FIT-ORIENTATION",
+                         .message = "measured orientations are not used: their noise is not stated",
+                         .help = "to fit them too: [measurement] sigma_urad = 100"});
+}
+
 Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   Fit out;
   out.split = std::move(split);
@@ -121,6 +129,7 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   out.fit = stats_of(measured, final_points, fit);
   out.predicted_M = std::move(predicted.full);
   out.floor = noise_floor(cell, measured);
+  remark_on_orientation(cell, measured, out);
   out.calibration = std::move(final_model.calibration);
   out.tree = std::move(final_model.tree);
   return out;

@@ -294,7 +294,7 @@ GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p)
       e = axis(1);
   }
   const Vector3 e_slot = X.R * e;
-  return {slot, X.R * d + X.p.cross(e_slot), e_slot};
+  return {slot, X.R * d + cross<double>(X.p, e_slot), e_slot};
 }
 
 void GeometryDerivative::evaluate(std::span<const double> q, Point& out) const {
@@ -310,7 +310,7 @@ void GeometryDerivative::evaluate(std::span<const double> q, Point& out) const {
     const auto& t = twists_[k];
     Vector3 d_M, e_M;
     if (t.slot == kSlotFrame) {
-      d_M = t.d + t.e.cross(out.p_M - X_MB_.p);
+      d_M = t.d + cross<double>(t.e, out.p_M - X_MB_.p);
       e_M = t.e;
     } else if (t.slot == kSlotTarget) {
       const Matrix3 R_MT = R_MB * frames.tip.R;
@@ -320,7 +320,7 @@ void GeometryDerivative::evaluate(std::span<const double> q, Point& out) const {
       const Matrix3 R = t.slot < 0 ? Matrix3::Identity() : frames.joint[t.slot].R;
       const Vector3 o = t.slot < 0 ? Vector3::Zero() : frames.joint[t.slot].p;
       const Vector3 e_B = R * t.e;
-      d_M = R_MB * (R * t.d + e_B.cross(X_BG.p - o));
+      d_M = R_MB * (R * t.d + cross<double>(e_B, X_BG.p - o));
       e_M = R_MB * e_B;
     }
     out.columns.col(k) << d_M, e_M;
