@@ -49,7 +49,7 @@ std::unique_ptr<Law> make_joint_compliance(const HiddenEffect& effect, const Wor
   const VectorXd torque = largest_torque(world);
   std::vector<bool> loaded;
   for (int j = 0; j < torque.size(); ++j) {
-    loaded.push_back(!world.arm.slides(j) && torque(j) > 1e-2 * torque.maxCoeff());
+    loaded.push_back(torque(j) > 0.0);
   }
   std::vector<Spring> springs;
   for (const auto& at : sized_joints(effect, world, loaded, loaded, kUsualTip_m / world.arm.reach(),

@@ -71,7 +71,7 @@ std::unique_ptr<Law> make_gear_harmonics(const HiddenEffect& effect, const World
   const VectorXd torque = largest_torque(world);
   std::vector<Gear> gears;
   for (const auto& at : sized_joints(effect, world, turns, turns, kUsualSize_rad, "it slides")) {
-    gears.push_back({at, phase[at.joint], torque(at.joint) > 1e-6 ? torque(at.joint) : 0.0});
+    gears.push_back({at, phase[at.joint], torque(at.joint)});
   }
   return std::make_unique<GearHarmonics>(std::move(gears), world);
 }

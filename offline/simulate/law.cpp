@@ -8,6 +8,7 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr int kReferencePoses = 500;
+constexpr double kHardlyLoaded = 3e-3;  // of weight times reach
 
 }  // namespace
 
@@ -41,11 +42,17 @@ std::vector<VectorXd> reference_poses(const World& world) {
 
 VectorXd largest_torque(const World& world) {
   VectorXd largest = VectorXd::Zero(world.arm.joints());
+  double weight = 0.0;
   for (const auto& q : reference_poses(world)) {
     const Loads loads(world.masses, world.arm.frames(q));
+    weight = loads.force(0).norm();
     for (int j = 0; j < largest.size(); ++j) {
       largest(j) = std::max(largest(j), std::abs(loads.torque(j)));
     }
+  }
+  for (int j = 0; j < largest.size(); ++j) {
+    const bool hardly = largest(j) <= kHardlyLoaded * weight * world.arm.reach();
+    if (world.arm.slides(j) || hardly) largest(j) = 0.0;
   }
   return largest;
 }

@@ -35,7 +35,8 @@ struct World {
 /// Poses inside the limits on which sizes are defined; the same for every plan with that seed.
 std::vector<VectorXd> reference_poses(const World& world);
 
-/// Largest gravity torque of each joint at the reference poses [N m].
+/// Largest gravity torque of each joint at the reference poses [N m]; 0 where the joint slides or
+/// gravity hardly turns it (less than 0.3 % of weight times reach).
 VectorXd largest_torque(const World& world);
 
 /// A hidden effect with its true numbers.
