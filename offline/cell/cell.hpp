@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -44,9 +45,9 @@ struct MeasurementSettings {
   bool fit_frame = true;
   format::Pose X_MB;  // base in the measurement frame, if not fitted
   bool fit_target = true;
-  std::array<double, 3> target_T{};     // reflector in the tool frame [m], if not fitted
-  std::optional<double> sigma_m;        // 1 sigma per axis
-  std::optional<double> sigma_rad;      // 1 sigma per axis of measured orientations (sigma_urad)
+  std::array<double, 3> target_T{};  // reflector in the tool frame [m], if not fitted
+  std::optional<double> sigma_m;     // 1 sigma per axis
+  std::optional<double> sigma_rad;   // 1 sigma per axis of measured orientations (sigma_urad)
   HeldOutRule held_out;
   std::uint64_t seed = 1;
 };
@@ -100,7 +101,15 @@ std::filesystem::path find_cell(const std::filesystem::path& start);
 /// A commented cell.toml for `cell`; read_cell of it gives the same cell.
 std::string write_cell(const Cell& cell);
 
-/// Names known to [effects]. One line each: the catalogue.
+/// Names that [effects] may hold, and names that a later version will know.
 const std::vector<std::string>& known_effects();
+const std::vector<std::string>& planned_effects();
+
+/// "auto", "20%", "kfold:5", "column:set", "file:verify.csv"; nothing if it is none of them.
+std::optional<HeldOutRule> parse_held_out(std::string_view text,
+                                          const std::filesystem::path& directory);
+
+/// "2%" is 0.02.
+std::optional<double> parse_percent(std::string_view text);
 
 }  // namespace plumb::offline

@@ -12,7 +12,17 @@
 namespace plumb::offline {
 
 /// Kind of quantity a column holds; it decides which units fit.
-enum class Quantity { kText, kNumber, kLength, kAngle, kMass, kTemperature, kTime, kForce, kTorque };
+enum class Quantity {
+  kText,
+  kNumber,
+  kLength,
+  kAngle,
+  kMass,
+  kTemperature,
+  kTime,
+  kForce,
+  kTorque
+};
 
 /// One column of a measurement file.
 struct Column {
@@ -52,16 +62,16 @@ enum class SetMark : char { kUnmarked, kFit, kHeld, kIgnore };
 
 /// Poses and what was measured there. SI; one row a pose; frames as named.
 struct Measurements {
-  std::vector<std::string> pose;       // id; "1", "2", … if the file has no such column
-  std::vector<int> replicate_group;    // equal for repeats of one pose, 0 … groups - 1
+  std::vector<std::string> pose;     // id; "1", "2", … if the file has no such column
+  std::vector<int> replicate_group;  // equal for repeats of one pose, 0 … groups - 1
   std::vector<SetMark> set;
-  RowsN q;                             // (n, joints) [rad] or [m]
-  Rows3 p_M;                           // measured point, measurement frame [m]; 0 if axis missing
+  RowsN q;    // (n, joints) [rad] or [m]
+  Rows3 p_M;  // measured point, measurement frame [m]; 0 if axis missing
   std::array<bool, 3> has_axis{true, true, true};
-  Rows4 quat_M;                        // measured orientation (w, x, y, z), or 0 rows
-  Rows3 sigma_m;                       // 1 sigma per axis from columns, or 0 rows
-  Rows3 nominal_B;                     // the controller's own position [m], or 0 rows
-  std::vector<Table> tables;           // the files, in order; context columns stay there
+  Rows4 quat_M;               // measured orientation (w, x, y, z), or 0 rows
+  Rows3 sigma_m;              // 1 sigma per axis from columns, or 0 rows
+  Rows3 nominal_B;            // the controller's own position [m], or 0 rows
+  std::vector<Table> tables;  // the files, in order; context columns stay there
   int size() const { return static_cast<int>(q.rows()); }
   bool has_orientation() const { return quat_M.rows() > 0; }
 };

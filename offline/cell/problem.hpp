@@ -25,12 +25,12 @@ enum class Exit : int {
 
 /// Where in a file; line and column count from 1, 0 = unknown.
 struct Place {
-  std::string file;
+  std::string file = {};
   int line = 0;
   int column = 0;
   int length = 1;      // characters under the caret
-  std::string source;  // the text of the line
-  std::string label;   // stands behind the caret: "add a unit suffix"
+  std::string source = {};  // the text of the line
+  std::string label = {};   // stands behind the caret: "add a unit suffix"
 };
 
 struct Problem {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace plumb::offline {
+namespace {
+
+const char* word(Severity severity) {
+  switch (severity) {
+    case Severity::kError:
+      return "error";
+    case Severity::kWarning:
+      return "warning";
+    default:
+      return "note";
+  }
+}
+
+std::string render_place(const Place& place) {
+  std::string at = place.file;
+  if (place.line > 0) at += fmt::format(":{}", place.line);
+  if (place.line > 0 && place.column > 0) at += fmt::format(":{}", place.column);
+  std::string out = fmt::format("\n  --> {}", at);
+  if (place.source.empty() || place.line <= 0) return out;
+  const std::string number = std::to_string(place.line);
+  const std::string gutter(number.size() + 2, ' ');
+  out += fmt::format("\n{}|\n {} | {}", gutter, number, place.source);
+  if (place.column > 0)
+    out += fmt::format("\n{}| {}{}{}{}", gutter, std::string(place.column - 1, ' '),
+                       std::string(std::max(1, place.length), '^'), place.label.empty() ? "" : " ",
+                       place.label);
+  return out;
+}
+
+/// Optimal string alignment distance: insert, delete, replace, swap neighbours.
+int edit_distance(const std::string& a, const std::string& b) {
+  const std::size_t n = a.size(), m = b.size();
+  std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
+  for (std::size_t i = 0; i <= n; ++i) d[i][0] = static_cast<int>(i);
+  for (std::size_t j = 0; j <= m; ++j) d[0][j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= n; ++i)
+    for (std::size_t j = 1; j <= m; ++j) {
+      const int cost = a[i - 1] == b[j - 1] ? 0 : 1;
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + cost});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[n][m];
+}
+
+}  // namespace
+
+std::string render(const Problem& problem) {
+  std::string out =
+      fmt::format("{}[{}]: {}", word(problem.severity), problem.code, problem.message);
+  if (problem.place) out += render_place(*problem.place);
+  if (!problem.help.empty()) {
+    const bool caret = problem.place && !problem.place->source.empty() && problem.place->line > 0;
+    const std::size_t width = caret ? std::to_string(problem.place->line).size() + 2 : 2;
+    out += fmt::format("\n{}= help: {}", std::string(width, ' '), problem.help);
+  }
+  return out;
+}
+
+Failure::Failure(Exit exit, std::vector<Problem> problems)
+    : exit_(exit), problems_(std::move(problems)) {
+  what_ = problems_.empty() ? "unknown" : problems_.front().message;
+}
+
+Failure::Failure(Exit exit, Problem problem)
+    : Failure(exit, std::vector<Problem>{std::move(problem)}) {}
+
+std::optional<std::string> did_you_mean(const std::string& word,
+                                        const std::vector<std::string>& candidates) {
+  const int most = std::max(1, static_cast<int>(word.size()) / 3);
+  std::optional<std::string> best;
+  int best_distance = most + 1;
+  for (const auto& candidate : candidates) {
+    const int distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// Desired tool poses in the base frame, with the joint state to start from. SI; row i of each.
+struct Targets {
+  Rows3 p_B;               // [m]
+  Rows4 quat_B;            // (w, x, y, z), or 0 rows: the nominal orientation at the seed is meant
+  RowsN seed;              // joint positions [rad] or [m], or 0 rows
+  bool commanded = false;  // the seed comes from columns qc1 …, what the controller was told
+  Table table;
+};
+
+/// Columns x_mm, y_mm, z_mm, qw, qx, qy, qz and q1_deg … or qc1_deg …; throws Failure (kInput).
+Targets read_targets(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle);
+
+}  // namespace plumb::offline
