@@ -11,8 +11,9 @@ namespace plumb {
 
 using format::kMaxJoints;
 
-/// Frames of one pose: P_i is the frame just behind the motion of joint i; its z is the joint's
-/// axis. All in the base frame B of the cell.
+/// Frames of one pose: P_i is the frame just behind the motion of joint i, its z along the joint's
+/// axis and its origin on it: behind Rz(q') and ahead of Tz(d) for a revolute joint, behind
+/// Rz(theta) Tz(q') for a prismatic one. All in the base frame B of the cell.
 template <class S>
 struct ChainFrames {
   std::array<Transform<S>, kMaxJoints> joint;  // X_BPi
@@ -20,8 +21,9 @@ struct ChainFrames {
 };
 
 /// Serial chain, ready to evaluate: T(q) = C_0 M_1(q_1') C_1 M_2(q_2') ... M_n(q_n') C_n with
-/// M = Rz(q') or Tz(q'), q' = scale q + offset + theta (or d). Every DH convention, Hayati's beta
-/// and all constant twists are folded into the C_i when the chain is built.
+/// M = Rz(q') or Tz(q'), q' = scale q + offset + theta (or d). The DH convention, Hayati's beta and
+/// all constant twists are folded into the C_i when the chain is built: a revolute joint's Tz(d)
+/// begins the C_i behind it, a prismatic joint's Rz(theta) ends the one ahead of it.
 ///
 /// Cost of an evaluation: n sin_cos and n transform products, whatever q is. Wait-free, any thread.
 class Chain {
@@ -33,6 +35,9 @@ class Chain {
 
   int joints() const noexcept { return joints_; }
   bool revolute(int i) const noexcept { return revolute_[i]; }
+
+  /// dq'/dq of joint i.
+  double scale(int i) const noexcept { return scale_[i]; }
 
   /// Tool pose X_BT for joint positions q, shape (n,), [rad] or [m].
   template <class S>

@@ -13,9 +13,9 @@ namespace plumb {
 
 /// Where the true arm is, as far as the model knows.
 struct Prediction {
-  Transformd X_BT;          // tool pose in the base frame, tree included
-  Vector3 tree_B;           // what the tree added to the position [m]
-  Status status;            // kOk or kOutsideDomain; kNotFinite leaves X_BT at identity
+  Transformd X_BT;  // tool pose in the base frame, tree included
+  Vector3 tree_B;   // what the tree added to the position [m]
+  Status status;    // kOk or kOutsideDomain; kNotFinite leaves X_BT at identity
 };
 
 /// The true arm T(q): calibrated chain, effects, local linear model tree.
@@ -29,12 +29,15 @@ class ForwardModel {
   const Chain& chain() const noexcept { return chain_; }
 
   /// q: joint positions [rad] or [m], shape (n,). Cost: fixed for a given model. Any thread.
+  /// Refused with kNotFinite when one is not finite or beyond 1e4.
   Prediction predict(std::span<const double> q) const noexcept;
 
   /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
 
  private:
+  Vector3 tree_at(std::span<const double> q) const noexcept;
+
   Chain chain_;
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
