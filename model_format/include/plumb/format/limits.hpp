@@ -11,7 +11,7 @@ inline constexpr int kMaxEffectParameters = 128;
 inline constexpr int kTreeAxes = 3;          // x, y, z of the base frame
 inline constexpr int kMaxTreeLeaves = 4096;  // per axis
 inline constexpr int kMaxTreeDepth = 64;
-inline constexpr int kMaxParameters = 160;   // fitted parameters with a covariance
+inline constexpr int kMaxParameters = 160;  // fitted parameters with a covariance
 inline constexpr int kMaxFileBytes = 16 << 20;
 
 }  // namespace plumb::format

@@ -66,7 +66,12 @@ struct Chain {
 };
 
 /// What an effect must be told in the cycle besides the joint positions.
-enum class ContextInput : std::uint8_t { kDirection = 0, kPayload = 1, kTemperature = 2, kTime = 3 };
+enum class ContextInput : std::uint8_t {
+  kDirection = 0,
+  kPayload = 1,
+  kTemperature = 2,
+  kTime = 3
+};
 
 struct ContextNeed {
   ContextInput input = ContextInput::kDirection;
@@ -101,11 +106,11 @@ struct TreeNode {
 /// Leaf k predicts clamp(w[k][0] + sum_i w[k][i + 1] u_i, bounds[k][0], bounds[k][1]) in [m].
 /// No nodes and one leaf is a plain linear model; no leaves is "no correction".
 struct Tree {
-  std::uint16_t depth = 0;              // compares from the root to the deepest leaf
-  std::vector<TreeNode> nodes;          // leaves - 1 of them
-  std::vector<double> coefficients;     // leaves x (joints + 1), row-major, [m]
-  std::vector<double> bounds;           // leaves x 2, [m]: what was seen there in training
-  std::vector<double> blend_half_width; // empty: crisp; else one per node, normalised
+  std::uint16_t depth = 0;               // compares from the root to the deepest leaf
+  std::vector<TreeNode> nodes;           // leaves - 1 of them
+  std::vector<double> coefficients;      // leaves x (joints + 1), row-major, [m]
+  std::vector<double> bounds;            // leaves x 2, [m]: what was seen there in training
+  std::vector<double> blend_half_width;  // empty: crisp; else one per node, normalised
   bool operator==(const Tree&) const = default;
 };
 
@@ -127,7 +132,7 @@ struct GuardLimits {
   double max_rotation_rad = 0.01;
   double slew_m_per_s = 0.01;
   double slew_rad_per_s = 0.03;
-  double ramp_s = 1.0;               // ramp-in and ramp-out
+  double ramp_s = 1.0;  // ramp-in and ramp-out
   double cycle_s = 0.004;
   double length_scale_m = 1.0;       // makes metres and radians comparable: about the reach
   double min_singular_value = 0.02;  // of the Jacobian with lengths divided by length_scale_m
@@ -169,8 +174,8 @@ struct Model {
   std::string robot_name;
   std::string serial;
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  // [m/s^2], base frame
-  Chain nominal;     // what the controller believes
-  Chain calibrated;  // what was fitted
+  Chain nominal;                                   // what the controller believes
+  Chain calibrated;                                // what was fitted
   std::vector<Effect> effects;
   std::array<Tree, kTreeAxes> trees;
   Domain domain;

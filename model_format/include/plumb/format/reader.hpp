@@ -13,14 +13,14 @@
 namespace plumb::format {
 
 enum class ReadErrorCode : std::uint8_t {
-  kCannotOpen,      // missing, a directory, no permission
-  kTooLarge,        // more than kMaxFileBytes
-  kTruncated,       // shorter than it says
-  kNotAModel,       // another kind of file
-  kChecksum,        // damaged
-  kNewerSchema,     // written by a newer Plumb
-  kMalformed,       // the flatbuffers verifier says no
-  kInconsistent,    // verified, but the content makes no sense
+  kCannotOpen,    // missing, a directory, no permission
+  kTooLarge,      // more than kMaxFileBytes
+  kTruncated,     // shorter than it says
+  kNotAModel,     // another kind of file
+  kChecksum,      // damaged
+  kNewerSchema,   // written by a newer Plumb
+  kMalformed,     // the flatbuffers verifier says no
+  kInconsistent,  // verified, but the content makes no sense
 };
 
 struct ReadError {

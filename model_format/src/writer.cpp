@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plumb/format/writer.hpp"
+
+#include <stdexcept>
+
+#include "model_generated.h"
+#include "plumb/format/version.hpp"
+#include "semantic_check.hpp"
+#include "trailer.hpp"
+
+namespace plumb::format {
+namespace {
+
+using Builder = flatbuffers::FlatBufferBuilder;
+template <class T>
+using Offset = flatbuffers::Offset<T>;
+
+wire::Pose to_wire(const Pose& x) {
+  return {x.p[0], x.p[1], x.p[2], x.q[0], x.q[1], x.q[2], x.q[3]};
+}
+wire::Twist to_wire(const Twist& x) { return {x.d[0], x.d[1], x.d[2], x.e[0], x.e[1], x.e[2]}; }
+
+Offset<wire::Joint> add(Builder& b, const JointRow& row) {
+  const auto name = b.CreateString(row.name);
+  const auto pre = to_wire(row.pre), post = to_wire(row.post);
+  return wire::CreateJoint(b, name, static_cast<wire::JointType>(row.type), row.alpha, row.a, row.d,
+                           row.theta, row.beta, row.scale, row.offset, row.q_min, row.q_max, &pre,
+                           &post);
+}
+
+Offset<wire::Chain> add(Builder& b, const Chain& chain) {
+  std::vector<Offset<wire::Joint>> joints;
+  for (const auto& row : chain.joints) joints.push_back(add(b, row));
+  const auto rows = b.CreateVector(joints);
+  const auto base = to_wire(chain.base), tool = to_wire(chain.tool);
+  const auto base_twist = to_wire(chain.base_twist), tool_twist = to_wire(chain.tool_twist);
+  return wire::CreateChain(b, static_cast<wire::Convention>(chain.convention), &base, &base_twist,
+                           rows, &tool_twist, &tool);
+}
+
+Offset<wire::Effect> add(Builder& b, const Effect& effect) {
+  std::vector<Offset<wire::ContextNeed>> needs;
+  for (const auto& need : effect.context)
+    needs.push_back(wire::CreateContextNeed(b, static_cast<wire::ContextInput>(need.input),
+                                            b.CreateString(need.name), need.fallback));
+  const auto name = b.CreateString(effect.name);
+  const auto joints = b.CreateVector(effect.joints);
+  const auto parameters = b.CreateVector(effect.parameters);
+  return wire::CreateEffect(b, name, effect.version, joints, parameters, b.CreateVector(needs));
+}
+
+Offset<wire::Tree> add(Builder& b, const Tree& tree) {
+  std::vector<wire::Node> nodes;
+  for (const auto& n : tree.nodes)
+    nodes.emplace_back(n.threshold, n.input, n.low, n.high, n.reserved);
+  const auto inner = b.CreateVectorOfStructs(nodes);
+  const auto coefficients = b.CreateVector(tree.coefficients);
+  const auto bounds = b.CreateVector(tree.bounds);
+  return wire::CreateTree(b, tree.depth, inner, coefficients, bounds,
+                          b.CreateVector(tree.blend_half_width));
+}
+
+Offset<wire::Guard> add(Builder& b, const GuardLimits& g) {
+  return wire::CreateGuard(b, static_cast<wire::Corrects>(g.corrects), g.max_correction_m,
+                           g.max_rotation_rad, g.slew_m_per_s, g.slew_rad_per_s, g.ramp_s,
+                           g.cycle_s, g.length_scale_m, g.min_singular_value, g.max_seed_distance);
+}
+
+Offset<wire::Provenance> add(Builder& b, const Provenance& p) {
+  std::vector<Offset<wire::InputHash>> inputs;
+  for (const auto& input : p.inputs)
+    inputs.push_back(
+        wire::CreateInputHash(b, b.CreateString(input.name), b.CreateString(input.sha256)));
+  const auto& h = p.held_out;
+  const auto held_out = wire::CreateHeldOut(b, h.poses, h.mean_m, h.rms_m, h.p95_m, h.max_m);
+  const auto version = b.CreateString(p.tool_version);
+  const auto created = b.CreateString(p.created);
+  const auto run = b.CreateString(p.run);
+  const auto files = b.CreateVector(inputs);
+  const auto names = b.CreateVectorOfStrings(p.parameter_names);
+  return wire::CreateProvenance(b, version, created, run, files, p.poses_fit, held_out,
+                                p.noise_floor_m, names, b.CreateVector(p.covariance));
+}
+
+Offset<wire::Model> add(Builder& b, const Model& m) {
+  const auto nominal = add(b, m.nominal), calibrated = add(b, m.calibrated);
+  std::vector<Offset<wire::Effect>> effects;
+  for (const auto& effect : m.effects) effects.push_back(add(b, effect));
+  std::vector<Offset<wire::Tree>> trees;
+  for (const auto& tree : m.trees) trees.push_back(add(b, tree));
+  const auto q_min = b.CreateVector(m.domain.q_min), q_max = b.CreateVector(m.domain.q_max);
+  const auto domain = wire::CreateDomain(b, q_min, q_max, m.domain.fade);
+  const auto guard = add(b, m.guard);
+  const auto provenance = add(b, m.provenance);
+  const auto cell = b.CreateString(m.cell_name);
+  const auto robot = b.CreateString(m.robot_name);
+  const auto serial = b.CreateString(m.serial);
+  const auto all_effects = b.CreateVector(effects);
+  const auto all_trees = b.CreateVector(trees);
+  return wire::CreateModel(b, kSchemaVersion, cell, robot, serial, m.gravity[0], m.gravity[1],
+                           m.gravity[2], nominal, calibrated, all_effects, all_trees, domain, guard,
+                           provenance);
+}
+
+}  // namespace
+
+std::vector<std::byte> write_model(const Model& model) {
+  if (const auto finding = internal::unsoundness(model)) throw std::invalid_argument(*finding);
+  Builder builder;
+  builder.ForceDefaults(true);
+  wire::FinishModelBuffer(builder, add(builder, model));
+  const auto* begin = reinterpret_cast<const std::byte*>(builder.GetBufferPointer());
+  std::vector<std::byte> bytes(begin, begin + builder.GetSize());
+  bytes.resize((bytes.size() + 7) / 8 * 8);
+  internal::append_trailer(bytes);
+  return bytes;
+}
+
+}  // namespace plumb::format
