@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kMostProblems = 1000;
 
-const std::set<std::string_view> kTextColumns{"pose", "set", "note", "time", "status"};
+const std::set<std::string_view> kTextColumns{"pose",  "set",    "note", "time",
+                                              "joint", "status", "type"};
 const std::set<std::string_view> kPlainNumbers{"repeat", "fold", "qw",  "qx",  "qy",  "qz",  "pqw",
                                                "pqx",    "pqy",  "pqz", "cqw", "cqx", "cqy", "cqz"};
 
