@@ -18,7 +18,9 @@ Prediction ForwardModel::predict(std::span<const double> q) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (q.size() < n || !internal::is_joint_state(q.first(n))) return out;
   const auto state = q.first(n);
-  out.X_BT = chain_.forward<double>(state);
+  const Transformd X_BT = chain_.forward<double>(state);
+  if (!internal::is_finite(X_BT.p)) return out;
+  out.X_BT = X_BT;
   out.status = Status::kOk;
   if (!has_tree_) return out;
   const double weight = domain_.weight(state);
