@@ -88,8 +88,8 @@ INSTANTIATE_TEST_SUITE_P(Arms, SyntheticArm,
                                            Shape{7, kModified, ArmKind::kRevolute},
                                            Shape{4, kStandard, ArmKind::kScara},
                                            Shape{4, kModified, ArmKind::kScara}),
-                         [](const auto& info) {
-                           const Shape& s = info.param;
+                         [](const auto& shape) {
+                           const Shape& s = shape.param;
                            return std::string(s.kind == ArmKind::kScara ? "Scara" : "Revolute") +
                                   std::to_string(s.joints) +
                                   (s.convention == kStandard ? "Standard" : "Modified");

@@ -89,7 +89,7 @@ TEST_P(Ur10, TheTreeNeverMakesTheHeldOutErrorWorse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Series, Ur10, ::testing::Values(kA, kB),
-                         [](const auto& info) { return info.index == 0 ? "A" : "B"; });
+                         [](const auto& series) { return series.index == 0 ? "A" : "B"; });
 
 TEST_F(Ur10Data, ACalibrationOfOneMonthStillBeatsNominalInAnotherOnceTheTrackerIsPlaced) {
   Cell a = cell(kA), b = cell(kB);
