@@ -1,0 +1,50 @@
+# Shared by the scripts: stages with wall times, and the totals of CTest.
+# shellcheck shell=bash
+
+passed=0
+failed=0
+
+# stage NAME COMMAND...: runs the command and says how long it took.
+stage() {
+  local name=$1 begin=$SECONDS status=0
+  shift
+  echo "== $name"
+  "$@" || status=$?
+  echo "== $name: $((SECONDS - begin)) s$([[ $status == 0 ]] || echo ", FAILED ($status)")"
+  return "$status"
+}
+
+# tally COMMAND...: a gate without CTest counts as one test.
+tally() {
+  if stage "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+}
+
+build_preset() {
+  local launcher=()
+  command -v ccache > /dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  cmake --preset "$1" "${launcher[@]}" > /dev/null && cmake --build --preset "$@" -j "$(nproc)"
+}
+
+# test_preset PRESET [CTest arguments]: adds what CTest says to the totals; no test is a failure.
+test_preset() {
+  local log line total bad
+  log=$(mktemp)
+  ctest --preset "$@" 2>&1 | tee "$log" || true
+  line=$(grep -E '% tests passed, [0-9]+ tests? failed out of [0-9]+' "$log" | tail -n 1)
+  rm -f "$log"
+  if [[ -z $line ]]; then
+    failed=$((failed + 1))
+    return 1
+  fi
+  total=${line##* }
+  bad=$(sed -E 's/.*passed, ([0-9]+) tests? failed.*/\1/' <<< "$line")
+  passed=$((passed + total - bad))
+  failed=$((failed + bad))
+  [[ $bad == 0 ]]
+}
+
+# The closing line, alone on its line, and the exit code.
+close() {
+  echo "$passed passed, $failed failed"
+  ((failed == 0 && passed > 0))
+}
