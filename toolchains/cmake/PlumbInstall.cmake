@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# Install and export: find_package(Plumb) gives Plumb::format and Plumb::runtime.
+include(CMakePackageConfigHelpers)
+
+set(plumb_package ${CMAKE_INSTALL_LIBDIR}/cmake/Plumb)
+install(TARGETS plumb_format plumb_runtime EXPORT PlumbTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+install(DIRECTORY model_format/include/ runtime/include/
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT runtime)
+install(EXPORT PlumbTargets NAMESPACE Plumb:: DESTINATION ${plumb_package} COMPONENT runtime)
+configure_package_config_file(toolchains/cmake/PlumbConfig.cmake.in PlumbConfig.cmake
+                              INSTALL_DESTINATION ${plumb_package})
+write_basic_package_version_file(PlumbConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/PlumbConfig.cmake ${PROJECT_BINARY_DIR}/PlumbConfigVersion.cmake
+        DESTINATION ${plumb_package} COMPONENT runtime)
+if(TARGET plumb)
+  install(TARGETS plumb RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+endif()
