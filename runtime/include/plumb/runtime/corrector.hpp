@@ -13,11 +13,11 @@ namespace plumb {
 enum class SeedKind : std::uint8_t { kCommanded, kLastSolution, kMeasured };
 
 struct Correction {
-  Transformd X_BC;                      // what to send to the controller: N(q); the target if refused
-  std::array<double, kMaxJoints> q{};   // joint positions that bring the true arm to the target
-  double residual_m = 0.0;              // remaining controllable error, position
-  double residual_rad = 0.0;            // and orientation
-  int steps = 0;                        // always kInverseSteps
+  Transformd X_BC;  // what to send to the controller: N(q); the target if refused
+  std::array<double, kMaxJoints> q{};  // joint positions that bring the true arm to the target
+  double residual_m = 0.0;             // remaining controllable error: position
+  double residual_rad = 0.0;           // and orientation
+  int steps = 0;                       // always kInverseSteps
   Status status = Status::kNoModel;
 };
 
@@ -26,11 +26,21 @@ struct Correction {
 /// The controller knows only its nominal chain N. From a seed q, kInverseSteps times
 /// q <- q + J_N(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
 /// position; the orientation then stays the controller's own.
-/// Fewer than six joints: the controllable part of the target. More: nearest to the seed.
+/// Fewer than six joints: the controllable part of the target, position before orientation.
+/// More: the shortest steps from the seed.
 ///
-/// Refused (Status < 0) when an input is not finite, the smallest singular value of the scaled
-/// Jacobian is under its limit, the configuration differs from the seed's, |q - seed| exceeds its
-/// limit, or the residual exceeds 1 um or 1 urad. Then X_BC is the target itself.
+/// Refused (Status < 0), the first of these that holds:
+///   kNotFinite           an input is not finite, no rotation, or a joint beyond 1e4
+///   kSeedNotCommanded    more than six joints, and the seed is not the commanded one
+///   kNearSingular        at the solution the smallest singular value of J_N is under its limit;
+///                        lengths are divided by length_scale_m. Fewer than six joints: the
+///                        smallest that is not structurally zero, of J_N and of its position rows
+///   kOtherConfiguration  six joints: det J_N has another sign at the solution than at the seed.
+///                        Not defined for other arms
+///   kFarFromSeed         |q_i - seed_i| exceeds max_seed_distance (sliding: times length_scale_m)
+///   kNotConverged        one more step would still move more than 1 um or 1 urad
+/// Then X_BC is the target itself (identity if that is no pose) and q the seed.
+/// Joint limits are not looked at.
 ///
 /// Pure: no state, no allocation, fixed cost for a given model, any thread.
 /// Refers to the model's memory: the model must outlive it.
@@ -52,9 +62,24 @@ class Corrector {
                    SeedKind kind) const noexcept;
 
  private:
+  struct Iterate;
+  using JointPositions = std::array<double, kMaxJoints>;
+
+  int joints() const noexcept { return nominal_.joints(); }
+  double unit(int i) const noexcept { return nominal_.revolute(i) ? 1.0 : limits_.length_scale_m; }
+  void find_controllable(const format::Chain& nominal) noexcept;
+  void scaled_jacobian(const ChainFrames<double>& frames, Jacobian& out) const noexcept;
+  void linearise(const Transformd& X_BD, const JointPositions& q, Iterate& out) const noexcept;
+  void advance(const Iterate& at, JointPositions& q) const noexcept;
+  bool far(const JointPositions& q, const JointPositions& seed) const noexcept;
+  Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
+               int seed_sign) const noexcept;
+
   Chain nominal_;
   ForwardModel true_arm_;
   format::GuardLimits limits_{};
+  int position_rank_ = 3;  // generic rank of the nominal Jacobian's position rows
+  int pose_rank_ = 6;      // and of all its rows
 };
 
 }  // namespace plumb

@@ -26,8 +26,14 @@ struct GuardOutput {
 /// The only state of the cycle: keeps the correction small, slow and continuous.
 ///
 /// All limits act on the correction c = x_c - x_d, never on the target: size, slew, ramp-in.
+/// c is the difference of the positions [m] and the rotation vector of R_c R_d^T [rad], both in
+/// the base frame; a cell that corrects positions only leaves the rotation alone.
 /// A refusal is no step either: the last correction decays to zero at the slew limit on top of the
-/// present target. A target that is not finite holds the last output.
+/// present target. A target that is not finite, or no rotation, holds the last output; a correction
+/// that is not finite counts as refused.
+///
+/// The ramp runs 0 .. 1 over ramp_s of valid cycles, smoothly, and back while refused or off.
+/// Status: a refusal passes through, else kLimited, kRamping, or what the correction says.
 /// One thread; no allocation; fixed cost.
 class Guard {
  public:
@@ -37,17 +43,27 @@ class Guard {
   /// than two cycles as two.
   GuardOutput step(const Transformd& X_BD, const Correction& correction, double dt_s) noexcept;
 
-  /// From now on the correction ramps out to zero (`on` false) or back in.
+  /// From now on the correction ramps out to zero (kOff) or back in.
   enum class Enable : std::uint8_t { kOff, kOn };
   void enable(Enable on) noexcept { enabled_ = on; }
 
   const GuardCounters& counters() const noexcept { return counters_; }
 
  private:
+  struct Offset {
+    Vector3 translation = Vector3::Zero();  // [m], base frame
+    Vector3 rotation = Vector3::Zero();     // rotation vector [rad], base frame
+  };
+
+  double elapsed(double dt_s) const noexcept;
+  Offset wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept;
+  void ramp_towards(double goal, double dt) noexcept;
+  bool approach(const Offset& goal, double dt) noexcept;
+  GuardOutput applied_to(const Transformd& X_BD, Status status) noexcept;
+
   format::GuardLimits limits_;
-  Vector3 translation_ = Vector3::Zero();  // the correction now applied [m], base frame
-  Vector3 rotation_ = Vector3::Zero();     // and as rotation vector [rad], base frame
-  double ramp_ = 0.0;                      // 0 .. 1
+  Offset applied_;     // the correction now on top of the target
+  double ramp_ = 0.0;  // 0 .. 1
   Enable enabled_ = Enable::kOn;
   Transformd last_;
   bool has_output_ = false;

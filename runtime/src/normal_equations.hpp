@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/runtime/chain.hpp"
+
+/// The 6 x 6 linear algebra of the inverse correction: fixed size, fixed order, fixed cost.
+namespace plumb::internal {
+
+using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
+using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+using JointVector = Eigen::Matrix<double, kMaxJoints, 1, Eigen::DontAlign>;
+
+/// J J^T of the first n columns; lower triangle only.
+Matrix6 gram(const Jacobian& J, int n) noexcept;
+
+/// A = L D L^T without pivoting: L unit lower triangular in `L`, D in `d`.
+/// By Sylvester's law of inertia A has as many positive eigenvalues as `d` positive entries, and so
+/// has each leading block.
+struct Ldl {
+  Matrix6 L;
+  Vector6 d;
+
+  /// x of A x = b; a pivot that is not positive counts as infinite, so x stays finite.
+  Vector6 solve(const Vector6& b) const noexcept;
+
+  /// Positive entries among the first `rows`.
+  int positive_pivots(int rows) const noexcept;
+};
+
+/// Reads the lower triangle of A.
+Ldl factor(const Matrix6& A) noexcept;
+
+/// How many singular values of the first rows of J exceed s, without computing one.
+struct RankAbove {
+  int position;  // of rows 0-2
+  int pose;      // of all rows
+};
+RankAbove rank_above(double s, const Matrix6& JJt) noexcept;
+
+/// Shortest step with J dq = r: J^T (J J^T)^-1 r. n >= 6.
+JointVector minimum_norm_step(const Jacobian& J, int n, const Vector6& r) noexcept;
+
+/// Sign of the determinant of the first six columns: -1, 0 or +1.
+int determinant_sign(const Jacobian& J) noexcept;
+
+}  // namespace plumb::internal
