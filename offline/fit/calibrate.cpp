@@ -61,7 +61,8 @@ Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
   const Eigen::MatrixXd R_inverse =
       qr.matrixQR().topRows(J.cols()).triangularView<Eigen::Upper>().solve(
           Eigen::MatrixXd::Identity(J.cols(), J.cols()));
-  return scale.asDiagonal() * (R_inverse * R_inverse.transpose()) * scale.asDiagonal();
+  const Eigen::MatrixXd half = scale.asDiagonal() * R_inverse;
+  return (half * half.transpose()).selfadjointView<Eigen::Lower>();
 }
 
 /// cond_2(J^T J) in SI columns, robot parameters only.

@@ -95,7 +95,7 @@ TEST(Audit, OneSigmaAtTheToolIsWhatTheTrueErrorShows) {
     plan.noise_m = 10e-6;
     plan.truth.geometry_m = plan.truth.geometry_rad = 3e-4;
     const Simulation simulation = simulate(cell, plan);
-    Run run;
+    offline::Run run;
     run.created = "2026-01-01T00:00:00Z";
     run.cell_sha256 = std::string(64, '0');
     run.fit = fit_all(cell, simulation.measured);

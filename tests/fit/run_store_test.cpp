@@ -41,8 +41,8 @@ class RunStore : public ::testing::Test {
 };
 
 TEST_F(RunStore, ARunReadsBackToTheSameBits) {
-  const Run saved = save_run(cell_, measured_, fit_cell(cell_, measured_));
-  const Run loaded = load_run(cell_, saved.number);
+  const offline::Run saved = save_run(cell_, measured_, fit_cell(cell_, measured_));
+  const offline::Run loaded = load_run(cell_, saved.number);
   const Calibration &a = saved.fit.calibration, &b = loaded.fit.calibration;
   EXPECT_EQ(a.state.arm.calibrated, b.state.arm.calibrated);
   EXPECT_EQ(a.state.arm.domain, b.state.arm.domain);
@@ -76,7 +76,7 @@ TEST_F(RunStore, TheCurrentRunIsTheLatestOfTheSameCellFileAndData) {
 }
 
 TEST_F(RunStore, ADamagedOrMissingRunIsAnInputErrorAndNeverTheCurrentOne) {
-  const Run run = save_run(cell_, measured_, fit_cell(cell_, measured_));
+  const offline::Run run = save_run(cell_, measured_, fit_cell(cell_, measured_));
   std::ofstream(run.directory / "run.json") << "{\"schema\": \"run/1\"";
   EXPECT_THROW((void)load_run(cell_, run.number), Failure);
   EXPECT_THROW((void)load_run(cell_, 99), Failure);

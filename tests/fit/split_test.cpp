@@ -96,7 +96,10 @@ TEST(Split, HeldOutPosesAreSpreadOverJointSpaceMoreEvenlyThanByChance) {
       if (split.held[i]) held[quarter].insert(m.replicate_group[i]);
     }
     for (int k = 0; k < 4; ++k)
-      squares += std::pow(static_cast<double>(held[k].size()) - 0.2 * all[k].size(), 2) / 80.0;
+      squares +=
+          std::pow(static_cast<double>(held[k].size()) - 0.2 * static_cast<double>(all[k].size()),
+                   2) /
+          80.0;
   }
   // Simple random sampling gives a variance of about 0.2 * 0.8 * 100 = 16.
   EXPECT_LT(squares, 4.0);
