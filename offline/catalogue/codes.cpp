@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catalogue/explanation.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr Explanation kCodes[] = {
+    {"E-USAGE", "The command line is not right. plumb VERB --help begins with two examples."},
+    {"E-USAGE-VERB", "There is no such verb. plumb --help lists them in the order of work."},
+    {"E-NEW-URDF",
+     "Reading URDF is not part of this version. Write the DH table as CSV and use --dh."},
+    {"E-GATE-RMS",
+     "The held-out RMS exceeds --max-rms. No run was kept; plumb compare shows where it fails."},
+    {"E-GATE",
+     "compile --gate: the audit has a warning, or 95 % of the held-out poses are not within the "
+     "cell's tolerance. No model was written."},
+    {"E-RUN-DATA",
+     "The run was made from other measurement files than the cell has now, so its predictions "
+     "belong to other poses. Fit again, or put the old files back."},
+    {"E-RUN-DAMAGED",
+     "run.json or predictions.csv of a run cannot be read. Runs are never changed by plumb: delete "
+     "the damaged folder and fit again."},
+    {"E-RUN-MISSING", "There is no run of that number under runs/. plumb runs lists them."},
+    {"N-RUN-NEW",
+     "compare, compile and predict fit first if no run belongs to the present cell file and data."},
+    {"W-RUN-NODATA",
+     "The history was read, but not the cell's measurements; so it is not known which run is the "
+     "current one."},
+    {"E-FIT-CONVERGE",
+     "The calibration did not settle. Most often a unit, the sign or zero of a joint, or the DH "
+     "convention is wrong, so that no small change of the arm explains the measurements."},
+    {"E-FIT-FEW",
+     "There are fewer measured coordinates than parameters. Measure more poses, or "
+     "hold parameters with [fit] fixed."},
+    {"N-FIT-ORIENTATION",
+     "The file holds orientations, but the cell does not say how good they are: they were left "
+     "out. State [measurement] sigma_urad to use them."},
+    {"E-SPLIT",
+     "The rule for the held-out poses cannot be met by these measurements: too few poses, or marks "
+     "in column set that leave nothing to fit or to hold out."},
+    {"W-AUDIT-LIMIT",
+     "Somewhere in the trained domain the correction is larger than the guard allows and would be "
+     "cut there. Either the limit [deploy] max_correction_mm is too small for this arm, or the "
+     "calibration is wrong."},
+    {"W-AUDIT-HELD",
+     "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
+    {"E-MODEL-OPEN", "The model file is missing, a folder, or not readable."},
+    {"E-MODEL-SIZE", "The file is larger than any model file can be."},
+    {"E-MODEL-TRUNCATED", "The file is shorter than it says: a copy was cut off."},
+    {"E-MODEL-KIND", "The file is not a model file of plumb."},
+    {"E-MODEL-CHECKSUM", "The bytes of the file changed since it was written."},
+    {"E-MODEL-NEWER", "The file was written by a newer plumb with a schema this one cannot read."},
+    {"E-MODEL-MALFORMED", "The structure of the file is broken."},
+    {"E-MODEL-INCONSISTENT",
+     "The file is whole, but its content makes no sense: a number out of range, a tree that points "
+     "outside itself, or parts that do not fit together."},
+    {"E-MODEL-UNSOUND",
+     "What the compiler made would not pass the reader's own check; nothing was "
+     "written. The message names the number."},
+    {"E-TARGET-SEED",
+     "Each target needs a joint state near it to start from: columns q1_deg ..., or qc1_deg ... "
+     "for commanded joints, or --start for the first one."},
+    {"E-TARGET-COMMANDED",
+     "An arm of more than six joints can reach a pose in many ways; only the commanded joints say "
+     "which one is meant. Add columns qc1_deg ..."},
+    {"N-TARGET-ORIENTATION",
+     "Targets without quaternion: the orientation that the nominal arm has at the seed is kept."},
+    {"W-CORRECT-REFUSED",
+     "Some targets were refused; column status says why, and the command is the target itself. "
+     "plumb explain STATUS tells what each one means."},
+    {"N-CSV-REPLACED",
+     "The input already had a column of that name, perhaps from an earlier predict; it was "
+     "replaced."},
+    {"E-DH-COLUMN", "The DH table needs alpha_deg, a_mm, d_mm and theta_deg (or rad, m, in)."},
+    {"E-DH-JOINTS", "The DH table has more joints than a model can have."},
+    {"E-DH-LIMITS", "A joint's lower limit is not below its upper limit."},
+    {"E-DH-TYPE", "A joint is revolute or prismatic."},
+    {"N-DH-LIMITS", "The DH table does not give all joint limits; wide ones were taken."},
+    {"E-DEMO-NAME", "There is no sample cell of that name. plumb demo --list shows them."},
+    {"E-SIM-PLAN", "The simulation that was asked for makes no sense; the message says why."},
+    {"E-SIM-EFFECT", "The simulator does not know that effect. plumb simulate --list shows them."},
+    {"E-SIM-JOINT", "A joint of a hidden effect does not exist in this cell, or has no size."},
+    {"E-EXPLAIN",
+     "plumb explain knows messages, effects, status texts and terms; without a word it lists "
+     "them."},
+    {"E-FILES", "The operating system refused a file operation: permissions, space, or a path."},
+    {"E-MEMORY", "There was not enough memory."},
+    {"E-INTERRUPTED", "You stopped the command. Files are written all or nothing."},
+    {"E-BUG", "A mistake in plumb, not in your files. Please report the command that shows it."},
+};
+
+}  // namespace
+
+std::span<const Explanation> code_explanations() { return kCodes; }
+
+}  // namespace plumb::offline

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cell_data.hpp"
+
+#include <fmt/format.h>
+
+#include "cell/file.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "fit/cell_data.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void note_tables(const Measurements& measured, Outcome& outcome) {
+  for (const auto& table : measured.tables) {
+    outcome.inputs.push_back({table.file, table.sha256});
+    outcome.remark(table.remarks);
+  }
+}
+
+/// -C names the folder itself: looking above a mistyped one would find another cell.
+fs::path cell_file(const Globals& globals) {
+  if (globals.directory.empty()) return find_cell(fs::current_path());
+  const fs::path file = fs::path(globals.directory) / "cell.toml";
+  if (fs::exists(file)) return file;
+  throw Failure(Exit::kInput,
+                {.code = "E-CELL-NONE",
+                 .message = fmt::format("-C: there is no cell.toml in {}", globals.directory),
+                 .help = "make one: plumb new DIR --dh F.csv --convention standard"});
+}
+
+bool same_data(const Run& run, const Measurements& measured) {
+  if (run.inputs.size() != measured.tables.size()) return false;
+  for (std::size_t i = 0; i < run.inputs.size(); ++i)
+    if (run.inputs[i].sha256 != measured.tables[i].sha256) return false;
+  return true;
+}
+
+}  // namespace
+
+Cell open_cell(const Globals& globals, Outcome& outcome) {
+  Cell cell = read_cell(cell_file(globals));
+  outcome.inputs.push_back({cell.file.string(), sha256(cell.text)});
+  outcome.remark(cell.remarks);
+  return cell;
+}
+
+Measurements open_measurements(const Cell& cell, Outcome& outcome) {
+  Measurements measured = read_cell_measurements(cell);
+  note_tables(measured, outcome);
+  return measured;
+}
+
+Measurements open_rows(const fs::path& file, const format::Chain& chain, Outcome& outcome) {
+  std::vector<bool> is_angle;
+  for (const auto& row : chain.joints) is_angle.push_back(row.type == format::JointType::kRevolute);
+  Measurements rows = read_measurements({file}, is_angle, Needs::kJoints);
+  note_tables(rows, outcome);
+  return rows;
+}
+
+Fit fit_with_progress(const Cell& cell, const Measurements& measured, Outcome& outcome) {
+  const Progress progress(fmt::format("calibrating on {} poses", measured.size()));
+  Fit fit = fit_cell(cell, measured);
+  outcome.remark(fit.remarks);
+  return fit;
+}
+
+Run keep(const Cell& cell, const Measurements& measured, Fit fit) {
+  const Writing writing;
+  return save_run(cell, measured, std::move(fit));
+}
+
+Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep_it,
+                       Outcome& outcome) {
+  if (auto run = current_run(cell, measured)) return std::move(*run);
+  Fit fit = fit_with_progress(cell, measured, outcome);
+  if (keep_it == Keep::kNothing) {
+    Run run;
+    run.fit = std::move(fit);
+    return run;
+  }
+  Run run = keep(cell, measured, std::move(fit));
+  outcome.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-RUN-NEW",
+       .message =
+           fmt::format("there was no run of the present cell and data: made run {}", run.number),
+       .help = "plumb runs"});
+  return run;
+}
+
+show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured) {
+  const bool current = run.cell_sha256 == sha256(cell.text) && same_data(run, measured);
+  return current ? show::ListedRun::State::kCurrent : show::ListedRun::State::kOther;
+}
+
+void check_same_data(const Run& run, const Measurements& measured) {
+  if (same_data(run, measured)) return;
+  throw Failure(Exit::kInput,
+                {.code = "E-RUN-DATA",
+                 .message = fmt::format("run {} was made from other measurements than the present "
+                                        "ones",
+                                        run.number),
+                 .help = "fit again: plumb fit"});
+}
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "cli/outcome.hpp"
+#include "fit/run_store.hpp"
+#include "show/runs_view.hpp"
+
+/// From -C to a run: what most verbs begin with.
+namespace plumb::offline::cli {
+
+/// The cell of -C, or the nearest one upward; its file and remarks go to `outcome`.
+Cell open_cell(const Globals& globals, Outcome& outcome);
+
+/// The cell's measurements; files and remarks go to `outcome`.
+Measurements open_measurements(const Cell& cell, Outcome& outcome);
+
+/// Joint rows of another file, for this cell's arm or a model's.
+Measurements open_rows(const std::filesystem::path& file, const format::Chain& chain,
+                       Outcome& outcome);
+
+/// Fits, with progress and remarks.
+Fit fit_with_progress(const Cell& cell, const Measurements& measured, Outcome& outcome);
+
+/// Keeps the fit as the next run.
+Run keep(const Cell& cell, const Measurements& measured, Fit fit);
+
+/// The latest run of the present cell and data; if there is none, fits and keeps one, and says so.
+/// With kNothing the new run is not kept and has number 0.
+enum class Keep { kRun, kNothing };
+Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep_it,
+                       Outcome& outcome);
+
+/// Whether a run is of the present cell file and data.
+show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured);
+
+/// Refuses (E-RUN-DATA) a run that was made from other measurements than these.
+void check_same_data(const Run& run, const Measurements& measured);
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/interrupt.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include "cell/problem.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+std::string words;  // written once, before the handler is set
+
+void end(int) {
+  const char message[] = "\ninterrupted: nothing more was written\n";
+  [[maybe_unused]] const auto said = ::write(STDERR_FILENO, message, sizeof(message) - 1);
+  [[maybe_unused]] const auto out = ::write(STDOUT_FILENO, words.data(), words.size());
+  ::_exit(static_cast<int>(Exit::kInterrupted));
+}
+
+sigset_t interrupts() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+}  // namespace
+
+void end_on_interrupt(const std::string& last_words) {
+  words = last_words;
+  struct sigaction action {};
+  action.sa_handler = end;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+Writing::Writing() {
+  const sigset_t set = interrupts();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+Writing::~Writing() {
+  const sigset_t set = interrupts();
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+}  // namespace plumb::offline::cli

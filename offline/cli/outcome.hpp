@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/problem.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::cli {
+
+using show::Json;
+
+/// What every verb is told.
+struct Globals {
+  std::string directory;  // -C; empty: look for cell.toml from here upward
+  enum class Output { kText, kJson } output = Output::kText;
+};
+
+/// A file that went in.
+struct InputFile {
+  std::string file;
+  std::string sha256;
+};
+
+/// What a verb found out. It is filled as the verb goes, so a failure still shows what was read.
+struct Outcome {
+  std::vector<InputFile> inputs;
+  std::vector<Problem> remarks;  // warnings and notes
+  Json result;                   // null until there is one
+  std::string text;              // for people; the first line is the verdict
+  std::vector<Problem> errors;
+  Exit exit = Exit::kDone;
+
+  void remark(const std::vector<Problem>& more) {
+    remarks.insert(remarks.end(), more.begin(), more.end());
+  }
+};
+
+}  // namespace plumb::offline::cli

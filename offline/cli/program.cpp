@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+#include "cli/guarded.hpp"
+#include "cli/help_text.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/report.hpp"
+#include "plumb/format/version.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "Calibrates a robot arm from measurements and compiles what it learnt for the controller.";
+constexpr const char* kExamples =
+    "  plumb demo compliance mycell      # a sample cell with simulated measurements\n"
+    "  plumb -C mycell fit               # calibrate it";
+
+void add_globals(CLI::App& app, Globals& globals) {
+  app.add_option("-C", globals.directory, "Folder of the cell; else the nearest one upward")
+      ->type_name("DIR");
+  app.add_flag_callback(
+      "--json", [&globals] { globals.output = Globals::Output::kJson; },
+      "One JSON object on stdout; messages on stderr");
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> out;
+  for (const auto* option : app.get_options())
+    for (const auto& name : option->get_lnames()) out.push_back("--" + name);
+  return out;
+}
+
+/// The option of the message, "--sed", if it is an unknown one.
+std::string unknown_option(const CLI::App& verb) {
+  const auto rest = verb.remaining();
+  const auto it = std::find_if(rest.begin(), rest.end(),
+                               [](const auto& word) { return word.starts_with("-"); });
+  return it == rest.end() ? "" : *it;
+}
+
+std::string option_help(const CLI::App& verb, const std::string& name) {
+  const std::string option = unknown_option(verb);
+  if (const auto near = did_you_mean(option, option_names(verb)); !option.empty() && near)
+    return fmt::format("did you mean '{}'?", *near);
+  return fmt::format("plumb {}{}--help", name, name.empty() ? "" : " ");
+}
+
+}  // namespace
+
+Program::Program() : app_(kAbout, "plumb") {
+  app_.formatter(std::make_shared<ExamplesFirst>());
+  app_.footer(kExamples);
+  app_.set_version_flag("--version", fmt::format("plumb {}", format::kVersion));
+  app_.set_help_flag("-h,--help", "Print this help");
+  app_.require_subcommand(0, 1);
+  app_.allow_extras();
+  add_globals(app_, globals_);
+}
+
+CLI::App& Program::verb(const VerbText& text, Action action) {
+  CLI::App& sub = *app_.add_subcommand(text.name, text.summary);
+  sub.footer(text.examples);
+  sub.set_help_flag("-h,--help", "Print this help");
+  add_globals(sub, globals_);
+  actions_[text.name] = std::move(action);
+  return sub;
+}
+
+std::vector<std::string> Program::verb_names() const {
+  std::vector<std::string> out;
+  for (const auto& [name, action] : actions_) out.push_back(name);
+  return out;
+}
+
+int Program::run(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app_.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(error, words);
+  }
+  const auto verbs = app_.get_subcommands();
+  const auto rest = app_.remaining();
+  if (!rest.empty()) return unknown_verb(rest.front());
+  if (!verbs.empty()) return dispatch(*verbs.front());
+  std::cerr << app_.help();
+  Outcome outcome;
+  outcome.exit = Exit::kUsage;
+  outcome.errors.push_back(
+      {.code = "E-USAGE", .message = "no verb was given", .help = "plumb demo"});
+  return report("plumb", globals_, outcome);
+}
+
+int Program::dispatch(const CLI::App& verb) {
+  const std::string name = verb.get_name();
+  Outcome interrupted;
+  interrupted.exit = Exit::kInterrupted;
+  interrupted.errors.push_back({.code = "E-INTERRUPTED", .message = "interrupted"});
+  const bool json = globals_.output == Globals::Output::kJson;
+  end_on_interrupt(json ? show::to_text(envelope(name, interrupted)) : "");
+  Outcome outcome;
+  guarded([&] { actions_.at(name)(globals_, outcome); }, outcome);
+  return report(name, globals_, outcome);
+}
+
+int Program::usage_error(const CLI::ParseError& error, const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), "--json") != words.end())
+    globals_.output = Globals::Output::kJson;
+  const auto verbs = app_.get_subcommands();
+  const std::string name = verbs.empty() ? "" : verbs.front()->get_name();
+  Outcome outcome;
+  outcome.exit = Exit::kUsage;
+  outcome.errors.push_back({.code = "E-USAGE",
+                            .message = error.what(),
+                            .help = option_help(verbs.empty() ? app_ : *verbs.front(), name)});
+  return report(name.empty() ? "plumb" : name, globals_, outcome);
+}
+
+int Program::unknown_verb(const std::string& word) {
+  Outcome outcome;
+  outcome.exit = Exit::kUsage;
+  const bool option = word.starts_with("-");
+  const auto near = did_you_mean(word, option ? option_names(app_) : verb_names());
+  outcome.errors.push_back(
+      {.code = "E-USAGE-VERB",
+       .message = fmt::format("'{}' is not {} of plumb", word, option ? "an option" : "a verb"),
+       .help = near ? fmt::format("did you mean 'plumb {}'?", *near) : "plumb --help"});
+  return report("plumb", globals_, outcome);
+}
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "cli/outcome.hpp"
+
+namespace plumb::offline::cli {
+
+/// What a verb does; may throw Failure, std::filesystem errors, or anything else (a bug).
+using Action = std::function<void(const Globals&, Outcome&)>;
+
+/// The words of a verb's help.
+struct VerbText {
+  std::string name;
+  std::string summary;   // one line, without a full stop
+  std::string examples;  // two lines that can be pasted
+};
+
+/// The command line: verbs with -C, --json and --help, usage errors with "did you mean", and the
+/// way from what a verb throws to an exit code.
+class Program {
+ public:
+  Program();
+
+  /// A new verb; the caller adds its options. Verbs stand in the help in this order.
+  CLI::App& verb(const VerbText& text, Action action);
+
+  /// Parses, runs one verb, reports. Returns the exit code.
+  int run(int argc, char** argv);
+
+ private:
+  int dispatch(const CLI::App& verb);
+  int usage_error(const CLI::ParseError& error, const std::vector<std::string>& words);
+  int unknown_verb(const std::string& word);
+  std::vector<std::string> verb_names() const;
+
+  CLI::App app_;
+  Globals globals_;
+  std::map<std::string, Action> actions_;
+};
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "plumb/format/version.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+constexpr std::size_t kShown = 20;  // problems of one kind
+
+Json error_json(const Outcome& outcome) {
+  if (outcome.errors.empty()) return nullptr;
+  Json out = show::problem_json(outcome.errors.front());
+  out.erase("severity");
+  out["exit"] = static_cast<int>(outcome.exit);
+  out["count"] = outcome.errors.size();
+  Json all = Json::array();
+  for (std::size_t i = 0; i < std::min(kShown, outcome.errors.size()); ++i)
+    all.push_back(show::problem_json(outcome.errors[i]));
+  out["problems"] = all;
+  return out;
+}
+
+void print_problems(const std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < std::min(kShown, problems.size()); ++i)
+    fmt::print(stderr, "{}\n", render(problems[i]));
+  if (problems.size() > kShown) fmt::print(stderr, "... and {} more\n", problems.size() - kShown);
+}
+
+/// False with errno set if not everything went out.
+bool print_out(const std::string& text) {
+  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+         std::fflush(stdout) == 0;
+}
+
+}  // namespace
+
+Json envelope(const std::string& verb, const Outcome& outcome) {
+  Json out{{"schema", "plumb." + verb + "/1"},
+           {"ok", outcome.exit == Exit::kDone},
+           {"command", verb},
+           {"version", format::kVersion},
+           {"inputs", Json::array()},
+           {"warnings", Json::array()},
+           {"result", outcome.result},
+           {"error", error_json(outcome)}};
+  for (const auto& input : outcome.inputs)
+    out["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
+  for (const auto& remark : outcome.remarks) out["warnings"].push_back(show::problem_json(remark));
+  return out;
+}
+
+int report(const std::string& verb, const Globals& globals, const Outcome& outcome) {
+  print_problems(outcome.remarks);
+  const bool json = globals.output == Globals::Output::kJson;
+  const bool printed = print_out(json ? show::to_text(envelope(verb, outcome)) : outcome.text);
+  const int reason = errno;
+  print_problems(outcome.errors);
+  if (printed) return static_cast<int>(outcome.exit);
+  fmt::print(stderr, "{}\n",
+             render({.code = "E-WRITE",
+                     .message = fmt::format("cannot write to stdout: {}", std::strerror(reason)),
+                     .help = "check what reads it: df -h"}));
+  return static_cast<int>(Exit::kEnvironment);
+}
+
+}  // namespace plumb::offline::cli

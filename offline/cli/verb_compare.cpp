@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/cell_data.hpp"
+#include "cli/run_number.hpp"
+#include "cli/verbs.hpp"
+#include "show/compare_view.hpp"
+#include "show/comparison.hpp"
+#include "show/runs_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+using Runs = std::vector<std::string>;
+
+std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
+                                    const Measurements& measured, Outcome& outcome) {
+  std::vector<show::ListedRun> out;
+  for (const auto& name : names) {
+    Run run = load_run(cell, run_number(name));
+    check_same_data(run, measured);
+    const auto state = state_of(run, cell, measured);
+    out.push_back({std::move(run), state});
+  }
+  if (out.empty())
+    out.push_back({current_or_new_run(cell, measured, Keep::kRun, outcome),
+                   show::ListedRun::State::kCurrent});
+  return out;
+}
+
+void compare(const Runs& names, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  const Measurements measured = open_measurements(cell, outcome);
+  const auto runs = wanted(names, cell, measured, outcome);
+  const Run& last = runs.back().run;
+  const auto comparison = show::compare(cell, measured, last.fit);
+  outcome.result = show::compare_json(comparison, last, cell.tolerance_m);
+  outcome.text = show::compare_text(comparison, last, cell.tolerance_m);
+  if (runs.size() == 1) return;
+  outcome.result.update(show::runs_json(runs));
+  outcome.text =
+      show::runs_text(runs) + "\nRun " + std::to_string(last.number) + ": " + outcome.text;
+}
+
+}  // namespace
+
+void add_compare(Program& program) {
+  const auto runs = std::make_shared<Runs>();
+  CLI::App& verb = program.verb(
+      {.name = "compare",
+       .summary = "Model against measurements: error table, worst poses, where it fails",
+       .examples = "  plumb compare                     # the run of the present cell and data\n"
+                   "  plumb compare 1 2                 # side by side, then run 2 in full"},
+      [runs](const Globals& g, Outcome& o) { compare(*runs, g, o); });
+  verb.add_option("RUN", *runs, "Runs to compare; the last one in full");
+}
+
+}  // namespace plumb::offline::cli

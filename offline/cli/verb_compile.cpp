@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/cell_data.hpp"
+#include "cli/model_file.hpp"
+#include "cli/output_files.hpp"
+#include "cli/progress.hpp"
+#include "cli/verbs.hpp"
+#include "compile/audit.hpp"
+#include "compile/compiler.hpp"
+#include "show/audit_view.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+struct Options {
+  std::string output;
+  bool refit_all = false;
+  bool gate = false;
+  WriteOptions write;
+};
+
+/// With --refit-all the numbers come from every pose; the run stays the evidence behind them.
+format::Model compiled(const Options& options, const Cell& cell, const Measurements& measured,
+                       Run run) {
+  const std::string kept = run.number > 0 ? fmt::format("{:04}", run.number) : "not kept";
+  if (options.refit_all) {
+    const Progress progress("calibrating on every pose");
+    run.fit = fit_all(cell, measured);
+  }
+  format::Model model = compile(cell, run);
+  model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
+  return model;
+}
+
+/// What --gate asks: no warning of the audit, and 95 % of the held-out poses within tolerance.
+void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
+                Outcome& outcome) {
+  const auto fail = [&](const std::string& why) {
+    outcome.exit = Exit::kGateFailed;
+    outcome.errors.push_back({.code = "E-GATE",
+                              .message = "--gate: " + why + "; nothing was written",
+                              .help = "to write it nevertheless, leave out --gate"});
+  };
+  for (const auto& remark : audit.remarks)
+    if (remark.severity == Severity::kWarning) fail(remark.message);
+  const auto& held = model.provenance.held_out;
+  if (held.poses > 0 && held.p95_m > tolerance_m)
+    fail(fmt::format("the held-out error at 95 %, {} mm, exceeds the tolerance of {} mm",
+                     show::mm(held.p95_m), show::mm(tolerance_m)));
+}
+
+std::string headline(const format::Model& model) {
+  const auto& held = model.provenance.held_out;
+  const std::string error = held.poses == 0
+                                ? "no held-out figure"
+                                : fmt::format("held-out mean {} mm, 95 % {} mm",
+                                              show::mm(held.mean_m), show::mm(held.p95_m));
+  return fmt::format("Compiled {} for {} (serial {}): {}.\n\n", model.cell_name, model.robot_name,
+                     model.serial, error);
+}
+
+Json result_of(const format::Model& model, const Audit& audit, const std::string& file) {
+  const auto& held = model.provenance.held_out;
+  return {{"model", file},
+          {"run", model.provenance.run},
+          {"held_out", show::stats_json({.n = static_cast<int>(held.poses),
+                                         .mean = held.mean_m,
+                                         .rms = held.rms_m,
+                                         .p95 = held.p95_m,
+                                         .max = held.max_m})},
+          {"audit", show::audit_json(audit, model)}};
+}
+
+void compile_cell(const Options& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  const std::filesystem::path file = options.output.empty() ? cell.directory / "robot.plumb"
+                                                            : std::filesystem::path(options.output);
+  const Measurements measured = open_measurements(cell, outcome);
+  Run run = current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
+                               outcome);
+  const format::Model model = compiled(options, cell, measured, std::move(run));
+  std::string bytes = model_bytes(model);
+  const Audit found = audit(model);
+  outcome.remark(found.remarks);
+  outcome.result = result_of(model, found, file.string());
+  outcome.text = headline(model) + show::audit_text(found, model);
+  if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
+  if (!outcome.errors.empty()) return;
+  OutputFiles files;
+  files.add(file, std::move(bytes));
+  files.commit(options.write, outcome);
+  outcome.text += "\n" + wrote(file, options.write) + "\n";
+}
+
+}  // namespace
+
+void add_compile(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb = program.verb(
+      {.name = "compile",
+       .summary = "Make the model file for the controller, and audit it",
+       .examples = "  plumb compile\n  plumb -C mycell compile -o robot.plumb --gate --force"},
+      [options](const Globals& g, Outcome& o) { compile_cell(*options, g, o); });
+  verb.add_option("-o,--output", options->output, "Model file; else robot.plumb beside cell.toml")
+      ->type_name("FILE");
+  verb.add_flag("--refit-all", options->refit_all,
+                "Use every pose; the model then carries no held-out figure");
+  verb.add_flag("--gate", options->gate,
+                "Exit 1 and write nothing if the audit warns or 95 % of the held-out poses are not "
+                "within tolerance");
+  options->write.add_to(verb);
+}
+
+}  // namespace plumb::offline::cli

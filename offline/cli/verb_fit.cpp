@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/cell_data.hpp"
+#include "cli/verbs.hpp"
+#include "show/fit_view.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+struct Options {
+  bool dry_run = false;
+  std::optional<double> max_rms_mm;
+  std::optional<std::uint64_t> seed;
+  std::string held_out;
+};
+
+void override_split(const Options& options, Cell& cell) {
+  if (options.seed) cell.measurement.seed = *options.seed;
+  if (options.held_out.empty()) return;
+  const auto rule = parse_held_out(options.held_out, std::filesystem::current_path());
+  if (!rule)
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE",
+                   .message = fmt::format("--held-out: '{}' is not a rule", options.held_out),
+                   .help = "auto, 20%, kfold:5, column:set or file:verify.csv"});
+  cell.measurement.held_out = *rule;
+}
+
+/// The gate of --max-rms; true if it is passed.
+bool passes(const Options& options, const Fit& fit, Outcome& outcome) {
+  if (!options.max_rms_mm) return true;
+  if (fit.held.n > 0 && show::to_mm(fit.held.rms) <= *options.max_rms_mm) return true;
+  outcome.exit = Exit::kGateFailed;
+  outcome.errors.push_back(
+      {.code = "E-GATE-RMS",
+       .message = fit.held.n == 0
+                      ? "--max-rms: no pose was held out"
+                      : fmt::format("held-out RMS {} mm exceeds --max-rms {} mm; no run was kept",
+                                    show::mm(fit.held.rms), *options.max_rms_mm),
+       .help = "see where it fails: plumb compare"});
+  return false;
+}
+
+void keep_run(const Options& options, const Cell& cell, const Measurements& measured, Fit fit,
+              Outcome& outcome) {
+  if (!passes(options, fit, outcome)) {
+    show::put_null(outcome.result, "run", "the gate failed");
+  } else if (options.dry_run) {
+    show::put_null(outcome.result, "run", "--dry-run keeps nothing");
+    outcome.text += "\ndry run: no run was kept\n";
+  } else {
+    const Run run = keep(cell, measured, std::move(fit));
+    outcome.result["run"] = run.number;
+    outcome.result["run_directory"] = run.directory.string();
+    outcome.text += fmt::format("\nkept as run {} in {}\n", run.number, run.directory.string());
+  }
+}
+
+void fit(const Options& options, const Globals& globals, Outcome& outcome) {
+  Cell cell = open_cell(globals, outcome);
+  override_split(options, cell);
+  const Measurements measured = open_measurements(cell, outcome);
+  Fit fitted = fit_with_progress(cell, measured, outcome);
+  outcome.result = show::fit_json(cell, fitted);
+  outcome.text = show::fit_text(cell, fitted);
+  keep_run(options, cell, measured, std::move(fitted), outcome);
+}
+
+}  // namespace
+
+void add_fit(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb = program.verb(
+      {.name = "fit",
+       .summary = "Calibrate the arm; keep an immutable run under runs/",
+       .examples = "  plumb fit\n  plumb -C mycell fit --held-out kfold:5 --max-rms 0.1 --json"},
+      [options](const Globals& g, Outcome& o) { fit(*options, g, o); });
+  verb.add_flag("--dry-run", options->dry_run, "Fit and show, but keep no run");
+  verb.add_option("--max-rms", options->max_rms_mm,
+                  "Gate: exit 1 and keep nothing if the held-out RMS exceeds this [mm]")
+      ->type_name("MM");
+  verb.add_option("--seed", options->seed, "Seed of the split, instead of the cell's")
+      ->type_name("N");
+  verb.add_option("--held-out", options->held_out,
+                  "Which poses are held out: auto, 20%, kfold:5, column:set, file:F.csv")
+      ->type_name("RULE");
+}
+
+}  // namespace plumb::offline::cli

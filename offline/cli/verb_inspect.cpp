@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/model_file.hpp"
+#include "cli/verbs.hpp"
+#include "compile/audit.hpp"
+#include "plumb/format/version.hpp"
+#include "show/audit_view.hpp"
+#include "show/model_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+void inspect(const std::string& file, Outcome& outcome) {
+  const format::Model model = open_model(file, outcome);
+  const Audit found = audit(model);
+  outcome.remark(found.remarks);
+  outcome.result = {{"file", file}, {"sound", true}, {"schema_read", format::kSchemaVersion}};
+  outcome.result.update(show::model_json(model));
+  outcome.result["audit"] = show::audit_json(found, model);
+  outcome.text =
+      fmt::format("{} is sound: checksum, structure and every number are in order.\n\n", file) +
+      show::model_text(model) + "\n" + show::audit_text(found, model);
+}
+
+}  // namespace
+
+void add_inspect(Program& program) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App& verb =
+      program.verb({.name = "inspect",
+                    .summary = "What is in a model file, and whether it is sound",
+                    .examples = "  plumb inspect robot.plumb\n  plumb inspect robot.plumb --json"},
+                   [file](const Globals&, Outcome& o) { inspect(*file, o); });
+  verb.add_option("FILE", *file, "Model file")->required();
+}
+
+}  // namespace plumb::offline::cli

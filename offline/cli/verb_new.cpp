@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "cell/cell.hpp"
+#include "cli/dh_file.hpp"
+#include "cli/output_files.hpp"
+#include "cli/verbs.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNearParallel = 0.05;  // sine of the angle between neighbouring axes
+
+struct Options {
+  std::string directory, dh, urdf, convention, name, serial;
+  WriteOptions write;
+};
+
+void check(const Options& options) {
+  if (!options.urdf.empty())
+    throw Failure(Exit::kUsage, {.code = "E-NEW-URDF",
+                                 .message = "reading URDF is not available in this version",
+                                 .help = "plumb new DIR --dh dh.csv --convention standard"});
+  if (options.dh.empty())
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = "new needs the DH table of the arm",
+                                 .help = "plumb new DIR --dh dh.csv --convention standard"});
+  if (options.convention.empty())
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE",
+                   .message = "--convention is missing: the same table means another arm in the "
+                              "other convention",
+                   .help = "--convention standard (distal) or --convention modified (Craig)"});
+}
+
+/// Neighbours whose axes are parallel: the link between them turns about x by 0 or 180 deg.
+std::vector<JointMechanics> mechanics_of(const format::Chain& chain) {
+  std::vector<JointMechanics> out(chain.joints.size());
+  const bool standard = chain.convention == format::Convention::kStandard;
+  for (std::size_t i = 0; i + 1 < chain.joints.size(); ++i)
+    out[i].parallel_next =
+        std::abs(std::sin(chain.joints[standard ? i : i + 1].alpha)) < kNearParallel;
+  return out;
+}
+
+Cell new_cell(const Options& options, const fs::path& folder, Outcome& outcome) {
+  Cell cell;
+  cell.directory = folder;
+  cell.name = options.name.empty() ? folder.filename().string() : options.name;
+  cell.serial = options.serial;
+  cell.robot_name = cell.name;
+  cell.nominal = read_dh(options.dh,
+                         options.convention == "standard" ? format::Convention::kStandard
+                                                          : format::Convention::kModified,
+                         outcome);
+  cell.mechanics = mechanics_of(cell.nominal);
+  cell.measurement.files = {folder / "measurements.csv"};
+  cell.effects = {{.name = "geometry", .joints = {}, .options = {}, .place = {}}};
+  return cell;
+}
+
+void make(const Options& options, const Globals&, Outcome& outcome) {
+  check(options);
+  const fs::path folder = fs::absolute(options.directory).lexically_normal();
+  const fs::path named = folder.has_filename() ? folder : folder.parent_path();
+  const Cell cell = new_cell(options, named, outcome);
+  const fs::path file = fs::path(options.directory) / "cell.toml";
+  OutputFiles files;
+  files.add(file, write_cell(cell));
+  outcome.result = {{"cell", cell.name}, {"joints", cell.joints()}};
+  files.commit(options.write, outcome);
+  outcome.text = fmt::format(
+      "A cell for an arm of {} joints, {} DH.\n\n  {}\n\nNext: put the measurements into {}, then\n"
+      "  plumb -C {} fit\n",
+      cell.joints(), options.convention, wrote(file, options.write),
+      (fs::path(options.directory) / "measurements.csv").string(), options.directory);
+}
+
+}  // namespace
+
+void add_new(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb = program.verb(
+      {.name = "new",
+       .summary = "Write a commented cell.toml from a DH table",
+       .examples = "  plumb new mycell --dh dh.csv --convention modified\n"
+                   "  plumb new mycell --dh dh.csv --convention standard --name \"Cell 4\""},
+      [options](const Globals& g, Outcome& o) { make(*options, g, o); });
+  verb.add_option("DIR", options->directory, "Folder of the new cell")->required();
+  verb.add_option("--dh", options->dh,
+                  "CSV file: joint,alpha_deg,a_mm,d_mm,theta_deg[,q_min_deg,q_max_deg,type]")
+      ->type_name("FILE");
+  verb.add_option("--urdf", options->urdf, "Not available in this version")->type_name("FILE");
+  verb.add_option("--convention", options->convention, "standard (distal) or modified (Craig)")
+      ->check(CLI::IsMember({"standard", "modified"}))
+      ->type_name("NAME");
+  verb.add_option("--name", options->name, "Name of the cell; else that of the folder")
+      ->type_name("TEXT");
+  verb.add_option("--serial", options->serial, "Serial number, bound into compiled models")
+      ->type_name("TEXT");
+  options->write.add_to(verb);
+}
+
+}  // namespace plumb::offline::cli

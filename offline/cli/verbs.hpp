@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli/program.hpp"
+
+/// One function a verb: adds it with its options to the program.
+namespace plumb::offline::cli {
+
+void add_demo(Program& program);
+void add_new(Program& program);
+void add_fit(Program& program);
+void add_compare(Program& program);
+void add_runs(Program& program);
+void add_diff(Program& program);
+void add_compile(Program& program);
+void add_inspect(Program& program);
+void add_predict(Program& program);
+void add_correct(Program& program);
+void add_simulate(Program& program);
+void add_explain(Program& program);
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/audit_view.hpp"
+
+#include <fmt/format.h>
+
+#include "show/text_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+constexpr const char* kNoCovariance = "the model carries no covariance";
+
+Json worst_q_json(const Audit& audit, const format::Model& model) {
+  Json out = Json::object();
+  for (std::size_t i = 0; i < audit.worst_q.size(); ++i) {
+    const auto& row = model.nominal.joints[i];
+    out[fmt::format("q{}_{}", i + 1, unit(slides(row)))] = shown(audit.worst_q[i], slides(row));
+  }
+  return out;
+}
+
+std::string worst_q_text(const Audit& audit, const format::Model& model) {
+  std::string out;
+  for (std::size_t i = 0; i < audit.worst_q.size(); ++i)
+    out += fmt::format("{}{:.1f}", i == 0 ? "" : ", ",
+                       shown(audit.worst_q[i], slides(model.nominal.joints[i])));
+  return out;
+}
+
+}  // namespace
+
+Json audit_json(const Audit& audit, const format::Model& model) {
+  Json out;
+  put(out, "worst_correction_mm", to_mm(audit.worst_correction_m));
+  put(out, "worst_rotation_deg", to_deg(audit.worst_rotation_rad));
+  out["worst_at"] = worst_q_json(audit, model);
+  put(out, "max_correction_mm", to_mm(model.guard.max_correction_m));
+  put(out, "worst_leaf_jump_mm", to_mm(audit.worst_jump_m));
+  if (model.provenance.covariance.empty()) {
+    put_null(out, "sigma_tool_mean_mm", kNoCovariance);
+    put_null(out, "sigma_tool_max_mm", kNoCovariance);
+  } else {
+    put(out, "sigma_tool_mean_mm", to_mm(audit.sigma_tool_mean_m));
+    put(out, "sigma_tool_max_mm", to_mm(audit.sigma_tool_max_m));
+  }
+  out["leaves"] = audit.leaves;
+  out["bytes"] = audit.bytes;
+  out["poses_looked_at"] = kAuditPoses;
+  return out;
+}
+
+std::string audit_text(const Audit& audit, const format::Model& model) {
+  TextTable table({fmt::format("audit over {} poses of the trained domain", kAuditPoses), ""});
+  table.add({"largest correction at the tool",
+             fmt::format("{} mm, {:.4f} deg", mm(audit.worst_correction_m),
+                         to_deg(audit.worst_rotation_rad))});
+  if (!audit.worst_q.empty()) table.add({"  at joints", worst_q_text(audit, model)});
+  table.add({"limit of the guard", mm(model.guard.max_correction_m) + " mm"});
+  if (!model.provenance.covariance.empty())
+    table.add({"1 sigma at the tool (3-D)",
+               fmt::format("mean {} mm, max {} mm", mm(audit.sigma_tool_mean_m),
+                           mm(audit.sigma_tool_max_m))});
+  table.add({"leaves", fmt::format("{}", audit.leaves)});
+  if (audit.leaves > 0)
+    table.add({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
+  table.add({"size", fmt::format("{} bytes", audit.bytes)});
+  return table.left_from(1).text();
+}
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "compile/audit.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// `audit` of `compile` and `inspect`.
+Json audit_json(const Audit& audit, const format::Model& model);
+
+/// The same as a table.
+std::string audit_text(const Audit& audit, const format::Model& model);
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline::show {
+
+/// A measurement file passed through, with columns of ours behind it.
+///
+/// Input cells stay as written. Several tables are stacked; a column that one of them lacks is
+/// empty there. A column of ours takes the place of an input column of the same name.
+class CsvColumns {
+ public:
+  explicit CsvColumns(const std::vector<Table>& tables);
+
+  int rows() const { return static_cast<int>(rows_.size()); }
+
+  /// Shape of `cells`: (rows,).
+  void set(const std::string& name, std::vector<std::string> cells);
+  void set(const std::string& name, const std::vector<double>& values);
+
+  /// Input columns that `set` replaced.
+  const std::vector<std::string>& replaced() const { return replaced_; }
+
+  std::string text() const;
+
+ private:
+  std::size_t column(const std::string& name);
+
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_;
+  std::size_t inputs_ = 0;
+  std::vector<std::string> replaced_;
+};
+
+}  // namespace plumb::offline::show

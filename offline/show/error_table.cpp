@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/error_table.hpp"
+
+#include <fmt/format.h>
+
+#include "show/text_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+std::vector<std::string> row(const std::string& name, const ErrorStats& s) {
+  if (s.n == 0) return {name, "0", "-", "-", "-", "-"};
+  return {name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max)};
+}
+
+constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
+
+}  // namespace
+
+std::string error_table(const Fit& fit) {
+  TextTable table({"position error [mm]", "poses", "mean", "RMS", "95 %", "max"});
+  table.add(row("held-out, nominal arm", fit.nominal_held));
+  if (fit.tree) table.add(row("held-out, without the tree", fit.geometry_held));
+  table.add(row("held-out, calibrated", fit.held));
+  table.add(row("fit (never accuracy)", fit.fit));
+  if (fit.floor.source == NoiseFloor::Source::kNone)
+    table.add({"noise floor: unknown"});
+  else
+    table.add({"noise floor", "", mm(fit.floor.mean_m), mm(fit.floor.rms_m)});
+  return table.text();
+}
+
+void add_floor(const NoiseFloor& floor, Json& out) {
+  if (floor.source == NoiseFloor::Source::kNone) {
+    put_null(out, "noise_floor_mm", kNoFloor);
+    put_null(out, "noise_floor_rms_mm", kNoFloor);
+    return;
+  }
+  put(out, "noise_floor_mm", to_mm(floor.mean_m));
+  put(out, "noise_floor_rms_mm", to_mm(floor.rms_m));
+  out["noise_floor_source"] = floor.source == NoiseFloor::Source::kRepeats ? "repeats" : "sigma";
+}
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "fit/fit.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// Before and after on the held-out poses, the fit poses, and the noise floor [mm].
+std::string error_table(const Fit& fit);
+
+/// noise_floor_mm (mean) and noise_floor_rms_mm; null with reason if nothing is known.
+void add_floor(const NoiseFloor& floor, Json& out);
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/fit_view.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "show/error_table.hpp"
+#include "show/text_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+Json parameter_json(const Estimate& e) {
+  Json out{{"name", e.name}};
+  put(out, "value", shown(e.value, e.is_length));
+  out["unit"] = unit(e.is_length);
+  put(out, "std", shown(e.std, e.is_length));
+  put(out, "nominal", shown(e.nominal, e.is_length));
+  put(out, "change", shown(e.value - e.nominal, e.is_length));
+  return out;
+}
+
+Json parameters_json(const std::vector<Estimate>& estimates) {
+  Json out = Json::array();
+  for (const auto& e : estimates)
+    if (e.of_robot) out.push_back(parameter_json(e));
+  return out;
+}
+
+/// Frame and target: their values are in `frame` and `target_mm`.
+Json measurement_std_json(const std::vector<Estimate>& estimates) {
+  Json out = Json::object();
+  for (const auto& e : estimates)
+    if (!e.of_robot) put(out, e.name + "_" + unit(e.is_length), shown(e.std, e.is_length));
+  return out;
+}
+
+Json tree_json(const TreeChoice& tree) {
+  return {{"leaves", tree.leaves},
+          {"leaves_total", std::accumulate(tree.leaves.begin(), tree.leaves.end(), 0)},
+          {"cv_before_rms_mm", to_mm(tree.cv_before_m)},
+          {"cv_after_rms_mm", to_mm(tree.cv_after_m)},
+          {"gain_se_mm", to_mm(tree.gain_se_m)},
+          {"reason", tree.reason}};
+}
+
+Json effects_json(const Cell& cell) {
+  Json out = Json::array();
+  for (const auto& effect : cell.effects) {
+    Json joints = Json::array();
+    for (int j : effect.joints) joints.push_back(cell.nominal.joints[j].name);
+    out.push_back({{"effect", effect.name}, {"joints", joints}});
+  }
+  return out;
+}
+
+std::string parameter_table(const std::vector<Estimate>& estimates) {
+  TextTable table({"parameter", "nominal", "fitted", "change", "1 sigma", ""});
+  table.left_from(5);
+  for (const auto& e : estimates) {
+    if (!e.of_robot) continue;
+    table.add({e.name, fmt::format("{:.4f}", shown(e.nominal, e.is_length)),
+               fmt::format("{:.4f}", shown(e.value, e.is_length)),
+               fmt::format("{:+.4f}", shown(e.value - e.nominal, e.is_length)),
+               fmt::format("{:.4f}", shown(e.std, e.is_length)), unit(e.is_length)});
+  }
+  return table.text();
+}
+
+std::string measurement_text(const Cell& cell, const ArmState& state) {
+  const auto& f = state.X_MB;
+  const auto& t = state.X_TG.p;
+  const auto how = [](bool fitted) { return fitted ? "fitted" : "given"; };
+  return fmt::format(
+      "  frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
+      "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})\n"
+      "  target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm\n",
+      how(cell.measurement.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1],
+      f.q[2], f.q[3], how(cell.measurement.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
+}
+
+std::string tree_text(const Fit& fit) {
+  if (!fit.tree) return "";
+  return fmt::format("  tree: {} + {} + {} leaves for x, y, z; {}\n", fit.tree->leaves[0],
+                     fit.tree->leaves[1], fit.tree->leaves[2], fit.tree->reason);
+}
+
+std::string held_text(const std::vector<std::string>& held) {
+  if (held.empty()) return "";
+  return fmt::format("  held at nominal, these poses say less about them: {}\n",
+                     fmt::join(held, ", "));
+}
+
+}  // namespace
+
+Json fit_json(const Cell& cell, const Fit& fit) {
+  const Calibration& c = fit.calibration;
+  Json out{{"poses_fit", fit.fit.n}, {"poses_held_out", fit.held.n}};
+  out["folds"] = fit.split.folds;
+  out["parameters"] = parameters_json(c.estimates);
+  out["held_parameters"] = c.held;
+  out["identifiable_rank"] = c.rank;
+  put(out, "calibrability", c.calibrability);
+  out["held_out"] = stats_json(fit.held);
+  out["fit"] = stats_json(fit.fit);
+  out["nominal"] = stats_json(fit.nominal_held);
+  out["geometry"] = stats_json(fit.geometry_held);
+  add_floor(fit.floor, out);
+  out["effects"] = effects_json(cell);
+  out["frame"] = pose_json(c.state.X_MB);
+  out["frame"]["fitted"] = cell.measurement.fit_frame;
+  const auto& t = c.state.X_TG.p;
+  out["target_mm"] = {to_mm(t[0]), to_mm(t[1]), to_mm(t[2])};
+  out["target_fitted"] = cell.measurement.fit_target;
+  out["measurement_std"] = measurement_std_json(c.estimates);
+  if (fit.tree)
+    out["tree"] = tree_json(*fit.tree);
+  else
+    put_null(out, "tree", "[effects] does not list local_tree");
+  out["convergence"] = {{"iterations", c.iterations}};
+  put(out["convergence"], "sigma0", c.sigma0);
+  out["tolerance_mm"] = to_mm(cell.tolerance_m);
+  out["seed"] = cell.measurement.seed;
+  out["verdict"] = verdict(fit, cell.tolerance_m);
+  return out;
+}
+
+std::string fit_text(const Cell& cell, const Fit& fit) {
+  const Calibration& c = fit.calibration;
+  std::string out = verdict(fit, cell.tolerance_m) + "\n\n" + error_table(fit) + "\n";
+  out += parameter_table(c.estimates) + "\n" + held_text(c.held);
+  out += measurement_text(cell, c.state) + tree_text(fit);
+  return out + fmt::format("  rank {} of all candidates; calibrability {:.3g}; {} iterations\n",
+                           c.rank, c.calibrability, c.iterations);
+}
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cell/cell.hpp"
+#include "fit/fit.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// `result` of `plumb fit` but for `run`.
+Json fit_json(const Cell& cell, const Fit& fit);
+
+/// Verdict, error table, parameters with 1 sigma, frame, target, tree.
+std::string fit_text(const Cell& cell, const Fit& fit);
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "plumb/format/model.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// Everything a model file says, in mm and deg; trees and covariance as sizes.
+Json model_json(const format::Model& model);
+
+/// The same for people.
+std::string model_text(const format::Model& model);
+
+}  // namespace plumb::offline::show

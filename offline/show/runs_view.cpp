@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/runs_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "show/text_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+/// A parameter of either run; NaN where that run did not fit it.
+struct Change {
+  std::string name;
+  bool is_length = false;
+  double a = NAN, b = NAN, std = NAN;
+};
+
+const Estimate* find(const Run& run, const std::string& name) {
+  const auto& all = run.fit.calibration.estimates;
+  const auto it =
+      std::find_if(all.begin(), all.end(), [&](const Estimate& e) { return e.name == name; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+std::vector<Change> changes(const Run& a, const Run& b) {
+  std::vector<Change> out;
+  for (const auto& e : a.fit.calibration.estimates) {
+    if (!e.of_robot) continue;
+    const Estimate* other = find(b, e.name);
+    if (other && other->value == e.value) continue;
+    out.push_back({e.name, e.is_length, e.value, other ? other->value : NAN,
+                   other ? std::hypot(e.std, other->std) : e.std});
+  }
+  for (const auto& e : b.fit.calibration.estimates)
+    if (e.of_robot && find(a, e.name) == nullptr)
+      out.push_back({e.name, e.is_length, NAN, e.value, e.std});
+  return out;
+}
+
+std::vector<std::string> only_in(const std::vector<std::string>& these,
+                                 const std::vector<std::string>& those) {
+  std::vector<std::string> out;
+  for (const auto& name : these)
+    if (std::find(those.begin(), those.end(), name) == those.end()) out.push_back(name);
+  return out;
+}
+
+Json change_json(const Change& c) {
+  constexpr const char* kNotFitted = "not fitted in that run";
+  Json out{{"name", c.name}, {"unit", unit(c.is_length)}};
+  put(out, "a", shown(c.a, c.is_length), kNotFitted);
+  put(out, "b", shown(c.b, c.is_length), kNotFitted);
+  put(out, "change", shown(c.b - c.a, c.is_length), "fitted in one run only");
+  put(out, "std", shown(c.std, c.is_length));
+  return out;
+}
+
+std::string number(double si, bool is_length, const char* sign) {
+  if (!std::isfinite(si)) return "-";
+  return fmt::format("{}{:.4f}", si >= 0 ? sign : "", shown(si, is_length));
+}
+
+std::string verdict_of(const Run& a, const Run& b) {
+  if (a.fit.held.n == 0 || b.fit.held.n == 0)
+    return "One of the runs has no held-out poses: their accuracy cannot be compared.";
+  const double change = b.fit.held.mean - a.fit.held.mean;
+  return fmt::format("Held-out mean {} -> {} mm from run {} to run {} ({:+.1f} %){}.",
+                     mm(a.fit.held.mean), mm(b.fit.held.mean), a.number, b.number,
+                     a.fit.held.mean > 0 ? 100.0 * change / a.fit.held.mean : 0.0,
+                     a.inputs == b.inputs ? "" : "; the measurements differ");
+}
+
+}  // namespace
+
+Json runs_json(const std::vector<ListedRun>& runs) {
+  Json list = Json::array();
+  for (const auto& [run, state] : runs)
+    list.push_back({{"run", run.number},
+                    {"created", run.created},
+                    {"effects", run.effects},
+                    {"current", state == ListedRun::State::kCurrent},
+                    {"held_out", stats_json(run.fit.held)},
+                    {"fit", stats_json(run.fit.fit)},
+                    {"cell_sha256", run.cell_sha256}});
+  return {{"runs", list}};
+}
+
+std::string runs_text(const std::vector<ListedRun>& runs) {
+  if (runs.empty()) return "No runs yet: plumb fit makes the first.\n";
+  TextTable table({"run", "created", "poses", "mean", "RMS", "95 %", "max", "effects"});
+  table.left_from(7);
+  for (const auto& [run, state] : runs) {
+    const auto& s = run.fit.held;
+    table.add({fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
+               run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
+               fmt::format("{}", fmt::join(run.effects, ", "))});
+  }
+  return fmt::format("{} run{}, held-out error in mm (* of the present cell and data):\n\n",
+                     runs.size(), runs.size() == 1 ? "" : "s") +
+         table.text();
+}
+
+Json diff_json(const Run& a, const Run& b) {
+  Json parameters = Json::array();
+  for (const auto& change : changes(a, b)) parameters.push_back(change_json(change));
+  Json out{{"a", a.number},
+           {"b", b.number},
+           {"same_measurements", a.inputs == b.inputs},
+           {"parameters", parameters},
+           {"effects_added", only_in(b.effects, a.effects)},
+           {"effects_dropped", only_in(a.effects, b.effects)},
+           {"held_out", {{"a", stats_json(a.fit.held)}, {"b", stats_json(b.fit.held)}}}};
+  const bool known = a.fit.held.n > 0 && b.fit.held.n > 0;
+  put(out["held_out"], "change_mean_mm", known ? to_mm(b.fit.held.mean - a.fit.held.mean) : NAN,
+      "a run has no held-out poses");
+  return out;
+}
+
+std::string diff_text(const Run& a, const Run& b) {
+  std::string out = verdict_of(a, b) + "\n\n";
+  for (const auto& name : only_in(b.effects, a.effects)) out += "  + effect " + name + "\n";
+  for (const auto& name : only_in(a.effects, b.effects)) out += "  - effect " + name + "\n";
+  const auto all = changes(a, b);
+  if (all.empty()) return out + "  No parameter differs.\n";
+  TextTable table({"parameter", fmt::format("run {}", a.number), fmt::format("run {}", b.number),
+                   "change", "1 sigma", ""});
+  table.left_from(5);
+  for (const auto& c : all)
+    table.add({c.name, number(c.a, c.is_length, ""), number(c.b, c.is_length, ""),
+               number(c.b - c.a, c.is_length, "+"), number(c.std, c.is_length, ""),
+               unit(c.is_length)});
+  return out + table.text();
+}
+
+}  // namespace plumb::offline::show
