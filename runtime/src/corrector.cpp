@@ -44,12 +44,10 @@ double norm(const Vector3& v) noexcept { return portable::sqrt(dot(v, v)); }
 
 }  // namespace
 
-/// Everything that is known at one q, lengths divided by the length scale.
+/// The step at one q.
 struct Corrector::Iterate {
-  ChainFrames<double> nominal;
-  Jacobian J;      // scaled
   JointVector dq;  // the full step from here, scaled
-  double left_m;   // what that step would still move
+  double left_m;   // what that step moves: the controllable residual
   double left_rad;
   Status status;  // of the forward model
 };
@@ -73,40 +71,50 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
       q[i] = low + weyl(k, i) * (high - low);
     }
     nominal_.frames<double>(q, frames);
-    scaled_jacobian(frames, J);
+    scaled_jacobian(nominal_, frames, J);
     const auto rank = internal::rank_above(kStructuralZero, internal::gram(J, joints()));
     position_rank_ = std::max(position_rank_, rank.position);
     pose_rank_ = std::max(pose_rank_, rank.pose);
   }
 }
 
-void Corrector::scaled_jacobian(const ChainFrames<double>& frames, Jacobian& out) const noexcept {
-  jacobian(nominal_, frames, out);
+void Corrector::scaled_jacobian(const Chain& chain, const ChainFrames<double>& frames,
+                                Jacobian& out) const noexcept {
+  jacobian(chain, frames, out);
+  const double inverse = 1.0 / limits_.length_scale_m;
   for (int k = 0; k < joints(); ++k) {
-    for (int i = 0; i < 3; ++i) out(i, k) *= unit(k) / limits_.length_scale_m;
-    for (int i = 3; i < 6; ++i) out(i, k) *= unit(k);
+    const double per_length = nominal_.revolute(k) ? inverse : 1.0;
+    for (int i = 0; i < 3; ++i) out(i, k) *= per_length;
   }
+}
+
+/// Position-only cells: the orientation stays the controller's own, in residual and derivative.
+Transformd Corrector::corrected_pose(std::span<const double> q, Jacobian& J,
+                                     Status& status) const noexcept {
+  ChainFrames<double> frames;
+  const Prediction arm = true_arm_.predict(q, frames);
+  status = arm.status;
+  scaled_jacobian(true_arm_.chain(), frames, J);
+  if (limits_.corrects == format::Corrects::kPose) return arm.X_BT;
+  nominal_.frames<double>(q, frames);
+  Jacobian J_N;
+  scaled_jacobian(nominal_, frames, J_N);
+  J.bottomRows<3>() = J_N.bottomRows<3>();
+  return {.R = frames.tip.R, .p = arm.X_BT.p};
 }
 
 void Corrector::linearise(const Transformd& X_BD, const JointPositions& q,
                           Iterate& out) const noexcept {
-  const std::span<const double> state = std::span(q).first(joints());
-  const Prediction arm = true_arm_.predict(state);
-  out.status = arm.status;
-  nominal_.frames<double>(state, out.nominal);
-  scaled_jacobian(out.nominal, out.J);
-
-  // Position-only cells: the orientation stays the controller's own.
-  const Matrix3& R = limits_.corrects == format::Corrects::kPose ? arm.X_BT.R : out.nominal.tip.R;
+  Jacobian J;
+  const Transformd X_BT = corrected_pose(std::span(q).first(joints()), J, out.status);
   Vector6 r;
-  r.head<3>() = clamped(X_BD.p - arm.X_BT.p, kMaxError) / limits_.length_scale_m;
-  r.tail<3>() = rotation_vector(X_BD.R * R.transpose());
-  out.dq = joints() < 6 ? internal::priority_step(out.J, {position_rank_, pose_rank_}, r)
-                        : internal::minimum_norm_step(out.J, joints(), r);
-
+  r.head<3>() = clamped(X_BD.p - X_BT.p, kMaxError) / limits_.length_scale_m;
+  r.tail<3>() = rotation_vector(X_BD.R * X_BT.R.transpose());
+  out.dq = joints() < 6 ? internal::priority_step(J, {position_rank_, pose_rank_}, r)
+                        : internal::minimum_norm_step(J, joints(), r);
   Vector6 left = Vector6::Zero();
   for (int k = 0; k < joints(); ++k)
-    for (int i = 0; i < 6; ++i) left(i) += out.J(i, k) * out.dq(k);
+    for (int i = 0; i < 6; ++i) left(i) += J(i, k) * out.dq(k);
   out.left_m = norm(left.head<3>()) * limits_.length_scale_m;
   out.left_rad = norm(left.tail<3>());
 }
@@ -128,17 +136,23 @@ bool Corrector::far(const JointPositions& q, const JointPositions& seed) const n
 }
 
 Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-                        int seed_sign) const noexcept {
+                        const Jacobian& J_N, int seed_sign) const noexcept {
   if (refused(at.status)) return at.status;
-  const auto rank =
-      internal::rank_above(limits_.min_singular_value, internal::gram(at.J, joints()));
+  const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(J_N, joints()));
   if (rank.position < position_rank_ || rank.pose < pose_rank_) return Status::kNearSingular;
-  if (joints() == 6 && internal::determinant_sign(at.J) != seed_sign)
+  if (joints() == 6 && internal::determinant_sign(J_N) != seed_sign)
     return Status::kOtherConfiguration;
   if (far(q, seed)) return Status::kFarFromSeed;
   if (!(at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad))
     return Status::kNotConverged;
   return at.status;
+}
+
+Transformd Corrector::nominal_pose(const JointPositions& q, Jacobian& J_N) const noexcept {
+  ChainFrames<double> frames;
+  nominal_.frames<double>(std::span(q).first(joints()), frames);
+  scaled_jacobian(nominal_, frames, J_N);
+  return frames.tip;
 }
 
 Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed,
@@ -153,20 +167,22 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
 
   // An unusable input costs as much as a good one: its stand-in is solved and the answer dropped.
   JointPositions q = out.q;
+  Jacobian J_N;
+  nominal_pose(q, J_N);
+  const int seed_sign = internal::determinant_sign(J_N);
   Iterate at;
-  linearise(out.X_BC, q, at);
-  const int seed_sign = internal::determinant_sign(at.J);
   for (; out.steps < kInverseSteps; ++out.steps) {
-    advance(at, q);
     linearise(out.X_BC, q, at);
+    advance(at, q);
   }
+  const Transformd X_BC = nominal_pose(q, J_N);
   out.residual_m = at.left_m;
   out.residual_rad = at.left_rad;
-  out.status = judge(at, q, out.q, seed_sign);
+  out.status = judge(at, q, out.q, J_N, seed_sign);
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
   if (!pose || !state) out.status = Status::kNotFinite;
   if (refused(out.status)) return out;
-  out.X_BC = at.nominal.tip;
+  out.X_BC = X_BC;
   out.q = q;
   return out;
 }

@@ -4,6 +4,13 @@
 #include "finite.hpp"
 
 namespace plumb {
+namespace {
+
+Prediction refusal() noexcept {
+  return {.X_BT = {}, .tree_B = Vector3::Zero(), .status = Status::kNotFinite};
+}
+
+}  // namespace
 
 ForwardModel::ForwardModel(const format::Model& model) noexcept
     : chain_(model.calibrated), domain_(model.domain) {
@@ -13,32 +20,44 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
   }
 }
 
-Prediction ForwardModel::predict(std::span<const double> q) const noexcept {
-  Prediction out{.X_BT = {}, .tree_B = Vector3::Zero(), .status = Status::kNotFinite};
+bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
-  if (q.size() < n || !internal::is_joint_state(q.first(n))) return out;
-  const auto state = q.first(n);
-  const Transformd X_BT = chain_.forward<double>(state);
-  if (!internal::is_finite(X_BT.p)) return out;
-  out.X_BT = X_BT;
-  out.status = Status::kOk;
+  return q.size() >= n && internal::is_joint_state(q.first(n));
+}
+
+Prediction ForwardModel::predict(std::span<const double> q) const noexcept {
+  if (!acceptable(q)) return refusal();
+  return finished(q, chain_.forward<double>(q));
+}
+
+Prediction ForwardModel::predict(std::span<const double> q,
+                                 ChainFrames<double>& frames) const noexcept {
+  if (!acceptable(q)) return refusal();
+  chain_.frames<double>(q, frames);
+  return finished(q, frames.tip);
+}
+
+/// Adds the tree. An encoder scale can still bring a joint beyond what sin_cos knows.
+Prediction ForwardModel::finished(std::span<const double> q,
+                                  const Transformd& X_BT) const noexcept {
+  if (!internal::is_finite(X_BT.p)) return refusal();
+  Prediction out{.X_BT = X_BT, .tree_B = Vector3::Zero(), .status = Status::kOk};
   if (!has_tree_) return out;
-  const double weight = domain_.weight(state);
-  out.tree_B = tree_at(state) * weight;
+  const double weight = domain_.weight(q);
+  out.tree_B = tree_at(q) * weight;
   out.X_BT.p += out.tree_B;
   if (weight < 1.0) out.status = Status::kOutsideDomain;
   return out;
 }
 
 Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {
-  const auto n = static_cast<std::size_t>(joints());
-  if (!has_tree_ || q.size() < n || !internal::is_joint_state(q.first(n))) return Vector3::Zero();
-  return tree_at(q.first(n)) * domain_.weight(q.first(n));
+  if (!has_tree_ || !acceptable(q)) return Vector3::Zero();
+  return tree_at(q) * domain_.weight(q);
 }
 
 Vector3 ForwardModel::tree_at(std::span<const double> q) const noexcept {
   std::array<double, kMaxJoints> u{};
-  const std::span<double> inputs = std::span(u).first(q.size());
+  const std::span<double> inputs = std::span(u).first(static_cast<std::size_t>(joints()));
   domain_.normalise(q, inputs);
   return {trees_[0].evaluate(inputs), trees_[1].evaluate(inputs), trees_[2].evaluate(inputs)};
 }

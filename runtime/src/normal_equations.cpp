@@ -23,10 +23,16 @@ int swap_in_pivot(Matrix6& A, int k) noexcept {
 }  // namespace
 
 Matrix6 gram(const Jacobian& J, int n) noexcept {
-  Matrix6 A = Matrix6::Zero();
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < 6; ++j)
-      for (int i = j; i < 6; ++i) A(i, j) += J(i, k) * J(j, k);
+  Matrix6 A;
+  for (int j = 0; j < 6; ++j) {
+    // Whole columns in one local array: six independent sums the compiler may keep in registers.
+    double sum[6] = {};
+    for (int k = 0; k < n; ++k) {
+      const double* column = J.data() + 6 * k;
+      for (int i = 0; i < 6; ++i) sum[i] += column[i] * column[j];
+    }
+    for (int i = 0; i < 6; ++i) A(i, j) = sum[i];
+  }
   return A;
 }
 

@@ -10,7 +10,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
 using JointVector = Eigen::Matrix<double, kMaxJoints, 1, Eigen::DontAlign>;
 
-/// J J^T of the first n columns; lower triangle only.
+/// J J^T of the first n columns.
 Matrix6 gram(const Jacobian& J, int n) noexcept;
 
 /// A = L D L^T without pivoting: L unit lower triangular in `L`, D in `d`.

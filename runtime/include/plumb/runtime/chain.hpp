@@ -108,8 +108,9 @@ template <class S>
 void Chain::frames(std::span<const S> q, ChainFrames<S>& out) const {
   Transform<S> X = constant_as<S>(constant_[0]);
   for (int i = 0; i < joints_; ++i) {
-    out.joint[i] = moved(X, i, q[i]);
-    X = out.joint[i] * constant_as<S>(constant_[i + 1]);
+    const Transform<S> P = moved(X, i, q[i]);
+    X = P * constant_as<S>(constant_[i + 1]);
+    out.joint[i] = P;
   }
   out.tip = X;
 }

@@ -24,8 +24,10 @@ struct Correction {
 /// Inverse correction: the command x_c with T(N^-1(x_c)) = x_d.
 ///
 /// The controller knows only its nominal chain N. From a seed q, kInverseSteps times
-/// q <- q + J_N(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
-/// position; the orientation then stays the controller's own.
+/// q <- q + J(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
+/// position; the orientation in T is then the controller's own, that of N(q).
+/// J is the derivative of the calibrated chain, not of N: for the same price the steps converge
+/// quadratically, also where J_N^+ is large. Only the refusals look at J_N.
 /// Fewer than six joints: the controllable part of the target, position before orientation.
 /// More: the shortest steps from the seed.
 ///
@@ -38,7 +40,7 @@ struct Correction {
 ///   kOtherConfiguration  six joints: det J_N has another sign at the solution than at the seed.
 ///                        Not defined for other arms
 ///   kFarFromSeed         |q_i - seed_i| exceeds max_seed_distance (sliding: times length_scale_m)
-///   kNotConverged        one more step would still move more than 1 um or 1 urad
+///   kNotConverged        before the last step the residual exceeded 1 um or 1 urad
 /// Then X_BC is the target itself (identity if that is no pose) and q the seed.
 /// Joint limits are not looked at.
 ///
@@ -68,12 +70,15 @@ class Corrector {
   int joints() const noexcept { return nominal_.joints(); }
   double unit(int i) const noexcept { return nominal_.revolute(i) ? 1.0 : limits_.length_scale_m; }
   void find_controllable(const format::Chain& nominal) noexcept;
-  void scaled_jacobian(const ChainFrames<double>& frames, Jacobian& out) const noexcept;
+  void scaled_jacobian(const Chain& chain, const ChainFrames<double>& frames,
+                       Jacobian& out) const noexcept;
+  Transformd nominal_pose(const JointPositions& q, Jacobian& J_N) const noexcept;
+  Transformd corrected_pose(std::span<const double> q, Jacobian& J, Status& status) const noexcept;
   void linearise(const Transformd& X_BD, const JointPositions& q, Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
   bool far(const JointPositions& q, const JointPositions& seed) const noexcept;
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-               int seed_sign) const noexcept;
+               const Jacobian& J_N, int seed_sign) const noexcept;
 
   Chain nominal_;
   ForwardModel true_arm_;

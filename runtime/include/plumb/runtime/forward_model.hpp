@@ -32,10 +32,15 @@ class ForwardModel {
   /// Refused with kNotFinite when one is not finite or beyond 1e4.
   Prediction predict(std::span<const double> q) const noexcept;
 
+  /// The same, with the frame behind every joint of the calibrated chain (the tree moves none).
+  Prediction predict(std::span<const double> q, ChainFrames<double>& frames) const noexcept;
+
   /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
 
  private:
+  bool acceptable(std::span<const double> q) const noexcept;
+  Prediction finished(std::span<const double> q, const Transformd& X_BT) const noexcept;
   Vector3 tree_at(std::span<const double> q) const noexcept;
 
   Chain chain_;
