@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "golden_models.hpp"
+
+namespace plumb::format {
+namespace {
+
+JointRow row(const std::string& name, double alpha, double a, double d) {
+  JointRow out;
+  out.name = name;
+  out.alpha = alpha;
+  out.a = a;
+  out.d = d;
+  out.q_min = -3.0;
+  out.q_max = 3.0;
+  return out;
+}
+
+/// Three nodes, four leaves, depth 3: leans to one side.
+Tree leaning_tree(int inputs) {
+  Tree out;
+  out.depth = 3;
+  out.nodes = {{0.25, 1, ~0, 1, 0}, {-0.5, 0, 2, ~3, 0}, {0.0, 5, ~1, ~2, 0}};
+  for (int leaf = 0; leaf < 4; ++leaf) {
+    for (int i = 0; i <= inputs; ++i) out.coefficients.push_back(1e-5 * (leaf - i));
+    out.bounds.insert(out.bounds.end(), {-1e-4, 2e-4});
+  }
+  return out;
+}
+
+Provenance provenance() {
+  Provenance out;
+  out.tool_version = "0.1.0";
+  out.created = "2026-01-02T03:04:05Z";
+  out.run = "0007";
+  out.inputs = {{"measurements.csv", std::string(64, 'a')}};
+  out.poses_fit = 160;
+  out.held_out = {40, 5e-5, 6e-5, 9e-5, 1.2e-4};
+  out.noise_floor_m = 1.6e-5;
+  out.parameter_names = {"J2.d", "J3.alpha"};
+  out.covariance = {1e-10F, 2e-12F, 3e-10F};
+  return out;
+}
+
+}  // namespace
+
+Model six_axis_model() {
+  Model m;
+  m.cell_name = "Golden cell";
+  m.robot_name = "Six axes";
+  m.serial = "G-1";
+  m.nominal.convention = Convention::kStandard;
+  constexpr double kRight = 1.5707963267948966;
+  m.nominal.joints = {row("J1", kRight, 0.0, 0.1273),  row("J2", 0.0, -0.612, 0.0),
+                      row("J3", 0.0, -0.5723, 0.0),    row("J4", kRight, 0.0, 0.163941),
+                      row("J5", -kRight, 0.0, 0.1157), row("J6", 0.0, 0.0, 0.0922)};
+  m.nominal.tool.p = {0.0, 0.01, 0.15};
+  m.calibrated = m.nominal;
+  for (auto& joint : m.calibrated.joints) {
+    joint.alpha += 3e-4;
+    joint.a -= 4e-4;
+    joint.theta = 2e-4;
+  }
+  m.calibrated.joints[1].beta = 1e-4;
+  m.calibrated.joints[2].post.e = {1e-5, 0.0, -1e-5};
+  m.effects = {{.name = "reversal",
+                .version = 1,
+                .joints = {1, 2},
+                .parameters = {1e-4, 0.05, 2e-4, 0.05},
+                .context = {{ContextInput::kDirection, "", 0.0}}}};
+  m.trees = {leaning_tree(6), leaning_tree(6), Tree{}};
+  m.domain = {std::vector<double>(6, -2.5), std::vector<double>(6, 2.5), 0.05};
+  m.provenance = provenance();
+  return m;
+}
+
+Model planar_model() {
+  Model m;
+  m.robot_name = "Planar";
+  m.gravity = {0.0, -9.81, 0.0};
+  m.nominal.convention = Convention::kModified;
+  m.nominal.joints = {row("A", 0.0, 0.0, 0.0), row("B", 0.0, 1.0, 0.0)};
+  m.nominal.joints[1].type = JointType::kPrismatic;
+  m.calibrated = m.nominal;
+  m.guard.corrects = Corrects::kPose;
+  return m;
+}
+
+std::vector<std::pair<std::string, Model>> golden_models() {
+  return {{"six_axis", six_axis_model()}, {"planar", planar_model()}};
+}
+
+}  // namespace plumb::format

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plumb/format/model.hpp"
+
+namespace plumb::format {
+
+/// A six-axis arm with trees, effects and covariance; a planar arm with next to nothing.
+Model six_axis_model();
+Model planar_model();
+
+/// File name without ending, and content.
+std::vector<std::pair<std::string, Model>> golden_models();
+
+}  // namespace plumb::format
