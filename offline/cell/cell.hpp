@@ -34,10 +34,10 @@ struct Payload {
 /// How the held-out poses are chosen.
 struct HeldOutRule {
   enum class Kind { kAuto, kShare, kFolds, kColumn, kFile } kind = Kind::kAuto;
-  double share = 0.2;          // kShare
-  int folds = 5;               // kFolds
-  std::string column = "set";  // kColumn
-  std::filesystem::path file;  // kFile, absolute
+  double share = 0.2;               // kShare
+  int folds = 5;                    // kFolds
+  std::string column = "set";       // kColumn
+  std::filesystem::path file = {};  // kFile, absolute
 };
 
 struct MeasurementSettings {
@@ -52,7 +52,7 @@ struct MeasurementSettings {
   std::uint64_t seed = 1;
 };
 
-/// One entry of [effects]; `geometry` is always first and always there.
+/// One entry of [effects]; `geometry` comes first unless the file says `geometry = false`.
 struct EffectEntry {
   using Value = std::variant<bool, double, std::string, std::vector<std::string>>;
   std::string name;

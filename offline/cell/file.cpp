@@ -4,12 +4,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
-#include <fstream>
 
 #include "cell/problem.hpp"
 
@@ -18,18 +20,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
 [[noreturn]] void cannot_read(const fs::path& file, const std::string& why) {
-  throw Failure(Exit::kInput, {.code = "E-READ",
-                               .message = fmt::format("cannot read {}: {}", file.string(), why),
-                               .help = "check the path: ls -l " + file.parent_path().string()});
+  throw Failure(Exit::kInput,
+                {.code = "E-READ",
+                 .message = fmt::format("cannot read {}: {}", display_name(file), why),
+                 .help = "check the path: ls -l " + folder_of(file).string()});
 }
 
 [[noreturn]] void cannot_write(const fs::path& file, int error) {
   throw Failure(
       Exit::kEnvironment,
       {.code = "E-WRITE",
-       .message = fmt::format("cannot write {}: {}", file.string(), std::strerror(error)),
-       .help = "check free space and permissions: df -h && ls -ld " + file.parent_path().string()});
+       .message = fmt::format("cannot write {}: {}", display_name(file), std::strerror(error)),
+       .help = "check free space and permissions: df -h && ls -ld " + folder_of(file).string()});
 }
 
 /// A file descriptor that closes itself.
@@ -47,6 +54,13 @@ class Descriptor {
   int fd_;
 };
 
+int sync(int fd) {
+  int result = 0;
+  do result = ::fsync(fd);
+  while (result != 0 && errno == EINTR);
+  return result == 0 ? 0 : errno;
+}
+
 /// 0 or errno.
 int write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -55,50 +69,78 @@ int write_all(int fd, std::string_view bytes) {
     if (n < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
-  return ::fsync(fd) == 0 ? 0 : errno;
+  return sync(fd);
 }
 
-int write_draft(const fs::path& draft, std::string_view bytes) {
-  const Descriptor file(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
-  return file.get() < 0 ? errno : write_all(file.get(), bytes);
+/// What is replaced keeps its permissions.
+int write_draft(const fs::path& draft, const fs::path& target, std::string_view bytes) {
+  const Descriptor file(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL);
+  if (file.get() < 0) return errno;
+  struct stat present {};
+  if (::stat(target.c_str(), &present) == 0 && ::fchmod(file.get(), present.st_mode & 07777) != 0)
+    return errno;
+  return write_all(file.get(), bytes);
+}
+
+/// A name that no other writer uses, nor one that died before.
+fs::path draft_beside(const fs::path& target) {
+  static std::atomic<unsigned> count{0};
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  return target.string() + fmt::format(".{}-{}-{}.tmp", ::getpid(), now, count++);
 }
 
 }  // namespace
 
+std::string display_name(const fs::path& file) {
+  std::error_code error;
+  const fs::path here = fs::current_path(error);
+  if (error || !file.is_absolute()) return file.string();
+  const fs::path relative = file.lexically_normal().lexically_relative(here);
+  const bool below = !relative.empty() && *relative.begin() != "..";
+  return below ? relative.string() : file.string();
+}
+
 std::string read_file(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
-  if (!fs::exists(status)) cannot_read(file, "no such file");
+  if (status.type() == fs::file_type::not_found) cannot_read(file, "no such file");
+  if (error) cannot_read(file, error.message());
   if (fs::is_directory(status)) cannot_read(file, "it is a directory");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) cannot_read(file, std::strerror(errno));
+  const Descriptor in(file.c_str(), O_RDONLY);
+  if (in.get() < 0) cannot_read(file, std::strerror(errno));
   std::string out;
-  if (fs::is_regular_file(status)) out.reserve(fs::file_size(file, error));
+  if (fs::is_regular_file(status)) out.reserve(fs::file_size(file, error) + 1);
   std::array<char, 1 << 16> chunk;
-  while (in.read(chunk.data(), chunk.size()) || in.gcount() > 0)
-    out.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) cannot_read(file, "the read failed");
-  return out;
+  for (;;) {
+    const ssize_t n = ::read(in.get(), chunk.data(), chunk.size());
+    if (n == 0) return out;
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) cannot_read(file, std::strerror(errno));
+    out.append(chunk.data(), static_cast<std::size_t>(n));
+  }
 }
 
 void write_file_atomically(const fs::path& file, std::string_view bytes) {
-  if (fs::is_directory(file)) cannot_write(file, EISDIR);
-  const fs::path draft = file.string() + fmt::format(".{}.tmp", ::getpid());
-  int error = write_draft(draft, bytes);
-  if (error == 0 && ::rename(draft.c_str(), file.c_str()) != 0) error = errno;
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) cannot_write(file, EISDIR);
+  // A link stays a link: what it points to is replaced.
+  const fs::path target = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file) : file;
+  const fs::path draft = draft_beside(target);
+  int error = write_draft(draft, target, bytes);
+  if (error == 0 && ::rename(draft.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(draft.c_str());
     cannot_write(file, error);
   }
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const Descriptor directory(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (directory.get() >= 0) ::fsync(directory.get());
+  const Descriptor directory(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY);
+  if (directory.get() >= 0) sync(directory.get());
 }
 
 void write_new_file(const fs::path& file, std::string_view bytes, Overwrite overwrite) {
-  if (overwrite == Overwrite::kNo && fs::exists(file))
+  std::error_code ignored;
+  if (overwrite == Overwrite::kNo && fs::exists(file, ignored))
     throw Failure(Exit::kUsage, {.code = "E-EXISTS",
-                                 .message = fmt::format("{} is already there", file.string()),
+                                 .message = fmt::format("{} is already there", display_name(file)),
                                  .help = "to replace it add --force"});
   write_file_atomically(file, bytes);
 }

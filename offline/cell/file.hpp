@@ -7,6 +7,9 @@
 
 namespace plumb::offline {
 
+/// A file as messages name it: relative if it lies in the working directory or below.
+std::string display_name(const std::filesystem::path& file);
+
 /// Whole file as text. Throws Failure (kInput) if missing, a directory or unreadable.
 std::string read_file(const std::filesystem::path& file);
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cell/kept_rows.hpp"
 #include "cell/problem.hpp"
 
 namespace plumb::offline {
@@ -30,7 +32,7 @@ struct Column {
   std::string name;    // without the unit: "q1"
   std::string unit;    // "deg"; empty for text and plain numbers
   Quantity quantity = Quantity::kText;
-  std::vector<double> values;     // SI; empty for text columns
+  std::vector<double> values;     // SI, temperatures in [degC]; empty for text columns
   std::vector<std::string> text;  // for text columns
 };
 
@@ -40,9 +42,10 @@ struct Table {
   std::string sha256;
   std::vector<std::pair<std::string, std::string>> comments;  // "# key: value"
   std::vector<Column> columns;
-  std::vector<int> lines;             // source line of each row
-  std::vector<std::string> raw_rows;  // each row as written, canonical commas, for pass-through
+  std::vector<int> lines;  // source line of each row
+  KeptRows raw_rows;       // each row as written, canonical commas, for pass-through
   std::string raw_header;
+  int header_line = 0;  // source line of the header
   std::vector<Problem> remarks;
   int rows() const { return static_cast<int>(lines.size()); }
   const Column* find(std::string_view name) const;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cctype>
+
+#include "cell/utf8.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -20,19 +22,40 @@ const char* word(Severity severity) {
   }
 }
 
+constexpr int kWindow = 100;  // characters of a source line shown
+
+struct Excerpt {
+  std::string text;
+  int caret = 0;  // characters before the caret
+};
+
+/// The part of a long line around the caret.
+Excerpt excerpt(const Place& place) {
+  const auto line = printable_characters(place.source);
+  const int size = static_cast<int>(line.size());
+  const int at = std::clamp(place.column - 1, 0, size);
+  const int first = size <= kWindow ? 0 : std::clamp(at - kWindow / 2, 0, size - kWindow);
+  const int last = std::min(size, first + kWindow);
+  Excerpt out{.text = first > 0 ? "…" : "", .caret = at - first + (first > 0 ? 1 : 0)};
+  for (int i = first; i < last; ++i) out.text += line[i];
+  if (last < size) out.text += "…";
+  return out;
+}
+
 std::string render_place(const Place& place) {
   std::string at = place.file;
   if (place.line > 0) at += fmt::format(":{}", place.line);
   if (place.line > 0 && place.column > 0) at += fmt::format(":{}", place.column);
-  std::string out = fmt::format("\n  --> {}", at);
-  if (place.source.empty() || place.line <= 0) return out;
+  if (place.source.empty() || place.line <= 0) return fmt::format("\n  --> {}", at);
   const std::string number = std::to_string(place.line);
   const std::string gutter(number.size() + 2, ' ');
-  out += fmt::format("\n{}|\n {} | {}", gutter, number, place.source);
+  const Excerpt shown = excerpt(place);
+  std::string out =
+      fmt::format("\n{}--> {}\n{}|\n {} | {}", gutter.substr(1), at, gutter, number, shown.text);
   if (place.column > 0)
-    out += fmt::format("\n{}| {}{}{}{}", gutter, std::string(place.column - 1, ' '),
-                       std::string(std::max(1, place.length), '^'), place.label.empty() ? "" : " ",
-                       place.label);
+    out += fmt::format("\n{}| {}{}{}{}", gutter, std::string(shown.caret, ' '),
+                       std::string(std::clamp(place.length, 1, kWindow), '^'),
+                       place.label.empty() ? "" : " ", place.label);
   return out;
 }
 
@@ -52,6 +75,11 @@ int edit_distance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 }  // namespace
 
 std::string render(const Problem& problem) {
@@ -68,7 +96,9 @@ std::string render(const Problem& problem) {
 
 Failure::Failure(Exit exit, std::vector<Problem> problems)
     : exit_(exit), problems_(std::move(problems)) {
-  what_ = problems_.empty() ? "unknown" : problems_.front().message;
+  if (problems_.empty()) return;
+  what_ = problems_.front().message;
+  if (problems_.size() > 1) what_ += fmt::format(" (and {} more)", problems_.size() - 1);
 }
 
 Failure::Failure(Exit exit, Problem problem)
@@ -80,11 +110,10 @@ std::optional<std::string> did_you_mean(const std::string& word,
   std::optional<std::string> best;
   int best_distance = most + 1;
   for (const auto& candidate : candidates) {
-    const int distance = edit_distance(word, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
+    const int distance = edit_distance(lower(word), lower(candidate));
+    if (distance >= best_distance) continue;
+    best_distance = distance;
+    best = candidate;
   }
   return best;
 }

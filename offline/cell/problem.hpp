@@ -28,7 +28,7 @@ struct Place {
   std::string file = {};
   int line = 0;
   int column = 0;
-  int length = 1;      // characters under the caret
+  int length = 1;           // characters under the caret
   std::string source = {};  // the text of the line
   std::string label = {};   // stands behind the caret: "add a unit suffix"
 };

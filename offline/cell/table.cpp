@@ -1,88 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/measurements.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <set>
 
+#include "cell/csv_header.hpp"
 #include "cell/file.hpp"
 #include "cell/units.hpp"
+#include "cell/utf8.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kMostProblems = 1000;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-const std::set<std::string_view> kTextColumns{"pose",  "set",    "note", "time",
-                                              "joint", "status", "type"};
-const std::set<std::string_view> kPlainNumbers{"repeat", "fold", "qw",  "qx",  "qy",  "qz",  "pqw",
-                                               "pqx",    "pqy",  "pqz", "cqw", "cqx", "cqy", "cqz"};
-
-bool is_direction(std::string_view name) {
-  return name.starts_with("dir_j") && name.size() > 5 &&
-         name.find_first_not_of("0123456789", 5) == std::string_view::npos;
-}
-
-bool is_plain(std::string_view name) {
-  return kTextColumns.contains(name) || kPlainNumbers.contains(name) || is_direction(name);
-}
-
-std::string_view trimmed(std::string_view s) {
-  const auto first = s.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// One line cut at separators; quotes protect them.
-void cut(std::string_view line, char separator, std::vector<std::string_view>& out) {
-  out.clear();
-  std::size_t begin = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i == line.size() || (line[i] == separator && !quoted)) {
-      out.push_back(line.substr(begin, i - begin));
-      begin = i + 1;
-    }
-  }
-}
-
-std::string unquoted(std::string_view cell) {
-  cell = trimmed(cell);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-    cell = cell.substr(1, cell.size() - 2);
-  return std::string(cell);
-}
-
-class Reader {
+class TableReader {
  public:
-  Reader(std::string_view text, const std::string& file) : text_(text) { table_.file = file; }
+  TableReader(std::string_view text, const std::string& file) : text_(text) { table_.file = file; }
 
   Table read() {
     check_bytes();
-    for (std::size_t at = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text_.size();) {
+    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+    for (std::size_t at = 0; at < text_.size() && !problems_.full();) {
       const auto end = std::min(text_.find('\n', at), text_.size());
       read_line(text_.substr(at, end - at));
       at = end + 1;
     }
-    if (problems_.empty()) check_content();
-    if (!problems_.empty()) throw Failure(Exit::kInput, std::move(problems_));
+    check_content();
+    problems_.stop_on_errors();
+    table_.raw_rows = KeptRows(std::move(kept_), std::move(begins_), std::move(sizes_));
+    table_.remarks = std::move(problems_.remarks());
     return std::move(table_);
   }
 
  private:
+  [[noreturn]] void refuse(std::string code, std::string message, Place place, std::string help) {
+    place.file = table_.file;
+    throw Failure(Exit::kInput,
+                  Problem{.code = code, .message = message, .place = place, .help = help});
+  }
+
   void check_bytes() {
     if (text_.empty())
-      throw Failure(Exit::kInput, problem("E-CSV-EMPTY", "the file is empty", {},
-                                          "export the measurements again"));
-    if (text_.find('\0') != std::string_view::npos)
-      throw Failure(Exit::kInput,
-                    problem("E-CSV-BINARY", "this is not a text file: it holds zero bytes", {},
-                            "save it as CSV, UTF-8"));
+      refuse("E-CSV-EMPTY", "the file is empty", {}, "export the measurements again");
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
+      refuse("E-CSV-UTF8", "the file is UTF-16, not UTF-8", {},
+             fmt::format("iconv -f UTF-16 -t UTF-8 {0} > utf8.csv", table_.file));
+    if (const auto zero = text_.find('\0'); zero != std::string_view::npos)
+      refuse("E-CSV-BINARY", "this is no text file: it holds zero bytes", place_at(zero),
+             "save the measurements as CSV in UTF-8");
+    if (const auto bad = find_invalid_utf8(text_); bad != std::string_view::npos)
+      refuse("E-CSV-UTF8", "this byte is not UTF-8", place_at(bad),
+             fmt::format("iconv -f WINDOWS-1252 -t UTF-8 {0} > utf8.csv", table_.file));
+  }
+
+  Place place_at(std::size_t offset) const {
+    const auto before = text_.substr(0, offset);
+    const auto newline = before.rfind('\n');
+    const auto begin = newline == std::string_view::npos ? 0 : newline + 1;
+    const auto line = text_.substr(begin, text_.find('\n', offset) - begin);
+    const int number = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+    return CsvPlace{table_.file, number, line}.of(text_.substr(offset, 1), "here");
   }
 
   void read_line(std::string_view line) {
@@ -91,8 +70,8 @@ class Reader {
     const auto content = trimmed(line);
     if (content.empty()) return;
     if (content.starts_with('#') || content.starts_with("//")) return read_comment(content);
-    if (table_.columns.empty()) return read_header(line);
-    read_row(line);
+    if (!table_.columns.empty()) return read_row(line);
+    read_header_line(line);
   }
 
   void read_comment(std::string_view line) {
@@ -102,166 +81,164 @@ class Reader {
     table_.comments.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
   }
 
-  void read_header(std::string_view line) {
-    separator_ = line.find(';') != std::string_view::npos ? ';' : ',';
+  void read_header_line(std::string_view line) {
+    table_.header_line = line_number_;
+    separator_ = find_separator(line);
+    if (separator_ == '\t')
+      refuse("E-CSV-SEPARATOR", "the columns are separated by tabs", here(line).of(line, ""),
+             fmt::format("plumb import {}", table_.file));
     if (separator_ == ';')
-      table_.remarks.push_back(problem("N-CSV-SEMICOLON",
-                                       "read with ';' between columns and decimal commas", {}, "",
-                                       Severity::kNote));
-    cut(line, separator_, cells_);
-    for (const auto cell : cells_) add_column(line, cell);
-    table_.raw_header = joined();
+      problems_.note("N-CSV-SEMICOLON", "read with ';' between columns and decimal commas",
+                     here(line).of(line.substr(line.find(';'), 1), "separator"), "");
+    if (!cut(line)) return;
+    const CsvPlace place = here(line);
+    table_.columns = read_header(cells_, place, problems_);
+    for (const auto& column : table_.columns)
+      units_.push_back(unit_of(column.unit).value_or(Unit{}));
+    reserve();
+    append_canonical(line);
+    table_.raw_header = kept_;
+    kept_.clear();
   }
 
-  void add_column(std::string_view line, std::string_view cell) {
-    Column column;
-    column.header = unquoted(cell);
-    const Place place = place_of(line, cell);
-    if (column.header.empty())
-      add(problem("E-CSV-HEADER", "a column has no name", with(place, "name it"),
-                  "give every column a name"));
-    for (const auto& other : table_.columns)
-      if (other.header == column.header)
-        add(problem("E-CSV-DUPLICATE", fmt::format("column '{}' appears twice", column.header),
-                    with(place, "second one"), "delete or rename one of them"));
-    name_column(column, place);
-    table_.columns.push_back(std::move(column));
-    scales_.push_back(unit_of(table_.columns.back().unit).value_or(Unit{}));
+  void reserve() {
+    const auto lines = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
+    for (auto& column : table_.columns)
+      if (column.quantity == Quantity::kText)
+        column.text.reserve(lines);
+      else
+        column.values.reserve(lines);
+    table_.lines.reserve(lines);
+    begins_.reserve(lines);
+    sizes_.reserve(lines);
+    kept_.reserve(text_.size());
   }
 
-  void name_column(Column& column, const Place& place) {
-    if (is_plain(column.header)) {
-      column.name = column.header;
-      column.quantity = kTextColumns.contains(column.name) ? Quantity::kText : Quantity::kNumber;
-      return;
-    }
-    const Heading heading = split_heading(column.header);
-    const auto unit = unit_of(heading.unit);
-    column.name = heading.name;
-    column.unit = heading.unit;
-    if (unit) {
-      column.quantity = unit->quantity;
-    } else if (heading.unit.empty()) {
-      add(problem("E-CSV-UNIT", fmt::format("column '{}' has no unit", column.header),
-                  with(place, "add a unit suffix"),
-                  fmt::format("rename it to '{0}_mm', or: plumb import {1} --map {0}={0}_mm",
-                              column.header, table_.file)));
-    } else {
-      add(problem("E-CSV-UNIT",
-                  fmt::format("column '{}': '{}' is not a unit", column.header, heading.unit),
-                  with(place, "unknown unit"), "known units: " + unit_list()));
-    }
+  /// False if the line's quotes are wrong.
+  bool cut(std::string_view line) {
+    const CsvFault fault = cut_line(line, separator_, cells_);
+    if (fault == CsvFault::kNone) return true;
+    const bool open = fault == CsvFault::kQuoteNotClosed;
+    problems_.error("E-CSV-QUOTE",
+                    open ? "a quote is not closed on its line" : "text behind a closing quote",
+                    here(line).of(cells_.back().text, open ? "opened here" : "not expected"),
+                    "a quote inside a quoted text is written twice: \"\"");
+    return false;
   }
 
   void read_row(std::string_view line) {
-    cut(line, separator_, cells_);
-    if (cells_.size() != table_.columns.size()) {
-      add(problem(
-          "E-CSV-RAGGED",
-          fmt::format("{} cells where the header has {}", cells_.size(), table_.columns.size()),
-          with(place_of(line, line), ""), "complete or delete this row"));
-      return;
-    }
-    for (std::size_t i = 0; i < cells_.size(); ++i) read_cell(i, line);
+    if (!cut(line)) return;
+    const std::size_t wanted = table_.columns.size();
+    if (cells_.size() != wanted) return ragged(line);
+    for (std::size_t i = 0; i < wanted; ++i) read_cell(i, line);
     table_.lines.push_back(line_number_);
-    table_.raw_rows.push_back(joined());
+    begins_.push_back(kept_.size());
+    append_canonical(line);
+    sizes_.push_back(kept_.size() - begins_.back());
+  }
+
+  void ragged(std::string_view line) {
+    const std::size_t wanted = table_.columns.size();
+    const bool few = cells_.size() < wanted;
+    problems_.error(
+        "E-CSV-RAGGED", fmt::format("{} cells where the header has {}", cells_.size(), wanted),
+        here(line).of(few ? line.substr(line.size()) : cells_[wanted].text,
+                      few ? fmt::format("'{}' is missing", table_.columns[cells_.size()].header)
+                          : "one too many"),
+        "complete or delete this row");
   }
 
   void read_cell(std::size_t i, std::string_view line) {
     Column& column = table_.columns[i];
-    if (column.quantity == Quantity::kText) {
-      column.text.push_back(unquoted(cells_[i]));
+    if (column.quantity != Quantity::kText) {
+      column.values.push_back(units_[i].to_si(number(i, line)));
+      if (!std::isfinite(column.values.back())) bad_number(i, line, std::errc::result_out_of_range);
       return;
     }
-    column.values.push_back(scales_[i].scale * number(i, line) + scales_[i].offset);
+    column.text.push_back(text_of(cells_[i]));
+    if (column.text.back().empty() && column.name == "pose")
+      bad_number(i, line, std::errc::invalid_argument);
   }
 
   double number(std::size_t i, std::string_view line) {
-    std::string_view cell = trimmed(cells_[i]);
+    std::string_view cell = cells_[i].text;
     if (separator_ == ';' && cell.find(',') != std::string_view::npos) {
       decimal_.assign(cell);
       std::replace(decimal_.begin(), decimal_.end(), ',', '.');
       cell = decimal_;
     }
-    if (cell.starts_with('+')) cell.remove_prefix(1);
+    if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
     double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(value))
-      return value;
-    bad_number(i, line, cell, error);
+    const char* end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, value);
+    if (error == std::errc{} && stop == end && std::isfinite(value)) return value;
+    const bool too_far = error == std::errc::result_out_of_range && stop == end;
+    const bool endless = error == std::errc{} && stop == end;
+    bad_number(i, line,
+               too_far   ? std::errc::result_out_of_range
+               : endless ? std::errc::argument_out_of_domain
+                         : std::errc::invalid_argument);
     return 0.0;
   }
 
-  void bad_number(std::size_t i, std::string_view line, std::string_view cell, std::errc error) {
+  void bad_number(std::size_t i, std::string_view line, std::errc error) {
     const auto& header = table_.columns[i].header;
-    const Place place = place_of(line, trimmed(cells_[i]).empty() ? cells_[i] : trimmed(cells_[i]));
-    const std::string help = "measure this pose again, or delete the row";
+    const auto cell = cells_[i].text;
+    const auto report = [&](const char* code, std::string message, const char* label) {
+      problems_.error(code, std::move(message), here(line).of(cell, label),
+                      "correct it, or delete the row");
+    };
     if (cell.empty())
-      add(problem("E-CSV-MISSING", fmt::format("column '{}' has an empty cell", header),
-                  with(place, "no value"), help));
+      report("E-CSV-MISSING", fmt::format("column '{}' has an empty cell", header), "no value");
     else if (error == std::errc::result_out_of_range)
-      add(problem("E-CSV-RANGE",
-                  fmt::format("column '{}': '{}' is beyond any number", header, cell),
-                  with(place, "too large or too small"), help));
-    else if (cell == "nan" || cell == "NaN" || cell == "NAN" || cell == "inf" || cell == "-inf")
-      add(problem("E-CSV-NAN", fmt::format("column '{}' holds '{}'", header, cell),
-                  with(place, "not a finite number"), help));
+      report("E-CSV-RANGE", fmt::format("column '{}': '{}' does not fit a number", header, cell),
+             "too large or too small");
+    else if (error == std::errc::argument_out_of_domain)
+      report("E-CSV-NAN", fmt::format("column '{}' holds '{}'", header, cell),
+             "not a finite number");
     else
-      add(problem("E-CSV-NUMBER", fmt::format("column '{}': '{}' is not a number", header, cell),
-                  with(place, "not a number"), help));
+      report("E-CSV-NUMBER", fmt::format("column '{}': '{}' is not a number", header, cell),
+             "not a number");
   }
 
   void check_content() {
+    const Place whole{.file = table_.file};
+    if (!problems_.errors().empty()) return;
     if (table_.columns.empty())
-      add(problem("E-CSV-EMPTY", "the file has no header", {}, "export the measurements again"));
+      problems_.error("E-CSV-EMPTY", "the file has no header", whole,
+                      "export the measurements again");
     else if (table_.lines.empty())
-      add(problem("E-CSV-ROWS", "the file has a header but no rows", {},
-                  "export the measurements again"));
+      problems_.error("E-CSV-ROWS", "the file has a header but no rows", whole,
+                      "export the measurements again");
   }
 
-  /// The cells of the present line as canonical CSV.
-  std::string joined() const {
-    std::string out;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (i > 0) out += ',';
-      std::string cell(trimmed(cells_[i]));
-      if (separator_ == ';') {
-        if (i < table_.columns.size() && table_.columns[i].quantity != Quantity::kText)
-          std::replace(cell.begin(), cell.end(), ',', '.');
-        else if (cell.find(',') != std::string::npos && !cell.starts_with('"'))
-          cell = '"' + cell + '"';
-      }
-      out += cell;
+  /// Appends the line to what is kept, with commas between columns and decimal points.
+  void append_canonical(std::string_view line) {
+    if (separator_ == ',') {
+      kept_ += line;
+      return;
     }
-    return out;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (i > 0) kept_ += ',';
+      const std::size_t begin = kept_.size();
+      const bool is_text = table_.columns[i].quantity == Quantity::kText;
+      if (is_text || table_.header_line == line_number_)
+        kept_ += quoted_if_needed(text_of(cells_[i]));
+      else
+        kept_ += cells_[i].text;
+      if (!is_text) std::replace(kept_.begin() + static_cast<long>(begin), kept_.end(), ',', '.');
+    }
   }
 
-  Place place_of(std::string_view line, std::string_view cell) const {
-    return {.file = table_.file,
-            .line = line_number_,
-            .column = static_cast<int>(cell.data() - line.data()) + 1,
-            .length = static_cast<int>(std::max<std::size_t>(1, cell.size())),
-            .source = std::string(line)};
-  }
-  static Place with(Place place, std::string label) {
-    place.label = std::move(label);
-    return place;
-  }
-  Problem problem(std::string code, std::string message, std::optional<Place> place,
-                  std::string help, Severity severity = Severity::kError) const {
-    if (!place) place = Place{.file = table_.file};
-    return {severity, std::move(code), std::move(message), std::move(place), std::move(help)};
-  }
-  void add(Problem p) {
-    if (problems_.size() < kMostProblems) problems_.push_back(std::move(p));
-  }
+  CsvPlace here(std::string_view line) const { return {table_.file, line_number_, line}; }
 
   std::string_view text_;
   Table table_;
-  std::vector<Problem> problems_;
-  std::vector<std::string_view> cells_;
-  std::vector<Unit> scales_;
-  std::string decimal_;
+  ProblemList problems_;
+  std::vector<CsvCell> cells_;
+  std::vector<Unit> units_;
+  std::string decimal_, kept_;
+  std::vector<std::size_t> begins_, sizes_;
   char separator_ = ',';
   int line_number_ = 0;
 };
@@ -275,13 +252,13 @@ const Column* Table::find(std::string_view name) const {
 }
 
 Table parse_table(std::string_view text, const std::string& file_name) {
-  Table table = Reader(text, file_name).read();
+  Table table = TableReader(text, file_name).read();
   table.sha256 = sha256(text);
   return table;
 }
 
 Table read_table(const std::filesystem::path& file) {
-  return parse_table(read_file(file), file.string());
+  return parse_table(read_file(file), display_name(file));
 }
 
 }  // namespace plumb::offline

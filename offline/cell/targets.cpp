@@ -3,88 +3,82 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+
+#include "cell/arm_columns.hpp"
+#include "cell/column_names.hpp"
+#include "cell/table_place.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kQuaternionSlack = 1e-3;
-
-[[noreturn]] void fail(const Table& table, std::string code, std::string message, std::string help,
-                       int row = -1) {
-  Place place{.file = table.file};
-  if (row >= 0) place.line = table.lines[row];
-  throw Failure(Exit::kInput, {.code = std::move(code),
-                               .message = std::move(message),
-                               .place = place,
-                               .help = std::move(help)});
-}
-
-const Column* of_kind(const Table& table, const std::string& name, Quantity quantity) {
-  const Column* column = table.find(name);
-  if (column != nullptr && column->quantity != quantity)
-    fail(table, "E-CSV-KIND", fmt::format("column '{}' has the wrong kind of unit", column->header),
-         "lengths in mm, turning joints in deg, sliding joints in mm");
-  return column;
-}
-
-/// Seed columns PREFIX1 … PREFIXn; all of them or none.
-bool read_seed(Targets& out, const std::string& prefix, const std::vector<bool>& is_angle) {
-  const auto n = static_cast<Eigen::Index>(is_angle.size());
-  RowsN seed(out.table.rows(), n);
-  int found = 0;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto kind = is_angle[k] ? Quantity::kAngle : Quantity::kLength;
-    const Column* column = of_kind(out.table, fmt::format("{}{}", prefix, k + 1), kind);
-    if (column == nullptr) continue;
-    ++found;
-    for (int i = 0; i < out.table.rows(); ++i) seed(i, k) = column->values[i];
+class TargetReader {
+ public:
+  TargetReader(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle)
+      : is_angle_(joint_is_angle) {
+    out_.table = read_table(file);
   }
-  if (found == 0) return false;
-  if (found != n)
-    fail(out.table, "E-CSV-JOINT",
-         fmt::format("{} of {} joint columns {}1 … are there", found, n, prefix),
-         "give every joint, or none");
-  out.seed = std::move(seed);
-  return true;
-}
+
+  Targets read() {
+    read_positions();
+    read_orientations();
+    out_.commanded = has_joints("qc");
+    if (has_joints("qc") || has_joints("q")) read_seed(out_.commanded ? "qc" : "q");
+    problems_.stop_on_errors();
+    return std::move(out_);
+  }
+
+ private:
+  void read_positions() {
+    out_.p_B.resize(out_.table.rows(), 3);
+    for (int k = 0; k < 3; ++k) {
+      const Column* column = out_.table.find(std::string(1, "xyz"[k]));
+      if (column != nullptr)
+        fill(out_.p_B, k, *column);
+      else
+        problems_.error("E-CSV-POSITION", fmt::format("column '{}_mm' is missing", "xyz"[k]),
+                        place_of_missing(out_.table, "missing here"),
+                        "a target is x_mm,y_mm,z_mm,qw,qx,qy,qz in the base frame");
+    }
+  }
+
+  void read_orientations() {
+    ArmColumns columns;
+    find_orientation(out_.table, columns, problems_);
+    if (!columns.has_orientation() || !problems_.errors().empty()) return;
+    out_.quat_B.resize(out_.table.rows(), 4);
+    for (int i = 0; i < out_.table.rows(); ++i) {
+      const auto q = orientation(out_.table, columns, i, problems_);
+      out_.quat_B.row(i) << q[0], q[1], q[2], q[3];
+    }
+  }
+
+  bool has_joints(const char* prefix) const {
+    const auto& columns = out_.table.columns;
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](const Column& c) { return joint_number(c.name, prefix) > 0; });
+  }
+
+  void read_seed(const char* prefix) {
+    const auto joints = find_joints(out_.table, prefix, is_angle_, problems_);
+    out_.seed.resize(out_.table.rows(), static_cast<Eigen::Index>(joints.size()));
+    for (std::size_t k = 0; k < joints.size(); ++k)
+      if (joints[k] != nullptr) fill(out_.seed, static_cast<int>(k), *joints[k]);
+  }
+
+  static void fill(auto& matrix, int k, const Column& column) {
+    for (std::size_t i = 0; i < column.values.size(); ++i) matrix(i, k) = column.values[i];
+  }
+
+  const std::vector<bool>& is_angle_;
+  ProblemList problems_;
+  Targets out_;
+};
 
 }  // namespace
 
 Targets read_targets(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle) {
-  Targets out;
-  out.table = read_table(file);
-  const int n = out.table.rows();
-  out.p_B.resize(n, 3);
-  const char* const axes[] = {"x", "y", "z"};
-  for (int k = 0; k < 3; ++k) {
-    const Column* column = of_kind(out.table, axes[k], Quantity::kLength);
-    if (column == nullptr)
-      fail(out.table, "E-CSV-POSITION", fmt::format("column '{}_mm' is missing", axes[k]),
-           "a target is x_mm,y_mm,z_mm,qw,qx,qy,qz in the base frame");
-    for (int i = 0; i < n; ++i) out.p_B(i, k) = column->values[i];
-  }
-  const char* const parts[] = {"qw", "qx", "qy", "qz"};
-  int found = 0;
-  for (const char* part : parts) found += out.table.find(part) != nullptr ? 1 : 0;
-  if (found != 0 && found != 4)
-    fail(out.table, "E-CSV-QUATERNION", "the quaternion is not complete",
-         "give qw, qx, qy and qz, or none of them");
-  if (found == 4) {
-    out.quat_B.resize(n, 4);
-    for (int i = 0; i < n; ++i) {
-      for (int k = 0; k < 4; ++k) out.quat_B(i, k) = out.table.find(parts[k])->values[i];
-      const double norm = out.quat_B.row(i).norm();
-      if (std::abs(norm - 1.0) > kQuaternionSlack)
-        fail(out.table, "E-CSV-QUATERNION",
-             fmt::format("the quaternion has length {:.6g}, not 1", norm),
-             "check the order qw, qx, qy, qz and the decimals", i);
-      out.quat_B.row(i) /= norm;
-    }
-  }
-  out.commanded = read_seed(out, "qc", joint_is_angle);
-  if (!out.commanded) read_seed(out, "q", joint_is_angle);
-  return out;
+  return TargetReader(file, joint_is_angle).read();
 }
 
 }  // namespace plumb::offline

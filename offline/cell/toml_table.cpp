@@ -3,38 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <tuple>
 
 namespace plumb::offline {
-
-TomlSource::TomlSource(std::string file, const std::string& text) : file_(std::move(file)) {
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines_.push_back(line);
-}
-
-Place TomlSource::place(const toml::source_region& where, std::string label) const {
-  Place out{.file = file_, .label = std::move(label)};
-  out.line = static_cast<int>(where.begin.line);
-  out.column = static_cast<int>(where.begin.column);
-  if (out.line >= 1 && out.line <= static_cast<int>(lines_.size()))
-    out.source = lines_[out.line - 1];
-  if (where.end.line == where.begin.line && where.end.column > where.begin.column)
-    out.length = static_cast<int>(where.end.column - where.begin.column);
-  return out;
-}
-
-void TomlSource::add(std::string code, std::string message, const toml::source_region& where,
-                     std::string label, std::string help, Severity severity) {
-  auto& list = severity == Severity::kError ? problems_ : remarks_;
-  list.push_back({severity, std::move(code), std::move(message), place(where, std::move(label)),
-                  std::move(help)});
-}
-
-void TomlSource::add(std::string code, std::string message, std::string help) {
-  problems_.push_back({Severity::kError, std::move(code), std::move(message), Place{.file = file_},
-                       std::move(help)});
-}
 
 TomlTable::TomlTable(const toml::table& table, std::string path, TomlSource& source)
     : table_(&table), path_(std::move(path)), source_(&source) {}
@@ -44,30 +17,35 @@ const toml::node* TomlTable::node(const std::string& key) {
   return table_->get(key);
 }
 
-bool TomlTable::has(const std::string& key) { return node(key) != nullptr; }
-
-void TomlTable::wrong_type(const std::string& key, const toml::node& node, const char* wanted) {
-  source_->add("E-CELL-TYPE", fmt::format("'{}' must be {}", name(key), wanted), node.source(),
-               fmt::format("expected {}", wanted), "see: plumb explain E-CELL-TYPE");
-}
-
 std::optional<double> TomlTable::number(const std::string& key) {
   const toml::node* n = node(key);
   if (n == nullptr) return std::nullopt;
   const auto value = n->is_number() ? n->value<double>() : std::nullopt;
-  if (!value) {
+  if (!value)
     wrong_type(key, *n, "a number");
-    return std::nullopt;
-  }
-  if (!std::isfinite(*value)) {
-    wrong(key, "is not a finite number", "NaN or infinite", "give the measured or nominal value");
-    return std::nullopt;
-  }
-  return value;
+  else if (!std::isfinite(*value))
+    out_of_range(key, "finite");
+  else
+    return value;
+  return std::nullopt;
 }
 
 double TomlTable::number_or(const std::string& key, double fallback) {
   return number(key).value_or(fallback);
+}
+
+std::optional<double> TomlTable::positive(const std::string& key) {
+  const auto value = number(key);
+  if (!value || *value > 0.0) return value;
+  out_of_range(key, "greater than 0");
+  return std::nullopt;
+}
+
+std::optional<double> TomlTable::not_negative(const std::string& key) {
+  const auto value = number(key);
+  if (!value || *value >= 0.0) return value;
+  out_of_range(key, "0 or more");
+  return std::nullopt;
 }
 
 std::optional<std::string> TomlTable::text(const std::string& key) {
@@ -84,6 +62,18 @@ std::string TomlTable::text_or(const std::string& key, std::string fallback) {
   return text(key).value_or(std::move(fallback));
 }
 
+std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& words) {
+  const auto given = text(key);
+  if (!given) return words.front();
+  if (std::find(words.begin(), words.end(), *given) != words.end()) return *given;
+  const auto guess = did_you_mean(*given, words);
+  const std::string all = fmt::format("\"{}\"", fmt::join(words, "\", \""));
+  error("E-CELL-RANGE", fmt::format("'{}' is \"{}\"", name(key), *given), *node(key),
+        guess ? fmt::format("did you mean \"{}\"?", *guess) : "not one of " + all,
+        fmt::format("{} = \"{}\"", key, guess.value_or(words.front())));
+  return words.front();
+}
+
 std::optional<bool> TomlTable::boolean(const std::string& key) {
   const toml::node* n = node(key);
   if (n == nullptr) return std::nullopt;
@@ -94,44 +84,49 @@ std::optional<bool> TomlTable::boolean(const std::string& key) {
   return n->value<bool>();
 }
 
-std::optional<std::vector<double>> TomlTable::numbers(const std::string& key, std::size_t count) {
+template <std::size_t N>
+std::optional<std::array<double, N>> TomlTable::numbers(const std::string& key,
+                                                        const char* wanted) {
   const toml::node* n = node(key);
   if (n == nullptr) return std::nullopt;
   const toml::array* array = n->as_array();
-  std::vector<double> out;
-  if (array != nullptr)
-    for (const auto& element : *array)
-      if (const auto value = element.is_number() ? element.value<double>() : std::nullopt;
-          value && std::isfinite(*value))
-        out.push_back(*value);
-  if (array == nullptr || out.size() != count || array->size() != count) {
-    wrong_type(key, *n,
-               count == 3 ? "three finite numbers [x, y, z]" : "two finite numbers [min, max]");
+  if (array == nullptr || array->size() != N) {
+    wrong_type(key, *n, wanted);
     return std::nullopt;
   }
-  return out;
+  std::array<double, N> out{};
+  bool good = true;
+  for (std::size_t i = 0; i < N; ++i) {
+    const toml::node& element = *array->get(i);
+    out[i] = element.is_number() ? element.value<double>().value_or(NAN) : NAN;
+    if (std::isfinite(out[i])) continue;
+    wrong_type(key, element, wanted);
+    good = false;
+  }
+  return good ? std::optional(out) : std::nullopt;
 }
 
 std::optional<std::array<double, 3>> TomlTable::vector3(const std::string& key) {
-  const auto v = numbers(key, 3);
-  if (!v) return std::nullopt;
-  return std::array<double, 3>{(*v)[0], (*v)[1], (*v)[2]};
+  return numbers<3>(key, "three finite numbers [x, y, z]");
 }
 
 std::optional<std::array<double, 2>> TomlTable::pair(const std::string& key) {
-  const auto v = numbers(key, 2);
-  if (!v) return std::nullopt;
-  return std::array<double, 2>{(*v)[0], (*v)[1]};
+  return numbers<2>(key, "two finite numbers [min, max]");
 }
 
-std::vector<std::string> TomlTable::texts(const std::string& key) {
-  std::vector<std::string> out;
+std::vector<TomlTable::Text> TomlTable::texts(const std::string& key) {
+  std::vector<Text> out;
   const toml::node* n = node(key);
   if (n == nullptr) return out;
-  if (const toml::array* array = n->as_array())
-    for (const auto& element : *array)
-      if (element.is_string()) out.push_back(*element.value<std::string>());
-  if (!n->is_array() || out.size() != n->as_array()->size()) wrong_type(key, *n, "a list of texts");
+  if (!n->is_array()) {
+    wrong_type(key, *n, "a list of texts");
+    return out;
+  }
+  for (const auto& element : *n->as_array())
+    if (element.is_string())
+      out.push_back({*element.value<std::string>(), &element});
+    else
+      wrong_type(key, element, "a list of texts");
   return out;
 }
 
@@ -154,35 +149,54 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
     wrong_type(key, *n, "a list of tables");
     return out;
   }
-  for (std::size_t i = 0; i < array->size(); ++i) {
+  for (std::size_t i = 0; i < array->size(); ++i)
     if (const toml::table* element = array->get(i)->as_table())
       out.emplace_back(*element, fmt::format("{}[{}]", name(key), i + 1), *source_);
     else
-      wrong_type(key, *array->get(i), "a table { … }");
-  }
+      wrong_type(key, *array->get(i), "a list of tables { … }");
   return out;
 }
 
 std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::tuple<unsigned, unsigned, std::string>> found;
+  for (const auto& [key, value] : *table_)
+    found.emplace_back(key.source().begin.line, key.source().begin.column, key.str());
+  std::sort(found.begin(), found.end());
   std::vector<std::string> out;
-  for (const auto& [key, value] : *table_) out.emplace_back(key.str());
+  for (auto& [line, column, key] : found) out.push_back(std::move(key));
   return out;
 }
 
+Place TomlTable::place(const std::string& label) const {
+  Place out = source_->place(table_->source(), label);
+  if (out.line > 0) return out;
+  return source_->place({{1, 1}, {1, 2}, nullptr}, label);
+}
+
 void TomlTable::missing(const std::string& key, const std::string& help) {
-  source_->add("E-CELL-MISSING", fmt::format("'{}' is missing", name(key)), table_->source(),
-               "belongs here", help);
+  source_->problems().error("E-CELL-MISSING", fmt::format("'{}' is missing", name(key)),
+                            place("belongs here"), help);
 }
 
-void TomlTable::wrong(const std::string& key, const std::string& message, const std::string& label,
-                      const std::string& help) {
+void TomlTable::wrong_type(const std::string& key, const toml::node& n, const std::string& wanted) {
+  error("E-CELL-TYPE", fmt::format("'{}' must be {}", name(key), wanted), n, "expected " + wanted,
+        "plumb explain E-CELL-TYPE");
+}
+
+void TomlTable::out_of_range(const std::string& key, const std::string& rule) {
   const toml::node* n = node(key);
-  source_->add("E-CELL-RANGE", fmt::format("'{}' {}", name(key), message),
-               n != nullptr ? n->source() : table_->source(), label, help);
+  error("E-CELL-RANGE", fmt::format("'{}' must be {}", name(key), rule), n ? *n : *table_,
+        "out of range", "plumb explain E-CELL-RANGE");
 }
 
-void TomlTable::range(const std::string& key, bool ok, const std::string& rule) {
-  if (!ok) wrong(key, "must be " + rule, rule, "see: plumb explain E-CELL-RANGE");
+void TomlTable::error(const std::string& code, const std::string& message, const toml::node& n,
+                      const std::string& label, const std::string& help) {
+  source_->problems().error(code, message, source_->place(n.source(), label), help);
+}
+
+void TomlTable::warning(const std::string& code, const std::string& message, const toml::node& n,
+                        const std::string& label, const std::string& help) {
+  source_->problems().warning(code, message, source_->place(n.source(), label), help);
 }
 
 void TomlTable::done() {
@@ -190,9 +204,12 @@ void TomlTable::done() {
     const std::string text(key.str());
     if (known_.contains(text)) continue;
     const auto guess = did_you_mean(text, {known_.begin(), known_.end()});
-    source_->add("E-CELL-KEY", fmt::format("unknown key '{}'", name(text)), key.source(),
-                 guess ? fmt::format("did you mean '{}'?", *guess) : "not known here",
-                 guess ? fmt::format("rename it to {}", *guess) : "delete it");
+    source_->problems().error(
+        "E-CELL-KEY", fmt::format("unknown key '{}'", name(text)),
+        source_->place(key.source(),
+                       guess ? fmt::format("did you mean '{}'?", *guess) : "not known here"),
+        guess ? fmt::format("rename it to '{}'", *guess)
+              : fmt::format("delete it; known here: {}", fmt::join(known_, ", ")));
   }
 }
 

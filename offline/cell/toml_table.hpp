@@ -2,72 +2,91 @@
 #pragma once
 
 #include <toml++/toml.h>
+
 #include <array>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "cell/problem.hpp"
+#include "cell/problem_list.hpp"
 
 namespace plumb::offline {
 
 /// The text of a TOML file and what was found wrong with it.
 class TomlSource {
  public:
-  TomlSource(std::string file, const std::string& text);
+  TomlSource(std::string file, std::string text);
 
-  /// A problem at a node; `node` may be null for the whole file.
-  void add(std::string code, std::string message, const toml::source_region& where,
-           std::string label, std::string help, Severity severity = Severity::kError);
-  void add(std::string code, std::string message, std::string help);
+  /// Throws Failure (kInput, E-TOML) if it is no TOML. Inline tables may run over several lines.
+  toml::table parse();
 
   Place place(const toml::source_region& where, std::string label) const;
-  const std::vector<Problem>& problems() const { return problems_; }
-  std::vector<Problem>& remarks() { return remarks_; }
+  ProblemList& problems() { return problems_; }
+
+  /// Throws Failure (kInput) with all errors, in the order of the file.
+  void stop_on_errors();
 
  private:
   std::string file_;
-  std::vector<std::string> lines_;
-  std::vector<Problem> problems_;  // errors
-  std::vector<Problem> remarks_;   // warnings and notes
+  std::string text_;
+  std::string joined_;                     // as parsed: inline tables on one line
+  std::vector<std::size_t> lines_;         // first character of each line of text_
+  std::vector<std::size_t> joined_lines_;  // and of joined_
+  ProblemList problems_;
 };
 
-/// One table read key by key. What nobody asked for is reported by `done`.
+/// One table read key by key. What nobody asked for is reported by `done`. A value of the wrong
+/// type is reported and counts as absent.
 class TomlTable {
  public:
   TomlTable(const toml::table& table, std::string path, TomlSource& source);
 
-  bool has(const std::string& key);
+  const toml::node* node(const std::string& key);  // null if absent
   std::optional<double> number(const std::string& key);
   double number_or(const std::string& key, double fallback);
+  std::optional<double> positive(const std::string& key);      // > 0
+  std::optional<double> not_negative(const std::string& key);  // >= 0
   std::optional<std::string> text(const std::string& key);
   std::string text_or(const std::string& key, std::string fallback);
+  std::string choice(const std::string& key, const std::vector<std::string>& words);
   std::optional<bool> boolean(const std::string& key);
   std::optional<std::array<double, 3>> vector3(const std::string& key);
   std::optional<std::array<double, 2>> pair(const std::string& key);
-  std::vector<std::string> texts(const std::string& key);
   std::optional<TomlTable> table(const std::string& key);
   std::vector<TomlTable> tables(const std::string& key);  // array of tables
-  const toml::node* node(const std::string& key);         // marks it as known
 
-  std::vector<std::string> keys() const;
-  std::string path() const { return path_; }
-  TomlSource& source() { return *source_; }
+  /// Texts of a list with the node each stands at.
+  struct Text {
+    std::string text;
+    const toml::node* node;
+  };
+  std::vector<Text> texts(const std::string& key);
+
+  std::vector<std::string> keys() const;  // in the order of the file
 
   void missing(const std::string& key, const std::string& help);
-  void wrong(const std::string& key, const std::string& message, const std::string& label,
-             const std::string& help);
-  void range(const std::string& key, bool ok, const std::string& rule);
+
+  /// E-CELL-RANGE at the value of `key`: "'robot.joints[1].q' must be …".
+  void out_of_range(const std::string& key, const std::string& rule);
+
+  void error(const std::string& code, const std::string& message, const toml::node& node,
+             const std::string& label, const std::string& help);
+  void warning(const std::string& code, const std::string& message, const toml::node& node,
+               const std::string& label, const std::string& help);
+
+  /// "robot.joints[1].q"
+  std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  Place place(const std::string& label) const;  // of the table itself
+  TomlSource& source() { return *source_; }
 
   /// Reports every key that was never asked for, with "did you mean".
   void done();
 
  private:
-  std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  void wrong_type(const std::string& key, const toml::node& node, const char* wanted);
-  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count);
+  void wrong_type(const std::string& key, const toml::node& node, const std::string& wanted);
+  template <std::size_t N>
+  std::optional<std::array<double, N>> numbers(const std::string& key, const char* wanted);
 
   const toml::table* table_;
   std::string path_;

@@ -1,39 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/units.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
 namespace plumb::offline {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Unit>, 16> kUnits{{
-    {"mm", {Quantity::kLength, 1e-3}},
-    {"m", {Quantity::kLength, 1.0}},
-    {"um", {Quantity::kLength, 1e-6}},
-    {"in", {Quantity::kLength, 0.0254}},
-    {"deg", {Quantity::kAngle, M_PI / 180.0}},
-    {"rad", {Quantity::kAngle, 1.0}},
-    {"mrad", {Quantity::kAngle, 1e-3}},
-    {"urad", {Quantity::kAngle, 1e-6}},
-    {"kg", {Quantity::kMass, 1.0}},
-    {"g", {Quantity::kMass, 1e-3}},
-    {"degC", {Quantity::kTemperature, 1.0}},
-    {"K", {Quantity::kTemperature, 1.0, -273.15}},
-    {"s", {Quantity::kTime, 1.0}},
-    {"ms", {Quantity::kTime, 1e-3}},
-    {"us", {Quantity::kTime, 1e-6}},
-    {"N", {Quantity::kForce, 1.0}},
+constexpr std::size_t kPlainLength = 12;  // characters of a number nobody would shorten
+
+constexpr std::array<std::pair<std::string_view, Unit>, 17> kUnits{{
+    {"mm", {Quantity::kLength, 1.0, 1e3}},
+    {"m", {Quantity::kLength}},
+    {"um", {Quantity::kLength, 1.0, 1e6}},
+    {"in", {Quantity::kLength, 254.0, 1e4}},
+    {"deg", {Quantity::kAngle, M_PI, 180.0}},
+    {"rad", {Quantity::kAngle}},
+    {"mrad", {Quantity::kAngle, 1.0, 1e3}},
+    {"urad", {Quantity::kAngle, 1.0, 1e6}},
+    {"kg", {Quantity::kMass}},
+    {"g", {Quantity::kMass, 1.0, 1e3}},
+    {"degC", {Quantity::kTemperature}},
+    {"K", {Quantity::kTemperature, 1.0, 1.0, -273.15}},
+    {"s", {Quantity::kTime}},
+    {"ms", {Quantity::kTime, 1.0, 1e3}},
+    {"us", {Quantity::kTime, 1.0, 1e6}},
+    {"N", {Quantity::kForce}},
+    {"Nm", {Quantity::kTorque}},
 }};
 
 }  // namespace
 
 std::optional<Unit> unit_of(std::string_view name) {
-  if (name == "Nm") return Unit{Quantity::kTorque, 1.0};
   for (const auto& [text, unit] : kUnits)
     if (text == name) return unit;
   return std::nullopt;
+}
+
+std::string text_in(const Unit& unit, double si) {
+  const double value = unit.from_si(si) + 0.0;  // never "-0"
+  std::string text = fmt::format("{}", value);
+  if (text.size() <= kPlainLength && unit.to_si(value) == si) return text;
+  const std::string rounded = fmt::format("{:.15g}", value);
+  double back = 0.0;
+  std::from_chars(rounded.data(), rounded.data() + rounded.size(), back);
+  if (unit.to_si(back) == si) return rounded;
+  double below = value, above = value;
+  for (int step = 0; step < 3; ++step) {
+    if (unit.to_si(above) == si) return fmt::format("{}", above);
+    if (unit.to_si(below) == si) return fmt::format("{}", below);
+    above = std::nextafter(above, INFINITY);
+    below = std::nextafter(below, -INFINITY);
+  }
+  return text;
 }
 
 Heading split_heading(std::string_view header) {
@@ -42,10 +65,13 @@ Heading split_heading(std::string_view header) {
   return {std::string(header.substr(0, at)), std::string(header.substr(at + 1))};
 }
 
-std::string unit_list() {
-  std::string out;
-  for (const auto& [text, unit] : kUnits) out += std::string(text) + " ";
-  return out + "Nm";
+const std::vector<std::string>& unit_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const auto& [text, unit] : kUnits) out.emplace_back(text);
+    return out;
+  }();
+  return names;
 }
 
 }  // namespace plumb::offline

@@ -4,21 +4,31 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cell/measurements.hpp"
 
 namespace plumb::offline {
 
+/// SI = value * times / by + offset; a division, so that 123.4 mm is the double nearest 0.1234 m.
+/// Temperatures are kept in [degC].
 struct Unit {
   Quantity quantity = Quantity::kNumber;
-  double scale = 1.0;  // SI = scale * value + offset
+  double times = 1.0;
+  double by = 1.0;
   double offset = 0.0;
+  double to_si(double value) const { return value * times / by + offset; }
+  double from_si(double si) const { return (si - offset) * by / times; }
 };
 
 /// "mm", "deg", "degC" …; nothing if it is not a unit.
 std::optional<Unit> unit_of(std::string_view name);
 
-/// A header split into name and unit: "q1_deg" is q1 in deg; "pose" has no unit.
+/// The shortest decimal text whose value in `unit` reads back to exactly `si`, if there is one
+/// (always for what was read from a file); else to within one unit in the last place.
+std::string text_in(const Unit& unit, double si);
+
+/// A header split at its last underscore: "q1_deg" is q1 in deg; "pose" has no unit.
 struct Heading {
   std::string name;
   std::string unit;
@@ -26,6 +36,6 @@ struct Heading {
 Heading split_heading(std::string_view header);
 
 /// Every unit, for messages.
-std::string unit_list();
+const std::vector<std::string>& unit_names();
 
 }  // namespace plumb::offline

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/codes.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace plumb::offline {
+namespace {
+
+constexpr auto kCodes = std::to_array<CodeHelp>({
+    {"E-BUG",
+     "Something that cannot happen did. Please report it with the command line and, if you "
+     "may, the files."},
+    {"E-CELL-EFFECT",
+     "[effects] names something this version cannot fit. Its names are those of the catalogue; a "
+     "name of the catalogue that is not built in yet is refused rather than ignored, so that a "
+     "model never lacks what its cell file promises. Correct the name or delete the table."},
+    {"E-CELL-HELD",
+     "[measurement] held_out says which poses are kept away from the fit. It is one of \"auto\" "
+     "(five folds below 60 poses, else 20 %), \"20%\", \"kfold:5\", \"column:set\" (the column "
+     "'set' holds fit, held or ignore) and \"file:verify.csv\"."},
+    {"E-CELL-JOINT",
+     "A joint is referred to by the name it has in [robot] joints, \"J2\" for example. Correct the "
+     "name; upper and lower case differ."},
+    {"E-CELL-KEY",
+     "Keys that are not known are errors: a misspelt key would otherwise be silently without "
+     "effect. Rename it as proposed, or delete it."},
+    {"E-CELL-MISSING",
+     "A key without which the arm is not described: schema, [robot], dh_convention (standard and "
+     "modified rows look alike and mean different arms, so it is never guessed), joints."},
+    {"E-CELL-NONE",
+     "Every verb works in the nearest folder upward that holds a cell.toml. Go to a cell, name it "
+     "with -C DIR, make one with plumb new, or try plumb demo."},
+    {"E-CELL-RANGE",
+     "The value has the right type but cannot be meant: joint limits must rise, standard "
+     "deviations and tolerances be greater than 0, all numbers finite, names unique. The label "
+     "under the caret says which rule was broken."},
+    {"E-CELL-RESERVED",
+     "The key has a meaning in a later version. It is refused rather than ignored. Delete it."},
+    {"E-CELL-SCHEMA",
+     "The first line of a cell file names its format: schema = \"cell/1\". Another one was written "
+     "for another version of the program."},
+    {"E-CELL-TYPE",
+     "The value has the wrong type: numbers stand without quotes, texts in quotes, lists in "
+     "[brackets], tables in { braces }. The label under the caret says what is expected."},
+    {"E-CSV-AXIS",
+     "Standard deviations (sx_um …) and the controller's own positions (nx_mm …) are given for "
+     "every measured axis or for none. Complete the columns or delete them."},
+    {"E-CSV-BINARY",
+     "A measurement file is text, and this one holds zero bytes: a spreadsheet or an archive, "
+     "perhaps. Save the table as CSV in UTF-8."},
+    {"E-CSV-DUPLICATE",
+     "Two columns mean the same quantity, for example q1_deg and q1_rad. Delete one: nothing says "
+     "which is right."},
+    {"E-CSV-EMPTY", "The file holds nothing, or only comments. Export the measurements again."},
+    {"E-CSV-HEADER",
+     "Every column has a name. A comma at the end of the header makes one too many."},
+    {"E-CSV-JOINT",
+     "Joint positions are the columns q1 … qN with a unit, one for each joint of [robot] joints: "
+     "no "
+     "gap and none beyond. In targets they may be missing altogether."},
+    {"E-CSV-KIND",
+     "The unit does not fit the quantity: a position in deg, or a turning joint in mm. Rename the "
+     "column if only the suffix is wrong; correct the joint's type in cell.toml if it slides."},
+    {"E-CSV-MISSING",
+     "A numeric cell, or a pose's name, is empty. Fill it, or delete the row: a reading that was "
+     "not taken must not count as zero."},
+    {"E-CSV-MIXED",
+     "The files of one cell measure different axes. Joined, they would hold positions nobody "
+     "measured. Complete the files, or give each its own cell."},
+    {"E-CSV-NAN",
+     "Infinite values and NaN are no measurements. Delete the row, or set it to ignore in the "
+     "column 'set' with a finite value."},
+    {"E-CSV-NONE", "The cell names no measurement file: [measurement] files is empty."},
+    {"E-CSV-NUMBER",
+     "A numeric cell holds something else. Decimals have a point; with ';' between columns a comma "
+     "is accepted too. Thousands are not grouped. Notes belong in the column 'note'."},
+    {"E-CSV-ORIENTATION",
+     "A measured orientation is all of qw, qx, qy, qz, or all of rx, ry, rz with a unit, and only "
+     "one of the two."},
+    {"E-CSV-POSITION",
+     "The measured point is missing: columns x_mm, y_mm, z_mm (or another unit of length). Planar "
+     "arms may lack an axis; targets need all three."},
+    {"E-CSV-QUATERNION",
+     "The quaternion's length is off by more than 0.001. Often the order is another one (scalar "
+     "last) or the decimals were cut. Smaller deviations are normalised."},
+    {"E-CSV-QUOTE",
+     "A text in quotes ends on its own line, and only a separator may follow. A quote inside is "
+     "written twice."},
+    {"E-CSV-RAGGED",
+     "The row has more or fewer cells than the header. A text that holds the separator stands in "
+     "quotes; a decimal comma needs ';' between the columns."},
+    {"E-CSV-RANGE",
+     "The number is too large or too small to be held: beyond 1e308 or below 1e-308."},
+    {"E-CSV-ROTATION",
+     "Three angles mean nothing without their convention. If R = Rz(rz) Ry(ry) Rx(rx), turns about "
+     "the fixed axes, add the line '# rot: xyz-fixed'; otherwise convert to a quaternion."},
+    {"E-CSV-ROWS", "There is a header but no row below it. Export the measurements again."},
+    {"E-CSV-SEPARATOR",
+     "Columns are separated by commas, or by ';' with decimal commas. plumb import converts other "
+     "files."},
+    {"E-CSV-SET", "The column 'set' holds fit, held or ignore, or nothing."},
+    {"E-CSV-SIGMA",
+     "A standard deviation of zero would give its reading all the weight. Give the instrument's "
+     "1 sigma, or delete the columns and set sigma_um in cell.toml."},
+    {"E-CSV-UNIT",
+     "Every numeric column carries its unit in its name: x_mm, q1_deg, temp_degC. Units are mm, m, "
+     "um, in, deg, rad, mrad, urad, kg, g, degC, K, s, ms, us, N, Nm. Only pose, repeat, set, "
+     "note, "
+     "time, status, fold, joint, type, quaternions and dir_jN have none."},
+    {"E-CSV-UTF8", "The file is not UTF-8. The help line converts it; the encoding is a guess."},
+    {"E-EXISTS", "Nothing is overwritten unless asked for. Choose another name or add --force."},
+    {"E-READ",
+     "The file cannot be read; the system's reason is given. Check the path and the "
+     "permissions."},
+    {"E-TOML",
+     "cell.toml is not valid TOML at the place shown. Usual causes: a missing quote, a missing "
+     "comma in a list, a key given twice."},
+    {"E-WRITE",
+     "The file cannot be written; the system's reason is given. Nothing was changed: the new text "
+     "goes to a temporary file first and replaces the old one only when it is complete on disk."},
+    {"N-CELL-LIMITS",
+     "Joints without limits are taken to reach ±360° or ±10 m. Limits bound the poses that are "
+     "simulated and planned, so give them: q = [min, max]."},
+    {"N-CSV-SEMICOLON",
+     "The header is separated by ';', so a comma in a number is read as the decimal sign."},
+    {"W-CELL-ANGLE",
+     "An angle looks as if it were in another unit: 90 in a file in radians, 1.5708 in a file in "
+     "degrees, or joint limits of a few degrees or of many turns. Check angle_unit in [robot]."},
+    {"W-CELL-LENGTH", "A link is longer than 20 m. Check length_unit in [robot]."},
+    {"W-CSV-DOUBLE",
+     "Rows are identical to the last digit. Copied by mistake they count twice and make the noise "
+     "look smaller than it is; a true repeat has its own reading."},
+    {"W-CSV-MIXED",
+     "Some files have these columns and others do not, so they are used in none. Complete the "
+     "files or delete the columns."},
+    {"W-CSV-NAME",
+     "Column names are in lower case. This one differs from a known name by its case only and is "
+     "kept as a column of your own."},
+    {"W-CSV-POSE",
+     "Rows of one pose name are repeats of one pose, but these differ by more than 0.02 rad or m. "
+     "The noise floor would be far too large: give every pose its own name."},
+});
+
+}  // namespace
+
+std::span<const CodeHelp> cell_codes() { return kCodes; }
+
+const CodeHelp* find_code(std::string_view code) {
+  const auto* found =
+      std::find_if(kCodes.begin(), kCodes.end(), [&](const auto& c) { return c.code == code; });
+  return found == kCodes.end() ? nullptr : found;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// The quantity of a column that needs no unit (pose, repeat, qw, dir_j1, …), or nothing.
+std::optional<Quantity> unitless_quantity(std::string_view header);
+
+/// What a column of this name (without unit) may hold; empty for names of the user's own.
+std::vector<Quantity> allowed_quantities(std::string_view name);
+
+/// The unit to propose for a column without one: "q1" deg, "payload" kg, "x" mm.
+std::string usual_unit(std::string_view name);
+
+/// The known name that differs from `name` only by its case: "X" is x.
+std::optional<std::string> known_spelling(std::string_view name);
+
+/// The joint number behind a prefix: ("q12", "q") is 12; 0 if there is none.
+int joint_number(std::string_view name, std::string_view prefix);
+
+/// "a length", "an angle", …
+const char* kind_name(Quantity quantity);
+
+}  // namespace plumb::offline

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/csv_header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cell/column_names.hpp"
+#include "cell/units.hpp"
+#include "cell/utf8.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::size_t kLongestSource = 4096;  // bytes of a line kept for a message
+
+std::string listed(const std::vector<Quantity>& kinds) {
+  std::string out;
+  for (const Quantity kind : kinds)
+    out += (out.empty() ? "" : " or ") + std::string(kind_name(kind));
+  return out;
+}
+
+/// As a shell takes it: quoted where it must be.
+std::string shell_word(const std::string& text) {
+  if (text.find_first_of(" ()[]*?$&;|<>\"'`\\") == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(const CsvPlace& place, ProblemList& problems) : at_(place), problems_(problems) {}
+
+  Column read(const CsvCell& cell) {
+    Column column;
+    column.header = text_of(cell);
+    column.name = column.header;
+    if (column.header.empty()) {
+      problems_.error("E-CSV-HEADER", "a column has no name", at_.of(cell.text, "no name"),
+                      "name it, or delete the column");
+    } else if (const auto quantity = unitless_quantity(column.header)) {
+      column.quantity = *quantity;
+    } else {
+      read_unit(cell, column);
+    }
+    return column;
+  }
+
+ private:
+  void read_unit(const CsvCell& cell, Column& column) {
+    const Heading heading = split_heading(column.header);
+    const auto unit = unit_of(heading.unit);
+    if (!unit)
+      return heading.unit.empty() ? no_unit(cell, column) : bad_unit(cell, column, heading);
+    column.name = heading.name;
+    column.unit = heading.unit;
+    column.quantity = unit->quantity;
+    const auto allowed = allowed_quantities(column.name);
+    if (!allowed.empty() &&
+        std::find(allowed.begin(), allowed.end(), unit->quantity) == allowed.end())
+      problems_.error("E-CSV-KIND",
+                      fmt::format("column '{}' is in '{}', but '{}' is {}", column.header,
+                                  column.unit, column.name, listed(allowed)),
+                      at_.of(cell.text, "wrong kind of unit"),
+                      fmt::format("rename it to '{}_{}' if the numbers are", column.name,
+                                  usual_unit(column.name)));
+    if (const auto known = known_spelling(column.name))
+      problems_.warning(
+          "W-CSV-NAME",
+          fmt::format("column '{}' is not '{}_{}'", column.header, *known, column.unit),
+          at_.of(cell.text, "names are in lower case"),
+          fmt::format("rename it to '{}_{}' if it is meant", *known, column.unit));
+  }
+
+  void no_unit(const CsvCell& cell, const Column& column) {
+    std::string renamed = column.header + "_" + usual_unit(column.header);
+    std::replace(renamed.begin(), renamed.end(), ' ', '_');
+    problems_.error("E-CSV-UNIT", fmt::format("column '{}' has no unit", column.header),
+                    at_.of(cell.text, "add a unit suffix"),
+                    fmt::format("rename it to '{}', or: plumb import {} --map {}", renamed,
+                                at_.file, shell_word(column.header + "=" + renamed)));
+  }
+
+  void bad_unit(const CsvCell& cell, const Column& column, const Heading& heading) {
+    const auto guess = did_you_mean(heading.unit, unit_names());
+    problems_.error("E-CSV-UNIT",
+                    fmt::format("column '{}': '{}' is not a unit", column.header, heading.unit),
+                    at_.of(cell.text, "unknown unit"),
+                    guess ? fmt::format("did you mean '{}_{}'?", heading.name, *guess)
+                          : fmt::format("known units: {}", fmt::join(unit_names(), " ")));
+  }
+
+  const CsvPlace& at_;
+  ProblemList& problems_;
+};
+
+bool same_meaning(const Column& a, const Column& b) {
+  return a.name == b.name || a.header == b.header;
+}
+
+}  // namespace
+
+Place CsvPlace::of(std::string_view part, std::string label) const {
+  Place out{.file = file, .line = line, .label = std::move(label)};
+  const auto offset = static_cast<std::size_t>(part.data() - text.data());
+  out.column = count_characters(text.substr(0, offset)) + 1;
+  out.length = std::max(1, count_characters(part));
+  if (text.size() <= kLongestSource) out.source = std::string(text);
+  return out;
+}
+
+char find_separator(std::string_view header) {
+  bool quoted = false, comma = false, semicolon = false;
+  for (const char c : header) {
+    if (c == '"') quoted = !quoted;
+    comma = comma || (c == ',' && !quoted);
+    semicolon = semicolon || (c == ';' && !quoted);
+  }
+  if (comma) return ',';
+  if (semicolon) return ';';
+  return trimmed(header).find('\t') == std::string_view::npos ? ',' : '\t';
+}
+
+std::vector<Column> read_header(const std::vector<CsvCell>& cells, const CsvPlace& place,
+                                ProblemList& problems) {
+  std::vector<Column> out;
+  for (const auto& cell : cells) {
+    Column column = HeaderReader(place, problems).read(cell);
+    const auto twin = std::find_if(out.begin(), out.end(),
+                                   [&](const Column& c) { return same_meaning(c, column); });
+    if (twin != out.end() && !column.header.empty())
+      problems.error("E-CSV-DUPLICATE",
+                     twin->header == column.header
+                         ? fmt::format("column '{}' appears twice", column.header)
+                         : fmt::format("columns '{}' and '{}' are the same quantity", twin->header,
+                                       column.header),
+                     place.of(cell.text, "second one"), "delete or rename one of them");
+    out.push_back(std::move(column));
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cell/cell_sections.hpp"
+
+namespace plumb::offline {
+namespace {
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// True if this version can fit it; else says why not.
+bool is_known(TomlTable& t, const std::string& name) {
+  if (holds(known_effects(), name)) return true;
+  const toml::node& node = *t.node(name);
+  if (holds(planned_effects(), name)) {
+    t.error("E-CELL-EFFECT", fmt::format("effect '{}' is not in this version", name), node,
+            "cannot be fitted yet", fmt::format("delete [effects.{}]", name));
+    return false;
+  }
+  auto all = known_effects();
+  all.insert(all.end(), planned_effects().begin(), planned_effects().end());
+  const auto guess = did_you_mean(name, all);
+  t.error("E-CELL-EFFECT", fmt::format("unknown effect '{}'", name), node,
+          guess ? fmt::format("did you mean '{}'?", *guess) : "not in the catalogue",
+          guess ? fmt::format("rename it to [effects.{}]", *guess)
+                : fmt::format("delete [effects.{}]", name));
+  return false;
+}
+
+void read_min_gain(TomlTable& t, EffectEntry& entry) {
+  const toml::node* node = t.node("min_gain");
+  if (node == nullptr) return;
+  double gain = -1.0;
+  if (node->is_string()) gain = parse_percent(*node->value<std::string>()).value_or(-1.0);
+  if (node->is_number()) gain = node->value<double>().value_or(-1.0);
+  if (gain >= 0.0 && gain < 1.0)
+    entry.options["min_gain"] = gain;
+  else
+    t.out_of_range("min_gain", "a share like \"2%\" or 0.02");
+}
+
+void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
+  EffectEntry entry{.name = name, .joints = {}, .options = {}, .place = t.place("")};
+  for (const auto& [joint, node] : t.texts("joints")) {
+    const int index = draft.joint_index(joint);
+    if (index < 0)
+      unknown_joint(t, joint, *node, draft);
+    else
+      entry.joints.push_back(index);
+  }
+  if (name == "local_tree") read_min_gain(t, entry);
+  t.done();
+  draft.cell.effects.push_back(std::move(entry));
+}
+
+void read_entries(const std::string& name, TomlTable& t, CellDraft& draft) {
+  const toml::node& node = *t.node(name);
+  if (node.is_array()) {
+    for (auto& entry : t.tables(name)) read_effect(name, entry, draft);
+  } else if (node.is_boolean()) {
+    if (*node.value<bool>())
+      draft.cell.effects.push_back({.name = name,
+                                    .joints = {},
+                                    .options = {},
+                                    .place = t.source().place(node.source(), "")});
+  } else if (auto entry = t.table(name)) {
+    read_effect(name, *entry, draft);
+  }
+}
+
+}  // namespace
+
+void read_effects(TomlTable& t, CellDraft& draft) {
+  if (!t.boolean("geometry").value_or(true)) draft.cell.effects.clear();
+  for (const auto& name : t.keys())
+    if (name != "geometry" && is_known(t, name)) read_entries(name, t, draft);
+}
+
+}  // namespace plumb::offline

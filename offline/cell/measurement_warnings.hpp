@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// W-CSV-DOUBLE: a row copied by mistake counts twice and makes the noise look smaller than it is.
+/// Added to the table's remarks, once a file.
+void warn_of_doubles(Table& table);
+
+/// W-CSV-POSE: one name for different poses would turn the arm's motion into noise. Added to the
+/// remarks of the tables, once a file.
+void warn_of_names(Measurements& measurements);
+
+}  // namespace plumb::offline

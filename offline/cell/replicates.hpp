@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// Rows that repeat one pose: they carry one pose name, or their joints agree to 1e-9 [rad] or [m].
+///
+/// A name used in two files joins them only if the joints agree to 1e-3 as well, since every file
+/// may number its poses from 1. Names that are empty join nothing.
+///
+/// @param file  Which file each row comes from, shape (n,), ascending.
+/// @return      Group of each row, 0 … groups - 1 in order of first appearance, shape (n,).
+/// Cost: O(n log n).
+std::vector<int> replicate_groups(const std::vector<std::string>& names,
+                                  const std::vector<int>& file, const RowsN& q);
+
+}  // namespace plumb::offline
