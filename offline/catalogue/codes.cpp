@@ -86,7 +86,6 @@ constexpr Explanation kCodes[] = {
     {"E-FILES", "The operating system refused a file operation: permissions, space, or a path."},
     {"E-MEMORY", "There was not enough memory."},
     {"E-INTERRUPTED", "You stopped the command. Files are written all or nothing."},
-    {"E-BUG", "A mistake in plumb, not in your files. Please report the command that shows it."},
 };
 
 }  // namespace

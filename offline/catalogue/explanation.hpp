@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
+#include <string_view>
 
 namespace plumb::offline {
 
 /// One short paragraph about a message, a physical effect or a word of the field.
 struct Explanation {
-  const char* name;
-  const char* text;
+  std::string_view name;
+  std::string_view text;
 };
 
 std::span<const Explanation> effect_explanations();

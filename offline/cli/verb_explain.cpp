@@ -7,6 +7,7 @@
 
 #include "catalogue/explanation.hpp"
 #include "cell/cell.hpp"
+#include "cell/codes.hpp"
 #include "cli/verbs.hpp"
 
 namespace plumb::offline::cli {
@@ -15,19 +16,27 @@ namespace {
 constexpr std::size_t kLineWidth = 88;
 
 struct Chapter {
-  const char* kind;
-  std::span<const Explanation> entries;
+  std::string kind;
+  std::vector<Explanation> entries;
 };
 
+std::vector<Explanation> listed(std::span<const Explanation> entries) {
+  return {entries.begin(), entries.end()};
+}
+
 std::vector<Chapter> chapters() {
-  return {{"effect", effect_explanations()},
-          {"term", term_explanations()},
-          {"status", status_explanations()},
-          {"code", code_explanations()}};
+  auto codes = listed(code_explanations());
+  for (const auto& [code, text] : cell_codes()) codes.push_back({code, text});
+  std::sort(codes.begin(), codes.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  return {{"effect", listed(effect_explanations())},
+          {"term", listed(term_explanations())},
+          {"status", listed(status_explanations())},
+          {"code", std::move(codes)}};
 }
 
 /// "Held out" and "held-out" are one word.
-std::string plain(const std::string& word) {
+std::string plain(std::string_view word) {
   std::string out;
   for (char c : word)
     if (c != '-' && c != '_' && c != ' ')
@@ -52,15 +61,15 @@ std::string wrapped(const std::string& text) {
 }
 
 /// An effect may be explained before a cell may list it.
-std::string availability(const Chapter& chapter, const std::string& name) {
-  if (std::string(chapter.kind) != "effect") return "";
+std::string availability(const Chapter& chapter, std::string_view name) {
+  if (chapter.kind != "effect") return "";
   const auto& known = known_effects();
   if (std::find(known.begin(), known.end(), name) != known.end()) return "";
   return " In this version it can be simulated or explained, not fitted.";
 }
 
 void show(const Chapter& chapter, const Explanation& entry, Outcome& outcome) {
-  const std::string text = entry.text + availability(chapter, entry.name);
+  const std::string text = std::string(entry.text) + availability(chapter, entry.name);
   outcome.result = {{"name", entry.name}, {"kind", chapter.kind}, {"text", text}};
   outcome.text = fmt::format("{} ({})\n\n{}", entry.name, chapter.kind, wrapped(text));
 }
@@ -95,7 +104,8 @@ void explain(const std::vector<std::string>& words, Outcome& outcome) {
   std::string word;
   for (const auto& part : words) word += (word.empty() ? "" : " ") + part;
   if (word.empty()) return show_all(outcome);
-  for (const auto& chapter : chapters())
+  const auto all = chapters();
+  for (const auto& chapter : all)
     for (const auto& entry : chapter.entries)
       if (plain(entry.name) == plain(word)) return show(chapter, entry, outcome);
   unknown(word);
