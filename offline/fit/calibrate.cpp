@@ -124,7 +124,6 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   out.state = solution.state;
   out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
   out.held = subset.held;
-  out.iterations = solution.iterations;
   return out;
 }
 
@@ -144,6 +143,7 @@ Calibration calibrate(const Cell& cell, const Measurements& measured,
   auto subset = identifiable_parameters(data, solution.state, candidates, kCoarse);
   check_enough(data, subset.kept.size());
   solution = solve(data, solution.state, subset.kept);
+  const int coarse_iterations = solution.iterations;
 
   data.sigma_m = stated;
   widen(data, excess_of(data, solution, subset.kept.size()));
@@ -151,6 +151,7 @@ Calibration calibrate(const Cell& cell, const Measurements& measured,
   solution = solve(data, solution.state, subset.kept);
   check_converged(solution);
   Calibration out = summary(data, nominal, solution, subset);
+  out.iterations = coarse_iterations + solution.iterations;
   out.rank = static_cast<int>(
       identifiable_parameters(data, solution.state, candidates, kRank).kept.size());
   return out;
