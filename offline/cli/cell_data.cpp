@@ -77,11 +77,7 @@ Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep
                        Outcome& outcome) {
   if (auto run = current_run(cell, measured)) return std::move(*run);
   Fit fit = fit_with_progress(cell, measured, outcome);
-  if (keep_it == Keep::kNothing) {
-    Run run;
-    run.fit = std::move(fit);
-    return run;
-  }
+  if (keep_it == Keep::kNothing) return draft_run(cell, measured, std::move(fit));
   Run run = keep(cell, measured, std::move(fit));
   outcome.remarks.push_back(
       {.severity = Severity::kNote,

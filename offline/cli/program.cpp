@@ -57,6 +57,7 @@ std::string option_help(const CLI::App& verb, const std::string& name) {
 
 Program::Program() : app_(kAbout, "plumb") {
   app_.formatter(std::make_shared<ExamplesFirst>());
+  app_.get_formatter()->label("SUBCOMMAND", "VERB");
   app_.footer(kExamples);
   app_.set_version_flag("--version", fmt::format("plumb {}", format::kVersion));
   app_.set_help_flag("-h,--help", "Print this help");
@@ -67,6 +68,8 @@ Program::Program() : app_(kAbout, "plumb") {
 
 CLI::App& Program::verb(const VerbText& text, Action action) {
   CLI::App& sub = *app_.add_subcommand(text.name, text.summary);
+  sub.group("Verbs");
+  sub.allow_extras(false);
   sub.footer(text.examples);
   sub.set_help_flag("-h,--help", "Print this help");
   add_globals(sub, globals_);

@@ -30,7 +30,7 @@ format::Model compiled(const Options& options, const Cell& cell, const Measureme
   const std::string kept = run.number > 0 ? fmt::format("{:04}", run.number) : "not kept";
   if (options.refit_all) {
     const Progress progress("calibrating on every pose");
-    run.fit = fit_all(cell, measured);
+    run = draft_run(cell, measured, fit_all(cell, measured));
   }
   format::Model model = compile(cell, run);
   model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
@@ -88,13 +88,16 @@ void compile_cell(const Options& options, const Globals& globals, Outcome& outco
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   outcome.result = result_of(model, found, file.string());
-  outcome.text = headline(model) + show::audit_text(found, model);
+  const std::string text = headline(model) + show::audit_text(found, model);
   if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
-  if (!outcome.errors.empty()) return;
+  if (!outcome.errors.empty()) {
+    outcome.text = text;
+    return;
+  }
   OutputFiles files;
   files.add(file, std::move(bytes));
   files.commit(options.write, outcome);
-  outcome.text += "\n" + wrote(file, options.write) + "\n";
+  outcome.text = text + "\n" + wrote(file, options.write) + "\n";
 }
 
 }  // namespace

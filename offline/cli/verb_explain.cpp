@@ -92,7 +92,11 @@ void show_all(Outcome& outcome) {
   std::vector<std::string> names;
   for (const auto& chapter : chapters())
     for (const auto& entry : chapter.entries) names.emplace_back(entry.name);
-  const auto near = did_you_mean(word, names);
+  auto near = did_you_mean(word, names);
+  const auto begins = std::find_if(names.begin(), names.end(), [&](const auto& name) {
+    return plain(name).starts_with(plain(word));
+  });
+  if (!near && begins != names.end()) near = *begins;
   throw Failure(Exit::kUsage,
                 {.code = "E-EXPLAIN",
                  .message = fmt::format("there is nothing to explain about '{}'", word),

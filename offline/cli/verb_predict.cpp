@@ -107,7 +107,8 @@ void set_split(const Split& split, show::CsvColumns& columns) {
 
 Run chosen_run(const Options& options, const Cell& cell, const Measurements& measured,
                Outcome& outcome) {
-  if (options.run.empty()) return current_or_new_run(cell, measured, Keep::kRun, outcome);
+  const auto keep_it = options.output.write.dry_run ? Keep::kNothing : Keep::kRun;
+  if (options.run.empty()) return current_or_new_run(cell, measured, keep_it, outcome);
   Run run = load_run(cell, run_number(options.run));
   if (options.data.empty()) check_same_data(run, measured);
   return run;

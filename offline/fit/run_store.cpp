@@ -44,13 +44,18 @@ std::vector<format::InputHash> inputs_of(const Measurements& measured) {
 
 }  // namespace
 
-Run save_run(const Cell& cell, const Measurements& measured, Fit fit) {
+Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
   Run run;
   run.created = now_utc();
   run.cell_sha256 = sha256(cell.text);
   run.inputs = inputs_of(measured);
   for (const auto& effect : cell.effects) run.effects.push_back(effect.name);
   run.fit = std::move(fit);
+  return run;
+}
+
+Run save_run(const Cell& cell, const Measurements& measured, Fit fit) {
+  Run run = draft_run(cell, measured, std::move(fit));
   std::error_code error;
   fs::create_directories(runs_folder(cell), error);
   const fs::path draft = runs_folder(cell) / fmt::format(".draft-{}", getpid());

@@ -23,6 +23,9 @@ struct Run {
   Fit fit;
 };
 
+/// The run that `save_run` would keep, not kept: number 0.
+Run draft_run(const Cell& cell, const Measurements& measured, Fit fit);
+
 /// Writes the next run; all or nothing.
 Run save_run(const Cell& cell, const Measurements& measured, Fit fit);
 

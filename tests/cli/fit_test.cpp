@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sandbox.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void expect_keys(const Json& object, const std::vector<std::string>& keys) {
+  for (const auto& key : keys) EXPECT_TRUE(object.contains(key)) << key;
+}
+
+/// Null always comes with its reason, and there is no NaN.
+void expect_reasons(const Json& json, const std::string& at) {
+  if (json.is_number_float()) {
+    EXPECT_TRUE(std::isfinite(json.get<double>())) << at;
+  }
+  if (json.is_array())
+    for (std::size_t i = 0; i < json.size(); ++i)
+      expect_reasons(json[i], at + "[" + std::to_string(i) + "]");
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_null()) {
+      EXPECT_TRUE(json.contains(key + "_reason")) << at << "." << key;
+    }
+    expect_reasons(value, at + "." + key);
+  }
+}
+
+class FitVerb : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    box = new Sandbox;
+    ASSERT_EQ(box->plumb({"demo", "clean", "cell"}).exit, 0);
+  }
+  static void TearDownTestSuite() { delete box; }
+  static Sandbox* box;
+};
+Sandbox* FitVerb::box = nullptr;
+
+TEST_F(FitVerb, TheEnvelopeIsOneObjectWithEveryKey) {
+  const Ran ran = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json json = ran.json();
+  expect_keys(json,
+              {"schema", "ok", "command", "version", "inputs", "warnings", "result", "error"});
+  EXPECT_EQ(json.at("schema"), "plumb.fit/1");
+  EXPECT_EQ(json.at("ok"), true);
+  EXPECT_EQ(json.at("command"), "fit");
+  EXPECT_TRUE(json.at("error").is_null());
+  ASSERT_EQ(json.at("inputs").size(), 2U);
+  for (const auto& input : json.at("inputs"))
+    EXPECT_EQ(input.at("sha256").get<std::string>().size(), 64U);
+}
+
+TEST_F(FitVerb, TheResultHasTheKeysThatChecksRelyOn) {
+  const Json result = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
+  expect_keys(result,
+              {"poses_fit", "poses_held_out", "parameters", "identifiable_rank", "calibrability",
+               "held_out", "fit", "noise_floor_mm", "noise_floor_rms_mm", "effects", "frame",
+               "target_mm", "run", "nominal", "tree", "verdict", "held_parameters", "convergence"});
+  for (const auto* set : {"held_out", "fit", "nominal"})
+    expect_keys(result.at(set), {"mean_mm", "rms_mm", "p95_mm", "max_mm"});
+  ASSERT_FALSE(result.at("parameters").empty());
+  for (const auto& p : result.at("parameters"))
+    expect_keys(p, {"name", "value", "unit", "std", "nominal", "change"});
+  expect_keys(result.at("frame"), {"xyz_mm", "quat_wxyz", "fitted"});
+  expect_keys(result.at("convergence"), {"iterations"});
+  EXPECT_EQ(result.at("target_mm").size(), 3U);
+  expect_reasons(result, "result");
+}
+
+TEST_F(FitVerb, ParametersAreInMillimetresAndDegrees) {
+  const Json result = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
+  int lengths = 0;
+  for (const auto& p : result.at("parameters")) {
+    const std::string name = p.at("name"), unit = p.at("unit");
+    EXPECT_TRUE(unit == "mm" || unit == "deg") << name;
+    EXPECT_NEAR(p.at("value").get<double>() - p.at("nominal").get<double>(),
+                p.at("change").get<double>(), 1e-9);
+    if (name != "J2.a") continue;
+    ++lengths;
+    EXPECT_EQ(unit, "mm");
+    EXPECT_EQ(p.at("nominal"), 455.0);
+  }
+  EXPECT_EQ(lengths, 1);
+}
+
+TEST_F(FitVerb, FindsTheTrueParametersOfTheDemoWithinItsOwnSigma) {
+  const Json result = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
+  const Json truth = Json::parse(box->read("cell/truth.json"));
+  int compared = 0;
+  for (const auto& p : result.at("parameters"))
+    for (const auto& t : truth.at("parameters")) {
+      if (t.at("name") != p.at("name") || p.at("name").get<std::string>().ends_with("a") == false)
+        continue;
+      ++compared;
+      const double sigma = p.at("std").get<double>();
+      EXPECT_NEAR(p.at("value").get<double>(), t.at("value").get<double>(), 5.0 * sigma + 1e-3)
+          << p.at("name");
+    }
+  EXPECT_GE(compared, 2);
+}
+
+TEST_F(FitVerb, DryRunKeepsNothing) {
+  ASSERT_EQ(box->plumb({"-C", "cell", "fit", "--dry-run"}).exit, 0);
+  EXPECT_FALSE(std::filesystem::exists(box->path() / "cell" / "runs"));
+}
+
+TEST_F(FitVerb, TheGateFailsWithExitOneAndStillShowsTheResult) {
+  const Ran ran = box->plumb({"-C", "cell", "fit", "--max-rms", "0.000001", "--json"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.json().at("ok"), false);
+  EXPECT_EQ(ran.json().at("error").at("code"), "E-GATE-RMS");
+  EXPECT_GT(ran.json().at("result").at("held_out").at("rms_mm"), 0.0);
+  EXPECT_FALSE(std::filesystem::exists(box->path() / "cell" / "runs"));
+  EXPECT_EQ(box->plumb({"-C", "cell", "fit", "--max-rms", "10", "--dry-run"}).exit, 0);
+}
+
+TEST_F(FitVerb, AnotherSeedOrRuleChangesTheSplitOnly) {
+  const auto held = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"-C", "cell", "fit", "--dry-run", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = box->plumb(words);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    return ran.json().at("result");
+  };
+  const Json one = held({"--seed", "1"}), two = held({"--seed", "2"}), again = held({});
+  EXPECT_NE(one.at("held_out").at("mean_mm"), two.at("held_out").at("mean_mm"));
+  EXPECT_EQ(one.at("held_out").at("mean_mm"), again.at("held_out").at("mean_mm"));
+  const Json folds = held({"--held-out", "kfold:4"});
+  EXPECT_EQ(folds.at("folds"), 4);
+  EXPECT_EQ(folds.at("poses_held_out"), folds.at("poses_fit"));
+  EXPECT_EQ(box->plumb({"-C", "cell", "fit", "--held-out", "some"}).exit, 2);
+}
+
+TEST_F(FitVerb, TheFirstLineForPeopleIsTheVerdict) {
+  const Ran ran = box->plumb({"-C", "cell", "fit", "--dry-run"});
+  const Json result = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
+  EXPECT_EQ(ran.out.substr(0, ran.out.find('\n')), result.at("verdict").get<std::string>());
+}
+
+}  // namespace

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sandbox.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class ModelVerbs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    box = new Sandbox;
+    ASSERT_EQ(box->plumb({"demo", "clean", "cell"}).exit, 0);
+    const Ran ran = box->plumb({"-C", "cell", "compile", "--json"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    compiled = new Json(ran.json());
+  }
+  static void TearDownTestSuite() {
+    delete box;
+    delete compiled;
+  }
+  static Sandbox* box;
+  static Json* compiled;
+};
+Sandbox* ModelVerbs::box = nullptr;
+Json* ModelVerbs::compiled = nullptr;
+
+TEST_F(ModelVerbs, CompileFitsFirstAndAudits) {
+  EXPECT_EQ(compiled->at("warnings").at(0).at("code"), "N-RUN-NEW");
+  const Json audit = compiled->at("result").at("audit");
+  EXPECT_GT(audit.at("worst_correction_mm"), 0.0);
+  EXPECT_GT(audit.at("sigma_tool_mean_mm"), 0.0);
+  EXPECT_EQ(audit.at("bytes"), std::filesystem::file_size(box->path() / "cell/robot.plumb"));
+}
+
+TEST_F(ModelVerbs, InspectShowsWhatFitFound) {
+  const Json fit = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
+  const Ran ran = box->plumb({"inspect", "cell/robot.plumb", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json r = ran.json().at("result");
+  EXPECT_EQ(r.at("sound"), true);
+  EXPECT_EQ(r.at("serial"), "DEMO-CLEAN");
+  EXPECT_NEAR(r.at("provenance").at("held_out").at("mean_mm").get<double>(),
+              fit.at("held_out").at("mean_mm").get<double>(), 1e-9);
+  EXPECT_EQ(r.at("provenance").at("run"), "0001");
+  int compared = 0;
+  for (const auto& p : fit.at("parameters")) {
+    if (p.at("name") != "J2.a") continue;
+    ++compared;
+    EXPECT_NEAR(r.at("calibrated").at("joints")[1].at("a_mm").get<double>(),
+                p.at("value").get<double>(), 1e-9);
+    EXPECT_EQ(r.at("nominal").at("joints")[1].at("a_mm"), p.at("nominal"));
+  }
+  EXPECT_EQ(compared, 1);
+}
+
+TEST_F(ModelVerbs, RefitAllCarriesNoHeldOutFigureAndSaysSo) {
+  const Ran ran = box->plumb({"-C", "cell", "compile", "--refit-all", "-o", "all.plumb", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.err.find("W-AUDIT-HELD"), std::string::npos);
+  EXPECT_EQ(box->plumb({"-C", "cell", "runs", "--json"}).json().at("result").at("runs").size(), 1U);
+  const Json r = box->plumb({"inspect", "all.plumb", "--json"}).json().at("result");
+  EXPECT_TRUE(r.at("provenance").at("held_out").at("mean_mm").is_null());
+  const Ran gated = box->plumb({"-C", "cell", "compile", "--refit-all", "--gate", "-o", "g.plumb"});
+  EXPECT_EQ(gated.exit, 1);
+  EXPECT_FALSE(std::filesystem::exists(box->path() / "g.plumb"));
+}
+
+TEST_F(ModelVerbs, DamagedFilesAreExitThreeWithTheirOwnCode) {
+  const std::string good = box->read("cell/robot.plumb");
+  std::string flipped = good;
+  flipped[good.size() / 2] = static_cast<char>(flipped[good.size() / 2] ^ 1);
+  box->write("flipped.plumb", flipped);
+  box->write("short.plumb", good.substr(0, good.size() / 2));
+  box->write("other.plumb", "This is a letter, not a model of a robot arm, and long enough.");
+  for (const auto* file :
+       {"flipped.plumb", "short.plumb", "other.plumb", "missing.plumb", "cell"}) {
+    const Ran ran = box->plumb({"inspect", file, "--json"});
+    EXPECT_EQ(ran.exit, 3) << file;
+    const Json error = ran.json().at("error");
+    EXPECT_EQ(error.at("code").get<std::string>().rfind("E-MODEL-", 0), 0U) << error.dump();
+    EXPECT_EQ(error.at("place").at("file"), file);
+    EXPECT_EQ(box->plumb({"explain", error.at("code")}).exit, 0);
+    EXPECT_EQ(box->plumb({"correct", file, "--data", "cell/targets.csv", "-o", "no.csv"}).exit, 3);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is written, what is never overwritten, and what is left behind when it cannot be.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "sandbox.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Writing : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(box.plumb({"demo", "beam", "cell"}).exit, 0);
+    ASSERT_EQ(box.plumb({"-C", "cell", "compile"}).exit, 0);
+    box.write("dh.csv", "joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,0,500,0,0\nJ2,0,400,0,0\n");
+  }
+
+  /// Every verb that writes, to places where something stands already or nothing yet.
+  static std::vector<std::vector<std::string>> writers() {
+    return {
+        {"demo", "beam", "cell"},
+        {"new", "cell", "--dh", "dh.csv", "--convention", "standard"},
+        {"-C", "cell", "simulate"},
+        {"-C", "cell", "compile"},
+        {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "cell/cell.toml"},
+        {"-C", "cell", "predict", "--as-measured", "-o", "cell/cell.toml"},
+        {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "cell/cell.toml"}};
+  }
+  Sandbox box;
+};
+
+TEST_F(Writing, NothingIsOverwrittenWithoutForce) {
+  const auto before = box.listing();
+  const std::string cell = box.read("cell/cell.toml"), data = box.read("cell/measurements.csv");
+  for (const auto& words : writers()) {
+    const Ran ran = box.plumb(words);
+    EXPECT_EQ(ran.exit, 2) << words[0] << words[2] << ran.err;
+    EXPECT_NE(ran.err.find("error[E-EXISTS]"), std::string::npos) << ran.err;
+  }
+  EXPECT_EQ(box.listing(), before);
+  EXPECT_EQ(box.read("cell/cell.toml"), cell);
+  EXPECT_EQ(box.read("cell/measurements.csv"), data);
+}
+
+TEST_F(Writing, ForceReplaces) {
+  const std::string before = box.read("cell/measurements.csv");
+  ASSERT_EQ(box.plumb({"-C", "cell", "simulate", "--seed", "3", "--force"}).exit, 0);
+  EXPECT_NE(box.read("cell/measurements.csv"), before);
+  EXPECT_EQ(box.plumb({"-C", "cell", "compile", "--force"}).exit, 0);
+}
+
+TEST_F(Writing, DryRunWritesNothing) {
+  fs::remove_all(box.path() / "cell" / "runs");
+  const auto before = box.listing();
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"demo", "beam", "new-one", "--dry-run"},
+           {"new", "new-one", "--dh", "dh.csv", "--convention", "modified", "--dry-run"},
+           {"-C", "cell", "simulate", "-o", "m.csv", "--truth", "t.json", "--dry-run"},
+           {"-C", "cell", "fit", "--dry-run"},
+           {"-C", "cell", "compile", "-o", "r.plumb", "--dry-run"},
+           {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "p.csv",
+            "--dry-run"},
+           {"-C", "cell", "predict", "--as-measured", "-o", "p.csv", "--dry-run"},
+           {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "c.csv",
+            "--dry-run"}}) {
+    EXPECT_EQ(box.plumb(words).exit, 0) << words[0] << words[2];
+    EXPECT_EQ(box.listing(), before) << words[0] << words[2];
+  }
+}
+
+TEST_F(Writing, AFolderThatCannotBeMadeIsExitFive) {
+  const auto before = box.listing();
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"demo", "beam", "dh.csv/cell"},
+           {"-C", "cell", "compile", "-o", "dh.csv/robot.plumb"},
+           {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "dh.csv/p.csv"},
+           {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "dh.csv/c.csv"}}) {
+    const Ran ran = box.plumb(words);
+    EXPECT_EQ(ran.exit, 5) << words[0] << ran.err;
+    EXPECT_EQ(box.listing(), before) << words[0];
+  }
+}
+
+TEST_F(Writing, AFolderWithoutPermissionIsExitFiveAndStaysEmpty) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  fs::create_directory(box.path() / "locked");
+  fs::permissions(box.path() / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(box.plumb({"-C", "cell", "compile", "-o", "locked/robot.plumb"}).exit, 5);
+  EXPECT_TRUE(fs::is_empty(box.path() / "locked"));
+  fs::permissions(box.path() / "locked", fs::perms::owner_all);
+}
+
+TEST_F(Writing, AFullStdoutIsExitFive) {
+  EXPECT_EQ(box.plumb_into("/dev/full", {"-C", "cell", "compare"}).exit, 5);
+  EXPECT_EQ(box.plumb_into("/dev/full", {"-C", "cell", "fit", "--json", "--dry-run"}).exit, 5);
+}
+
+TEST_F(Writing, AnInterruptIsExit130AndLeavesNothingHalfWritten) {
+  const auto before = box.listing();
+  const std::vector<std::string> slow{"-C", "cell",  "simulate", "--poses", "400000",
+                                      "-o", "m.csv", "--truth",  "t.json",  "--json"};
+  const Ran ran = box.plumb_interrupted(300, slow);
+  EXPECT_EQ(ran.exit, 130);
+  EXPECT_EQ(ran.json().at("error").at("exit"), 130);
+  EXPECT_EQ(box.listing(), before);
+}
+
+}  // namespace
