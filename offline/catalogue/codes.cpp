@@ -42,6 +42,10 @@ constexpr Explanation kCodes[] = {
      "Somewhere in the trained domain the correction is larger than the guard allows and would be "
      "cut there. Either the limit [deploy] max_correction_mm is too small for this arm, or the "
      "calibration is wrong."},
+    {"W-AUDIT-JUMP",
+     "Two neighbouring leaves of the tree disagree by more than a tenth of the guard's limit at "
+     "their border, so a path across it gets a step that the guard has to spread over time. More "
+     "poses near the border, or the missing physical effect, make it smaller."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-MODEL-OPEN", "The model file is missing, a folder, or not readable."},

@@ -15,7 +15,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kBorderPoints = 32;  // looked at on each leaf border
+constexpr int kBorderPoints = 32;   // looked at on each leaf border
+constexpr double kLargeJump = 0.1;  // of the guard's limit: worth a warning
 
 using Box = std::vector<std::pair<double, double>>;
 
@@ -135,6 +136,14 @@ void judge(const format::Model& model, Audit& out) {
                                 out.worst_correction_m * 1e3, model.guard.max_correction_m * 1e3),
          .help = fmt::format("if that is right for this arm: [deploy] max_correction_mm = {:.1f}",
                              std::ceil(out.worst_correction_m * 1.2e4) / 10.0)});
+  if (out.worst_jump_m > kLargeJump * model.guard.max_correction_m)
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-AUDIT-JUMP",
+         .message = fmt::format("the tree steps by {:.3f} mm at a leaf border; the guard spreads "
+                                "such a step over time, but the arm leaves its path meanwhile",
+                                out.worst_jump_m * 1e3),
+         .help = "measure more poses, or leave the tree out: delete [effects.local_tree]"});
   if (model.provenance.held_out.poses == 0)
     out.remarks.push_back({.severity = Severity::kWarning,
                            .code = "W-AUDIT-HELD",

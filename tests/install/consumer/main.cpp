@@ -9,12 +9,15 @@
 
 int main() {
   plumb::format::Model model;
+  const double alpha[] = {1.5708, 0.0, 0.0, 1.5708, -1.5708, 0.0};
+  const double a[] = {0.0, -0.612, -0.5723, 0.0, 0.0, 0.0};
+  const double d[] = {0.1273, 0.0, 0.0, 0.1639, 0.1157, 0.0922};
   for (int i = 0; i < 6; ++i) {
     plumb::format::JointRow row;
     row.name = "J" + std::to_string(i + 1);
-    row.alpha = i % 2 == 0 ? 1.5 : -0.7;
-    row.a = 0.3;
-    row.d = 0.2;
+    row.alpha = alpha[i];
+    row.a = a[i];
+    row.d = d[i];
     row.q_min = -3.0;
     row.q_max = 3.0;
     model.nominal.joints.push_back(row);
@@ -27,7 +30,7 @@ int main() {
 
   const plumb::Corrector corrector(loaded);
   plumb::Guard guard(loaded.guard);
-  const double q[] = {0.1, -0.4, 0.7, 0.2, 1.1, -0.3};
+  const double q[] = {0.1, -1.2, 1.4, 0.3, 1.1, -0.3};
   const plumb::Transformd target = corrector.nominal().forward<double>(q);
   const auto correction = corrector.solve(target, q, plumb::SeedKind::kCommanded);
   const auto output = guard.step(target, correction, 0.004);
