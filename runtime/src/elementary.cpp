@@ -52,11 +52,10 @@ Reduced reduce(double x) {
 double sine(double x, double tail) {
   const double z = x * x;
   const double v = z * x;
-  const double p =
-      8.33333333332248946124e-03 +
-      z * (-1.98412698298579493134e-04 +
-           z * (2.75573137070700676789e-06 +
-                z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+  const double p = 8.33333333332248946124e-03 +
+                   z * (-1.98412698298579493134e-04 +
+                        z * (2.75573137070700676789e-06 +
+                             z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
   return x - ((z * (0.5 * tail - v * p) - tail) - v * -1.66666666666666324348e-01);
 }
 
@@ -149,9 +148,9 @@ Pair log_pair(double x) {
       z * z *
       (1.0 / 5 +
        z * (1.0 / 7 +
-            z * (1.0 / 9 +
-                 z * (1.0 / 11 +
-                      z * (1.0 / 13 + z * (1.0 / 15 + z * (1.0 / 17 + z * (1.0 / 19 + z / 21))))))));
+            z * (1.0 / 9 + z * (1.0 / 11 +
+                                z * (1.0 / 13 +
+                                     z * (1.0 / 15 + z * (1.0 / 17 + z * (1.0 / 19 + z / 21))))))));
   // 2 s (1 + z/3 + tail), the first two terms in two parts.
   const Pair square = product(s, s);
   const Pair third = product(square.high, 1.0 / 3.0);
@@ -279,8 +278,7 @@ double pow(double x, double y) noexcept {
   const double sign = x < 0.0 && is_odd(y) ? -1.0 : 1.0;
   if (base < std::numeric_limits<double>::min()) return y > 0.0 ? 0.0 : sign * kInfinity;
   if (base == kInfinity) return y > 0.0 ? sign * kInfinity : 0.0;
-  if (magnitude(y) > 1e20)
-    return base == 1.0 ? 1.0 : ((base > 1.0) == (y > 0.0) ? kInfinity : 0.0);
+  if (magnitude(y) > 1e20) return base == 1.0 ? 1.0 : ((base > 1.0) == (y > 0.0) ? kInfinity : 0.0);
   const Pair l = log_pair(base);
   const Pair p = product(y, l.high);
   return sign * exp_clamped(p.high, p.low + y * l.low);

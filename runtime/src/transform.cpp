@@ -42,10 +42,17 @@ std::array<double, 4> quaternion(const Matrix3& R) noexcept {
   const double s = squares[largest];
   std::array<double, 4> q{};
   switch (largest) {
-    case 0: q = {s, wx, wy, wz}; break;
-    case 1: q = {wx, s, xy, xz}; break;
-    case 2: q = {wy, xy, s, yz}; break;
-    default: q = {wz, xz, yz, s};
+    case 0:
+      q = {s, wx, wy, wz};
+      break;
+    case 1:
+      q = {wx, s, xy, xz};
+      break;
+    case 2:
+      q = {wy, xy, s, yz};
+      break;
+    default:
+      q = {wz, xz, yz, s};
   }
   double norm2 = 0.0;
   for (double x : q) norm2 += x * x;
