@@ -46,6 +46,9 @@ constexpr Explanation kCodes[] = {
      "Two neighbouring leaves of the tree disagree by more than a tenth of the guard's limit at "
      "their border, so a path across it gets a step that the guard has to spread over time. More "
      "poses near the border, or the missing physical effect, make it smaller."},
+    {"W-AUDIT-JUMP",
+     "At a border between two leaves the tree steps by more than it should. The guard spreads the "
+     "step over time, but meanwhile the arm leaves its path. More poses, or no tree, help."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-MODEL-OPEN", "The model file is missing, a folder, or not readable."},

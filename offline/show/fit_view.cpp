@@ -83,8 +83,7 @@ std::string measurement_text(const Cell& cell, const ArmState& state) {
 
 std::string tree_text(const Fit& fit) {
   if (!fit.tree) return "";
-  return fmt::format("  tree: {} + {} + {} leaves for x, y, z; {}\n", fit.tree->leaves[0],
-                     fit.tree->leaves[1], fit.tree->leaves[2], fit.tree->reason);
+  return "  tree: " + fit.tree->reason + "\n";
 }
 
 std::string held_text(const std::vector<std::string>& held) {
