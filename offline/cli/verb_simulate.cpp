@@ -6,6 +6,7 @@
 
 #include "cli/cell_data.hpp"
 #include "cli/output_files.hpp"
+#include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "simulate/simulate.hpp"
 
@@ -55,6 +56,7 @@ void list_effects(Outcome& outcome) {
 void simulate_cell(const Options& options, const Globals& globals, Outcome& outcome) {
   if (options.list) return list_effects(outcome);
   const Cell cell = open_cell(globals, outcome);
+  const Progress progress(fmt::format("simulating {} poses", options.poses));
   const Simulation simulation = simulate(cell, plan_of(options));
   const fs::path usual = cell.measurement.files.empty() ? cell.directory / "measurements.csv"
                                                         : cell.measurement.files.front();

@@ -109,4 +109,13 @@ TEST_F(Writing, AnInterruptIsExit130AndLeavesNothingHalfWritten) {
   EXPECT_EQ(box.listing(), before);
 }
 
+TEST_F(Writing, WhatTakesLongerThanASecondSaysSoOnStderr) {
+  const Ran ran = box.plumb_interrupted(
+      1500, {"-C", "cell", "simulate", "--poses", "1000000", "-o", "m.csv", "--truth", "t.json"});
+  EXPECT_EQ(ran.exit, 130);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(ran.err.rfind("simulating 1000000 poses ...", 0), 0U) << ran.err;
+  EXPECT_EQ(box.plumb({"-C", "cell", "fit", "--dry-run"}).err, "");
+}
+
 }  // namespace
