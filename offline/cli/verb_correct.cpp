@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "cell/targets.hpp"
+#include "cli/corrected.hpp"
 #include "cli/csv_output.hpp"
 #include "cli/model_file.hpp"
 #include "cli/verbs.hpp"
-#include "plumb/runtime/corrector.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -18,13 +17,6 @@ struct Options {
   std::string model, data;
   std::vector<double> start;  // deg or mm
   CsvOutput output;
-};
-
-struct Corrected {
-  std::vector<format::Pose> command;
-  std::vector<Status> status;
-  double largest_m = 0.0;
-  double largest_rad = 0.0;
 };
 
 constexpr std::size_t kMostJointsWithoutCommand = 6;
@@ -74,60 +66,6 @@ void check_seeds(const Targets& targets, const format::Chain& chain,
                                  .help = "add columns q1_deg ..., or: --start 0,-90,90,0,90,0"});
 }
 
-/// The joint state from which each row is solved: its own, else the last solution.
-class Seeds {
- public:
-  Seeds(const Targets& targets, std::vector<double> start)
-      : targets_(targets), last_(std::move(start)) {}
-
-  std::vector<double> at(int row) const {
-    if (targets_.seed.rows() == 0) return last_;
-    const auto q = targets_.seed.row(row);
-    return {q.data(), q.data() + q.size()};
-  }
-  SeedKind kind() const {
-    if (targets_.seed.rows() == 0) return SeedKind::kLastSolution;
-    return targets_.commanded ? SeedKind::kCommanded : SeedKind::kMeasured;
-  }
-  void solved(const Correction& correction) {
-    if (!refused(correction.status)) std::copy_n(correction.q.begin(), last_.size(), last_.begin());
-  }
-
- private:
-  const Targets& targets_;
-  std::vector<double> last_;
-};
-
-/// Without a quaternion the nominal orientation at the seed is meant.
-Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
-                       std::span<const double> seed) {
-  const auto p = targets.p_B.row(row);
-  if (targets.quat_B.rows() > 0) {
-    const auto q = targets.quat_B.row(row);
-    return from_pose({{p(0), p(1), p(2)}, {q(0), q(1), q(2), q(3)}});
-  }
-  Transformd X_BD = nominal.forward<double>(seed);
-  X_BD.p = p.transpose();
-  return X_BD;
-}
-
-Corrected solve_all(const Corrector& corrector, const Targets& targets, Seeds seeds) {
-  Corrected out;
-  for (int row = 0; row < targets.table.rows(); ++row) {
-    const auto seed = seeds.at(row);
-    const Transformd X_BD = target_pose(targets, row, corrector.nominal(), seed);
-    const Correction correction = corrector.solve(X_BD, seed, seeds.kind());
-    seeds.solved(correction);
-    out.command.push_back(to_pose(correction.X_BC));
-    out.status.push_back(correction.status);
-    if (refused(correction.status)) continue;
-    const Matrix3 turn = correction.X_BC.R * X_BD.R.transpose();
-    out.largest_m = std::max(out.largest_m, (correction.X_BC.p - X_BD.p).norm());
-    out.largest_rad = std::max(out.largest_rad, rotation_vector(turn).norm());
-  }
-  return out;
-}
-
 void set_commands(const std::vector<format::Pose>& poses, show::CsvColumns& columns) {
   const auto set = [&](const char* name, const auto& value) {
     std::vector<double> values;
@@ -172,7 +110,7 @@ void correct(const Options& options, const Globals& globals, Outcome& outcome) {
   const Targets targets = open_targets(options, model.nominal, outcome);
   const auto start = start_of(options, model.nominal);
   check_seeds(targets, model.nominal, start);
-  const Corrected corrected = solve_all(Corrector(model), targets, Seeds(targets, start));
+  const Corrected corrected = correct_targets(Corrector(model), targets, start);
   show::CsvColumns columns({targets.table});
   set_commands(corrected.command, columns);
   columns.set("status", status_texts(corrected.status));
