@@ -109,7 +109,7 @@ void Corrector::linearise(const Transformd& X_BD, const JointPositions& q,
   const Transformd X_BT = corrected_pose(std::span(q).first(joints()), J, out.status);
   Vector6 r;
   r.head<3>() = clamped(X_BD.p - X_BT.p, kMaxError) / limits_.length_scale_m;
-  r.tail<3>() = rotation_vector(X_BD.R * X_BT.R.transpose());
+  r.tail<3>() = rotation_vector(times_transposed<double>(X_BD.R, X_BT.R));
   out.dq = joints() < 6 ? internal::priority_step(J, {position_rank_, pose_rank_}, r)
                         : internal::minimum_norm_step(J, joints(), r);
   Vector6 left = Vector6::Zero();

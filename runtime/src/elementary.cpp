@@ -240,8 +240,10 @@ double atan2(double y, double x) noexcept {
   }
   const double first = base - ((atan_polynomial(u) - base_low) - u);
   double angle = first;
-  if (steep) angle = 0.5 * kPi - (first - 0.5 * kPiLow);
-  if (negative_x) angle = kPi - (angle - kPiLow);
+  if (steep)
+    angle = negative_x ? 0.5 * kPi + (first + 0.5 * kPiLow) : 0.5 * kPi - (first - 0.5 * kPiLow);
+  else if (negative_x)
+    angle = kPi - (first - kPiLow);
   return negative_y ? -angle : angle;
 }
 

