@@ -95,6 +95,9 @@ struct Cell {
 /// Reads and checks a cell file; throws Failure with all problems (exit 3), unknown keys included.
 Cell read_cell(const std::filesystem::path& cell_toml);
 
+/// The same for a text that is, or will be, the content of that file.
+Cell parse_cell(std::string text, const std::filesystem::path& cell_toml);
+
 /// cell.toml in `start` or the nearest folder above it. Throws Failure (kInput) with help if none.
 std::filesystem::path find_cell(const std::filesystem::path& start);
 

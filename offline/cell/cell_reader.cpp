@@ -73,12 +73,12 @@ void unknown_joint(TomlTable& table, const std::string& name, const toml::node& 
               fmt::format("joints: {}", fmt::join(draft.joint_names(), ", ")));
 }
 
-Cell read_cell(const fs::path& cell_toml) {
+Cell parse_cell(std::string text, const fs::path& cell_toml) {
   const fs::path file = fs::absolute(cell_toml).lexically_normal();
   CellDraft draft;
   draft.cell.file = file;
   draft.cell.directory = file.parent_path();
-  draft.cell.text = read_file(file);
+  draft.cell.text = std::move(text);
   TomlSource source(display_name(file), draft.cell.text);
   const toml::table parsed = source.parse();
   TomlTable root(parsed, "", source);
@@ -87,6 +87,8 @@ Cell read_cell(const fs::path& cell_toml) {
   draft.cell.remarks = std::move(source.problems().remarks());
   return std::move(draft.cell);
 }
+
+Cell read_cell(const fs::path& cell_toml) { return parse_cell(read_file(cell_toml), cell_toml); }
 
 fs::path find_cell(const fs::path& start) {
   const fs::path first = fs::absolute(start).lexically_normal();

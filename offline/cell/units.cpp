@@ -11,7 +11,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kPlainLength = 12;  // characters of a number nobody would shorten
+constexpr std::size_t kPlainLength = 12;              // characters of a number a person would write
+constexpr double kLastPlace = 2.220446049250313e-16;  // 2^-52
 
 constexpr std::array<std::pair<std::string_view, Unit>, 17> kUnits{{
     {"mm", {Quantity::kLength, 1.0, 1e3}},
@@ -43,12 +44,11 @@ std::optional<Unit> unit_of(std::string_view name) {
 
 std::string text_in(const Unit& unit, double si) {
   const double value = unit.from_si(si) + 0.0;  // never "-0"
-  std::string text = fmt::format("{}", value);
-  if (text.size() <= kPlainLength && unit.to_si(value) == si) return text;
   const std::string rounded = fmt::format("{:.15g}", value);
   double back = 0.0;
   std::from_chars(rounded.data(), rounded.data() + rounded.size(), back);
-  if (unit.to_si(back) == si) return rounded;
+  const double slack = rounded.size() <= kPlainLength ? kLastPlace * std::abs(si) : 0.0;
+  if (std::abs(unit.to_si(back) - si) <= slack) return rounded;
   double below = value, above = value;
   for (int step = 0; step < 3; ++step) {
     if (unit.to_si(above) == si) return fmt::format("{}", above);
@@ -56,7 +56,7 @@ std::string text_in(const Unit& unit, double si) {
     above = std::nextafter(above, INFINITY);
     below = std::nextafter(below, -INFINITY);
   }
-  return text;
+  return fmt::format("{}", value);
 }
 
 Heading split_heading(std::string_view header) {

@@ -10,7 +10,7 @@
 
 namespace plumb::offline {
 
-/// SI = value * times / by + offset; a division, so that 123.4 mm is the double nearest 0.1234 m.
+/// SI = value * times / by + offset; 1 / 1000 divides, so that one rounding is all there is.
 /// Temperatures are kept in [degC].
 struct Unit {
   Quantity quantity = Quantity::kNumber;
@@ -24,8 +24,9 @@ struct Unit {
 /// "mm", "deg", "degC" …; nothing if it is not a unit.
 std::optional<Unit> unit_of(std::string_view name);
 
-/// The shortest decimal text whose value in `unit` reads back to exactly `si`, if there is one
-/// (always for what was read from a file); else to within one unit in the last place.
+/// A decimal text whose value in `unit` reads back to `si`: to the bit for what was read from a
+/// file with up to 12 characters, else to one unit in the last place. Short texts are preferred:
+/// 0.1157 m is "115.7" mm, not 115.70000000000002.
 std::string text_in(const Unit& unit, double si);
 
 /// A header split at its last underscore: "q1_deg" is q1 in deg; "pose" has no unit.

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include "cell/measurements.hpp"
+#include "support.hpp"
+
+namespace plumb::offline {
+namespace {
+
+std::vector<Problem> of_table(const std::string& text) {
+  return problems_of([&] { parse_table(text, "t.csv"); });
+}
+
+/// What read_measurements says of a two-joint arm's file.
+std::vector<Problem> of_arm(const std::string& text, Needs needs = Needs::kJointsAndPosition) {
+  const Folder folder;
+  const auto file = folder.put("t.csv", text);
+  return problems_of([&] { read_measurements({file}, {true, true}, needs); });
+}
+
+std::vector<Problem> remarks_of_arm(const std::string& text) {
+  const Folder folder;
+  const auto file = folder.put("t.csv", text);
+  return read_measurements({file}, {true, true}, Needs::kJointsAndPosition).tables[0].remarks;
+}
+
+TEST(CsvMessage, OfAMissingUnitIsTheExampleOfTheInterface) {
+  const auto problems =
+      problems_of([] { parse_table("pose,q1_deg,q2_deg,x,y_mm\nA,1,2,3,4\n", "tracker.csv"); });
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(render(problems[0]),
+            "error[E-CSV-UNIT]: column 'x' has no unit\n"
+            "  --> tracker.csv:1:20\n"
+            "   |\n"
+            " 1 | pose,q1_deg,q2_deg,x,y_mm\n"
+            "   |                    ^ add a unit suffix\n"
+            "   = help: rename it to 'x_mm', or: plumb import tracker.csv --map x=x_mm");
+}
+
+TEST(CsvMessage, ProposesTheUsualUnitAndQuotesForTheShell) {
+  EXPECT_EQ(of_table("q1\n1\n")[0].help,
+            "rename it to 'q1_deg', or: plumb import t.csv --map q1=q1_deg");
+  EXPECT_EQ(of_table("payload\n1\n")[0].help,
+            "rename it to 'payload_kg', or: plumb import t.csv --map payload=payload_kg");
+  EXPECT_EQ(of_table("Goal x\n1\n")[0].help,
+            "rename it to 'Goal_x_mm', or: plumb import t.csv --map 'Goal x=Goal_x_mm'");
+}
+
+TEST(CsvMessage, OfAnUnknownUnitProposesTheNearest) {
+  const auto problems = of_table("x_mmm,y_parsec\n1,2\n");
+  EXPECT_EQ(summary(problems), (Summary{"E-CSV-UNIT 1:1", "E-CSV-UNIT 1:7"}));
+  EXPECT_EQ(problems[0].help, "did you mean 'x_mm'?");
+  EXPECT_EQ(problems[1].help, "known units: mm m um in deg rad mrad urad kg g degC K s ms us N Nm");
+}
+
+TEST(CsvMessage, OfTheWrongKindOfUnit) {
+  const auto problems =
+      of_table("pose,x_deg,rx_mm,payload_mm,temp_s,t_mm,q1_kg,sx_rad\nA,1,1,1,1,1,1,1\n");
+  EXPECT_EQ(summary(problems),
+            (Summary{"E-CSV-KIND 1:6", "E-CSV-KIND 1:12", "E-CSV-KIND 1:18", "E-CSV-KIND 1:29",
+                     "E-CSV-KIND 1:36", "E-CSV-KIND 1:41", "E-CSV-KIND 1:47"}));
+  EXPECT_EQ(problems[0].message, "column 'x_deg' is in 'deg', but 'x' is a length");
+}
+
+TEST(CsvMessage, OfDuplicateColumns) {
+  EXPECT_EQ(summary(of_table("x_mm,x_mm\n1,2\n")), Summary{"E-CSV-DUPLICATE 1:6"});
+  const auto same = of_table("q1_deg,q1_rad\n1,2\n");
+  EXPECT_EQ(summary(same), Summary{"E-CSV-DUPLICATE 1:8"});
+  EXPECT_EQ(same[0].message, "columns 'q1_deg' and 'q1_rad' are the same quantity");
+}
+
+TEST(CsvMessage, OfAColumnWithoutName) {
+  EXPECT_EQ(summary(of_table("x_mm,\n1,2\n")), Summary{"E-CSV-HEADER 1:6"});
+}
+
+TEST(CsvMessage, OfRaggedRowsPointsAtTheExtraCellOrTheEnd) {
+  const auto problems = of_table("x_mm,y_mm\n1\n1,2,3\n1,2\n");
+  EXPECT_EQ(summary(problems), (Summary{"E-CSV-RAGGED 2:2", "E-CSV-RAGGED 3:5"}));
+  EXPECT_EQ(problems[0].place->label, "'y_mm' is missing");
+  EXPECT_EQ(problems[1].place->label, "one too many");
+}
+
+TEST(CsvMessage, OfCellsThatAreNoFiniteNumbers) {
+  const auto problems =
+      of_table("x_mm,y_mm\nabc,\nnan,inf\n-INF,1e999\n1e-999,0x10\n1 2,--1\n+-1,1,2\n");
+  EXPECT_EQ(summary(problems),
+            (Summary{"E-CSV-NUMBER 2:1", "E-CSV-MISSING 2:5", "E-CSV-NAN 3:1", "E-CSV-NAN 3:5",
+                     "E-CSV-NAN 4:1", "E-CSV-RANGE 4:6", "E-CSV-RANGE 5:1", "E-CSV-NUMBER 5:8",
+                     "E-CSV-NUMBER 6:1", "E-CSV-NUMBER 6:5", "E-CSV-RAGGED 7:7"}));
+  EXPECT_EQ(problems[0].message, "column 'x_mm': 'abc' is not a number");
+  EXPECT_EQ(problems[2].message, "column 'x_mm' holds 'nan'");
+}
+
+TEST(CsvMessage, OfADecimalCommaBetweenCommasIsARaggedRow) {
+  EXPECT_EQ(summary(of_table("x_mm,y_mm\n1,5,2,5\n")), Summary{"E-CSV-RAGGED 2:5"});
+}
+
+TEST(CsvMessage, OfThousandsThatAreGrouped) {
+  EXPECT_EQ(summary(of_table("x_mm;y_mm\n1.234,5;2\n")), Summary{"E-CSV-NUMBER 2:1"});
+}
+
+TEST(CsvMessage, OfEmptyFilesAndHeadersAlone) {
+  EXPECT_EQ(summary(of_table("")), Summary{"E-CSV-EMPTY 0:0"});
+  EXPECT_EQ(summary(of_table("\n\n# only: comments\n")), Summary{"E-CSV-EMPTY 0:0"});
+  EXPECT_EQ(summary(of_table("\xEF\xBB\xBF")), Summary{"E-CSV-EMPTY 0:0"});
+  EXPECT_EQ(summary(of_table("x_mm,y_mm\n")), Summary{"E-CSV-ROWS 0:0"});
+}
+
+TEST(CsvMessage, OfBinaryAndForeignEncodings) {
+  EXPECT_EQ(summary(of_table(std::string("x_mm\n1\n\0\1", 9))), Summary{"E-CSV-BINARY 3:1"});
+  EXPECT_EQ(summary(of_table("note,x_mm\nM\xFCller,1\n")), Summary{"E-CSV-UTF8 2:2"});
+  EXPECT_EQ(summary(of_table("\xFF\xFEx\0")), Summary{"E-CSV-UTF8 0:0"});
+  EXPECT_EQ(summary(of_table("x_mm\n\xC0\xAF\n")), Summary{"E-CSV-UTF8 2:1"});      // overlong
+  EXPECT_EQ(summary(of_table("x_mm\n\xED\xA0\x80\n")), Summary{"E-CSV-UTF8 2:1"});  // surrogate
+}
+
+TEST(CsvMessage, OfTabs) {
+  EXPECT_EQ(summary(of_table("x_mm\ty_mm\n1\t2\n")), Summary{"E-CSV-SEPARATOR 1:1"});
+}
+
+TEST(CsvMessage, OfQuotes) {
+  const auto open = of_table("note,x_mm\n\"abc,1\n\"a\"b,1\n");
+  EXPECT_EQ(summary(open), (Summary{"E-CSV-QUOTE 2:1", "E-CSV-QUOTE 3:4"}));
+}
+
+TEST(CsvMessage, CountsCharactersNotBytes) {
+  EXPECT_EQ(summary(of_table("note,x_mm\n\xC3\xA4\xC3\xB6\xE2\x82\xAC,a\n")),
+            Summary{"E-CSV-NUMBER 2:5"});
+}
+
+TEST(CsvMessage, OfPosesWithoutName) {
+  EXPECT_EQ(summary(of_table("pose,x_mm\n,1\n")), Summary{"E-CSV-MISSING 2:1"});
+}
+
+TEST(CsvMessage, GivesAllProblemsOfAFileInOnePassButBoundedlyMany) {
+  std::string text = "x,y_mm\n";
+  for (int i = 0; i < 3000; ++i) text += "1,bad\n";
+  const auto problems = of_table(text);
+  EXPECT_EQ(problems.size(), 1000u);
+  EXPECT_EQ(problems[0].code, "E-CSV-UNIT");
+  EXPECT_EQ(problems[999].place->line, 1000);
+}
+
+TEST(CsvMessage, DoesNotCopyGiganticLines) {
+  const auto problems = of_table("x_mm\n" + std::string(1000000, '9') + "x\n");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_TRUE(problems[0].place->source.empty());
+}
+
+TEST(ArmMessage, OfMissingAndSurplusJoints) {
+  const auto missing = of_arm("q1_deg,x_mm\n1,2\n");
+  EXPECT_EQ(summary(missing), Summary{"E-CSV-JOINT 1:12"});
+  EXPECT_EQ(missing[0].message, "no column for joint 2");
+  EXPECT_EQ(missing[0].place->label, "'q2_deg' is missing");
+  const auto surplus = of_arm("q1_deg,q2_deg,q7_deg,x_mm\n1,2,3,4\n");
+  EXPECT_EQ(summary(surplus), Summary{"E-CSV-JOINT 1:15"});
+  EXPECT_EQ(surplus[0].message, "column 'q7_deg', but the arm has 2 joints");
+}
+
+TEST(ArmMessage, OfATurningJointInMillimetres) {
+  const auto problems = of_arm("q1_deg,q2_mm,x_mm\n1,2,3\n");
+  EXPECT_EQ(summary(problems), Summary{"E-CSV-KIND 1:8"});
+  EXPECT_EQ(problems[0].message, "column 'q2_mm' is a length, but joint 2 turns");
+}
+
+TEST(ArmMessage, OfNoPositionUnlessNoneIsNeeded) {
+  EXPECT_EQ(summary(of_arm("q1_deg,q2_deg\n1,2\n")), Summary{"E-CSV-POSITION 1:14"});
+  EXPECT_TRUE(of_arm("q1_deg,q2_deg\n1,2\n", Needs::kJoints).empty());
+}
+
+TEST(ArmMessage, OfQuaternionsThatAreNot) {
+  const std::string header = "q1_deg,q2_deg,x_mm,qw,qx,qy,qz\n";
+  const auto problems = of_arm(header + "1,2,3,1.0009,0,0,0\n1,2,4,1.0011,0,0,0\n1,3,3,0,0,0,0\n");
+  EXPECT_EQ(summary(problems), (Summary{"E-CSV-QUATERNION 3:7", "E-CSV-QUATERNION 4:7"}));
+  EXPECT_EQ(problems[0].message, "the quaternion has length 1.0011, not 1");
+  EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,qw,qx\n1,2,3,1,0\n")),
+            Summary{"E-CSV-ORIENTATION 1:20"});
+}
+
+TEST(ArmMessage, OfAnglesWithoutConvention) {
+  const std::string header = "q1_deg,q2_deg,x_mm,rx_deg,ry_deg,rz_deg\n";
+  EXPECT_EQ(summary(of_arm(header + "1,2,3,4,5,6\n")), Summary{"E-CSV-ROTATION 1:20"});
+  EXPECT_TRUE(of_arm("# rot: xyz-fixed\n" + header + "1,2,3,4,5,6\n").empty());
+  EXPECT_EQ(summary(of_arm("# rot: zyx\n" + header + "1,2,3,4,5,6\n")),
+            Summary{"E-CSV-ROTATION 2:20"});
+  EXPECT_EQ(summary(of_arm("# rot: xyz-fixed\nq1_deg,q2_deg,x_mm,rx_deg,rz_deg\n1,2,3,4,6\n")),
+            Summary{"E-CSV-ORIENTATION 2:20"});
+  EXPECT_EQ(summary(of_arm("# rot: xyz-fixed\n"
+                           "q1_deg,q2_deg,x_mm,qw,qx,qy,qz,rx_deg,ry_deg,rz_deg\n"
+                           "1,2,3,1,0,0,0,4,5,6\n")),
+            Summary{"E-CSV-ORIENTATION 2:32"});
+}
+
+TEST(ArmMessage, OfStandardDeviations) {
+  EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,y_mm,sx_um\n1,2,3,4,5\n")),
+            Summary{"E-CSV-AXIS 1:25"});
+  EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,sx_um\n1,2,3,5\n1,2,4,0\n1,2,5,-1\n")),
+            (Summary{"E-CSV-SIGMA 3:7", "E-CSV-SIGMA 4:7"}));
+}
+
+TEST(ArmMessage, OfUnknownMarks) {
+  EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,set\n1,2,3,fit\n1,2,4,train\n1,2,5,\n")),
+            Summary{"E-CSV-SET 3:7"});
+}
+
+TEST(ArmMessage, OfRowsCopiedByMistake) {
+  const auto remarks =
+      remarks_of_arm("pose,q1_deg,q2_deg,x_mm\nA,1,2,3\nB,1,3,3\nA,1,2,3\nA,1,2,3\n");
+  EXPECT_EQ(summary(remarks), Summary{"W-CSV-DOUBLE 4:1"});
+  EXPECT_EQ(remarks[0].message, "2 rows are identical to an earlier one");
+  EXPECT_EQ(remarks[0].place->label, "the same as line 2");
+}
+
+TEST(ArmMessage, OfOneNameForTwoPoses) {
+  const auto remarks = remarks_of_arm("pose,q1_deg,q2_deg,x_mm\nA,1,2,3\nA,1.1,2,4\nA,9,2,5\n");
+  EXPECT_EQ(summary(remarks), Summary{"W-CSV-POSE 4:1"});
+}
+
+TEST(ArmMessage, OfNamesInUpperCase) {
+  const auto remarks = remarks_of_arm("q1_deg,q2_deg,x_mm,Y_mm\n1,2,3,4\n");
+  EXPECT_EQ(summary(remarks), Summary{"W-CSV-NAME 1:20"});
+  EXPECT_EQ(remarks[0].help, "rename it to 'y_mm' if it is meant");
+}
+
+TEST(ArmMessage, CollectsTheProblemsOfAllFiles) {
+  const Folder folder;
+  const auto a = folder.put("a.csv", "q1,q2_deg,x_mm\n1,2,3\n");
+  const auto b = folder.put("b.csv", "q1_deg,x_mm\n1,2\n");
+  const auto problems = problems_of([&] {
+    read_measurements({a, folder.path() / "none.csv", folder.path(), b}, {true, true},
+                      Needs::kJointsAndPosition);
+  });
+  EXPECT_EQ(summary(problems),
+            (Summary{"E-CSV-UNIT 1:1", "E-READ 0:0", "E-READ 0:0", "E-CSV-JOINT 1:12"}));
+  EXPECT_EQ(summary(problems_of([] {
+              read_measurements({}, {true, true}, Needs::kJointsAndPosition);
+            })),
+            Summary{"E-CSV-NONE 0:0"});
+}
+
+}  // namespace
+}  // namespace plumb::offline

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "cell/measurements.hpp"
+#include "support.hpp"
+
+namespace plumb::offline {
+namespace {
+
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr int kRows = 1000000;
+constexpr double kMost_s = 4.0;  // 1.3 s on an idle machine; the mark is 2 s
+#else
+constexpr int kRows = 20000;
+constexpr double kMost_s = 60.0;
+#endif
+constexpr double kMostMemory_MB = 1000.0;
+
+double peak_memory_MB() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1000.0;
+  return 0.0;
+}
+
+std::string long_file() {
+  std::string text = "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,temp_degC\n";
+  unsigned state = 1;
+  const auto number = [&] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 4) * 1e-6 - 134.0;
+  };
+  for (int i = 0; i < kRows; ++i) {
+    fmt::format_to(std::back_inserter(text), "P{:07}", i / 3);
+    for (int k = 0; k < 10; ++k) fmt::format_to(std::back_inserter(text), ",{:.6f}", number());
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(MillionRows, AreReadInSecondsAndInLessThanAGigabyte) {
+  const Folder folder;
+  const auto file = folder.put("long.csv", long_file());
+  const auto start = std::chrono::steady_clock::now();
+  const auto m = read_measurements({file}, std::vector<bool>(6, true), Needs::kJointsAndPosition);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  std::printf("%d rows in %.2f s, at most %.0f MB\n", m.size(), taken.count(), peak_memory_MB());
+  EXPECT_EQ(m.size(), kRows);
+  EXPECT_LT(taken.count(), kMost_s);
+  EXPECT_LT(peak_memory_MB(), kMostMemory_MB);
+}
+
+}  // namespace
+}  // namespace plumb::offline

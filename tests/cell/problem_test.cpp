@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/problem.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plumb::offline {
+namespace {
+
+Problem unit_problem() {
+  return {Severity::kError, "E-CSV-UNIT", "column 'x' has no unit",
+          Place{.file = "tracker.csv",
+                .line = 1,
+                .column = 20,
+                .length = 1,
+                .source = "pose,q1_deg,q2_deg,x,y_mm",
+                .label = "add a unit suffix"},
+          "rename it to 'x_mm', or: plumb import tracker.csv --map x=x_mm"};
+}
+
+TEST(Render, IsTheExampleOfTheInterfaceToTheLetter) {
+  EXPECT_EQ(render(unit_problem()),
+            "error[E-CSV-UNIT]: column 'x' has no unit\n"
+            "  --> tracker.csv:1:20\n"
+            "   |\n"
+            " 1 | pose,q1_deg,q2_deg,x,y_mm\n"
+            "   |                    ^ add a unit suffix\n"
+            "   = help: rename it to 'x_mm', or: plumb import tracker.csv --map x=x_mm");
+}
+
+TEST(Render, WidensTheGutterWithTheLineNumber) {
+  Problem p = unit_problem();
+  p.place->line = 1234;
+  EXPECT_EQ(render(p),
+            "error[E-CSV-UNIT]: column 'x' has no unit\n"
+            "     --> tracker.csv:1234:20\n"
+            "      |\n"
+            " 1234 | pose,q1_deg,q2_deg,x,y_mm\n"
+            "      |                    ^ add a unit suffix\n"
+            "      = help: rename it to 'x_mm', or: plumb import tracker.csv --map x=x_mm");
+}
+
+TEST(Render, NeedsNeitherPlaceNorHelp) {
+  EXPECT_EQ(render({Severity::kWarning, "W-X", "something", std::nullopt, ""}),
+            "warning[W-X]: something");
+  EXPECT_EQ(render({Severity::kNote, "N-X", "something", Place{.file = "a.csv"}, "do this"}),
+            "note[N-X]: something\n  --> a.csv\n  = help: do this");
+}
+
+TEST(Render, CountsCharactersAndKeepsTheTerminalSafe) {
+  Problem p = unit_problem();
+  p.place->source = "\tµ\x1b[31m,x";  // a tab, a two-byte letter, an escape character
+  p.place->column = 9;
+  EXPECT_EQ(render(p),
+            "error[E-CSV-UNIT]: column 'x' has no unit\n"
+            "  --> tracker.csv:1:9\n"
+            "   |\n"
+            " 1 |  µ\xEF\xBF\xBD[31m,x\n"
+            "   |         ^ add a unit suffix\n"
+            "   = help: rename it to 'x_mm', or: plumb import tracker.csv --map x=x_mm");
+}
+
+TEST(Render, ShowsTheNeighbourhoodOfTheCaretInALongLine) {
+  Problem p = unit_problem();
+  p.help.clear();
+  p.place->source = std::string(500, 'a') + "x" + std::string(500, 'b');
+  p.place->column = 501;
+  EXPECT_EQ(render(p),
+            "error[E-CSV-UNIT]: column 'x' has no unit\n"
+            "  --> tracker.csv:1:501\n"
+            "   |\n"
+            " 1 | …" +
+                std::string(50, 'a') + "x" + std::string(49, 'b') +
+                "…\n"
+                "   | " +
+                std::string(51, ' ') + "^ add a unit suffix");
+}
+
+TEST(Render, NeverReadsOutsideTheLineWhateverTheColumn) {
+  for (const int column : {-5, 0, 1, 25, 26, 27, 1000000})
+    for (const int length : {-1, 0, 1, 1000000}) {
+      Problem p = unit_problem();
+      p.place->column = column;
+      p.place->length = length;
+      EXPECT_LT(render(p).size(), 1000u);
+    }
+}
+
+TEST(Failure, SaysItsFirstProblemAndHowManyMore) {
+  EXPECT_STREQ(Failure(Exit::kInput, unit_problem()).what(), "column 'x' has no unit");
+  EXPECT_STREQ(Failure(Exit::kInput, {unit_problem(), unit_problem(), unit_problem()}).what(),
+               "column 'x' has no unit (and 2 more)");
+  EXPECT_EQ(Failure(Exit::kUsage, unit_problem()).exit_code(), Exit::kUsage);
+}
+
+TEST(DidYouMean, ForgivesATypoATransposedPairAndTheCase) {
+  const std::vector<std::string> known{"tolerance_mm", "name", "serial", "alpha"};
+  EXPECT_EQ(did_you_mean("tolerence_mm", known), "tolerance_mm");
+  EXPECT_EQ(did_you_mean("alhpa", known), "alpha");
+  EXPECT_EQ(did_you_mean("Serial", known), "serial");
+  EXPECT_EQ(did_you_mean("gearbox", known), std::nullopt);
+  EXPECT_EQ(did_you_mean("", known), std::nullopt);
+  EXPECT_EQ(did_you_mean("x", {}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace plumb::offline
