@@ -2,10 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "cell/csv_bytes.hpp"
 #include "cell/csv_header.hpp"
+#include "cell/csv_number.hpp"
 #include "cell/file.hpp"
 #include "cell/units.hpp"
 #include "cell/utf8.hpp"
@@ -20,7 +21,7 @@ class TableReader {
   TableReader(std::string_view text, const std::string& file) : text_(text) { table_.file = file; }
 
   Table read() {
-    check_bytes();
+    check_bytes(text_, table_.file);
     if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
     for (std::size_t at = 0; at < text_.size() && !problems_.full();) {
       const auto end = std::min(text_.find('\n', at), text_.size());
@@ -35,35 +36,6 @@ class TableReader {
   }
 
  private:
-  [[noreturn]] void refuse(std::string code, std::string message, Place place, std::string help) {
-    place.file = table_.file;
-    throw Failure(Exit::kInput,
-                  Problem{.code = code, .message = message, .place = place, .help = help});
-  }
-
-  void check_bytes() {
-    if (text_.empty())
-      refuse("E-CSV-EMPTY", "the file is empty", {}, "export the measurements again");
-    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
-      refuse("E-CSV-UTF8", "the file is UTF-16, not UTF-8", {},
-             fmt::format("iconv -f UTF-16 -t UTF-8 {0} > utf8.csv", table_.file));
-    if (const auto zero = text_.find('\0'); zero != std::string_view::npos)
-      refuse("E-CSV-BINARY", "this is no text file: it holds zero bytes", place_at(zero),
-             "save the measurements as CSV in UTF-8");
-    if (const auto bad = find_invalid_utf8(text_); bad != std::string_view::npos)
-      refuse("E-CSV-UTF8", "this byte is not UTF-8", place_at(bad),
-             fmt::format("iconv -f WINDOWS-1252 -t UTF-8 {0} > utf8.csv", table_.file));
-  }
-
-  Place place_at(std::size_t offset) const {
-    const auto before = text_.substr(0, offset);
-    const auto newline = before.rfind('\n');
-    const auto begin = newline == std::string_view::npos ? 0 : newline + 1;
-    const auto line = text_.substr(begin, text_.find('\n', offset) - begin);
-    const int number = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
-    return CsvPlace{table_.file, number, line}.of(text_.substr(offset, 1), "here");
-  }
-
   void read_line(std::string_view line) {
     ++line_number_;
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -84,9 +56,11 @@ class TableReader {
   void read_header_line(std::string_view line) {
     table_.header_line = line_number_;
     separator_ = find_separator(line);
-    if (separator_ == '\t')
-      refuse("E-CSV-SEPARATOR", "the columns are separated by tabs", here(line).of(line, ""),
-             fmt::format("plumb import {}", table_.file));
+    if (separator_ == '\t') {
+      problems_.error("E-CSV-SEPARATOR", "the columns are separated by tabs",
+                      here(line).of(line, ""), fmt::format("plumb import {}", table_.file));
+      problems_.stop_on_errors();
+    }
     if (separator_ == ';')
       problems_.note("N-CSV-SEMICOLON", "read with ';' between columns and decimal commas",
                      here(line).of(line.substr(line.find(';'), 1), "separator"), "");
@@ -150,50 +124,33 @@ class TableReader {
 
   void read_cell(std::size_t i, std::string_view line) {
     Column& column = table_.columns[i];
-    if (column.quantity != Quantity::kText) {
-      column.values.push_back(units_[i].to_si(number(i, line)));
-      if (!std::isfinite(column.values.back())) bad_number(i, line, std::errc::result_out_of_range);
+    if (column.quantity == Quantity::kText) {
+      column.text.push_back(text_of(cells_[i]));
+      if (column.name == "pose" && column.text.back().empty())
+        bad_cell(i, line, NumberFault::kEmpty);
       return;
     }
-    column.text.push_back(text_of(cells_[i]));
-    if (column.text.back().empty() && column.name == "pose")
-      bad_number(i, line, std::errc::invalid_argument);
-  }
-
-  double number(std::size_t i, std::string_view line) {
-    std::string_view cell = cells_[i].text;
-    if (separator_ == ';' && cell.find(',') != std::string_view::npos) {
-      decimal_.assign(cell);
-      std::replace(decimal_.begin(), decimal_.end(), ',', '.');
-      cell = decimal_;
-    }
-    if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
     double value = 0.0;
-    const char* end = cell.data() + cell.size();
-    const auto [stop, error] = std::from_chars(cell.data(), end, value);
-    if (error == std::errc{} && stop == end && std::isfinite(value)) return value;
-    const bool too_far = error == std::errc::result_out_of_range && stop == end;
-    const bool endless = error == std::errc{} && stop == end;
-    bad_number(i, line,
-               too_far   ? std::errc::result_out_of_range
-               : endless ? std::errc::argument_out_of_domain
-                         : std::errc::invalid_argument);
-    return 0.0;
+    NumberFault fault = read_number(cells_[i].text, separator_, value);
+    value = units_[i].to_si(value);
+    if (fault == NumberFault::kNone && !std::isfinite(value)) fault = NumberFault::kOutOfRange;
+    if (fault != NumberFault::kNone) bad_cell(i, line, fault);
+    column.values.push_back(value);
   }
 
-  void bad_number(std::size_t i, std::string_view line, std::errc error) {
+  void bad_cell(std::size_t i, std::string_view line, NumberFault fault) {
     const auto& header = table_.columns[i].header;
     const auto cell = cells_[i].text;
     const auto report = [&](const char* code, std::string message, const char* label) {
       problems_.error(code, std::move(message), here(line).of(cell, label),
                       "correct it, or delete the row");
     };
-    if (cell.empty())
+    if (fault == NumberFault::kEmpty)
       report("E-CSV-MISSING", fmt::format("column '{}' has an empty cell", header), "no value");
-    else if (error == std::errc::result_out_of_range)
+    else if (fault == NumberFault::kOutOfRange)
       report("E-CSV-RANGE", fmt::format("column '{}': '{}' does not fit a number", header, cell),
              "too large or too small");
-    else if (error == std::errc::argument_out_of_domain)
+    else if (fault == NumberFault::kNotFinite)
       report("E-CSV-NAN", fmt::format("column '{}' holds '{}'", header, cell),
              "not a finite number");
     else
@@ -237,7 +194,7 @@ class TableReader {
   ProblemList problems_;
   std::vector<CsvCell> cells_;
   std::vector<Unit> units_;
-  std::string decimal_, kept_;
+  std::string kept_;
   std::vector<std::size_t> begins_, sizes_;
   char separator_ = ',';
   int line_number_ = 0;
