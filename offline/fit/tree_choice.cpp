@@ -91,10 +91,11 @@ std::string too_few(int poses, int joints) {
       poses, joints, joints + 1, kPosesPerCoefficient * (joints + 1));
 }
 
-/// Share by which the error must fall. With few poses chance alone gives a fall of about
-/// coefficients / poses, and asking for more than that keeps fresh data from getting worse.
+/// Share by which the error must fall. With few poses luck alone makes it fall by up to about
+/// (coefficients + 2) / poses; asking for more keeps weak effects from making fresh poses worse by
+/// 1 % in more than one data set of a hundred (tried with 2 and 6 joints, 30 to 1500 poses).
 double asked_gain(double min_gain, int poses, int joints) {
-  return std::max(min_gain, (joints + 1.0) / poses);
+  return std::max(min_gain, (joints + 3.0) / poses);
 }
 
 std::string why(const Gain& gain, const Sizes& sizes, double asked) {

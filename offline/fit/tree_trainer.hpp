@@ -29,7 +29,7 @@ struct TreeSettings {
 };
 
 /// Chooses the size by cross-validation inside the samples given (fit poses only); "no correction"
-/// is a candidate and wins unless the fall exceeds min_gain (with few poses, coefficients / poses)
+/// is a candidate and wins unless the fall exceeds min_gain (with few poses: (joints + 3) / poses)
 /// and one standard error, for each axis and for all together. Of the sizes within one standard
 /// error of the best, the smallest. Fewer than 10 poses a coefficient: none.
 /// q: (n, joints) [rad] or [m]; residual: (n, 3) [m], base frame; axis_used: measured axes;
