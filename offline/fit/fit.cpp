@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "fit/arm_state.hpp"
+#include "fit/tree_domain.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kSmallestSpan = 1e-6;  // of a joint's trained range [rad] or [m]
-constexpr double kAtTheFloor = 1.3;     // times the noise floor: nothing left to explain
+constexpr double kAtTheFloor = 1.3;  // times the noise floor: nothing left to explain
 
 const EffectEntry* find_effect(const Cell& cell, std::string_view name) {
   const auto it = std::find_if(cell.effects.begin(), cell.effects.end(),
@@ -34,18 +34,6 @@ TreeSettings tree_settings(const Cell& cell, const EffectEntry& entry) {
   return out;
 }
 
-/// Box of the joint positions seen; a joint that never moved gets a hair's width.
-format::Domain joint_box(const RowsN& q) {
-  format::Domain out;
-  for (Eigen::Index k = 0; k < q.cols(); ++k) {
-    const double low = q.col(k).minCoeff(), high = q.col(k).maxCoeff();
-    const double hair = std::max(0.0, kSmallestSpan - (high - low)) / 2.0;
-    out.q_min.push_back(low - hair);
-    out.q_max.push_back(high + hair);
-  }
-  return out;
-}
-
 struct Fitted {
   Calibration calibration;
   std::optional<TreeChoice> tree;
@@ -56,7 +44,7 @@ Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<
   Fitted out;
   out.calibration = calibrate(cell, measured, rows);
   const Measurements some = pick(measured, rows);
-  out.calibration.state.arm.domain = joint_box(some.q);
+  out.calibration.state.arm.domain = trained_box(some.q);
   out.geometry_only = out.calibration.state;
   const EffectEntry* entry = find_effect(cell, "local_tree");
   if (entry == nullptr) return out;

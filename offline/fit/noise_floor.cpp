@@ -51,8 +51,9 @@ NoiseFloor noise_floor(const Cell& cell, const Measurements& measured) {
     out.sigma_m = std::sqrt(repeats.squares / (repeats.dof * axes));
     out.source = NoiseFloor::Source::kRepeats;
   } else if (measured.sigma_m.rows() > 0) {
-    out.sigma_m =
-        std::sqrt(measured.sigma_m.squaredNorm() / static_cast<double>(measured.sigma_m.size()));
+    // Columns of axes that were not measured hold zeros.
+    out.sigma_m = std::sqrt(measured.sigma_m.squaredNorm() /
+                            (static_cast<double>(measured.sigma_m.rows()) * axes));
     out.source = NoiseFloor::Source::kSigma;
   } else if (cell.measurement.sigma_m) {
     out.sigma_m = *cell.measurement.sigma_m;
