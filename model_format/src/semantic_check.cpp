@@ -2,8 +2,11 @@
 #include "semantic_check.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
+#include "provenance_check.hpp"
+#include "text_check.hpp"
 #include "tree_check.hpp"
 
 namespace plumb::format::internal {
@@ -11,27 +14,21 @@ namespace {
 
 constexpr double kMaxLength_m = 100.0;
 constexpr double kMaxAngle_rad = 4.0 * 3.14159265358979323846;
-constexpr double kMaxTwist = 1.0;       // [m] or [rad]
-constexpr double kUnitSlack = 1e-9;     // of a quaternion's length
-constexpr std::size_t kMaxText = 256;   // bytes of a name
-constexpr std::size_t kMaxInputs = 64;  // files a model was made from
-constexpr std::size_t kHashDigits = 64;
+constexpr double kMaxTwist = 1.0;          // [m] or [rad]
+constexpr double kMaxJointPosition = 1e4;  // [rad] or [m]: many turns
+constexpr double kMinSpan = 1e-9;          // of the trained domain, [rad] or [m]: it divides
+constexpr double kMinFade = 1e-6;          // as a share of that span: it divides
+constexpr double kUnitSlack = 1e-9;        // of a quaternion's length
 
 using Finding = std::optional<std::string>;
 
-std::string number(double x) { return std::to_string(x); }
+/// Shortest digits that read back to x, in any locale.
+std::string number(double x) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, x).ptr};
+}
 
 bool within(double x, double limit) { return std::isfinite(x) && std::abs(x) <= limit; }
-
-Finding check_text(const std::string& text, const std::string& what) {
-  if (text.size() > kMaxText)
-    return what + " is longer than " + std::to_string(kMaxText) + " bytes";
-  const bool control = std::any_of(text.begin(), text.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-  });
-  if (control) return what + " holds control characters";
-  return std::nullopt;
-}
 
 Finding check_pose(const Pose& pose, const std::string& what) {
   for (double x : pose.p)
@@ -52,7 +49,9 @@ Finding check_twist(const Twist& twist, const std::string& what) {
 
 Finding check_joint(const JointRow& row, const std::string& what) {
   if (row.name.empty()) return what + " has no name";
-  if (auto f = check_text(row.name, what + ".name")) return f;
+  if (auto f = unprintable(row.name, what + ".name")) return f;
+  if (row.type != JointType::kRevolute && row.type != JointType::kPrismatic)
+    return what + ": unknown type of joint";
   for (double x : {row.alpha, row.theta, row.beta})
     if (!within(x, kMaxAngle_rad)) return what + ": angle " + number(x) + " rad is out of range";
   for (double x : {row.a, row.d})
@@ -60,7 +59,8 @@ Finding check_joint(const JointRow& row, const std::string& what) {
   if (!(row.scale >= 0.5 && row.scale <= 2.0))
     return what + ": scale " + number(row.scale) + " is not between 0.5 and 2";
   if (!within(row.offset, kMaxLength_m)) return what + ": the offset is out of range";
-  if (!within(row.q_min, 1e4) || !within(row.q_max, 1e4) || !(row.q_min < row.q_max))
+  if (!within(row.q_min, kMaxJointPosition) || !within(row.q_max, kMaxJointPosition) ||
+      !(row.q_min < row.q_max))
     return what + ": the limits " + number(row.q_min) + " … " + number(row.q_max) + " are no range";
   if (auto f = check_twist(row.pre, what + ".pre")) return f;
   return check_twist(row.post, what + ".post");
@@ -93,7 +93,7 @@ Finding check_same_arm(const Model& m) {
 }
 
 bool is_effect_name(const std::string& name) {
-  return !name.empty() && name.size() <= kMaxText &&
+  return !name.empty() && !unprintable(name, "") &&
          std::all_of(name.begin(), name.end(), [](char c) {
            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
          });
@@ -105,7 +105,8 @@ Finding check_effect(const Effect& effect, std::size_t joints) {
   if (effect.version == 0) return what + " has version 0";
   if (effect.joints.size() > kMaxJoints) return what + " names too many joints";
   for (auto joint : effect.joints)
-    if (joint >= joints) return what + " names joint " + std::to_string(joint + 1);
+    if (joint >= joints)
+      return what + " names joint " + std::to_string(joint + 1) + " of " + std::to_string(joints);
   if (effect.parameters.size() > kMaxEffectParameters) return what + " has too many parameters";
   for (double x : effect.parameters)
     if (!std::isfinite(x)) return what + " has a parameter that is not finite";
@@ -113,7 +114,7 @@ Finding check_effect(const Effect& effect, std::size_t joints) {
   for (const auto& need : effect.context) {
     if (need.input > ContextInput::kTime) return what + " needs an unknown input";
     if (!std::isfinite(need.fallback)) return what + " has a fallback that is not finite";
-    if (auto f = check_text(need.name, what + " context")) return f;
+    if (auto f = unprintable(need.name, what + " context")) return f;
   }
   return std::nullopt;
 }
@@ -122,15 +123,17 @@ Finding check_domain(const Model& m) {
   const auto& d = m.domain;
   const bool trees =
       std::any_of(m.trees.begin(), m.trees.end(), [](const Tree& t) { return !t.bounds.empty(); });
+  if (!(d.fade > kMinFade && d.fade <= 1.0))
+    return "the fade of the trained domain is " + number(d.fade) + ", not in 0 … 1";
   if (d.q_min.size() != d.q_max.size()) return "the trained domain has limits of different count";
   if (d.q_min.empty())
     return trees ? Finding("the model has a tree but no trained domain") : std::nullopt;
   if (d.q_min.size() != m.nominal.joints.size())
     return "the trained domain has " + std::to_string(d.q_min.size()) + " joints";
   for (std::size_t i = 0; i < d.q_min.size(); ++i)
-    if (!within(d.q_min[i], 1e4) || !within(d.q_max[i], 1e4) || !(d.q_max[i] - d.q_min[i] >= 1e-9))
+    if (!within(d.q_min[i], kMaxJointPosition) || !within(d.q_max[i], kMaxJointPosition) ||
+        !(d.q_max[i] - d.q_min[i] >= kMinSpan))
       return "the trained domain of joint " + std::to_string(i + 1) + " is no range";
-  if (!(d.fade > 1e-6 && d.fade <= 1.0)) return "the fade of the trained domain is not in 0 … 1";
   return std::nullopt;
 }
 
@@ -155,44 +158,11 @@ Finding check_guard(const GuardLimits& g) {
   return std::nullopt;
 }
 
-bool is_hash(const std::string& text) {
-  return text.size() == kHashDigits &&
-         text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
-Finding check_provenance(const Provenance& p) {
-  for (const auto* text : {&p.tool_version, &p.created, &p.run})
-    if (auto f = check_text(*text, "provenance")) return f;
-  if (p.inputs.size() > kMaxInputs) return "provenance names too many input files";
-  for (const auto& input : p.inputs) {
-    if (auto f = check_text(input.name, "provenance input")) return f;
-    if (!is_hash(input.sha256))
-      return "the SHA-256 of input '" + input.name + "' is not 64 hex digits";
-  }
-  const auto& h = p.held_out;
-  for (double x : {h.mean_m, h.rms_m, h.p95_m, h.max_m, p.noise_floor_m})
-    if (!(x >= 0.0 && x <= kMaxLength_m)) return "a held-out figure is out of range";
-  constexpr double kRounding = 1.0 + 1e-9;
-  if (h.mean_m > h.rms_m * kRounding || h.rms_m > h.max_m * kRounding || h.p95_m > h.max_m)
-    return "the held-out figures contradict each other";
-  const std::size_t k = p.parameter_names.size();
-  if (k > kMaxParameters) return "there are too many fitted parameters";
-  if (!p.covariance.empty() && p.covariance.size() != k * (k + 1) / 2)
-    return "the covariance does not fit the number of parameters";
-  for (const auto& name : p.parameter_names)
-    if (auto f = check_text(name, "a parameter's name")) return f;
-  for (float x : p.covariance)
-    if (!std::isfinite(x)) return "the covariance is not finite";
-  for (std::size_t i = 0, at = 0; i < k && !p.covariance.empty(); at += ++i + 1)
-    if (p.covariance[at] < 0.0F) return "the covariance has a negative variance";
-  return std::nullopt;
-}
-
 }  // namespace
 
 Finding unsoundness(const Model& m) {
   for (const auto* text : {&m.cell_name, &m.robot_name, &m.serial})
-    if (auto f = check_text(*text, "a name")) return f;
+    if (auto f = unprintable(*text, "the name of cell or robot, or the serial number,")) return f;
   for (double g : m.gravity)
     if (!within(g, 100.0)) return "gravity is out of range";
   if (auto f = check_chain(m.nominal, "nominal")) return f;
@@ -206,7 +176,7 @@ Finding unsoundness(const Model& m) {
     if (auto f = unsound_tree(m.trees[axis], m.nominal.joints.size()))
       return "tree " + std::to_string(axis + 1) + ": " + *f;
   if (auto f = check_guard(m.guard)) return f;
-  return check_provenance(m.provenance);
+  return unsound_provenance(m.provenance);
 }
 
 }  // namespace plumb::format::internal

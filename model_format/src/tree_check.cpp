@@ -13,8 +13,8 @@ constexpr double kMaxError_m = 1.0;  // no correction of an arm is larger
 
 Finding check_sizes(const Tree& tree, std::size_t joints) {
   const std::size_t leaves = tree.bounds.size() / 2;
-  if (tree.bounds.size() % 2 != 0 || leaves > kMaxTreeLeaves)
-    return "the number of bounds is wrong";
+  if (tree.bounds.size() % 2 != 0) return "a leaf has only one bound";
+  if (leaves > kMaxTreeLeaves) return "it has " + std::to_string(leaves) + " leaves";
   if (leaves == 0 && (!tree.nodes.empty() || tree.depth != 0)) return "it has nodes but no leaves";
   if (leaves > 0 && tree.nodes.size() != leaves - 1) return "nodes and leaves do not match";
   if (tree.coefficients.size() != leaves * (joints + 1))
@@ -55,15 +55,16 @@ Finding check_walk(const Tree& tree, std::size_t joints) {
         if (depth[index] >= 0) return "node " + std::to_string(child) + " is reached twice";
         depth[index] = depth[i] + 1;
       } else {
-        if (index >= leaves || reached[index])
-          return at + " leads to leaf " + std::to_string(index);
+        if (index >= leaves) return at + " leads to leaf " + std::to_string(index);
+        if (reached[index]) return "leaf " + std::to_string(index) + " is reached twice";
         reached[index] = true;
         deepest = std::max(deepest, depth[i] + 1);
       }
     }
   }
-  if (deepest != tree.depth || deepest > kMaxTreeDepth)
-    return "its depth is not " + std::to_string(tree.depth);
+  if (deepest > kMaxTreeDepth) return "it is " + std::to_string(deepest) + " compares deep";
+  if (deepest != tree.depth)
+    return "its depth is " + std::to_string(deepest) + ", not " + std::to_string(tree.depth);
   return std::nullopt;
 }
 

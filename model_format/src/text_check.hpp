@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace plumb::format::internal {
+
+/// Why a text cannot be shown on a terminal or in JSON: too long (256 bytes), not UTF-8 [RFC 3629],
+/// or with control characters. Nothing if it can; an empty text can. `what` begins the sentence.
+std::optional<std::string> unprintable(const std::string& text, const std::string& what);
+
+}  // namespace plumb::format::internal
