@@ -61,7 +61,9 @@ std::string model_bytes(const format::Model& model) {
   try {
     const auto bytes = format::write_model(model);
     const auto back = format::read_model(std::span(bytes));
-    if (const auto* same = std::get_if<format::Model>(&back); !same || !(*same == model))
+    if (const auto* error = std::get_if<format::ReadError>(&back))
+      throw std::logic_error("a compiled model cannot be read back: " + error->detail);
+    if (!(std::get<format::Model>(back) == model))
       throw std::logic_error("a compiled model does not read back to itself");
     std::string text(bytes.size(), '\0');
     for (std::size_t i = 0; i < bytes.size(); ++i) text[i] = static_cast<char>(bytes[i]);
