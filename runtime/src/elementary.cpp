@@ -264,7 +264,7 @@ double tanh(double x) noexcept {
     // Lambert's continued fraction, nine levels: exact to rounding here.
     const double z = a * a;
     double f = 17.0;
-    for (double odd = 15.0; odd > 0.0; odd -= 2.0) f = odd + z / f;
+    for (int odd = 15; odd > 0; odd -= 2) f = odd + z / f;
     t = a / f;
   } else if (a < 22.0) {
     t = 1.0 - 2.0 / (exp_of(2.0 * a, 0.0) + 1.0);
