@@ -85,8 +85,28 @@ Model planar_model() {
   return m;
 }
 
+Model planar_2r_model() {
+  Model m;
+  m.cell_name = "Ebene Zelle";
+  m.robot_name = "2R";
+  m.nominal.convention = Convention::kStandard;
+  m.nominal.joints = {row("J1", 0.0, 0.5, 0.0), row("J2", 0.0, 0.375, 0.0)};
+  m.calibrated = m.nominal;
+  m.calibrated.joints[0].offset = 1e-3;
+  m.calibrated.joints[1].scale = 1.0001;
+  m.calibrated.base_twist = {{1e-4, -2e-4, 0.0}, {0.0, 0.0, 1e-3}};
+  m.trees[0] = {.depth = 0,
+                .nodes = {},
+                .coefficients = {1e-4, -2e-5, 3e-5},
+                .bounds = {-1e-4, 1.5e-4},
+                .blend_half_width = {}};
+  m.domain = {{-1.5, 0.25}, {1.5, 2.0}, 0.125};
+  return m;
+}
+
 std::vector<std::pair<std::string, Model>> golden_models() {
-  return {{"six_axis", six_axis_model()}, {"planar", planar_model()}};
+  return {
+      {"six_axis", six_axis_model()}, {"planar", planar_model()}, {"planar_2r", planar_2r_model()}};
 }
 
 }  // namespace plumb::format

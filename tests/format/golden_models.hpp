@@ -9,9 +9,11 @@
 
 namespace plumb::format {
 
-/// A six-axis arm with trees, effects and covariance; a planar arm with next to nothing.
+/// A six-axis arm with trees, effects and covariance; a planar arm with a sliding joint and next to
+/// nothing; a planar arm with two revolute joints and one linear leaf.
 Model six_axis_model();
 Model planar_model();
+Model planar_2r_model();
 
 /// File name without ending, and content.
 std::vector<std::pair<std::string, Model>> golden_models();
