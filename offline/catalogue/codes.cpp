@@ -32,6 +32,20 @@ constexpr Explanation kCodes[] = {
     {"E-FIT-FEW",
      "There are fewer measured coordinates than parameters. Measure more poses, or "
      "hold parameters with [fit] fixed."},
+    {"E-FIT-MISS",
+     "The calibration settled, but the points are still missed by more than 1 % of the length of "
+     "all links. No error of an arm is that large: a unit, the sign or zero of a joint, the DH "
+     "convention or the order of the columns is wrong. plumb check tries them."},
+    {"W-FIT-AMBIGUOUS",
+     "Two positions of the tracker explain these poses almost equally well, for example one turned "
+     "by 180 deg when all points lie in a plane. State the frame, or measure poses that differ."},
+    {"W-FIT-FAR",
+     "A fitted number of the arm ended far from its nominal value, farther than arms are built "
+     "wrong. Often the nominal value is mistyped, or belongs to another variant of the robot."},
+    {"W-FIT-OUTLIERS",
+     "Some poses lie farther from what all others predict than six times their usual scatter: a "
+     "bumped reflector, a broken beam, a mistyped number. They were not fitted. Held-out poses are "
+     "never left out of the held-out error; a second figure without the outliers stands beside."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
      "out. State [measurement] sigma_urad to use them."},
@@ -46,9 +60,6 @@ constexpr Explanation kCodes[] = {
      "Two neighbouring leaves of the tree disagree by more than a tenth of the guard's limit at "
      "their border, so a path across it gets a step that the guard has to spread over time. More "
      "poses near the border, or the missing physical effect, make it smaller."},
-    {"W-AUDIT-JUMP",
-     "At a border between two leaves the tree steps by more than it should. The guard spreads the "
-     "step over time, but meanwhile the arm leaves its path. More poses, or no tree, help."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-MODEL-OPEN", "The model file is missing, a folder, or not readable."},

@@ -61,8 +61,15 @@ struct EffectEntry {
   Place place;
 };
 
+/// What is known of a parameter beforehand: its nominal value, give or take.
+struct Prior {
+  std::string name;    // "J2.d"
+  double sigma = 0.0;  // 1 sigma, SI
+};
+
 struct FitSettings {
   std::vector<std::string> fixed;  // parameters held at nominal, "J2.d"
+  std::vector<Prior> priors;
   enum class Model { kDh, kComplete } model = Model::kDh;
 };
 

@@ -29,6 +29,9 @@ void read_deploy(TomlTable& deploy, CellDraft& draft);
 /// { xyz, rpy } in the file's units; R = Rz(yaw) Ry(pitch) Rx(roll).
 format::Pose read_pose(TomlTable& pose, const CellDraft& draft);
 
+/// "J2.d", "J3.post.dx": measured in length, all others in angle.
+bool is_length_parameter(const std::string& name);
+
 /// Reports a name that is no joint, with "did you mean".
 void unknown_joint(TomlTable& table, const std::string& name, const toml::node& node,
                    const CellDraft& draft);

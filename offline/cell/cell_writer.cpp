@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cell/cell.hpp"
+#include "cell/cell_sections.hpp"
 #include "cell/toml_text.hpp"
 #include "cell/units.hpp"
 
@@ -138,9 +139,14 @@ class CellWriter {
 
   void fit() {
     const bool complete = cell_.fit.model == FitSettings::Model::kComplete;
-    if (!complete && cell_.fit.fixed.empty()) return;
+    if (!complete && cell_.fit.fixed.empty() && cell_.fit.priors.empty()) return;
     line("[fit]\nmodel = \"{}\"", complete ? "complete" : "dh");
     if (!cell_.fit.fixed.empty()) line("fixed = {}", toml_list(cell_.fit.fixed));
+    std::string priors;
+    for (const auto& [name, sigma] : cell_.fit.priors)
+      priors += fmt::format("{}{} = {}", priors.empty() ? "" : ", ", toml_string(name),
+                            is_length_parameter(name) ? length(sigma) : angle(sigma));
+    if (!priors.empty()) line("prior = {{ {} }}   # 1 sigma around nominal", priors);
     line("");
   }
 

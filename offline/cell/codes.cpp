@@ -35,8 +35,6 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "The value has the right type but cannot be meant: joint limits must rise, standard "
      "deviations and tolerances be greater than 0, all numbers finite, names unique. The label "
      "under the caret says which rule was broken."},
-    {"E-CELL-RESERVED",
-     "The key has a meaning in a later version. It is refused rather than ignored. Delete it."},
     {"E-CELL-SCHEMA",
      "The first line of a cell file names its format: schema = \"cell/1\". Another one was written "
      "for another version of the program."},

@@ -21,36 +21,62 @@ bool is_joint_parameter(const std::string& name) {
                        "post.ex", "post.ey", "post.ez"});
 }
 
-void read_fixed(TomlTable& t, CellDraft& draft) {
-  for (const auto& [name, node] : t.texts("fixed")) {
-    const auto dot = std::min(name.find('.'), name.size());
-    const std::string owner = name.substr(0, dot);
-    const std::string rest = dot < name.size() ? name.substr(dot + 1) : "";
-    const bool place = one_of(owner, {"frame", "target"});
-    if (!place && draft.joint_index(owner) < 0)
-      unknown_joint(t, owner, *node, draft);
-    else if (!(place ? is_pose_parameter(rest) : is_joint_parameter(rest)))
-      t.error("E-CELL-RANGE", fmt::format("'{}' names no parameter: '{}'", t.name("fixed"), name),
-              *node, "unknown parameter",
-              place
-                  ? "known: x, y, z, rx, ry, rz"
-                  : "known: theta, d, a, alpha, beta, and post.dx … post.ez of model \"complete\"");
-    else
-      draft.cell.fit.fixed.push_back(name);
+/// True if `name` is a parameter of the arm, or of frame and target; else reports it at `node`.
+bool names_parameter(TomlTable& t, const std::string& key, const std::string& name,
+                     const toml::node& node, CellDraft& draft) {
+  const auto dot = std::min(name.find('.'), name.size());
+  const std::string owner = name.substr(0, dot);
+  const std::string rest = dot < name.size() ? name.substr(dot + 1) : "";
+  const bool place = one_of(owner, {"frame", "target"});
+  if (!place && draft.joint_index(owner) < 0) {
+    unknown_joint(t, owner, node, draft);
+    return false;
   }
+  if (place ? is_pose_parameter(rest) : is_joint_parameter(rest)) return true;
+  t.error("E-CELL-RANGE", fmt::format("'{}' names no parameter: '{}'", t.name(key), name), node,
+          "unknown parameter",
+          place ? "known: x, y, z, rx, ry, rz"
+                : "known: theta, d, a, alpha, beta, and post.dx … post.ez of model \"complete\"");
+  return false;
+}
+
+void read_fixed(TomlTable& t, CellDraft& draft) {
+  for (const auto& [name, node] : t.texts("fixed"))
+    if (names_parameter(t, "fixed", name, *node, draft)) draft.cell.fit.fixed.push_back(name);
+}
+
+/// prior = { "J2.d" = 0.1 }: 1 sigma around nominal, in the units of the cell.
+void read_priors(TomlTable& t, CellDraft& draft) {
+  auto table = t.table("prior");
+  if (!table) return;
+  for (const auto& name : table->keys()) {
+    const toml::node& node = *table->node(name);
+    if (!names_parameter(t, "prior", name, node, draft)) continue;
+    if (name.starts_with("frame.") || name.starts_with("target.")) {
+      t.error("E-CELL-RANGE", fmt::format("'{}' is of the measurement, not of the arm", name), node,
+              "nothing is known of it beforehand", "state it: [measurement] frame, target");
+      continue;
+    }
+    const auto sigma = table->positive(name);
+    if (sigma)
+      draft.cell.fit.priors.push_back(
+          {name, (is_length_parameter(name) ? draft.length : draft.angle).to_si(*sigma)});
+  }
+  table->done();
 }
 
 }  // namespace
+
+bool is_length_parameter(const std::string& name) {
+  return one_of(name.substr(name.find('.') + 1), {"d", "a", "post.dx", "post.dy", "post.dz"});
+}
 
 void read_fit(TomlTable& t, CellDraft& draft) {
   read_fixed(t, draft);
   draft.cell.fit.model = t.choice("model", {"dh", "complete"}) == "complete"
                              ? FitSettings::Model::kComplete
                              : FitSettings::Model::kDh;
-  if (const toml::node* prior = t.node("prior"))
-    t.error("E-CELL-RESERVED",
-            fmt::format("'{}' is not supported in this version", t.name("prior")), *prior,
-            "reserved", "delete it; hold parameters with fixed = [\"J2.d\"]");
+  read_priors(t, draft);
   t.done();
 }
 

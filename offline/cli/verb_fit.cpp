@@ -67,7 +67,7 @@ void fit(const Options& options, const Globals& globals, Outcome& outcome) {
   override_split(options, cell);
   const Measurements measured = open_measurements(cell, outcome);
   Fit fitted = fit_with_progress(cell, measured, outcome);
-  outcome.result = show::fit_json(cell, fitted);
+  outcome.result = show::fit_json(cell, measured, fitted);
   outcome.text = show::fit_text(cell, fitted);
   keep_run(options, cell, measured, std::move(fitted), outcome);
 }

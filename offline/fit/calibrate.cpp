@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/calibrate.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "fit/fit_judgement.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/weights.hpp"
@@ -19,24 +17,8 @@ namespace {
 // Independence asked for before the noise is known, and after.
 constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
+constexpr double kNearlyAsGood = 1.5;  // times the scatter of the best start
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
-
-void check_enough(const FitData& data, std::size_t parameters) {
-  if (data.residual_count() > static_cast<int>(parameters)) return;
-  throw Failure(Exit::kNumbersSayNo,
-                {.code = "E-FIT-FEW",
-                 .message = fmt::format("{} poses give {} coordinates, too few for {} parameters",
-                                        data.rows.size(), data.residual_count(), parameters),
-                 .help = "measure more poses, or hold parameters with [fit] fixed = [\"J6.a\"]"});
-}
-
-void check_converged(const Solution& solution) {
-  if (solution.converged) return;
-  throw Failure(Exit::kNumbersSayNo,
-                {.code = "E-FIT-CONVERGE",
-                 .message = "the calibration did not converge: " + solution.reason,
-                 .help = "look for wrong units, joint signs or DH convention in cell.toml"});
-}
 
 std::vector<Estimate> estimates(const ArmState& state, const ArmState& nominal,
                                 const std::vector<Parameter>& parameters,
@@ -86,6 +68,7 @@ ArmState nominal_state(const Cell& cell) {
 
 FitData fit_data(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
   FitData data;
+  data.cell = &cell;
   data.measured = &measured;
   data.rows = rows;
   data.sigma_m = stated_sigma(cell, measured);
@@ -127,34 +110,93 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   return out;
 }
 
-}  // namespace
+/// A first fit, its noise not judged yet.
+struct Coarse {
+  FitData data;  // without outliers
+  ParameterSubset subset;
+  Solution solution;
+  std::vector<Outlier> outliers;
 
-Calibration calibrate(const Cell& cell, const Measurements& measured,
-                      const std::vector<int>& rows) {
-  FitData data = fit_data(cell, measured, rows);
-  const Rows3 stated = data.sigma_m;
-  const ArmState nominal = nominal_state(cell);
-  const auto candidates = candidates_of(cell, data);
-  check_enough(data, 0);
+  double scatter() const {
+    return usual_scatter(deletion_distances(data, solution), data.per_pose());
+  }
+};
 
-  // Before the model fits, no reading deserves more trust than another.
-  data.sigma_m.setConstant(picked(stated, rows).mean());
-  Solution solution = place(data, nominal, candidates);
-  auto subset = identifiable_parameters(data, solution.state, candidates, kCoarse);
-  check_enough(data, subset.kept.size());
-  solution = solve(data, solution.state, subset.kept);
+Coarse coarse_from(const FitData& data, const ArmState& start,
+                   const std::vector<Parameter>& candidates) {
+  Coarse out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
+  out.subset = identifiable_parameters(data, start, candidates, kCoarse);
+  check_enough(data, out.subset.kept.size());
+  out.solution.state = start;
+  out.outliers = solve_without_outliers(out.data, out.subset.kept, out.solution);
+  return out;
+}
+
+/// The best of all starts. Another one nearly as good leaves open which arm this is: said.
+Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
+                       const std::vector<Parameter>& candidates, std::vector<Problem>& remarks) {
+  std::vector<Coarse> all;
+  for (const auto& start : starts) all.push_back(coarse_from(data, start, candidates));
+  if (all.size() == 1) return std::move(all.front());
+  std::sort(all.begin(), all.end(),
+            [](const Coarse& a, const Coarse& b) { return a.scatter() < b.scatter(); });
+  if (all[1].scatter() < kNearlyAsGood * all[0].scatter())
+    remarks.push_back(ambiguous_frame(all[0].solution.state, all[1].solution.state));
+  return std::move(all.front());
+}
+
+Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
+                    const std::vector<Parameter>& candidates) {
+  FitData data = whole;  // with the stated sigma
+  data.rows = coarse.data.rows;
+  widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
+  const auto fine = identifiable_parameters(data, coarse.solution.state, candidates, kFine);
+  data.rows = whole.rows;
+  Solution solution = std::move(coarse.solution);
   const int coarse_iterations = solution.iterations;
-
-  data.sigma_m = stated;
-  widen(data, excess_of(data, solution, subset.kept.size()));
-  subset = identifiable_parameters(data, solution.state, candidates, kFine);
-  solution = solve(data, solution.state, subset.kept);
+  const auto outliers = solve_without_outliers(data, fine.kept, solution);
   check_converged(solution);
-  Calibration out = summary(data, nominal, solution, subset);
+  check_meets(cell, data, solution);
+  Calibration out = summary(data, nominal_state(cell), solution, fine);
+  out.outliers = outliers;
   out.iterations = coarse_iterations + solution.iterations;
   out.rank = static_cast<int>(
       identifiable_parameters(data, solution.state, candidates, kRank).kept.size());
   return out;
+}
+
+Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                       const ArmState* start) {
+  const FitData data = fit_data(cell, measured, rows);
+  const auto candidates = candidates_of(cell, data);
+  check_enough(data, 0);
+  // Before the model fits, no reading deserves more trust than another.
+  FitData even = data;
+  even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
+  std::vector<ArmState> starts;
+  if (start != nullptr)
+    starts.push_back(*start);
+  else
+    for (auto& placed : placements(even, nominal_state(cell), candidates))
+      starts.push_back(std::move(placed.state));
+  std::vector<Problem> remarks;
+  Coarse coarse = coarse_from_any(even, starts, candidates, remarks);
+  Calibration out = refined(cell, data, std::move(coarse), candidates);
+  warn_of_far_parameters(out.estimates, remarks);
+  out.remarks = std::move(remarks);
+  return out;
+}
+
+}  // namespace
+
+Calibration calibrate(const Cell& cell, const Measurements& measured,
+                      const std::vector<int>& rows) {
+  return calibrated(cell, measured, rows, nullptr);
+}
+
+Calibration calibrate_from(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& start) {
+  return calibrated(cell, measured, rows, &start);
 }
 
 ArmState place_nominal(const Cell& cell, const Measurements& measured,

@@ -8,6 +8,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/outliers.hpp"
 
 namespace plumb::offline {
 
@@ -23,6 +24,8 @@ struct Estimate {
 
 struct Calibration {
   ArmState state;
+  std::vector<Outlier> outliers;    // poses that the others contradict: not fitted, farthest first
+  std::vector<Problem> remarks;     // what the numbers look like
   std::vector<Estimate> estimates;  // the identifiable subset, in covariance order
   std::vector<std::string> held;    // kept at nominal: these poses say less about them
   Eigen::MatrixXd covariance;       // SI
@@ -36,9 +39,14 @@ struct Calibration {
 /// near parallel (or complete link twists), tracker frame and target, weighted by sigma.
 /// Parameters that the poses cannot tell apart are held at nominal, and so are those whose standard
 /// deviation would exceed 5 mm or 5 mrad: of a reflector on the last axis, say, or of poses too
-/// few. Throws Failure (kNumbersSayNo) with the reason if it does not converge, (kInput) if the
-/// rows are fewer than the parameters need.
+/// few. Poses that the others contradict are left out and listed. Throws Failure (kNumbersSayNo)
+/// with the reason if it does not converge, if the rows are fewer than the parameters need, or if
+/// the result still misses by more than 1 % of the reach: then something else is wrong.
 Calibration calibrate(const Cell& cell, const Measurements& measured, const std::vector<int>& rows);
+
+/// The same from a given start, for those who know where tracker and reflector stand.
+Calibration calibrate_from(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& start);
 
 /// The nominal arm with only tracker frame and target fitted: what the controller believes today.
 ArmState place_nominal(const Cell& cell, const Measurements& measured,

@@ -11,6 +11,9 @@
 namespace plumb::offline {
 namespace {
 
+constexpr double kFarTimes = 6.0;              // the usual scatter: an outlier
+constexpr double kSmallestScatter_m = 0.1e-6;  // of noise-free data
+constexpr std::size_t kListed = 5;
 constexpr double kAtTheFloor = 1.3;  // times the noise floor: nothing left to explain
 
 const EffectEntry* find_effect(const Cell& cell, std::string_view name) {
@@ -40,10 +43,16 @@ struct Fitted {
   ArmState geometry_only;
 };
 
+/// `rows` without those that the calibration found to contradict the others.
+std::vector<int> agreed(std::vector<int> rows, const std::vector<Outlier>& outliers) {
+  for (const auto& outlier : outliers) std::erase(rows, outlier.row);
+  return rows;
+}
+
 Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
   Fitted out;
   out.calibration = calibrate(cell, measured, rows);
-  const Measurements some = pick(measured, rows);
+  const Measurements some = pick(measured, agreed(rows, out.calibration.outliers));
   out.calibration.state.arm.domain = trained_box(some.q);
   out.geometry_only = out.calibration.state;
   const EffectEntry* entry = find_effect(cell, "local_tree");
@@ -88,6 +97,45 @@ ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
   return summarise(std::move(norms));
 }
 
+/// Held-out poses far outside the scatter of the others. They stay in the figure.
+void find_held_outliers(const Measurements& measured, const std::vector<int>& held, Fit& out) {
+  const Rows3 error = residuals(measured, out.predicted_M);
+  const int axes =
+      static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
+  const double sigma = std::max(out.floor.sigma_m, kSmallestScatter_m);
+  Eigen::VectorXd distance(static_cast<Eigen::Index>(held.size()));
+  for (std::size_t i = 0; i < held.size(); ++i) distance(i) = error.row(held[i]).norm() / sigma;
+  const double scatter = usual_scatter(distance, axes);
+  std::vector<int> rest;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const double times = distance(i) / scatter;
+    if (times > kFarTimes)
+      out.held_outliers.push_back({held[i], distance(i) * sigma, times});
+    else
+      rest.push_back(held[i]);
+  }
+  out.held_without_outliers = stats_of(measured, out.predicted_M, rest);
+}
+
+void remark_on_outliers(const Measurements& measured, Fit& out) {
+  const auto& found = out.calibration.outliers;
+  if (found.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& outlier : found)
+    names.push_back(
+        fmt::format("{} ({:.2f} mm)", measured.pose[outlier.row], outlier.error_m * 1e3));
+  if (names.size() > kListed) {
+    names.resize(kListed);
+    names.push_back(fmt::format("{} more", found.size() - kListed));
+  }
+  out.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-FIT-OUTLIERS",
+       .message = fmt::format("{} of the fit poses contradict the others and were not fitted: {}",
+                              found.size(), fmt::join(names, ", ")),
+       .help = "measure them again, or mark them: column set = ignore"});
+}
+
 void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& out) {
   if (!measured.has_orientation() || cell.measurement.sigma_rad) return;
   out.remarks.push_back({.severity = Severity::kNote,
@@ -117,8 +165,11 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   out.fit = stats_of(measured, final_points, fit);
   out.predicted_M = std::move(predicted.full);
   out.floor = noise_floor(cell, measured);
-  remark_on_orientation(cell, measured, out);
   out.calibration = std::move(final_model.calibration);
+  find_held_outliers(measured, held, out);
+  out.remarks = out.calibration.remarks;
+  remark_on_outliers(measured, out);
+  remark_on_orientation(cell, measured, out);
   out.tree = std::move(final_model.tree);
   return out;
 }

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "fit/solver.hpp"
 
 namespace plumb::offline {
 
-/// Where tracker and reflector stand: fits frame and target (those of `candidates` that belong to
-/// the measurement) with the arm of `nominal`. The frame may be metres and half-turns away.
+/// Where tracker and reflector may stand: fits frame and target (those of `candidates` that belong
+/// to the measurement) with the arm of `nominal`, from a closed-form start and, if that does not
+/// look right, from 24 turns of the frame that leave no other farther than 63 degrees away. The
+/// distinct minima that are not much worse than the best, which comes first.
+std::vector<Solution> placements(const FitData& data, const ArmState& nominal,
+                                 const std::vector<Parameter>& candidates);
+
+/// The best of them, on all of `data`.
 Solution place(const FitData& data, const ArmState& nominal,
                const std::vector<Parameter>& candidates);
 

@@ -83,6 +83,19 @@ Calibration calibration_from(const Json& j) {
   return c;
 }
 
+Json to_json(const std::vector<Outlier>& outliers) {
+  Json out = Json::array();
+  for (const auto& o : outliers)
+    out.push_back({{"row", o.row}, {"error_m", o.error_m}, {"times", o.times}});
+  return out;
+}
+std::vector<Outlier> outliers_from(const Json& run, const char* key) {
+  std::vector<Outlier> out;
+  for (const auto& o : run.value(key, Json::array()))
+    out.push_back({o.at("row"), o.at("error_m"), o.at("times")});
+  return out;
+}
+
 Json to_json(const TreeChoice& t) {
   return {{"trees", t.trees},           {"domain", t.domain},
           {"leaves", t.leaves},         {"cv_before_m", t.cv_before_m},
@@ -125,6 +138,9 @@ Json run_to_json(const Run& run) {
               {"held_out_nominal", to_json(fit.nominal_held)},
               {"held_out_geometry", to_json(fit.geometry_held)},
               {"fit", to_json(fit.fit)},
+              {"outliers", to_json(fit.calibration.outliers)},
+              {"held_out_outliers", to_json(fit.held_outliers)},
+              {"held_out_without_outliers", to_json(fit.held_without_outliers)},
               {"noise_floor",
                {{"sigma_m", fit.floor.sigma_m},
                 {"mean_m", fit.floor.mean_m},
@@ -157,6 +173,11 @@ Run run_from_json(const Json& j) {
   fit.nominal_held = stats_from(j.at("held_out_nominal"));
   fit.geometry_held = stats_from(j.at("held_out_geometry"));
   fit.fit = stats_from(j.at("fit"));
+  fit.calibration.outliers = outliers_from(j, "outliers");
+  fit.held_outliers = outliers_from(j, "held_out_outliers");
+  fit.held_without_outliers = j.contains("held_out_without_outliers")
+                                  ? stats_from(j.at("held_out_without_outliers"))
+                                  : fit.held;
   const Json& floor = j.at("noise_floor");
   fit.floor = {.sigma_m = floor.at("sigma_m"),
                .mean_m = floor.at("mean_m"),

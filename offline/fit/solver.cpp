@@ -12,12 +12,30 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 
 constexpr int kDenseQrUpTo = 6000;  // residuals; beyond it the normal equations are much faster
 
+/// A parameter of which something is known beforehand.
+struct KnownParameter {
+  Eigen::Index index;  // among those fitted
+  double mean, sigma;
+};
+
+std::vector<KnownParameter> known(const FitData& data, const std::vector<Parameter>& parameters) {
+  std::vector<KnownParameter> out;
+  if (data.cell == nullptr) return out;
+  ArmState nominal;
+  nominal.arm.calibrated = data.cell->nominal;
+  for (const auto& [name, sigma] : data.cell->fit.priors)
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].name == name)
+        out.push_back({static_cast<Eigen::Index>(i), value_of(nominal, parameters[i]), sigma});
+  return out;
+}
+
 /// All poses as one residual block, so the chain is folded once an evaluation.
 class GeometryCost final : public ceres::CostFunction {
  public:
   GeometryCost(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters)
-      : data_(data), start_(start), parameters_(parameters) {
-    set_num_residuals(data.residual_count());
+      : data_(data), start_(start), parameters_(parameters), known_(known(data, parameters)) {
+    set_num_residuals(data.residual_count() + static_cast<int>(known_.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
 
@@ -46,6 +64,15 @@ class GeometryCost final : public ceres::CostFunction {
       const Vector3 turn = rotation_vector(R_MG * point.R_MG.transpose());
       for (int k = 0; k < 3; ++k) emit(turn(k), data_.sigma_rad, 3 + k);
     }
+    for (const auto& [index, mean, sigma] : known_) {
+      residual[row] = (mean - value_of(geometry.state(), parameters_[index])) / sigma;
+      if (jacobian != nullptr) {
+        Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
+        slopes.setZero();
+        slopes(index) = -1.0 / sigma;
+      }
+      ++row;
+    }
     return std::all_of(residual, residual + row, [](double r) { return std::isfinite(r); });
   }
 
@@ -53,15 +80,18 @@ class GeometryCost final : public ceres::CostFunction {
   const FitData& data_;
   const ArmState& start_;
   const std::vector<Parameter>& parameters_;
+  std::vector<KnownParameter> known_;
 };
 
 }  // namespace
 
-int FitData::residual_count() const {
+int FitData::per_pose() const {
   int axes = sigma_rad > 0.0 ? 3 : 0;
   for (bool has : measured->has_axis) axes += has ? 1 : 0;
-  return static_cast<int>(rows.size()) * axes;
+  return axes;
 }
+
+int FitData::residual_count() const { return static_cast<int>(rows.size()) * per_pose(); }
 
 Solution evaluate(const FitData& data, const ArmState& start,
                   const std::vector<Parameter>& parameters) {
@@ -69,8 +99,8 @@ Solution evaluate(const FitData& data, const ArmState& start,
   const auto count = static_cast<Eigen::Index>(parameters.size());
   Solution out;
   out.state = start;
-  out.residual.resize(data.residual_count());
-  RowMajorMatrix jacobian(data.residual_count(), count);
+  out.residual.resize(cost.num_residuals());
+  RowMajorMatrix jacobian(cost.num_residuals(), count);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(count);
   const double* x = zero.data();
   double* j = jacobian.data();

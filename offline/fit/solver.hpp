@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cell/cell.hpp"
 #include "fit/geometry.hpp"
 
 namespace plumb::offline {
@@ -13,14 +14,17 @@ namespace plumb::offline {
 struct FitData {
   const Measurements* measured = nullptr;
   std::vector<int> rows;
-  Rows3 sigma_m;           // shape (all poses, 3)
-  double sigma_rad = 0.0;  // 0: orientation is not used
-  int residual_count() const;
+  Rows3 sigma_m;               // shape (all poses, 3)
+  double sigma_rad = 0.0;      // 0: orientation is not used
+  const Cell* cell = nullptr;  // with its priors, or null: none
+
+  int per_pose() const;        // residuals of one pose
+  int residual_count() const;  // of all poses, priors not counted
 };
 
 struct Solution {
   ArmState state;
-  Eigen::VectorXd residual;  // whitened, measured - predicted
+  Eigen::VectorXd residual;  // whitened, measured - predicted, pose by pose; then the priors
   Eigen::MatrixXd jacobian;  // whitened, of the prediction, shape (residuals, parameters)
   double cost = 0.0;         // half the sum of squares
   int iterations = 0;

@@ -23,6 +23,8 @@ std::string error_table(const Fit& fit) {
   table.add(row("held-out, nominal arm", fit.nominal_held));
   if (fit.tree) table.add(row("held-out, without the tree", fit.geometry_held));
   table.add(row("held-out, calibrated", fit.held));
+  if (!fit.held_outliers.empty())
+    table.add(row("  without its outliers", fit.held_without_outliers));
   table.add(row("fit (never accuracy)", fit.fit));
   if (fit.floor.source == NoiseFloor::Source::kNone)
     table.add({"noise floor: unknown"});

@@ -86,6 +86,21 @@ std::string tree_text(const Fit& fit) {
   return "  tree: " + fit.tree->reason + "\n";
 }
 
+Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
+  Json out = Json::array();
+  const auto add = [&](const std::vector<Outlier>& outliers, const char* set) {
+    for (const auto& o : outliers) {
+      Json one{{"pose", pose[o.row]}, {"set", set}};
+      put(one, "error_mm", to_mm(o.error_m));
+      put(one, "times_usual", o.times);
+      out.push_back(std::move(one));
+    }
+  };
+  add(fit.calibration.outliers, "fit");
+  add(fit.held_outliers, "held");
+  return out;
+}
+
 std::string held_text(const std::vector<std::string>& held) {
   if (held.empty()) return "";
   return fmt::format("  held at nominal, these poses say less about them: {}\n",
@@ -94,7 +109,7 @@ std::string held_text(const std::vector<std::string>& held) {
 
 }  // namespace
 
-Json fit_json(const Cell& cell, const Fit& fit) {
+Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;
   Json out{{"poses_fit", fit.fit.n}, {"poses_held_out", fit.held.n}};
   out["folds"] = fit.split.folds;
@@ -104,6 +119,8 @@ Json fit_json(const Cell& cell, const Fit& fit) {
   put(out, "calibrability", c.calibrability);
   out["held_out"] = stats_json(fit.held);
   out["fit"] = stats_json(fit.fit);
+  out["held_out_without_outliers"] = stats_json(fit.held_without_outliers);
+  out["outliers"] = outliers_json(fit, measured.pose);
   out["nominal"] = stats_json(fit.nominal_held);
   out["geometry"] = stats_json(fit.geometry_held);
   add_floor(fit.floor, out);

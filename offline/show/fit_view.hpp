@@ -4,13 +4,14 @@
 #include <string>
 
 #include "cell/cell.hpp"
+#include "cell/measurements.hpp"
 #include "fit/fit.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {
 
 /// `result` of `plumb fit` but for `run`.
-Json fit_json(const Cell& cell, const Fit& fit);
+Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit);
 
 /// Verdict, error table, parameters with 1 sigma, frame, target, tree.
 std::string fit_text(const Cell& cell, const Fit& fit);

@@ -166,8 +166,12 @@ TEST(CellMessage, OfEffectsUnknownOrNotBuiltIn) {
     EXPECT_EQ(with("[effects." + name + "]"), Summary{"E-CELL-EFFECT 5:1"}) << name;
 }
 
-TEST(CellMessage, OfReservedKeys) {
-  EXPECT_EQ(with("[fit]\nprior = 1"), Summary{"E-CELL-RESERVED 6:9"});
+TEST(CellMessage, OfPriors) {
+  EXPECT_EQ(with("[fit]\nprior = 1"), Summary{"E-CELL-TYPE 6:9"});
+  EXPECT_EQ(with("[fit]\nprior = { \"J1.q\" = 1 }"), Summary{"E-CELL-RANGE 6:20"});
+  EXPECT_EQ(with("[fit]\nprior = { \"J1.d\" = 0 }"), Summary{"E-CELL-RANGE 6:20"});
+  EXPECT_EQ(with("[fit]\nprior = { \"frame.x\" = 1 }"), Summary{"E-CELL-RANGE 6:23"});
+  EXPECT_TRUE(with("[fit]\nprior = { \"J1.d\" = 0.1, \"J1.alpha\" = 0.02 }").empty());
 }
 
 TEST(CellMessage, OfAllProblemsComesInTheOrderOfTheFile) {

@@ -120,6 +120,7 @@ Cell random_cell(Dice& dice, const std::filesystem::path& folder) {
   if (dice.coin()) c.effects.push_back({"local_tree", {0}, {{"min_gain", 0.02}}, {}});
   c.fit.model = dice.coin() ? FitSettings::Model::kDh : FitSettings::Model::kComplete;
   if (dice.coin()) c.fit.fixed = {c.nominal.joints[0].name + ".d", "frame.x"};
+  if (dice.coin()) c.fit.priors = {{c.nominal.joints[0].name + ".a", dice.uniform(1e-5, 1e-3)}};
   c.deploy = {dice.uniform(1e-3, 1e-2), dice.uniform(1e-3, 1e-2)};
   return c;
 }
@@ -192,6 +193,11 @@ void expect_same(const Cell& a, const Cell& b) {
   }
   EXPECT_EQ(a.fit.model, b.fit.model);
   EXPECT_EQ(a.fit.fixed, b.fit.fixed);
+  ASSERT_EQ(a.fit.priors.size(), b.fit.priors.size());
+  for (std::size_t i = 0; i < a.fit.priors.size(); ++i) {
+    EXPECT_EQ(a.fit.priors[i].name, b.fit.priors[i].name);
+    expect_near(a.fit.priors[i].sigma, b.fit.priors[i].sigma);
+  }
   expect_near(a.deploy.cycle_s, b.deploy.cycle_s);
   expect_near(a.deploy.max_correction_m, b.deploy.max_correction_m);
 }

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/fit_judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kMissedShare = 0.01;  // of the reach
+constexpr double kFar_m = 20e-3;
+constexpr double kFar_rad = 2.0 * M_PI / 180.0;
+
+}  // namespace
+
+void check_enough(const FitData& data, std::size_t parameters) {
+  if (data.residual_count() > static_cast<int>(parameters)) return;
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-FIT-FEW",
+                 .message = fmt::format("{} poses give {} coordinates, too few for {} parameters",
+                                        data.rows.size(), data.residual_count(), parameters),
+                 .help = "measure more poses, or hold parameters with [fit] fixed = [\"J6.a\"]"});
+}
+
+void check_converged(const Solution& solution) {
+  if (solution.converged) return;
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-FIT-CONVERGE",
+                 .message = "the calibration did not converge: " + solution.reason,
+                 .help = "look for wrong units, joint signs or DH convention: plumb check"});
+}
+
+void check_meets(const Cell& cell, const FitData& data, const Solution& solution) {
+  const Measurements some = pick(*data.measured, data.rows);
+  const Rows3 error = residuals(some, predict_points(solution.state, some.q));
+  const double rms = std::sqrt(error.squaredNorm() / static_cast<double>(error.rows()));
+  const double length = reach(cell.nominal);
+  if (rms <= kMissedShare * length) return;
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-FIT-MISS",
+                 .message = fmt::format("calibrated as well as possible, this arm still misses its "
+                                        "points by {:.1f} mm RMS, {:.1f} % of its links' length",
+                                        rms * 1e3, 100.0 * rms / length),
+                 .help = "find the wrong unit, joint sign or DH convention: plumb check"});
+}
+
+Problem ambiguous_frame(const ArmState& best, const ArmState& other) {
+  const Matrix3 turn = from_pose(best.X_MB).R.transpose() * from_pose(other.X_MB).R;
+  return {.severity = Severity::kWarning,
+          .code = "W-FIT-AMBIGUOUS",
+          .message = fmt::format("a tracker frame turned by {:.0f} deg fits these poses almost as "
+                                 "well: which one is true stays open",
+                                 rotation_vector(turn).norm() * 180.0 / M_PI),
+          .help = "state the frame: [measurement] frame = { xyz, rpy }, or measure other poses"};
+}
+
+void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks) {
+  for (const auto& e : estimates) {
+    const double change = e.value - e.nominal;
+    if (!e.of_robot || std::abs(change) <= (e.is_length ? kFar_m : kFar_rad)) continue;
+    remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-FIT-FAR",
+         .message = fmt::format("{} ended {:.2f} {} from nominal", e.name,
+                                e.is_length ? change * 1e3 : change * 180.0 / M_PI,
+                                e.is_length ? "mm" : "deg"),
+         .help = "compare the nominal value with the data sheet; to hold it: [fit] fixed = [\"" +
+                 e.name + "\"]"});
+  }
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cell/problem.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/solver.hpp"
+
+namespace plumb::offline {
+
+/// Whether a calibration can be believed. Each check throws Failure (kNumbersSayNo).
+
+/// E-FIT-FEW: no more coordinates than parameters.
+void check_enough(const FitData& data, std::size_t parameters);
+
+/// E-FIT-CONVERGE: the solver gave up.
+void check_converged(const Solution& solution);
+
+/// E-FIT-MISS: the points are still missed by more than 1 % of the reach, which no error of an
+/// arm explains.
+void check_meets(const Cell& cell, const FitData& data, const Solution& solution);
+
+/// W-FIT-AMBIGUOUS: frames `best` and `other` fit almost equally well.
+Problem ambiguous_frame(const ArmState& best, const ArmState& other);
+
+/// W-FIT-FAR: an arm's number more than 20 mm or 2 deg from nominal is rather a wrong nominal.
+void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks);
+
+}  // namespace plumb::offline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/solver.hpp"
+
+namespace plumb::offline {
+
+/// A measured pose that the others contradict.
+struct Outlier {
+  int row = 0;           // of the measurements
+  double error_m = 0.0;  // from where the fit without it predicts the point
+  double times = 0.0;    // the usual scatter
+};
+
+/// Distance of every pose from what the *other* poses predict, in its own standard deviations:
+/// sqrt(e^T (I - H)^-1 e) with e the whitened residuals of the pose and H its block of the hat
+/// matrix, so a pose cannot hide by pulling the fit. Shape (poses,). Cost: poses * parameters^2.
+/// [Cook & Weisberg 1982]
+Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution);
+
+/// Usual size of such distances: their median as a multiple of what noise alone gives, at least 1.
+double usual_scatter(const Eigen::VectorXd& distances, int per_pose);
+
+/// Least squares without the poses that the others contradict: farther away than 6 times the usual
+/// scatter. The farthest go first, the fit is repeated, and who then agrees comes back. Takes them
+/// out of `data.rows` and returns them, farthest first. More than one pose in ten would be no
+/// outliers but a wrong model: then none is taken out.
+std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Parameter>& parameters,
+                                            Solution& solution);
+
+}  // namespace plumb::offline
