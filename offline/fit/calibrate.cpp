@@ -82,6 +82,32 @@ void widen(FitData& data, double tau) {
   data.sigma_m = (data.sigma_m.array().square() + tau * tau).sqrt().matrix();
 }
 
+/// What is held of the arm goes back to nominal.
+ArmState with_held_at_nominal(ArmState state, const ArmState& nominal,
+                              const std::vector<Parameter>& candidates,
+                              const std::vector<std::string>& held) {
+  std::vector<Parameter> back;
+  for (const auto& p : candidates)
+    if (p.of_robot() && std::find(held.begin(), held.end(), p.name) != held.end())
+      back.push_back(p);
+  Eigen::VectorXd change(static_cast<Eigen::Index>(back.size()));
+  for (std::size_t i = 0; i < back.size(); ++i)
+    change(i) = value_of(nominal, back[i]) - value_of(state, back[i]);
+  return moved(state, back, change);
+}
+
+/// `first`, then the rest of `all`: what acts strongly is preferred to what acts through another's
+/// small error, as a SCARA's target.z does through a tilt.
+std::vector<Parameter> led_by(const std::vector<Parameter>& first,
+                              const std::vector<Parameter>& all) {
+  std::vector<Parameter> out = first;
+  for (const auto& p : all)
+    if (std::none_of(first.begin(), first.end(),
+                     [&](const Parameter& q) { return q.name == p.name; }))
+      out.push_back(p);
+  return out;
+}
+
 double excess_of(const FitData& data, const Solution& solution, std::size_t parameters) {
   const Measurements some = pick(*data.measured, data.rows);
   const Rows3 residual = residuals(some, predict_points(solution.state, some.q));
@@ -125,9 +151,13 @@ struct Coarse {
 Coarse coarse_from(const FitData& data, const ArmState& start,
                    const std::vector<Parameter>& candidates) {
   Coarse out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
-  out.subset = identifiable_parameters(data, start, candidates, kCoarse);
+  const ArmState nominal = nominal_state(*data.cell);
+  ArmState placed = nominal;
+  placed.X_MB = start.X_MB;
+  placed.X_TG = start.X_TG;
+  out.subset = identifiable_parameters(data, placed, candidates, kCoarse);
   check_enough(data, out.subset.kept.size());
-  out.solution.state = start;
+  out.solution.state = with_held_at_nominal(start, nominal, candidates, out.subset.held);
   out.outliers = solve_without_outliers(out.data, out.subset.kept, out.solution);
   return out;
 }
@@ -150,9 +180,11 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   FitData data = whole;  // with the stated sigma
   data.rows = coarse.data.rows;
   widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
-  const auto fine = identifiable_parameters(data, coarse.solution.state, candidates, kFine);
+  const auto fine = identifiable_parameters(data, coarse.solution.state,
+                                            led_by(coarse.subset.kept, candidates), kFine);
   data.rows = whole.rows;
   Solution solution = std::move(coarse.solution);
+  solution.state = with_held_at_nominal(solution.state, nominal_state(cell), candidates, fine.held);
   const int coarse_iterations = solution.iterations;
   const auto outliers = solve_without_outliers(data, fine.kept, solution);
   check_converged(solution);

@@ -129,7 +129,8 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
       data.rows.insert(data.rows.end(), back.begin(), back.end());
       std::sort(data.rows.begin(), data.rows.end());
     }
-    solution = solve(data, solution.state, parameters);
+    // What the outliers pulled aside may be far along a flat valley: begin again.
+    solution = solve(data, start, parameters);
   }
   return described(data, taken, solution, scatter);
 }
