@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMaxLength_m = 100.0;
 constexpr double kMaxAngle_rad = 4.0 * 3.14159265358979323846;
+constexpr double kMaxMass_kg = 1e5;
 constexpr double kMaxTwist = 1.0;          // [m] or [rad]
 constexpr double kMaxJointPosition = 1e4;  // [rad] or [m]: many turns
 constexpr double kMinSpan = 1e-9;          // of the trained domain, [rad] or [m]: it divides
@@ -110,12 +111,29 @@ Finding check_effect(const Effect& effect, std::size_t joints) {
   if (effect.parameters.size() > kMaxEffectParameters) return what + " has too many parameters";
   for (double x : effect.parameters)
     if (!std::isfinite(x)) return what + " has a parameter that is not finite";
+  if (effect.constants.size() > kMaxEffectConstants) return what + " has too many constants";
+  for (double x : effect.constants)
+    if (!std::isfinite(x)) return what + " has a constant that is not finite";
   if (effect.context.size() > kMaxJoints) return what + " needs too much context";
   for (const auto& need : effect.context) {
     if (need.input > ContextInput::kTime) return what + " needs an unknown input";
     if (!std::isfinite(need.fallback)) return what + " has a fallback that is not finite";
     if (auto f = unprintable(need.name, what + " context")) return f;
   }
+  return std::nullopt;
+}
+
+Finding check_mechanics(const Mechanics& m, std::size_t joints) {
+  const auto sound = [](double mass, const std::array<double, 3>& com) {
+    return mass >= 0.0 && mass <= kMaxMass_kg && within(com[0], kMaxLength_m) &&
+           within(com[1], kMaxLength_m) && within(com[2], kMaxLength_m);
+  };
+  if (!m.links.empty() && m.links.size() != joints)
+    return "there are masses of " + std::to_string(m.links.size()) + " links";
+  for (std::size_t i = 0; i < m.links.size(); ++i)
+    if (!sound(m.links[i].mass_kg, m.links[i].com_m))
+      return "the mass of link " + std::to_string(i + 1) + " is out of range";
+  if (!sound(m.payload_kg, m.payload_com_m)) return "the payload is out of range";
   return std::nullopt;
 }
 
@@ -171,6 +189,7 @@ Finding unsoundness(const Model& m) {
   if (m.effects.size() > kMaxEffects) return "there are too many effects";
   for (const auto& effect : m.effects)
     if (auto f = check_effect(effect, m.nominal.joints.size())) return f;
+  if (auto f = check_mechanics(m.mechanics, m.nominal.joints.size())) return f;
   if (auto f = check_domain(m)) return f;
   for (std::size_t axis = 0; axis < m.trees.size(); ++axis)
     if (auto f = unsound_tree(m.trees[axis], m.nominal.joints.size()))

@@ -60,6 +60,7 @@ class Copier {
     out.domain = domain(w.domain());
     out.guard = guard(*w.guard());
     out.provenance = provenance(w.provenance());
+    out.mechanics = mechanics(w.mechanics());
     return out;
   }
 
@@ -138,14 +139,27 @@ class Copier {
   }
 
   Effect effect(const wire::Effect& w) {
-    return {
-        .name = text(w.name()),
-        .version = w.version(),
-        .joints = numbers(w.joints()),
-        .parameters = numbers(w.parameters()),
-        .context = each(w.context(), [this](const auto& x) {
-          return ContextNeed{static_cast<ContextInput>(x.input()), text(x.name()), x.fallback()};
-        })};
+    return {.name = text(w.name()),
+            .version = w.version(),
+            .joints = numbers(w.joints()),
+            .parameters = numbers(w.parameters()),
+            .context = each(w.context(),
+                            [this](const auto& x) {
+                              return ContextNeed{static_cast<ContextInput>(x.input()),
+                                                 text(x.name()), x.fallback()};
+                            }),
+            .constants = numbers(w.constants())};
+  }
+
+  Mechanics mechanics(const wire::Mechanics* w) {
+    Mechanics out;
+    if (w == nullptr) return out;
+    if (readable(w->links(), alignof(wire::LinkMass), sizeof(LinkMass)))
+      for (const wire::LinkMass* link : *w->links())
+        out.links.push_back({link->mass_kg(), {link->cx(), link->cy(), link->cz()}});
+    out.payload_kg = w->payload_kg();
+    out.payload_com_m = {w->payload_cx(), w->payload_cy(), w->payload_cz()};
+    return out;
   }
 
   std::vector<TreeNode> nodes(const flatbuffers::Vector<const wire::Node*>* x) {

@@ -46,7 +46,20 @@ Offset<wire::Effect> add(Builder& b, const Effect& effect) {
   const auto name = b.CreateString(effect.name);
   const auto joints = b.CreateVector(effect.joints);
   const auto parameters = b.CreateVector(effect.parameters);
-  return wire::CreateEffect(b, name, effect.version, joints, parameters, b.CreateVector(needs));
+  const auto context = b.CreateVector(needs);
+  Offset<flatbuffers::Vector<double>> constants;
+  if (!effect.constants.empty()) constants = b.CreateVector(effect.constants);
+  return wire::CreateEffect(b, name, effect.version, joints, parameters, context, constants);
+}
+
+/// Absent if nothing is known.
+Offset<wire::Mechanics> add(Builder& b, const Mechanics& m) {
+  if (m == Mechanics{}) return {};
+  std::vector<wire::LinkMass> links;
+  for (const auto& link : m.links)
+    links.emplace_back(link.mass_kg, link.com_m[0], link.com_m[1], link.com_m[2]);
+  const auto& c = m.payload_com_m;
+  return wire::CreateMechanics(b, b.CreateVectorOfStructs(links), m.payload_kg, c[0], c[1], c[2]);
 }
 
 Offset<wire::Tree> add(Builder& b, const Tree& tree) {
@@ -92,6 +105,7 @@ Offset<wire::Model> add(Builder& b, const Model& m) {
   const auto domain = wire::CreateDomain(b, q_min, q_max, m.domain.fade);
   const auto guard = add(b, m.guard);
   const auto provenance = add(b, m.provenance);
+  const auto mechanics = add(b, m.mechanics);
   const auto cell = b.CreateString(m.cell_name);
   const auto robot = b.CreateString(m.robot_name);
   const auto serial = b.CreateString(m.serial);
@@ -99,7 +113,7 @@ Offset<wire::Model> add(Builder& b, const Model& m) {
   const auto all_trees = b.CreateVector(trees);
   return wire::CreateModel(b, kSchemaVersion, cell, robot, serial, m.gravity[0], m.gravity[1],
                            m.gravity[2], nominal, calibrated, all_effects, all_trees, domain, guard,
-                           provenance);
+                           provenance, mechanics);
 }
 
 }  // namespace

@@ -68,6 +68,12 @@ constexpr Explanation kCodes[] = {
     {"E-MODEL-KIND", "The file is not a model file of plumb."},
     {"E-MODEL-CHECKSUM", "The bytes of the file changed since it was written."},
     {"E-MODEL-NEWER", "The file was written by a newer plumb with a schema this one cannot read."},
+    {"E-MODEL-EFFECT",
+     "The file lists a physical effect that this program cannot evaluate: a law it does not know, a "
+     "newer version of one, or numbers of another count."},
+    {"E-EFFECT-DATA",
+     "A listed effect needs something that these measurements do not hold: the direction from which "
+     "joints came, a temperature, the row after which something moved."},
     {"E-MODEL-MALFORMED", "The structure of the file is broken."},
     {"E-MODEL-INCONSISTENT",
      "The file is whole, but its content makes no sense: a number out of range, a tree that points "

@@ -43,6 +43,38 @@ void read_min_gain(TomlTable& t, EffectEntry& entry) {
     t.out_of_range("min_gain", "a share like \"2%\" or 0.02");
 }
 
+/// A number or a text that an effect may be given.
+struct Option {
+  const char* effect;
+  const char* key;
+  bool is_text = false;
+  bool required = false;
+};
+
+constexpr Option kOptions[] = {{"gear_ripple", "cycles_per_turn", false, true},
+                               {"joint_compliance_soft", "torque_Nm"},
+                               {"backlash_load", "torque_Nm"},
+                               {"reversal", "transition_deg"},
+                               {"thermal_growth", "sensor", true},
+                               {"thermal_growth", "reference_degC"},
+                               {"step", "after_row", false, true},
+                               {"step", "of", true},
+                               {"gravity_compensator", "length_ratio"},
+                               {"gravity_compensator", "anchor_ratio"}};
+
+void read_options(const std::string& name, TomlTable& t, EffectEntry& entry) {
+  for (const auto& option : kOptions) {
+    if (name != option.effect) continue;
+    if (option.is_text) {
+      if (const auto text = t.text(option.key)) entry.options[option.key] = *text;
+    } else if (const auto number = t.number(option.key)) {
+      entry.options[option.key] = *number;
+    } else if (option.required && t.node(option.key) == nullptr) {
+      t.missing(option.key, fmt::format("add {} = 1 to [effects.{}]", option.key, name));
+    }
+  }
+}
+
 void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
   EffectEntry entry{.name = name, .joints = {}, .options = {}, .place = t.place("")};
   for (const auto& [joint, node] : t.texts("joints")) {
@@ -53,6 +85,7 @@ void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
       entry.joints.push_back(index);
   }
   if (name == "local_tree") read_min_gain(t, entry);
+  read_options(name, t, entry);
   t.done();
   draft.cell.effects.push_back(std::move(entry));
 }

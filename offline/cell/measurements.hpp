@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cell/contexts.hpp"
 #include "cell/kept_rows.hpp"
 #include "cell/problem.hpp"
 
@@ -74,7 +75,8 @@ struct Measurements {
   Rows4 quat_M;               // measured orientation (w, x, y, z), or 0 rows
   Rows3 sigma_m;              // 1 sigma per axis from columns, or 0 rows
   Rows3 nominal_B;            // the controller's own position [m], or 0 rows
-  std::vector<Table> tables;  // the files, in order; context columns stay there
+  ContextRows context;        // what else is known of each pose
+  std::vector<Table> tables;  // the files, in order
   int size() const { return static_cast<int>(q.rows()); }
   bool has_orientation() const { return quat_M.rows() > 0; }
 };

@@ -25,6 +25,8 @@ class TargetReader {
     out_.commanded = has_joints("qc");
     if (has_joints("qc") || has_joints("q")) read_seed(out_.commanded ? "qc" : "q");
     problems_.stop_on_errors();
+    const auto joints = static_cast<Eigen::Index>(is_angle_.size());
+    out_.context = read_contexts({&out_.table, 1}, RowsN::Zero(out_.table.rows(), joints));
     return std::move(out_);
   }
 

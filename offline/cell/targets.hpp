@@ -11,6 +11,7 @@ struct Targets {
   Rows4 quat_B;            // (w, x, y, z), or 0 rows: the nominal orientation at the seed is meant
   RowsN seed;              // joint positions [rad] or [m], or 0 rows
   bool commanded = false;  // the seed comes from columns qc1 …, what the controller was told
+  ContextRows context;     // direction, payload, temperatures
   Table table;
 };
 

@@ -46,13 +46,15 @@ Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
 }  // namespace
 
 Corrected correct_targets(const Corrector& corrector, const Targets& targets,
-                          const std::vector<double>& start) {
+                          const std::vector<double>& start,
+                          const std::vector<std::string>& sensors) {
   Seeds seeds(targets, start);
   Corrected out;
   for (int row = 0; row < targets.table.rows(); ++row) {
     const auto seed = seeds.at(row);
     const Transformd X_BD = target_pose(targets, row, corrector.nominal(), seed);
-    const Correction correction = corrector.solve(X_BD, seed, seeds.kind());
+    const Correction correction =
+        corrector.solve(X_BD, seed, seeds.kind(), context_at(targets.context, row, sensors));
     seeds.solved(correction);
     out.command.push_back(to_pose(correction.X_BC));
     out.status.push_back(correction.status);

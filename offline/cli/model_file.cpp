@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cell/file.hpp"
+#include "fit/effect_binding.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 
@@ -53,6 +54,11 @@ format::Model open_model(const std::filesystem::path& file, Outcome& outcome) {
                                  .place = Place{.file = file.string()},
                                  .help = help});
   }
+  if (const auto why = unusable_effects(std::get<format::Model>(read)); !why.empty())
+    throw Failure(Exit::kInput, {.code = "E-MODEL-EFFECT",
+                                 .message = why,
+                                 .place = Place{.file = file.string()},
+                                 .help = "install a newer plumb, or compile it again"});
   outcome.inputs.push_back({file.string(), sha256(read_file(file))});
   return std::get<format::Model>(std::move(read));
 }

@@ -8,6 +8,7 @@
 #include "cli/csv_output.hpp"
 #include "cli/model_file.hpp"
 #include "cli/verbs.hpp"
+#include "fit/effect_binding.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -110,7 +111,8 @@ void correct(const Options& options, const Globals& globals, Outcome& outcome) {
   const Targets targets = open_targets(options, model.nominal, outcome);
   const auto start = start_of(options, model.nominal);
   check_seeds(targets, model.nominal, start);
-  const Corrected corrected = correct_targets(Corrector(model), targets, start);
+  const Corrected corrected =
+      correct_targets(Corrector(model), targets, start, temperature_names(model));
   show::CsvColumns columns({targets.table});
   set_commands(corrected.command, columns);
   columns.set("status", status_texts(corrected.status));

@@ -8,6 +8,7 @@
 #include "cli/model_file.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "fit/effect_binding.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "show/units.hpp"
 
@@ -71,11 +72,12 @@ void predict_model(const Options& options, Outcome& outcome) {
   const format::Model model = open_model(options.model, outcome);
   const Measurements rows = open_rows(options.data, model.nominal, outcome);
   const ForwardModel arm(model);
+  const auto sensors = temperature_names(model);
   Rows3 p(rows.size(), 3);
   Rows4 q(rows.size(), 4);
   std::vector<Status> status;
   for (int i = 0; i < rows.size(); ++i) {
-    const Prediction predicted = arm.predict(joints(rows, i));
+    const Prediction predicted = arm.predict(joints(rows, i), context_at(rows.context, i, sensors));
     const format::Pose pose = to_pose(predicted.X_BT);
     p.row(i) << pose.p[0], pose.p[1], pose.p[2];
     q.row(i) << pose.q[0], pose.q[1], pose.q[2], pose.q[3];
@@ -116,8 +118,10 @@ Run chosen_run(const Options& options, const Cell& cell, const Measurements& mea
 
 std::vector<Status> domain_status(const Run& run, const Measurements& rows) {
   const ForwardModel arm(run.fit.calibration.state.arm);
+  const auto sensors = temperature_names(run.fit.calibration.state.arm);
   std::vector<Status> out;
-  for (int i = 0; i < rows.size(); ++i) out.push_back(arm.predict(joints(rows, i)).status);
+  for (int i = 0; i < rows.size(); ++i)
+    out.push_back(arm.predict(joints(rows, i), context_at(rows.context, i, sensors)).status);
   return out;
 }
 
@@ -129,8 +133,7 @@ void predict_as_measured(const Options& options, const Globals& globals, Outcome
   const bool own = options.data.empty();
   const Measurements rows = own ? measured : open_rows(options.data, cell.nominal, outcome);
   show::CsvColumns columns(rows.tables);
-  set_points(own ? run.fit.predicted_M : predict_points(run.fit.calibration.state, rows.q),
-             columns);
+  set_points(own ? run.fit.predicted_M : predict_points(run.fit.calibration.state, rows), columns);
   if (own) set_split(run.fit.split, columns);
   outcome.result = {{"frame", "measurement"}, {"point", "target"}, {"run", run.number}};
   finish(options, domain_status(run, rows),

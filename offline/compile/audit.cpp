@@ -90,6 +90,13 @@ double worst_jump(const format::Tree& tree, int inputs, Random& random) {
   return worst;
 }
 
+std::optional<Parameter> parameter_named(const format::Model& arm, const std::string& name) {
+  if (auto found = robot_parameter(arm.calibrated, name)) return found;
+  for (auto& parameter : effect_parameters(arm))
+    if (parameter.name == name) return std::move(parameter);
+  return std::nullopt;
+}
+
 Eigen::MatrixXd covariance_of(const format::Provenance& p) {
   const auto n = static_cast<Eigen::Index>(p.parameter_names.size());
   Eigen::MatrixXd out(n, n);
@@ -102,14 +109,17 @@ Eigen::MatrixXd covariance_of(const format::Provenance& p) {
 
 void look_at_uncertainty(const format::Model& model, Audit& out) {
   if (model.provenance.covariance.empty()) return;
+  ArmState state;
+  state.arm.calibrated = model.calibrated;
+  state.arm.effects = model.effects;
+  state.arm.mechanics = model.mechanics;
+  state.arm.gravity = model.gravity;
   std::vector<Parameter> parameters;
   for (const auto& name : model.provenance.parameter_names) {
-    const auto parameter = robot_parameter(model.calibrated, name);
+    const auto parameter = parameter_named(state.arm, name);
     if (!parameter) return;
     parameters.push_back(*parameter);
   }
-  ArmState state;
-  state.arm.calibrated = model.calibrated;
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
   const Eigen::MatrixXd covariance = covariance_of(model.provenance);
@@ -118,7 +128,7 @@ void look_at_uncertainty(const format::Model& model, Audit& out) {
   GeometryDerivative::Point point;
   for (int i = 0; i < kAuditPoses; ++i) {
     const auto q = somewhere_in(box, random);
-    geometry.evaluate(q, point);
+    geometry.evaluate(q, {}, point);
     const auto J = point.columns.topRows<3>();
     const double sigma = std::sqrt(std::max(0.0, (J * covariance * J.transpose()).trace()));
     out.sigma_tool_mean_m += sigma / kAuditPoses;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fit/geometry.hpp"
+#include "plumb/runtime/effect_library.hpp"
 
 #include "plumb/format/version.hpp"
 
@@ -24,11 +25,22 @@ format::HeldOut held_out(const ErrorStats& s) {
           .max_m = s.max};
 }
 
+/// Of the robot, or of its surroundings with a sensor to read in the cycle.
+bool runs_online(const std::string& effect) {
+  const EffectDomain domain = effect_info(find_effect_law(effect)).domain;
+  return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
+}
+
+bool runs_online(const Estimate& e) {
+  if (!e.of_robot) return false;
+  return e.unit.empty() || runs_online(e.name.substr(0, e.name.find('.')));
+}
+
 /// Robot parameters with their covariance; what belongs to the measurement is left behind.
 void add_covariance(const Calibration& calibration, format::Provenance& out) {
   std::vector<Eigen::Index> robot;
   for (std::size_t i = 0; i < calibration.estimates.size(); ++i) {
-    if (!calibration.estimates[i].of_robot) continue;
+    if (!runs_online(calibration.estimates[i])) continue;
     robot.push_back(static_cast<Eigen::Index>(i));
     out.parameter_names.push_back(calibration.estimates[i].name);
   }
@@ -77,6 +89,9 @@ format::Model compile(const Cell& cell, const Run& run) {
   out.nominal = cell.nominal;
   const format::Model& fitted = run.fit.calibration.state.arm;
   out.calibrated = fitted.calibrated;
+  for (const auto& effect : fitted.effects)
+    if (runs_online(effect.name)) out.effects.push_back(effect);
+  out.mechanics = fitted.mechanics;
   out.trees = fitted.trees;
   out.domain = fitted.domain;
   out.guard = guard(cell, run);

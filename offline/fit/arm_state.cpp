@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/arm_state.hpp"
+#include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -9,6 +10,31 @@ std::span<const double> row_of(const RowsN& q, Eigen::Index i) {
 }
 
 }  // namespace
+
+Context context_of(const Measurements& at, Eigen::Index row,
+                   const std::vector<std::string>& sensors, const Transformd& X_MB) {
+  Context out = context_at(at.context, row, sensors);
+  const Transformd X_BM = X_MB.inverse();
+  for (int k = 0; k < 3; ++k) {
+    out.tracker_B[k] = X_BM.p(k);
+    out.tracker_up_B[k] = X_BM.R(k, 2);
+  }
+  return out;
+}
+
+Rows3 predict_points(const ArmState& state, const Measurements& at) {
+  if (state.arm.effects.empty()) return predict_points(state, at.q);
+  const ForwardModel arm(state.arm);
+  const auto sensors = temperature_names(state.arm);
+  const Transformd X_MB = from_pose(state.X_MB);
+  const Vector3 target_T(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
+  Rows3 out(at.q.rows(), 3);
+  for (Eigen::Index i = 0; i < at.q.rows(); ++i) {
+    const Context context = context_of(at, i, sensors, X_MB);
+    out.row(i) = (X_MB * (arm.predict(row_of(at.q, i), context).X_BT * target_T)).transpose();
+  }
+  return out;
+}
 
 Rows3 predict_points(const ArmState& state, const RowsN& q) {
   const ForwardModel arm(state.arm);

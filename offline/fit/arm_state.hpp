@@ -18,7 +18,14 @@ struct ArmState {
 };
 
 /// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code.
+Rows3 predict_points(const ArmState& state, const Measurements& at);
+
+/// The same where nothing but the joint positions is known.
 Rows3 predict_points(const ArmState& state, const RowsN& q);
+
+/// What is known of row `row`; the tracker stands at the origin of the measurement frame.
+Context context_of(const Measurements& at, Eigen::Index row,
+                   const std::vector<std::string>& sensors, const Transformd& X_MB);
 
 /// Predicted orientation of the reflector in the measurement frame, (w, x, y, z), shape (n, 4).
 Rows4 predict_orientations(const ArmState& state, const RowsN& q);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
@@ -26,12 +27,14 @@ std::vector<Estimate> estimates(const ArmState& state, const ArmState& nominal,
   std::vector<Estimate> out;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& p = parameters[i];
-    out.push_back({.name = p.name,
-                   .is_length = p.is_length(),
-                   .of_robot = p.of_robot(),
-                   .value = value_of(state, p),
-                   .nominal = value_of(nominal, p),
-                   .std = std::sqrt(std::max(0.0, covariance(i, i)))});
+    out.push_back(
+        {.name = p.name,
+         .is_length = p.is_length(),
+         .of_robot = p.of_robot(),
+         .unit = p.of_effect() ? effect_parameter(state.arm, p.joint, p.component).unit : "",
+         .value = value_of(state, p),
+         .nominal = value_of(nominal, p),
+         .std = std::sqrt(std::max(0.0, covariance(i, i)))});
   }
   return out;
 }
@@ -58,8 +61,11 @@ double calibrability(const Eigen::MatrixXd& information, const std::vector<Param
   return w(w.size() - 1) > 0 ? w(0) / w(w.size() - 1) : 0.0;
 }
 
-ArmState nominal_state(const Cell& cell) {
+ArmState nominal_state(const Cell& cell, const Measurements& measured) {
   ArmState state;
+  state.arm.gravity = cell.gravity;
+  state.arm.mechanics = mechanics_of(cell);
+  state.arm.effects = bind_effects(cell, measured);
   state.arm.calibrated = cell.nominal;
   state.X_MB = cell.measurement.X_MB;
   state.X_TG.p = cell.measurement.target_T;
@@ -110,14 +116,17 @@ std::vector<Parameter> led_by(const std::vector<Parameter>& first,
 
 double excess_of(const FitData& data, const Solution& solution, std::size_t parameters) {
   const Measurements some = pick(*data.measured, data.rows);
-  const Rows3 residual = residuals(some, predict_points(solution.state, some.q));
+  const Rows3 residual = residuals(some, predict_points(solution.state, some));
   return excess_sigma(residual, picked(data.sigma_m, data.rows), data.measured->has_axis,
                       static_cast<int>(parameters));
 }
 
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
   const bool turns = data.sigma_rad > 0.0;
-  return candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
+  auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
+  const auto effects = effect_parameters(nominal_state(cell, *data.measured).arm);
+  out.insert(out.end(), effects.begin(), effects.end());
+  return out;
 }
 
 Calibration summary(const FitData& data, const ArmState& nominal, const Solution& solution,
@@ -151,7 +160,7 @@ struct Coarse {
 Coarse coarse_from(const FitData& data, const ArmState& start,
                    const std::vector<Parameter>& candidates) {
   Coarse out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
-  const ArmState nominal = nominal_state(*data.cell);
+  const ArmState nominal = nominal_state(*data.cell, *data.measured);
   ArmState placed = nominal;
   placed.X_MB = start.X_MB;
   placed.X_TG = start.X_TG;
@@ -178,18 +187,19 @@ Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
 Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
                     const std::vector<Parameter>& candidates) {
   FitData data = whole;  // with the stated sigma
+  const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
   widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
   const auto fine = identifiable_parameters(data, coarse.solution.state,
                                             led_by(coarse.subset.kept, candidates), kFine);
   data.rows = whole.rows;
   Solution solution = std::move(coarse.solution);
-  solution.state = with_held_at_nominal(solution.state, nominal_state(cell), candidates, fine.held);
+  solution.state = with_held_at_nominal(solution.state, nominal, candidates, fine.held);
   const int coarse_iterations = solution.iterations;
   const auto outliers = solve_without_outliers(data, fine.kept, solution);
   check_converged(solution);
   check_meets(cell, data, solution);
-  Calibration out = summary(data, nominal_state(cell), solution, fine);
+  Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
   out.iterations = coarse_iterations + solution.iterations;
   out.rank = static_cast<int>(
@@ -209,7 +219,7 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   if (start != nullptr)
     starts.push_back(*start);
   else
-    for (auto& placed : placements(even, nominal_state(cell), candidates))
+    for (auto& placed : placements(even, nominal_state(cell, measured), candidates))
       starts.push_back(std::move(placed.state));
   std::vector<Problem> remarks;
   Coarse coarse = coarse_from_any(even, starts, candidates, remarks);
@@ -235,7 +245,7 @@ ArmState place_nominal(const Cell& cell, const Measurements& measured,
                        const std::vector<int>& rows) {
   FitData data = fit_data(cell, measured, rows);
   data.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
-  return place(data, nominal_state(cell), candidates_of(cell, data)).state;
+  return place(data, nominal_state(cell, measured), candidates_of(cell, data)).state;
 }
 
 }  // namespace plumb::offline

@@ -17,6 +17,7 @@ struct Estimate {
   std::string name;  // "J2.d", "frame.x", "target.z"
   bool is_length = false;
   bool of_robot = false;  // false: of the measurement, thrown away
+  std::string unit = {};  // SI, of an effect's parameter; else empty
   double value = 0.0;     // frame: change from the start, so 0 is not meaningful
   double nominal = 0.0;
   double std = 0.0;  // 1 sigma

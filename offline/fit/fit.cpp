@@ -58,7 +58,7 @@ Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<
   const EffectEntry* entry = find_effect(cell, "local_tree");
   if (entry == nullptr) return out;
   const ArmState& state = out.geometry_only;
-  const Rows3 error_B = to_base(state, residuals(some, predict_points(state, some.q)));
+  const Rows3 error_B = to_base(state, residuals(some, predict_points(state, some)));
   out.tree = choose_trees(some.q, error_B, some.has_axis, some.replicate_group,
                           tree_settings(cell, *entry));
   out.calibration.state.arm.trees = out.tree->trees;
@@ -72,7 +72,7 @@ void overwrite(Rows3& all, const std::vector<int>& rows, const Rows3& with) {
 
 Rows3 predicted_at(const ArmState& state, const Measurements& measured,
                    const std::vector<int>& rows) {
-  return predict_points(state, pick(measured, rows).q);
+  return predict_points(state, pick(measured, rows));
 }
 
 /// Out-of-fold predictions of the three models compared, for one set of held-out rows.
@@ -149,7 +149,7 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   out.split = std::move(split);
   const std::vector<int> fit = fit_rows(out.split);
   Fitted final_model = fit_on(cell, measured, fit);
-  const Rows3 final_points = predict_points(final_model.calibration.state, measured.q);
+  const Rows3 final_points = predict_points(final_model.calibration.state, measured);
   Prediction3 predicted{final_points, final_points, final_points};
   for (int k = 0; k < out.split.folds; ++k) {
     const auto inside = fit_rows(out.split, k);

@@ -26,7 +26,7 @@ struct Fit {
   ErrorStats geometry_held;  // geometry without the tree
   std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` counts them
   ErrorStats held_without_outliers;    // the second figure
-  ErrorStats fit;            // in-sample: never accuracy
+  ErrorStats fit;                      // in-sample: never accuracy
   NoiseFloor floor;
   std::vector<Problem> remarks;
 };

@@ -33,7 +33,7 @@ void check_converged(const Solution& solution) {
 
 void check_meets(const Cell& cell, const FitData& data, const Solution& solution) {
   const Measurements some = pick(*data.measured, data.rows);
-  const Rows3 error = residuals(some, predict_points(solution.state, some.q));
+  const Rows3 error = residuals(some, predict_points(solution.state, some));
   const double rms = std::sqrt(error.squaredNorm() / static_cast<double>(error.rows()));
   const double length = reach(cell.nominal);
   if (rms <= kMissedShare * length) return;
@@ -58,7 +58,8 @@ Problem ambiguous_frame(const ArmState& best, const ArmState& other) {
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks) {
   for (const auto& e : estimates) {
     const double change = e.value - e.nominal;
-    if (!e.of_robot || std::abs(change) <= (e.is_length ? kFar_m : kFar_rad)) continue;
+    if (!e.of_robot || !e.unit.empty() || std::abs(change) <= (e.is_length ? kFar_m : kFar_rad))
+      continue;
     remarks.push_back(
         {.severity = Severity::kWarning,
          .code = "W-FIT-FAR",

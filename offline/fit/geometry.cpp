@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/dual.hpp"
+#include "fit/effect_binding.hpp"
+#include "plumb/runtime/effect_library.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -12,6 +16,7 @@ using Kind = Parameter::Kind;
 constexpr double kNearParallel_rad = 0.05;
 constexpr int kSlotFrame = -2;   // acts on X_MB, seen from the base
 constexpr int kSlotTarget = -3;  // acts on X_TG, seen from the tool
+constexpr int kSlotEffect = -4;  // has its own columns
 
 const char* const kTwistNames[] = {"dx", "dy", "dz", "ex", "ey", "ez"};
 const char* const kPoseNames[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -182,11 +187,15 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
         break;
       case Kind::kFrame:
       case Kind::kTargetRotation:
+      case Kind::kEffect:
         break;
       default:
         dh_value(rows[p.joint], p.kind) += change(i);
     }
   }
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].of_effect())
+      out.arm.effects[parameters[i].joint].parameters[parameters[i].component] += change(i);
   const Vector3 shift = gathered(parameters, change, Kind::kFrame, 0);
   const Vector3 turn = gathered(parameters, change, Kind::kFrame, 3);
   if (!shift.isZero(0.0) || !turn.isZero(0.0))
@@ -200,7 +209,20 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
   return out;
 }
 
+std::vector<Parameter> effect_parameters(const format::Model& arm) {
+  std::vector<Parameter> out;
+  for (std::size_t e = 0; e < arm.effects.size(); ++e)
+    for (std::size_t k = 0; k < arm.effects[e].parameters.size(); ++k) {
+      const int effect = static_cast<int>(e), parameter = static_cast<int>(k);
+      out.push_back(
+          {Kind::kEffect, effect, parameter, effect_parameter_name(arm, effect, parameter)});
+    }
+  return out;
+}
+
 double value_of(const ArmState& state, const Parameter& parameter) {
+  if (parameter.of_effect())
+    return state.arm.effects[parameter.joint].parameters[parameter.component];
   auto row = state.arm.calibrated.joints[parameter.joint];
   switch (parameter.kind) {
     case Kind::kLinkTwist:
@@ -223,7 +245,9 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
     : state_(moved(start, parameters, change)),
       chain_(state_.arm.calibrated),
       X_MB_(from_pose(state_.X_MB)),
-      X_TG_(from_pose(state_.X_TG)) {
+      X_TG_(from_pose(state_.X_TG)),
+      effects_(state_.arm),
+      sensors_(temperature_names(state_.arm)) {
   twists_.reserve(parameters.size());
   const Matrix3 frame_turn = left_jacobian(gathered(parameters, change, Kind::kFrame, 3));
   const Matrix3 target_turn = left_jacobian(gathered(parameters, change, Kind::kTargetRotation, 0));
@@ -242,6 +266,9 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
     } else if (p.kind == Kind::kTargetRotation) {
       twists_.push_back(
           {kSlotTarget, Vector3::Zero(), Vector3(R_TG0 * target_turn * axis(p.component))});
+    } else if (p.of_effect()) {
+      effect_columns_.push_back({p.joint, p.component, static_cast<Eigen::Index>(i)});
+      twists_.push_back({kSlotEffect, Vector3::Zero(), Vector3::Zero()});
     } else {
       twists_.push_back(slot_twist(p));
     }
@@ -297,34 +324,109 @@ GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p)
   return {slot, X.R * d + cross<double>(X.p, e_slot), e_slot};
 }
 
-void GeometryDerivative::evaluate(std::span<const double> q, Point& out) const {
-  ChainFrames<double> frames;
-  chain_.frames(q, frames);
-  const Transformd X_BG = frames.tip * X_TG_;
+/// One pose before and after the effects moved it.
+struct GeometryDerivative::Bent {
+  ChainFrames<double> rigid;
+  ChainFrames<double> frames;  // with joint effects; the tip without the twists
+  EffectSet::Surroundings around;
+  Motion<double> motion;
+  Matrix3 turn = Matrix3::Identity();  // of the tip, by the twists
+};
+
+void GeometryDerivative::bend(std::span<const double> q, const Context& context, Bent& out) const {
+  chain_.frames(q, out.rigid);
+  if (effects_.empty()) {
+    out.frames = out.rigid;
+    return;
+  }
+  effects_.survey(chain_, out.rigid, context, out.around);
+  for (int i = 0; i < effects_.size(); ++i)
+    effects_.apply_one<double>(i, state_.arm.effects[i].parameters, q, chain_, out.rigid,
+                               out.around, out.motion);
+  std::array<double, kMaxJoints> there{};
+  for (std::size_t j = 0; j < q.size(); ++j) there[j] = q[j] + out.motion.dq[j];
+  chain_.frames(std::span<const double>(there).first(q.size()), out.frames);
+  out.turn = turned(out.motion.turn_B).R;
+}
+
+/// arm_B: from the tip to the reflector, before the twists turn it.
+void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& bent,
+                                        const Vector3& arm_B, Point& out) const {
+  const Matrix3 turn_rate = left_jacobian(bent.motion.turn_B);
+  const Vector3 turned_arm = bent.turn * arm_B;
+  std::vector<Dual> theta;
+  for (std::size_t first = 0; first < effect_columns_.size();) {
+    // Up to eight parameters of one effect at a time.
+    const int effect = effect_columns_[first].effect;
+    std::size_t last = first;
+    while (last < effect_columns_.size() && effect_columns_[last].effect == effect &&
+           last - first < Dual::kLanes)
+      ++last;
+    const auto& values = state_.arm.effects[effect].parameters;
+    theta.assign(values.begin(), values.end());
+    for (std::size_t i = first; i < last; ++i)
+      theta[effect_columns_[i].parameter].d(static_cast<Eigen::Index>(i - first)) = 1.0;
+    Motion<Dual> motion;
+    effects_.apply_one<Dual>(effect, theta, q, chain_, bent.rigid, bent.around, motion);
+    for (std::size_t i = first; i < last; ++i) {
+      const auto lane = static_cast<Eigen::Index>(i - first);
+      Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
+      Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
+      e = turn_rate * e;
+      d += cross<double>(e, turned_arm);
+      for (int j = 0; j < chain_.joints(); ++j) {
+        const double rate = motion.dq[j].d(lane) * chain_.scale(j);
+        if (rate == 0.0) continue;
+        const Vector3 axis = bent.frames.joint[j].R.col(2) * rate;
+        if (!chain_.revolute(j)) {
+          d += axis;
+          continue;
+        }
+        d += cross<double>(axis, bent.frames.tip.p - bent.frames.joint[j].p) +
+             bent.turn * cross<double>(axis, arm_B);
+        e += bent.turn * axis;
+      }
+      out.columns.col(effect_columns_[i].column) << X_MB_.R * d, X_MB_.R * e;
+    }
+    first = last;
+  }
+}
+
+void GeometryDerivative::evaluate(std::span<const double> q, const Context& context,
+                                  Point& out) const {
+  Bent bent;
+  bend(q, context, bent);
+  const ChainFrames<double>& frames = bent.frames;
   const Matrix3& R_MB = X_MB_.R;
-  out.p_M = X_MB_ * X_BG.p;
-  out.R_MG = R_MB * X_BG.R;
+  const Vector3 arm_B = frames.tip.R * X_TG_.p;  // before the twists turn it
+  const Vector3 p_B = frames.tip.p + bent.motion.shift_B + bent.turn * arm_B;
+  const Matrix3 R_BT = bent.turn * frames.tip.R;
+  out.p_M = X_MB_ * p_B;
+  out.R_MG = R_MB * R_BT * X_TG_.R;
   const auto count = static_cast<Eigen::Index>(twists_.size());
   if (out.columns.cols() != count) out.columns.resize(6, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto& t = twists_[k];
+    if (t.slot == kSlotEffect) continue;
     Vector3 d_M, e_M;
     if (t.slot == kSlotFrame) {
       d_M = t.d + cross<double>(t.e, out.p_M - X_MB_.p);
       e_M = t.e;
     } else if (t.slot == kSlotTarget) {
-      const Matrix3 R_MT = R_MB * frames.tip.R;
+      const Matrix3 R_MT = R_MB * R_BT;
       d_M = R_MT * t.d;
       e_M = R_MT * t.e;
     } else {
       const Matrix3 R = t.slot < 0 ? Matrix3::Identity() : frames.joint[t.slot].R;
       const Vector3 o = t.slot < 0 ? Vector3::Zero() : frames.joint[t.slot].p;
       const Vector3 e_B = R * t.e;
-      d_M = R_MB * (R * t.d + cross<double>(e_B, X_BG.p - o));
-      e_M = R_MB * e_B;
+      d_M = R_MB * (R * t.d + cross<double>(e_B, frames.tip.p - o) +
+                    bent.turn * cross<double>(e_B, arm_B));
+      e_M = R_MB * (bent.turn * e_B);
     }
     out.columns.col(k) << d_M, e_M;
   }
+  if (!effect_columns_.empty()) effect_columns(q, bent, arm_B, out);
 }
 
 }  // namespace plumb::offline

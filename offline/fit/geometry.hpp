@@ -8,19 +8,32 @@
 
 #include "cell/cell.hpp"
 #include "fit/arm_state.hpp"
+#include "plumb/runtime/effect_set.hpp"
 
 namespace plumb::offline {
 
 /// One number of the geometric model that a fit may change.
 struct Parameter {
-  enum class Kind { kTheta, kD, kA, kAlpha, kBeta, kLinkTwist, kFrame, kTarget, kTargetRotation };
+  enum class Kind {
+    kTheta,
+    kD,
+    kA,
+    kAlpha,
+    kBeta,
+    kLinkTwist,
+    kFrame,
+    kTarget,
+    kTargetRotation,
+    kEffect
+  };
   Kind kind = Kind::kTheta;
-  int joint = 0;      // row of the chain
-  int component = 0;  // twist: dx dy dz ex ey ez; frame the same; target: x y z
-  std::string name;   // "J2.d", "J3.post.ex", "frame.x", "target.z"
+  int joint = 0;      // row of the chain; effect: its place in the model
+  int component = 0;  // twist: dx dy dz ex ey ez; frame the same; target: x y z; effect: parameter
+  std::string name;   // "J2.d", "J3.post.ex", "frame.x", "target.z", "reversal.J2.h"
 
   bool is_length() const;
-  bool of_robot() const;
+  bool of_robot() const;  // of the model rather than of frame and target
+  bool of_effect() const { return kind == Kind::kEffect; }
 };
 
 /// Sum of all link lengths [m], at least 0.1: makes metres and radians comparable.
@@ -31,6 +44,9 @@ double reach(const format::Chain& chain);
 /// the place of d. `with_orientation` adds the turn of the target.
 enum class Orientation { kIgnored, kUsed };
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation);
+
+/// Every parameter of the effects that `arm` carries, effect by effect.
+std::vector<Parameter> effect_parameters(const format::Model& arm);
 
 /// The robot parameter of that name ("J2.d", "J3.post.ex"), if the chain has it.
 std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name);
@@ -47,6 +63,8 @@ double value_of(const ArmState& state, const Parameter& parameter);
 /// (d, e) in a frame (R, o) moves the tip p by R d + (R e) x (p - o).
 class GeometryDerivative {
  public:
+  GeometryDerivative(const GeometryDerivative&) = delete;
+  GeometryDerivative& operator=(const GeometryDerivative&) = delete;
   GeometryDerivative(const ArmState& start, const std::vector<Parameter>& parameters,
                      const Eigen::VectorXd& change);
 
@@ -57,8 +75,12 @@ class GeometryDerivative {
     Matrix3 R_MG;                                      // predicted orientation of the reflector
     Eigen::Matrix<double, 6, Eigen::Dynamic> columns;  // rows 0-2 of p_M [m], 3-5 rotation [rad]
   };
-  /// q: shape (joints,). `out.columns` is resized once and reused.
-  void evaluate(std::span<const double> q, Point& out) const;
+  /// q: shape (joints,). `out.columns` is resized once and reused. Columns of geometry leave out
+  /// that it changes the loads of the effects a little; those of effects are exact.
+  void evaluate(std::span<const double> q, const Context& context, Point& out) const;
+
+  /// Sensors in the order in which the context must hold them.
+  const std::vector<std::string>& sensors() const { return sensors_; }
 
  private:
   struct SlotTwist {
@@ -66,12 +88,23 @@ class GeometryDerivative {
     Vector3 d, e;
   };
   SlotTwist slot_twist(const Parameter& parameter) const;
+  struct Bent;
+  void bend(std::span<const double> q, const Context& context, Bent& out) const;
+  void effect_columns(std::span<const double> q, const Bent& bent, const Vector3& arm_B,
+                      Point& out) const;
 
   ArmState state_;
   Chain chain_;
   Transformd X_MB_;
   Transformd X_TG_;
   std::vector<SlotTwist> twists_;
+  struct EffectColumn {
+    int effect, parameter;
+    Eigen::Index column;
+  };
+  std::vector<EffectColumn> effect_columns_;  // effect by effect
+  EffectSet effects_;                         // refers to state_
+  std::vector<std::string> sensors_;
 };
 
 }  // namespace plumb::offline

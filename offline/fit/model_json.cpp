@@ -88,6 +88,46 @@ void from_json(const Json& j, Domain& domain) {
   j.at("fade").get_to(domain.fade);
 }
 
+void to_json(Json& j, const ContextNeed& need) {
+  j = {{"input", static_cast<int>(need.input)}, {"name", need.name}, {"fallback", need.fallback}};
+}
+void from_json(const Json& j, ContextNeed& need) {
+  need.input = static_cast<ContextInput>(j.at("input").get<int>());
+  j.at("name").get_to(need.name);
+  j.at("fallback").get_to(need.fallback);
+}
+
+void to_json(Json& j, const Effect& effect) {
+  j = {{"name", effect.name},           {"version", effect.version},
+       {"joints", effect.joints},       {"parameters", effect.parameters},
+       {"constants", effect.constants}, {"context", effect.context}};
+}
+void from_json(const Json& j, Effect& effect) {
+  j.at("name").get_to(effect.name);
+  j.at("version").get_to(effect.version);
+  j.at("joints").get_to(effect.joints);
+  j.at("parameters").get_to(effect.parameters);
+  j.at("constants").get_to(effect.constants);
+  j.at("context").get_to(effect.context);
+}
+
+void to_json(Json& j, const LinkMass& link) { j = {{"kg", link.mass_kg}, {"com_m", link.com_m}}; }
+void from_json(const Json& j, LinkMass& link) {
+  j.at("kg").get_to(link.mass_kg);
+  j.at("com_m").get_to(link.com_m);
+}
+
+void to_json(Json& j, const Mechanics& mechanics) {
+  j = {{"links", mechanics.links},
+       {"payload_kg", mechanics.payload_kg},
+       {"payload_com_m", mechanics.payload_com_m}};
+}
+void from_json(const Json& j, Mechanics& mechanics) {
+  j.at("links").get_to(mechanics.links);
+  j.at("payload_kg").get_to(mechanics.payload_kg);
+  j.at("payload_com_m").get_to(mechanics.payload_com_m);
+}
+
 void to_json(Json& j, const InputHash& input) {
   j = {{"file", input.name}, {"sha256", input.sha256}};
 }

@@ -20,6 +20,10 @@ void to_json(nlohmann::ordered_json& j, const Tree& tree);
 void from_json(const nlohmann::ordered_json& j, Tree& tree);
 void to_json(nlohmann::ordered_json& j, const Domain& domain);
 void from_json(const nlohmann::ordered_json& j, Domain& domain);
+void to_json(nlohmann::ordered_json& j, const Effect& effect);
+void from_json(const nlohmann::ordered_json& j, Effect& effect);
+void to_json(nlohmann::ordered_json& j, const Mechanics& mechanics);
+void from_json(const nlohmann::ordered_json& j, Mechanics& mechanics);
 void to_json(nlohmann::ordered_json& j, const InputHash& input);
 void from_json(const nlohmann::ordered_json& j, InputHash& input);
 

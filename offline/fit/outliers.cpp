@@ -65,7 +65,7 @@ std::vector<Outlier> described(const FitData& data, const std::vector<int>& take
   others.rows = taken;
   const Eigen::VectorXd distance = plain_distances(others, evaluate(others, fit.state, {}));
   const Measurements some = pick(*data.measured, taken);
-  const Rows3 error = residuals(some, predict_points(fit.state, some.q));
+  const Rows3 error = residuals(some, predict_points(fit.state, some));
   std::vector<Outlier> out;
   for (std::size_t i = 0; i < taken.size(); ++i)
     out.push_back({taken[i], error.row(i).norm(), distance(i) / scatter});

@@ -10,14 +10,12 @@ constexpr int kRankPoses = 4000;         // enough to tell parameters apart
 constexpr double kPlausible_m = 5e-3;    // ten typical errors of a DH length
 constexpr double kPlausible_rad = 5e-3;  // and angle
 
-Eigen::VectorXd plausible_sizes(const std::vector<Parameter>& parameters) {
-  Eigen::VectorXd out(static_cast<Eigen::Index>(parameters.size()));
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    // Frame and target may be anywhere; only the arm is known beforehand.
-    const double size = parameters[i].is_length() ? kPlausible_m : kPlausible_rad;
-    out(i) = parameters[i].of_robot() ? size : 1.0;
-  }
-  return out;
+/// Of an effect: what moves the points by 5 mm RMS, `length` being the norm of its column [1/SI].
+double plausible_size(const Parameter& p, double length) {
+  if (p.of_effect()) return length > 0.0 ? kPlausible_m / length : 1.0;
+  // Frame and target may be anywhere; only the arm is known beforehand.
+  if (!p.of_robot()) return 1.0;
+  return p.is_length() ? kPlausible_m : kPlausible_rad;
 }
 
 }  // namespace
@@ -29,8 +27,12 @@ ParameterSubset identifiable_parameters(const FitData& data, const ArmState& sta
   thin.rows = thinned(data.rows, kRankPoses);
   const double thinning =
       std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(thin.rows.size()));
-  const Eigen::MatrixXd J = evaluate(thin, state, candidates).jacobian *
-                            plausible_sizes(candidates).asDiagonal() * thinning;
+  Eigen::MatrixXd J = evaluate(thin, state, candidates).jacobian;
+  const double sigma = data.sigma_m.row(thin.rows.front()).mean();
+  for (Eigen::Index k = 0; k < J.cols(); ++k) {
+    const double rms = J.col(k).norm() / std::sqrt(static_cast<double>(J.rows())) * sigma;
+    J.col(k) *= plausible_size(candidates[static_cast<std::size_t>(k)], rms) * thinning;
+  }
   const Subset subset = identifiable(J, limits);
   ParameterSubset out;
   for (int i : subset.kept) out.kept.push_back(candidates[i]);

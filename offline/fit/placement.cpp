@@ -66,7 +66,7 @@ struct Points {
 Points points_of(const FitData& data, ArmState state) {
   const Measurements some = pick(*data.measured, data.rows);
   state.X_MB = format::Pose{};
-  return {predict_points(state, some.q), some.p_M};
+  return {predict_points(state, some), some.p_M};
 }
 
 bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& nominal) {

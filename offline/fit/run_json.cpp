@@ -26,12 +26,14 @@ ErrorStats stats_from(const Json& j) {
 
 Json to_json(const Estimate& e) {
   return {{"name", e.name},   {"length", e.is_length}, {"robot", e.of_robot},
-          {"value", e.value}, {"nominal", e.nominal},  {"std", e.std}};
+          {"value", e.value}, {"nominal", e.nominal},  {"std", e.std},
+          {"unit", e.unit}};
 }
 Estimate estimate_from(const Json& j) {
   return {.name = j.at("name"),
           .is_length = j.at("length"),
           .of_robot = j.at("robot"),
+          .unit = j.value("unit", std::string()),
           .value = j.at("value"),
           .nominal = j.at("nominal"),
           .std = j.at("std")};
@@ -57,6 +59,9 @@ Json to_json(const Calibration& c) {
   for (const auto& e : c.estimates) estimates.push_back(to_json(e));
   return {{"chain", c.state.arm.calibrated},
           {"domain", c.state.arm.domain},
+          {"effects", c.state.arm.effects},
+          {"mechanics", c.state.arm.mechanics},
+          {"gravity", c.state.arm.gravity},
           {"frame", c.state.X_MB},
           {"target", c.state.X_TG},
           {"estimates", estimates},
@@ -71,6 +76,11 @@ Calibration calibration_from(const Json& j) {
   Calibration c;
   j.at("chain").get_to(c.state.arm.calibrated);
   j.at("domain").get_to(c.state.arm.domain);
+  if (j.contains("effects")) {
+    j.at("effects").get_to(c.state.arm.effects);
+    j.at("mechanics").get_to(c.state.arm.mechanics);
+    j.at("gravity").get_to(c.state.arm.gravity);
+  }
   j.at("frame").get_to(c.state.X_MB);
   j.at("target").get_to(c.state.X_TG);
   for (const auto& e : j.at("estimates")) c.estimates.push_back(estimate_from(e));

@@ -54,8 +54,12 @@ class GeometryCost final : public ceres::CostFunction {
       ++row;
     };
     const auto& m = *data_.measured;
+    const bool has_effects = !geometry.state().arm.effects.empty();
+    const Transformd X_MB = from_pose(geometry.state().X_MB);
     for (int i : data_.rows) {
-      geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())}, point);
+      geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
+                        has_effects ? context_of(m, i, geometry.sensors(), X_MB) : Context{},
+                        point);
       for (int k = 0; k < 3; ++k)
         if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
       if (data_.sigma_rad <= 0.0) continue;

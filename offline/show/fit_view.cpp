@@ -12,13 +12,28 @@
 namespace plumb::offline::show {
 namespace {
 
+/// How a parameter is shown: lengths in mm and angles in deg of the arm, um and urad of effects.
+struct ShownUnit {
+  std::string name;
+  double per_si = 1.0;
+  bool plain = true;
+};
+
+ShownUnit unit_of(const Estimate& e) {
+  if (e.unit.empty()) return {unit(e.is_length), shown(1.0, e.is_length)};
+  if (e.unit == "rad") return {"urad", 1e6};
+  if (e.unit == "m") return {"um", 1e6};
+  return {e.unit, 1.0, false};
+}
+
 Json parameter_json(const Estimate& e) {
+  const ShownUnit u = unit_of(e);
   Json out{{"name", e.name}};
-  put(out, "value", shown(e.value, e.is_length));
-  out["unit"] = unit(e.is_length);
-  put(out, "std", shown(e.std, e.is_length));
-  put(out, "nominal", shown(e.nominal, e.is_length));
-  put(out, "change", shown(e.value - e.nominal, e.is_length));
+  put(out, "value", e.value * u.per_si);
+  out["unit"] = u.name;
+  put(out, "std", e.std * u.per_si);
+  put(out, "nominal", e.nominal * u.per_si);
+  put(out, "change", (e.value - e.nominal) * u.per_si);
   return out;
 }
 
@@ -61,10 +76,13 @@ std::string parameter_table(const std::vector<Estimate>& estimates) {
   table.left_from(5);
   for (const auto& e : estimates) {
     if (!e.of_robot) continue;
-    table.add({e.name, fmt::format("{:.4f}", shown(e.nominal, e.is_length)),
-               fmt::format("{:.4f}", shown(e.value, e.is_length)),
-               fmt::format("{:+.4f}", shown(e.value - e.nominal, e.is_length)),
-               fmt::format("{:.4f}", shown(e.std, e.is_length)), unit(e.is_length)});
+    const ShownUnit u = unit_of(e);
+    const auto number = [&](double si) {
+      return u.plain ? fmt::format("{:.4f}", si * u.per_si) : fmt::format("{:.4g}", si * u.per_si);
+    };
+    table.add({e.name, number(e.nominal), number(e.value),
+               (e.value > e.nominal ? "+" : "") + number(e.value - e.nominal), number(e.std),
+               u.name});
   }
   return table.text();
 }

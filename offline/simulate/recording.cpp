@@ -90,6 +90,7 @@ Measurements Recording::finish(const std::vector<Column>& context) const {
   for (int row = 0; row < rows(); ++row) table.lines.push_back(row + 2);
   table.raw_rows.resize(rows());
   out.tables.push_back(std::move(table));
+  out.context = read_contexts(out.tables, out.q);
   return out;
 }
 

@@ -89,10 +89,10 @@ void Corrector::scaled_jacobian(const Chain& chain, const ChainFrames<double>& f
 }
 
 /// Position-only cells: the orientation stays the controller's own, in residual and derivative.
-Transformd Corrector::corrected_pose(std::span<const double> q, Jacobian& J,
+Transformd Corrector::corrected_pose(std::span<const double> q, const Context& context, Jacobian& J,
                                      Status& status) const noexcept {
   ChainFrames<double> frames;
-  const Prediction arm = true_arm_.predict(q, frames);
+  const Prediction arm = true_arm_.predict(q, context, frames);
   status = arm.status;
   scaled_jacobian(true_arm_.chain(), frames, J);
   if (limits_.corrects == format::Corrects::kPose) return arm.X_BT;
@@ -103,10 +103,10 @@ Transformd Corrector::corrected_pose(std::span<const double> q, Jacobian& J,
   return {.R = frames.tip.R, .p = arm.X_BT.p};
 }
 
-void Corrector::linearise(const Transformd& X_BD, const JointPositions& q,
+void Corrector::linearise(const Transformd& X_BD, const JointPositions& q, const Context& context,
                           Iterate& out) const noexcept {
   Jacobian J;
-  const Transformd X_BT = corrected_pose(std::span(q).first(joints()), J, out.status);
+  const Transformd X_BT = corrected_pose(std::span(q).first(joints()), context, J, out.status);
   Vector6 r;
   r.head<3>() = clamped(X_BD.p - X_BT.p, kMaxError) / limits_.length_scale_m;
   r.tail<3>() = rotation_vector(times_transposed<double>(X_BD.R, X_BT.R));
@@ -155,8 +155,8 @@ Transformd Corrector::nominal_pose(const JointPositions& q, Jacobian& J_N) const
   return frames.tip;
 }
 
-Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed,
-                            SeedKind kind) const noexcept {
+Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,
+                            const Context& context) const noexcept {
   Correction out;
   if (joints() == 0) return out;
   const auto n = static_cast<std::size_t>(joints());
@@ -172,7 +172,7 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   const int seed_sign = internal::determinant_sign(J_N);
   Iterate at;
   for (; out.steps < kInverseSteps; ++out.steps) {
-    linearise(out.X_BC, q, at);
+    linearise(out.X_BC, q, context, at);
     advance(at, q);
   }
   const Transformd X_BC = nominal_pose(q, J_N);

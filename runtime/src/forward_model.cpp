@@ -13,7 +13,7 @@ Prediction refusal() noexcept {
 }  // namespace
 
 ForwardModel::ForwardModel(const format::Model& model) noexcept
-    : chain_(model.calibrated), domain_(model.domain) {
+    : chain_(model.calibrated), effects_(model), domain_(model.domain) {
   for (int axis = 0; axis < format::kTreeAxes; ++axis) {
     trees_[axis] = TreeView(model.trees[axis], chain_.joints());
     has_tree_ = has_tree_ || !trees_[axis].empty();
@@ -25,23 +25,48 @@ bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
   return q.size() >= n && internal::is_joint_state(q.first(n));
 }
 
-Prediction ForwardModel::predict(std::span<const double> q) const noexcept {
+Prediction ForwardModel::predict(std::span<const double> q, const Context& context) const noexcept {
   if (!acceptable(q)) return refusal();
-  return finished(q, chain_.forward<double>(q));
+  if (effects_.empty()) return finished(q, chain_.forward<double>(q), Status::kOk);
+  ChainFrames<double> frames;
+  const Status status = move(q, context, frames);
+  return finished(q, frames.tip, status);
 }
 
-Prediction ForwardModel::predict(std::span<const double> q,
+Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
                                  ChainFrames<double>& frames) const noexcept {
   if (!acceptable(q)) return refusal();
+  const Status status = move(q, context, frames);
+  return finished(q, frames.tip, status);
+}
+
+/// Frames with all effects; their twists in the tip alone.
+Status ForwardModel::move(std::span<const double> q, const Context& context,
+                          ChainFrames<double>& frames) const noexcept {
   chain_.frames<double>(q, frames);
-  return finished(q, frames.tip);
+  if (effects_.empty()) return Status::kOk;
+  Motion<double> motion;
+  const bool fallback = effects_.apply(q, chain_, frames, context, motion);
+  std::array<double, kMaxJoints> bent{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(joints()); ++i)
+    bent[i] = q[i] + motion.dq[i];
+  const std::span<const double> there = std::span(bent).first(static_cast<std::size_t>(joints()));
+  if (!internal::is_joint_state(there)) {
+    frames.tip.p.setConstant(kUnknown);
+    return Status::kNotFinite;
+  }
+  chain_.frames<double>(there, frames);
+  const Vector3& e = motion.turn_B;
+  frames.tip.p += motion.shift_B;
+  frames.tip.R = exp({{0.0, 0.0, 0.0}, {e(0), e(1), e(2)}}).R * frames.tip.R;
+  return fallback ? Status::kContextFallback : Status::kOk;
 }
 
 /// Adds the tree. An encoder scale can still bring a joint beyond what sin_cos knows.
-Prediction ForwardModel::finished(std::span<const double> q,
-                                  const Transformd& X_BT) const noexcept {
+Prediction ForwardModel::finished(std::span<const double> q, const Transformd& X_BT,
+                                  Status status) const noexcept {
   if (!internal::is_finite(X_BT.p)) return refusal();
-  Prediction out{.X_BT = X_BT, .tree_B = Vector3::Zero(), .status = Status::kOk};
+  Prediction out{.X_BT = X_BT, .tree_B = Vector3::Zero(), .status = status};
   if (!has_tree_) return out;
   const double weight = domain_.weight(q);
   out.tree_B = tree_at(q) * weight;

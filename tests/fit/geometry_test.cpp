@@ -65,7 +65,7 @@ double worst_column_error(const Cell& cell, std::uint64_t seed) {
   for (int i = 0; i < cell.joints(); ++i) q.push_back(spread(random, 2.0));
   const auto at = [&](const Eigen::VectorXd& x) {
     GeometryDerivative::Point point;
-    GeometryDerivative(start, parameters, x).evaluate(q, point);
+    GeometryDerivative(start, parameters, x).evaluate(q, {}, point);
     return point;
   };
   const auto here = at(change);

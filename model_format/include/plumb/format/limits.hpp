@@ -8,6 +8,8 @@ namespace plumb::format {
 inline constexpr int kMaxJoints = 9;
 inline constexpr int kMaxEffects = 64;
 inline constexpr int kMaxEffectParameters = 128;
+inline constexpr int kMaxEffectConstants = 64;
+inline constexpr int kMaxTemperatures = 8;  // sensors
 inline constexpr int kTreeAxes = 3;          // x, y, z of the base frame
 inline constexpr int kMaxTreeLeaves = 4096;  // per axis
 inline constexpr int kMaxTreeDepth = 64;

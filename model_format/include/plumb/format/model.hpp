@@ -87,7 +87,23 @@ struct Effect {
   std::vector<std::uint8_t> joints;  // zero-based
   std::vector<double> parameters;    // SI, in the catalogue's order
   std::vector<ContextNeed> context;
+  std::vector<double> constants = {};  // given, not fitted; SI, in the law's order
   bool operator==(const Effect&) const = default;
+};
+
+/// Mass of what moves with a joint; centre of mass in the frame just behind the joint's motion.
+struct LinkMass {
+  double mass_kg = 0.0;
+  std::array<double, 3> com_m{};
+  bool operator==(const LinkMass&) const = default;
+};
+
+/// What the loads of the effects come from. No links: masses unknown, taken as 0.
+struct Mechanics {
+  std::vector<LinkMass> links;  // one per joint, or none
+  double payload_kg = 0.0;      // unless the context knows better
+  std::array<double, 3> payload_com_m{};  // flange frame: the tip without the tool
+  bool operator==(const Mechanics&) const = default;
 };
 
 /// Inner node of a tree: input u[input] <= threshold goes low, else high.
@@ -177,6 +193,7 @@ struct Model {
   Chain nominal;                                   // what the controller believes
   Chain calibrated;                                // what was fitted
   std::vector<Effect> effects;
+  Mechanics mechanics;
   std::array<Tree, kTreeAxes> trees;
   Domain domain;
   GuardLimits guard;

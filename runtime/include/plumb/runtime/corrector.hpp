@@ -59,9 +59,10 @@ class Corrector {
   const Chain& nominal() const noexcept { return nominal_; }
   const format::GuardLimits& limits() const noexcept { return limits_; }
 
-  /// Corrects the desired tool pose X_BD. seed: shape (n,), [rad] or [m].
-  Correction solve(const Transformd& X_BD, std::span<const double> seed,
-                   SeedKind kind) const noexcept;
+  /// Corrects the desired tool pose X_BD. seed: shape (n,), [rad] or [m]. context: what is known
+  /// now of direction, payload, temperatures; it stays the same over the steps.
+  Correction solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,
+                   const Context& context = {}) const noexcept;
 
  private:
   struct Iterate;
@@ -73,8 +74,10 @@ class Corrector {
   void scaled_jacobian(const Chain& chain, const ChainFrames<double>& frames,
                        Jacobian& out) const noexcept;
   Transformd nominal_pose(const JointPositions& q, Jacobian& J_N) const noexcept;
-  Transformd corrected_pose(std::span<const double> q, Jacobian& J, Status& status) const noexcept;
-  void linearise(const Transformd& X_BD, const JointPositions& q, Iterate& out) const noexcept;
+  Transformd corrected_pose(std::span<const double> q, const Context& context, Jacobian& J,
+                            Status& status) const noexcept;
+  void linearise(const Transformd& X_BD, const JointPositions& q, const Context& context,
+                 Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
   bool far(const JointPositions& q, const JointPositions& seed) const noexcept;
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,

@@ -6,6 +6,7 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "plumb/runtime/effect_set.hpp"
 #include "plumb/runtime/status.hpp"
 #include "plumb/runtime/tree.hpp"
 
@@ -15,7 +16,7 @@ namespace plumb {
 struct Prediction {
   Transformd X_BT;  // tool pose in the base frame, tree included
   Vector3 tree_B;   // what the tree added to the position [m]
-  Status status;    // kOk or kOutsideDomain; kNotFinite leaves X_BT at identity
+  Status status;    // kOk, kOutsideDomain or kContextFallback; kNotFinite leaves X_BT at identity
 };
 
 /// The true arm T(q): calibrated chain, effects, local linear model tree.
@@ -29,21 +30,28 @@ class ForwardModel {
   const Chain& chain() const noexcept { return chain_; }
 
   /// q: joint positions [rad] or [m], shape (n,). Cost: fixed for a given model. Any thread.
-  /// Refused with kNotFinite when one is not finite or beyond 1e4.
-  Prediction predict(std::span<const double> q) const noexcept;
+  /// Refused with kNotFinite when one is not finite or beyond 1e4. Effects move joint i to
+  /// q_i + dq_i, then the tip by their twists.
+  Prediction predict(std::span<const double> q, const Context& context = {}) const noexcept;
 
-  /// The same, with the frame behind every joint of the calibrated chain (the tree moves none).
-  Prediction predict(std::span<const double> q, ChainFrames<double>& frames) const noexcept;
+  /// The same, with the frame behind every joint of the calibrated chain: joint effects move it,
+  /// the twists and the tree do not.
+  Prediction predict(std::span<const double> q, const Context& context,
+                     ChainFrames<double>& frames) const noexcept;
 
   /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
 
  private:
   bool acceptable(std::span<const double> q) const noexcept;
-  Prediction finished(std::span<const double> q, const Transformd& X_BT) const noexcept;
+  Prediction finished(std::span<const double> q, const Transformd& X_BT,
+                      Status status) const noexcept;
+  Status move(std::span<const double> q, const Context& context,
+              ChainFrames<double>& frames) const noexcept;
   Vector3 tree_at(std::span<const double> q) const noexcept;
 
   Chain chain_;
+  EffectSet effects_;
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
   bool has_tree_ = false;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/contexts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+namespace {
+
+int row_count(std::span<const Table> tables) {
+  int rows = 0;
+  for (const auto& table : tables) rows += table.rows();
+  return rows;
+}
+
+/// Columns of these names, NaN where a file lacks one; 0 rows if no file has any.
+ContextRows::RowsN gathered(std::span<const Table> tables, const std::vector<std::string>& names) {
+  const auto has = [&](const Table& t, const std::string& name) {
+    const Column* column = t.find(name);
+    return column != nullptr && !column->values.empty();
+  };
+  const bool any = std::any_of(tables.begin(), tables.end(), [&](const Table& t) {
+    return std::any_of(names.begin(), names.end(), [&](const auto& name) { return has(t, name); });
+  });
+  if (!any || names.empty()) return {};
+  ContextRows::RowsN out = ContextRows::RowsN::Constant(
+      row_count(tables), static_cast<Eigen::Index>(names.size()), kUnknown);
+  int first = 0;
+  for (const auto& table : tables) {
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (has(table, names[k]))
+        for (int i = 0; i < table.rows(); ++i)
+          out(first + i, static_cast<Eigen::Index>(k)) = table.find(names[k])->values[i];
+    first += table.rows();
+  }
+  return out;
+}
+
+std::vector<std::string> numbered(const std::string& prefix, Eigen::Index joints) {
+  std::vector<std::string> out;
+  for (Eigen::Index j = 1; j <= joints; ++j) out.push_back(prefix + std::to_string(j));
+  return out;
+}
+
+std::vector<std::string> sensors_of(std::span<const Table> tables) {
+  std::vector<std::string> out;
+  for (const auto& table : tables)
+    for (const auto& column : table.columns)
+      if (column.quantity == Quantity::kTemperature &&
+          std::find(out.begin(), out.end(), column.name) == out.end())
+        out.push_back(column.name);
+  return out;
+}
+
+/// "2026-03-01T12:30:00.5", UTC or not: only differences count. NaN if it is none.
+double seconds_of(const std::string& text) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+  double second = 0.0;
+  if (std::sscanf(text.c_str(), "%d-%d-%d%*[T ]%d:%d:%lf", &year, &month, &day, &hour, &minute,
+                  &second) < 5)
+    return kUnknown;
+  const auto date = std::chrono::year{year} / std::chrono::month(static_cast<unsigned>(month)) /
+                    std::chrono::day(static_cast<unsigned>(day));
+  if (!date.ok()) return kUnknown;
+  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
+  return static_cast<double>(days) * 86400.0 + hour * 3600.0 + minute * 60.0 + second;
+}
+
+Eigen::VectorXd times_of(std::span<const Table> tables) {
+  const auto numbers = gathered(tables, {"t"});
+  if (numbers.rows() > 0) return numbers.col(0);
+  Eigen::VectorXd out = Eigen::VectorXd::Constant(row_count(tables), kUnknown);
+  int first = 0;
+  for (const auto& table : tables) {
+    if (const Column* column = table.find("time"); column != nullptr)
+      for (std::size_t i = 0; i < column->text.size(); ++i)
+        out(first + static_cast<int>(i)) = seconds_of(column->text[i]);
+    first += table.rows();
+  }
+  return out.hasNaN() ? Eigen::VectorXd() : out;
+}
+
+ContextRows::RowsN steps_of(const ContextRows::RowsN& q) {
+  ContextRows::RowsN out = ContextRows::RowsN::Zero(q.rows(), q.cols());
+  for (Eigen::Index i = 1; i < q.rows(); ++i) {
+    const double largest = (q.row(i) - q.row(i - 1)).cwiseAbs().maxCoeff();
+    if (largest > 0.0) out.row(i) = (q.row(i) - q.row(i - 1)) / largest;
+  }
+  return out;
+}
+
+ContextRows::RowsN picked(const ContextRows::RowsN& all, const std::vector<int>& rows) {
+  if (all.rows() == 0) return {};
+  return all(rows, Eigen::all);
+}
+
+Eigen::VectorXd picked(const Eigen::VectorXd& all, const std::vector<int>& rows) {
+  if (all.size() == 0) return {};
+  return all(rows);
+}
+
+template <class To>
+void copy_row(const ContextRows::RowsN& from, Eigen::Index row, To& to) {
+  if (from.rows() == 0) return;
+  const auto n = std::min(static_cast<std::size_t>(from.cols()), to.size());
+  for (std::size_t k = 0; k < n; ++k) to[k] = from(row, static_cast<Eigen::Index>(k));
+}
+
+}  // namespace
+
+ContextRows read_contexts(std::span<const Table> tables, const ContextRows::RowsN& q) {
+  ContextRows out;
+  out.direction = gathered(tables, numbered("dir_j", q.cols()));
+  out.travel = gathered(tables, numbered("travel_j", q.cols()));
+  out.step = steps_of(q);
+  out.payload = gathered(tables, {"payload", "payload_cx", "payload_cy", "payload_cz"});
+  out.wrench = gathered(tables, {"fx", "fy", "fz", "mx", "my", "mz"});
+  out.sensors = sensors_of(tables);
+  out.temperature = gathered(tables, out.sensors);
+  out.time_s = times_of(tables);
+  out.order = Eigen::VectorXd::LinSpaced(q.rows(), 0.0, static_cast<double>(q.rows() - 1));
+  return out;
+}
+
+ContextRows pick(const ContextRows& all, const std::vector<int>& rows) {
+  return {.direction = picked(all.direction, rows),
+          .travel = picked(all.travel, rows),
+          .step = picked(all.step, rows),
+          .payload = picked(all.payload, rows),
+          .wrench = picked(all.wrench, rows),
+          .temperature = picked(all.temperature, rows),
+          .sensors = all.sensors,
+          .time_s = picked(all.time_s, rows),
+          .order = picked(all.order, rows)};
+}
+
+Context context_at(const ContextRows& rows, Eigen::Index row,
+                   const std::vector<std::string>& sensors) {
+  Context out;
+  copy_row(rows.direction, row, out.direction);
+  copy_row(rows.travel, row, out.travel);
+  copy_row(rows.step, row, out.step);
+  if (rows.payload.rows() > 0) {
+    out.payload_kg = rows.payload(row, 0);
+    for (int k = 0; k < 3; ++k) out.payload_com_m[k] = rows.payload(row, 1 + k);
+  }
+  if (rows.wrench.rows() > 0)
+    for (int k = 0; k < 3; ++k) {
+      out.force_N[k] = std::isnan(rows.wrench(row, k)) ? 0.0 : rows.wrench(row, k);
+      out.moment_Nm[k] = std::isnan(rows.wrench(row, 3 + k)) ? 0.0 : rows.wrench(row, 3 + k);
+    }
+  for (std::size_t k = 0; k < std::min(sensors.size(), out.temperature_degC.size()); ++k) {
+    const auto at = std::find(rows.sensors.begin(), rows.sensors.end(), sensors[k]);
+    if (at != rows.sensors.end())
+      out.temperature_degC[k] = rows.temperature(row, at - rows.sensors.begin());
+  }
+  if (rows.time_s.size() > 0) out.time_s = rows.time_s(row);
+  if (rows.order.size() > 0) out.order = rows.order(row);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "plumb/format/model.hpp"
+#include "plumb/runtime/effect.hpp"
+
+namespace plumb::offline {
+
+/// The physical effects that a cell lists, bound to its arm and data: joints, constants (given, or
+/// chosen from the data: half the largest torque, the mean temperature), parameters still 0.
+/// Throws Failure (kInput) if a given one cannot work with these measurements.
+std::vector<format::Effect> bind_effects(const Cell& cell, const Measurements& measured);
+
+/// Masses and payload of the cell.
+format::Mechanics mechanics_of(const Cell& cell);
+
+/// Why this version cannot evaluate the effects of a model, in words, or empty.
+std::string unusable_effects(const format::Model& model);
+
+/// Temperature sensors the effects read, in the order of Context::temperature_degC.
+std::vector<std::string> temperature_names(const format::Model& model);
+
+/// "gear_ripple.J2.k20.sin": the effect, its joint, what tells it from its like, the parameter.
+std::string effect_parameter_name(const format::Model& model, int effect, int parameter);
+
+/// The catalogue's line for that parameter.
+const EffectParameter& effect_parameter(const format::Model& model, int effect, int parameter);
+
+}  // namespace plumb::offline

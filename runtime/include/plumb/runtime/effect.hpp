@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "plumb/runtime/chain.hpp"
+#include "plumb/runtime/context.hpp"
+#include "plumb/runtime/loads.hpp"
+
+/// What a physical effect is made of. One header a law in effects/; the list of all is
+/// effect_library.hpp.
+namespace plumb {
+
+/// Whom an effect belongs to. Only robot effects, and environment ones whose sensor is read in the
+/// cycle, go into a model file; the others are fitted, so that they do not spoil the rest, and
+/// thrown away.
+enum class EffectDomain : std::uint8_t { kRobot, kEnvironment, kProcedure, kMeasurement };
+
+/// What must be known, and must vary, for an effect to be seen.
+enum Need : unsigned {
+  kNeedsMasses = 1U << 0,
+  kNeedsPayload = 1U << 1,
+  kNeedsDirection = 1U << 2,
+  kNeedsTravel = 1U << 3,
+  kNeedsTemperature = 1U << 4,
+  kNeedsTime = 1U << 5,
+  kNeedsOrder = 1U << 6,
+  kNeedsSteps = 1U << 7,
+  kNeedsTracker = 1U << 8,
+  kNeedsWrench = 1U << 9,
+};
+
+/// One number of a law. SI.
+struct EffectParameter {
+  const char* name;
+  const char* unit;
+  double typical;      // 1 sigma of its prior
+  double low, high;    // bounds; equal: none
+  bool linear = true;  // the motion is proportional to it
+  double start = 0.0;  // of a non-linear one
+};
+
+struct EffectInfo {
+  std::string_view name;
+  std::uint32_t version;
+  const char* title;  // "gear elasticity": what it is called on the screen
+  EffectDomain domain;
+  unsigned needs;  // Need bits
+  bool per_joint;  // parameters repeat for every joint listed, joint by joint
+  bool repeats;    // may be listed several times
+  std::span<const EffectParameter> parameters;
+  std::span<const char* const> constants = {};  // names of what is given and never fitted
+  bool constants_per_joint = false;
+};
+
+/// Which joints an effect acts on and what is given.
+struct EffectShape {
+  int arm_joints = 0;
+  std::span<const std::uint8_t> joints;
+  std::span<const double> constants;
+};
+
+/// One pose as a law sees it: positions, frames of the calibrated arm before any effect, loads.
+struct Situation {
+  std::span<const double> q;  // [rad] or [m]
+  const Chain& chain;
+  const ChainFrames<double>& frames;
+  const Loads& loads;
+  const Context& context;
+  double temperature_degC = kUnknown;  // of the sensor this effect reads
+};
+
+/// Motion caused by effects, gathered over all of them.
+template <class S>
+struct Motion {
+  std::array<S, kMaxJoints> dq{};           // joint positions [rad] or [m]
+  Vec3<S> shift_B{S(0.0), S(0.0), S(0.0)};  // of the tip [m]
+  Vec3<S> turn_B{S(0.0), S(0.0), S(0.0)};   // of the tip [rad]
+
+  /// Twist (d, e) [m, rad] in a frame (R, o): moves the tip at p by R d + (R e) x (p - o).
+  void twist(const Transformd& X_BO, const Vector3& tip_B, const Vec3<S>& d, const Vec3<S>& e) {
+    const Vector3 arm = tip_B - X_BO.p;
+    Vec3<S> d_B, e_B;
+    for (int i = 0; i < 3; ++i) {
+      d_B(i) = d(0) * X_BO.R(i, 0) + d(1) * X_BO.R(i, 1) + d(2) * X_BO.R(i, 2);
+      e_B(i) = e(0) * X_BO.R(i, 0) + e(1) * X_BO.R(i, 1) + e(2) * X_BO.R(i, 2);
+    }
+    shift_B(0) += d_B(0) + e_B(1) * arm(2) - e_B(2) * arm(1);
+    shift_B(1) += d_B(1) + e_B(2) * arm(0) - e_B(0) * arm(2);
+    shift_B(2) += d_B(2) + e_B(0) * arm(1) - e_B(1) * arm(0);
+    for (int i = 0; i < 3; ++i) turn_B(i) += e_B(i);
+  }
+};
+
+namespace effects {
+
+/// Parameters of a law: those of its info, once or for every joint. Laws with others say so.
+template <class Law>
+int default_count(const EffectShape& shape) {
+  const int each = static_cast<int>(Law::kInfo.parameters.size());
+  return Law::kInfo.per_joint ? each * static_cast<int>(shape.joints.size()) : each;
+}
+
+}  // namespace effects
+}  // namespace plumb

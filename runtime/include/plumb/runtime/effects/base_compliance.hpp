@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/runtime/effect.hpp"
+
+namespace plumb::effects {
+
+/// A foundation that gives way: the base turns by k M, M the moment of all weights about its
+/// origin.
+struct BaseCompliance {
+  static constexpr EffectParameter kParameters[] = {{"kx", "rad/(N m)", 0.0, 0.0, 1e-3},
+                                                    {"ky", "rad/(N m)", 0.0, 0.0, 1e-3},
+                                                    {"kz", "rad/(N m)", 0.0, 0.0, 1e-3}};
+  static constexpr EffectInfo kInfo{.name = "base_compliance",
+                                    .version = 1,
+                                    .title = "compliance of the base",
+                                    .domain = EffectDomain::kRobot,
+                                    .needs = kNeedsMasses,
+                                    .per_joint = false,
+                                    .repeats = false,
+                                    .parameters = kParameters};
+  static int count(const EffectShape& shape) { return default_count<BaseCompliance>(shape); }
+
+  template <class S>
+  static void apply(std::span<const S> k, const EffectShape&, const Situation& at, Motion<S>& out) {
+    const auto& first = at.loads.joint[0];
+    const Vector3 moment = first.moment + cross<double>(at.frames.joint[0].p, first.force);
+    out.twist(Transformd{}, at.frames.tip.p, Vec3<S>(S(0.0), S(0.0), S(0.0)),
+              Vec3<S>(k[0] * moment(0), k[1] * moment(1), k[2] * moment(2)));
+  }
+};
+
+}  // namespace plumb::effects

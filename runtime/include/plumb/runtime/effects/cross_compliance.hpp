@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/runtime/effect.hpp"
+
+namespace plumb::effects {
+
+/// The torque of one joint turns another, through a common housing: dq_i = c tau_j, joints (i, j).
+struct CrossCompliance {
+  static constexpr EffectParameter kParameters[] = {{"c", "rad/(N m)", 0.0, -1e-2, 1e-2}};
+  static constexpr EffectInfo kInfo{.name = "cross_compliance",
+                                    .version = 1,
+                                    .title = "cross compliance",
+                                    .domain = EffectDomain::kRobot,
+                                    .needs = kNeedsMasses,
+                                    .per_joint = false,
+                                    .repeats = true,
+                                    .parameters = kParameters};
+  static int count(const EffectShape& shape) { return default_count<CrossCompliance>(shape); }
+
+  template <class S>
+  static void apply(std::span<const S> c, const EffectShape& shape, const Situation& at,
+                    Motion<S>& out) {
+    if (shape.joints.size() < 2) return;
+    out.dq[shape.joints[0]] += c[0] * at.loads.joint[shape.joints[1]].torque;
+  }
+};
+
+}  // namespace plumb::effects

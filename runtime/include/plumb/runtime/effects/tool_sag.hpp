@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/runtime/effect.hpp"
+
+namespace plumb::effects {
+
+/// A tool or gripper that hangs: displacement c_k (R^T g)_k m in tool axes, m the payload.
+struct ToolSag {
+  static constexpr EffectParameter kParameters[] = {{"cx", "m/N", 0.0, -1e-3, 1e-3},
+                                                    {"cy", "m/N", 0.0, -1e-3, 1e-3},
+                                                    {"cz", "m/N", 0.0, -1e-3, 1e-3}};
+  static constexpr EffectInfo kInfo{.name = "tool_sag",
+                                    .version = 1,
+                                    .title = "sag of the tool",
+                                    .domain = EffectDomain::kRobot,
+                                    .needs = kNeedsPayload,
+                                    .per_joint = false,
+                                    .repeats = false,
+                                    .parameters = kParameters};
+  static int count(const EffectShape& shape) { return default_count<ToolSag>(shape); }
+
+  template <class S>
+  static void apply(std::span<const S> c, const EffectShape&, const Situation& at, Motion<S>& out) {
+    const Vector3 pull = transpose_times<double>(at.frames.tip.R, at.loads.payload_force);
+    out.twist(at.frames.tip, at.frames.tip.p,
+              Vec3<S>(c[0] * pull(0), c[1] * pull(1), c[2] * pull(2)),
+              Vec3<S>(S(0.0), S(0.0), S(0.0)));
+  }
+};
+
+}  // namespace plumb::effects

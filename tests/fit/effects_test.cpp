@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compile/compiler.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/geometry.hpp"
+#include "plumb/format/reader.hpp"
+#include "plumb/format/writer.hpp"
+#include "plumb/runtime/corrector.hpp"
+#include "plumb/runtime/effect_library.hpp"
+#include "simulate/simulate.hpp"
+#include "tests/random_numbers.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using tests::Random;
+
+constexpr int kJoints = 6;
+
+Cell heavy_arm(std::uint64_t seed) {
+  Cell cell = random_cell(seed, kJoints, format::Convention::kStandard, ArmKind::kRevolute);
+  Random dice(seed);
+  for (auto& m : cell.mechanics) {
+    m.link_mass_kg = dice.uniform(2, 80);
+    m.link_com_m = {dice.uniform(-0.2, 0.2), dice.uniform(-0.2, 0.2), dice.uniform(-0.2, 0.2)};
+  }
+  cell.payload = {20.0, {0.02, -0.03, 0.1}};
+  return cell;
+}
+
+/// Poses with every context there is.
+Measurements rich_measurements(const Cell& cell, int n, std::uint64_t seed) {
+  SimulationPlan plan;
+  plan.poses = n;
+  plan.seed = seed;
+  plan.truth.seed = seed;
+  Measurements m = simulate(cell, plan).measured;
+  Random dice(seed);
+  const auto fill = [&](ContextRows::RowsN& to, int columns, double low, double high) {
+    to.resize(m.q.rows(), columns);
+    for (Eigen::Index i = 0; i < to.size(); ++i) to.data()[i] = dice.uniform(low, high);
+  };
+  fill(m.context.direction, kJoints, -1, 1);
+  m.context.direction = m.context.direction.unaryExpr([](double v) { return v < 0 ? -1.0 : 1.0; });
+  fill(m.context.travel, kJoints, 0.0, 0.05);
+  fill(m.context.payload, 4, 0.0, 0.3);
+  m.context.payload.col(0) *= 100.0;
+  fill(m.context.wrench, 6, -50, 50);
+  m.context.sensors = {"temp_base", "temp_arm"};
+  fill(m.context.temperature, 2, 15, 30);
+  return m;
+}
+
+EffectEntry entry_of(const std::string& name) {
+  EffectEntry out{.name = name, .joints = {}, .options = {}, .place = {}};
+  if (name == "gear_ripple") out.options["cycles_per_turn"] = 8.5;
+  if (name == "cross_compliance") out.joints = {2, 1};
+  if (name == "joint_table") out.joints = {1};
+  if (name == "gravity_free") out.joints = {1, 2};
+  if (name == "axis_wobble") out.joints = {0, 3};
+  if (name == "step") out.options["after_row"] = 3.0;
+  if (name == "step") out.options["of"] = std::string("base");
+  if (name == "thermal_growth") out.options["sensor"] = std::string("temp_arm");
+  return out;
+}
+
+/// An arm that carries the effects with random parameters of typical size.
+ArmState with_effects(const Cell& cell, const Measurements& m, Random& dice) {
+  ArmState state;
+  state.arm.nominal = cell.nominal;
+  state.arm.calibrated = cell.nominal;
+  state.arm.gravity = cell.gravity;
+  state.arm.mechanics = mechanics_of(cell);
+  state.arm.effects = bind_effects(cell, m);
+  for (auto& row : state.arm.calibrated.joints) row.theta += dice.uniform(-1e-3, 1e-3);
+  for (std::size_t e = 0; e < state.arm.effects.size(); ++e)
+    for (std::size_t k = 0; k < state.arm.effects[e].parameters.size(); ++k) {
+      const double typical =
+          effect_parameter(state.arm, static_cast<int>(e), static_cast<int>(k)).typical;
+      state.arm.effects[e].parameters[k] =
+          (typical > 0.0 ? typical : 3e-7) * dice.uniform(-2.0, 2.0);
+    }
+  state.X_MB.p = {2.0, -1.0, 0.3};
+  state.X_TG.p = {0.02, 0.03, 0.1};
+  return state;
+}
+
+class EveryEffect : public ::testing::TestWithParam<int> {
+ protected:
+  std::string name() const { return std::string(effect_info(GetParam()).name); }
+};
+
+TEST_P(EveryEffect, HasTheDerivativesOfItsFiniteDifferences) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random dice(seed);
+    Cell cell = heavy_arm(seed);
+    cell.effects = {{"geometry", {}, {}, {}}, entry_of(name())};
+    const Measurements m = rich_measurements(cell, 12, seed);
+    const ArmState state = with_effects(cell, m, dice);
+    const auto parameters = effect_parameters(state.arm);
+    ASSERT_FALSE(parameters.empty());
+    const auto count = static_cast<Eigen::Index>(parameters.size());
+    const auto sensors = temperature_names(state.arm);
+    double moved_most = 0.0;
+    for (Eigen::Index row = 0; row < m.q.rows(); ++row) {
+      const std::span<const double> q(m.q.row(row).data(), kJoints);
+      const Context context = context_of(m, row, sensors, from_pose(state.X_MB));
+      const auto at = [&](const Eigen::VectorXd& change) {
+        GeometryDerivative::Point point;
+        GeometryDerivative(state, parameters, change).evaluate(q, context, point);
+        return point;
+      };
+      const auto here = at(Eigen::VectorXd::Zero(count));
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const double size = 1e-4 * std::max(1e-6, std::abs(value_of(state, parameters[k])));
+        Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
+        step(k) = size;
+        const Vector3 slope = (at(step).p_M - at(-step).p_M) / (2.0 * size);
+        const Vector3 column = here.columns.col(k).head<3>();
+        EXPECT_LT((slope - column).norm(), 1e-6 * column.norm() + 2e-15 / size)
+            << parameters[k].name << ", seed " << seed;
+        moved_most = std::max(moved_most, column.norm());
+      }
+    }
+    EXPECT_GT(moved_most, 0.0) << name() << " moves nothing";
+  }
+}
+
+TEST_P(EveryEffect, RunsInTheModelFileAsItWasFitted) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random dice(seed);
+    Cell cell = heavy_arm(seed);
+    cell.effects = {{"geometry", {}, {}, {}}, entry_of(name())};
+    const Measurements m = rich_measurements(cell, 30, seed);
+    offline::Run run;
+    run.created = "2026-01-01T00:00:00Z";
+    run.cell_sha256 = std::string(64, '0');
+    run.fit.calibration.state = with_effects(cell, m, dice);
+    const format::Model model = compile(cell, run);
+    const EffectDomain domain = effect_info(GetParam()).domain;
+    const bool online = domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
+    ASSERT_EQ(model.effects.size(), online ? 1U : 0U);
+    if (!online) return;
+    const auto read = format::read_model(format::write_model(model));
+    ASSERT_TRUE(std::holds_alternative<format::Model>(read));
+    const auto& loaded = std::get<format::Model>(read);
+    ASSERT_EQ(unusable_effects(loaded), "");
+    const Rows3 fitted = predict_points(run.fit.calibration.state, m);
+    const ForwardModel arm(loaded);
+    const Transformd X_MB = from_pose(run.fit.calibration.state.X_MB);
+    const Vector3 target(0.02, 0.03, 0.1);
+    for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
+      const Context context = context_at(m.context, i, temperature_names(loaded));
+      const std::span<const double> q(m.q.row(i).data(), kJoints);
+      const Vector3 p = X_MB * (arm.predict(q, context).X_BT * target);
+      EXPECT_LT((p - fitted.row(i).transpose()).norm(), 1e-9);
+    }
+  }
+}
+
+TEST_P(EveryEffect, IsInvertedByTheCorrector) {
+  int solved = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random dice(seed);
+    Cell cell = heavy_arm(seed);
+    cell.effects = {{"geometry", {}, {}, {}}, entry_of(name())};
+    const Measurements m = rich_measurements(cell, 30, seed);
+    format::Model model = with_effects(cell, m, dice).arm;
+    model.guard.length_scale_m = reach(cell.nominal);
+    model.guard.corrects = format::Corrects::kPose;
+    const Corrector corrector(model);
+    for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
+      const Context context = context_of(m, i, temperature_names(model), Transformd{});
+      std::array<double, kJoints> q{};
+      for (int j = 0; j < kJoints; ++j) q[j] = m.q(i, j) + dice.uniform(-0.02, 0.02);
+      const Transformd X_BD = corrector.nominal().forward<double>(q);
+      const std::span<const double> seed_q(m.q.row(i).data(), kJoints);
+      const Correction c = corrector.solve(X_BD, seed_q, SeedKind::kMeasured, context);
+      if (refused(c.status)) continue;
+      ++solved;
+      const Transformd there =
+          corrector.forward_model().predict(std::span(c.q).first(kJoints), context).X_BT;
+      EXPECT_LT((there.p - X_BD.p).norm(), 1e-9);
+      EXPECT_LT(rotation_vector(there.R * X_BD.R.transpose()).norm(), 1e-9);
+    }
+  }
+  EXPECT_GT(solved, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, EveryEffect, ::testing::Range(0, kEffectLaws),
+                         [](const auto& law) { return std::string(effect_info(law.param).name); });
+
+TEST(Effects, AnUnknownLawAWrongCountOrANewerVersionIsNamed) {
+  format::Model model;
+  model.calibrated.joints.resize(6);
+  model.effects = {
+      {.name = "witchcraft", .version = 1, .joints = {}, .parameters = {}, .context = {}}};
+  EXPECT_EQ(unusable_effects(model), "effect 'witchcraft' is not known to this version");
+  model.effects[0].name = "encoder_scale";
+  model.effects[0].joints = {1};
+  EXPECT_EQ(unusable_effects(model), "effect 'encoder_scale' has 0 parameters, not 1");
+  model.effects[0].parameters = {1e-5};
+  EXPECT_EQ(unusable_effects(model), "");
+  model.effects[0].version = 7;
+  EXPECT_EQ(unusable_effects(model),
+            "effect 'encoder_scale' is of version 7, newer than this library");
+}
+
+TEST(Effects, AMissingInputUsesItsFallbackAndSaysSo) {
+  Cell cell = heavy_arm(1);
+  cell.effects = {{"geometry", {}, {}, {}}, entry_of("thermal_growth")};
+  const Measurements m = rich_measurements(cell, 5, 1);
+  Random dice(1);
+  const ArmState state = with_effects(cell, m, dice);
+  format::Model bare = state.arm;
+  bare.effects.clear();
+  const ForwardModel arm(state.arm), rigid(bare);
+  const std::span<const double> q(m.q.row(0).data(), kJoints);
+  const Prediction unknown = arm.predict(q);
+  EXPECT_EQ(unknown.status, Status::kContextFallback);
+  // The fallback is the reference temperature: nothing has grown.
+  EXPECT_LT((unknown.X_BT.p - rigid.predict(q).X_BT.p).norm(), 1e-15);
+  const Prediction known = arm.predict(q, context_at(m.context, 0, temperature_names(state.arm)));
+  EXPECT_EQ(known.status, Status::kOk);
+  EXPECT_GT((known.X_BT.p - unknown.X_BT.p).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace plumb::offline
