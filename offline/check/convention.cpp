@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/convention.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cell/units.hpp"
+#include "plumb/runtime/transform.hpp"
+
+namespace plumb::offline {
+namespace {
+
+bool slides(const Cell& cell, int joint) {
+  return cell.nominal.joints[joint].type == format::JointType::kPrismatic;
+}
+
+std::string unit_in_file(const Measurements& measured, const std::string& name,
+                         const std::string& fallback) {
+  for (const auto& table : measured.tables)
+    if (const Column* column = table.find(name)) return column->unit;
+  return fallback;
+}
+
+double ratio(const std::string& meant, const std::string& present) {
+  return meant == present ? 1.0 : unit_of(meant)->to_si(1.0) / unit_of(present)->to_si(1.0);
+}
+
+std::string column_of(int joint) { return fmt::format("q{}", joint + 1); }
+
+/// What a mirror does to points, as signs behind a permutation.
+struct AxisChange {
+  std::array<int, 3> from{0, 1, 2};
+  std::array<double, 3> sign{1.0, 1.0, 1.0};
+};
+
+AxisChange axis_change(Mirror mirror) {
+  AxisChange out;
+  switch (mirror) {
+    case Mirror::kNone:
+      break;
+    case Mirror::kNegateX:
+    case Mirror::kNegateY:
+    case Mirror::kNegateZ:
+      out.sign[static_cast<int>(mirror) - 1] = -1.0;
+      break;
+    case Mirror::kSwapXY:
+      out.from = {1, 0, 2};
+      break;
+    case Mirror::kSwapYZ:
+      out.from = {0, 2, 1};
+      break;
+    case Mirror::kSwapXZ:
+      out.from = {2, 1, 0};
+  }
+  return out;
+}
+
+void mirror_points(Measurements& m, Mirror mirror) {
+  if (mirror == Mirror::kNone) return;
+  const AxisChange change = axis_change(mirror);
+  const Rows3 before = m.p_M;
+  for (int k = 0; k < 3; ++k) m.p_M.col(k) = change.sign[k] * before.col(change.from[k]);
+  if (!m.has_orientation()) return;
+  // S R S: the vector part of a quaternion is a pseudovector, det S = -1.
+  const Rows4 quat = m.quat_M;
+  for (int k = 0; k < 3; ++k) m.quat_M.col(k + 1) = -change.sign[k] * quat.col(change.from[k] + 1);
+}
+
+CellEdit text_edit(const Convention& present, const Convention& meant) {
+  CellEdit out;
+  if (meant.dh != present.dh)
+    out.dh_convention = meant.dh == format::Convention::kStandard ? "standard" : "modified";
+  if (meant.length_unit != present.length_unit) out.length_unit = meant.length_unit;
+  if (meant.angle_unit != present.angle_unit) out.angle_unit = meant.angle_unit;
+  return out;
+}
+
+Cell reread(const Cell& cell, const CellEdit& edit) {
+  if (edit.empty()) return cell;
+  const std::string text = cell.text.empty() ? write_cell(cell) : cell.text;
+  Cell out = parse_cell(edited(text, cell.file.string(), edit), cell.file);
+  out.measurement.files = cell.measurement.files;
+  return out;
+}
+
+format::Pose inverse(const format::Pose& pose) { return to_pose(from_pose(pose).inverse()); }
+
+}  // namespace
+
+Convention labelled_convention(const Cell& cell, const Measurements& measured) {
+  Convention out;
+  out.dh = cell.nominal.convention;
+  out.length_unit = cell.length_unit;
+  out.angle_unit = cell.angle_unit;
+  out.turn_unit = "deg";
+  out.slide_unit = "mm";
+  for (int j = 0; j < cell.joints(); ++j)
+    (slides(cell, j) ? out.slide_unit : out.turn_unit) =
+        unit_in_file(measured, column_of(j), slides(cell, j) ? "mm" : "deg");
+  out.point_unit = "mm";
+  for (const char* axis : {"z", "y", "x"})
+    out.point_unit = unit_in_file(measured, axis, out.point_unit);
+  out.reversed.assign(cell.joints(), false);
+  out.quarter_turns.assign(cell.joints(), 0);
+  return out;
+}
+
+double changes(const Convention& present, const Convention& other) {
+  double out = 0.0;
+  out += other.dh != present.dh ? 1.0 : 0.0;
+  out += other.length_unit != present.length_unit ? 1.0 : 0.0;
+  out += other.angle_unit != present.angle_unit ? 1.0 : 0.0;
+  out += other.turn_unit != present.turn_unit ? 1.0 : 0.0;
+  out += other.slide_unit != present.slide_unit ? 1.0 : 0.0;
+  out += other.point_unit != present.point_unit ? 1.0 : 0.0;
+  out += other.mirror != present.mirror ? 1.1 : 0.0;
+  out += other.frame_inverted != present.frame_inverted ? 1.0 : 0.0;
+  for (std::size_t j = 0; j < other.reversed.size(); ++j) {
+    out += other.reversed[j] != present.reversed[j] ? 1.0 : 0.0;
+    out += other.quarter_turns[j] != present.quarter_turns[j] ? 1.2 : 0.0;
+  }
+  return out;
+}
+
+Cell read_as(const Cell& cell, const Convention& present, const Convention& meant) {
+  Cell out = reread(cell, text_edit(present, meant));
+  for (int j = 0; j < out.joints(); ++j)
+    out.nominal.joints[j].theta += M_PI_2 * meant.quarter_turns[j];
+  if (meant.frame_inverted) out.measurement.X_MB = inverse(out.measurement.X_MB);
+  return out;
+}
+
+Measurements read_as(const Measurements& measured, const Cell& cell, const Convention& present,
+                     const Convention& meant) {
+  Measurements out = measured;
+  const double turn = ratio(meant.turn_unit, present.turn_unit);
+  const double slide = ratio(meant.slide_unit, present.slide_unit);
+  for (int j = 0; j < cell.joints(); ++j)
+    out.q.col(j) *= (slides(cell, j) ? slide : turn) * (meant.reversed[j] ? -1.0 : 1.0);
+  out.p_M *= ratio(meant.point_unit, present.point_unit);
+  mirror_points(out, meant.mirror);
+  return out;
+}
+
+CellEdit cell_edit(const Cell& cell, const Convention& present, const Convention& meant) {
+  CellEdit out = text_edit(present, meant);
+  const double angle = ratio(meant.angle_unit, present.angle_unit);
+  for (int j = 0; j < cell.joints(); ++j)
+    if (meant.quarter_turns[j] != 0)
+      out.theta[j] = cell.nominal.joints[j].theta * angle + M_PI_2 * meant.quarter_turns[j];
+  if (meant.frame_inverted) out.frame = read_as(cell, present, meant).measurement.X_MB;
+  return out;
+}
+
+MeasurementEdit measurement_edit(const Cell& cell, const Convention& present,
+                                 const Convention& meant) {
+  MeasurementEdit out;
+  for (int j = 0; j < cell.joints(); ++j) {
+    const std::string& now = slides(cell, j) ? present.slide_unit : present.turn_unit;
+    const std::string& unit = slides(cell, j) ? meant.slide_unit : meant.turn_unit;
+    if (unit != now) out.units[column_of(j)] = unit;
+    if (!meant.reversed[j]) continue;
+    out.negated.insert(column_of(j));
+    out.negated.insert(fmt::format("qc{}", j + 1));
+    out.negated.insert(fmt::format("dir_j{}", j + 1));
+  }
+  const AxisChange change = axis_change(meant.mirror);
+  const std::array<std::string, 3> axes{"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    if (meant.point_unit != present.point_unit) out.units[axes[k]] = meant.point_unit;
+    if (change.sign[k] < 0) out.negated.insert(axes[k]);
+    if (change.from[k] == k) continue;
+    out.names[axes[change.from[k]]] = axes[k];
+    out.names["s" + axes[change.from[k]]] = "s" + axes[k];
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

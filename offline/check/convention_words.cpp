@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "check/convention.hpp"
+
+namespace plumb::offline {
+namespace {
+
+const char* name_of(format::Convention dh) {
+  return dh == format::Convention::kStandard ? "standard" : "modified";
+}
+
+const char* words_of(Mirror mirror) {
+  switch (mirror) {
+    case Mirror::kNegateX:
+      return "the measured coordinates are left-handed: x has the wrong sign";
+    case Mirror::kNegateY:
+      return "the measured coordinates are left-handed: one axis has the wrong sign, or two are "
+             "swapped";
+    case Mirror::kNegateZ:
+      return "the measured coordinates are left-handed: z has the wrong sign";
+    case Mirror::kSwapXY:
+      return "the measured coordinates are left-handed: x and y are swapped";
+    case Mirror::kSwapYZ:
+      return "the measured coordinates are left-handed: y and z are swapped";
+    case Mirror::kSwapXZ:
+      return "the measured coordinates are left-handed: x and z are swapped";
+    default:
+      return "";
+  }
+}
+
+void unit_words(std::vector<std::string>& out, const char* what, const std::string& now,
+                const std::string& meant) {
+  if (now != meant) out.push_back(fmt::format("{} are in {}, not {}", what, meant, now));
+}
+
+}  // namespace
+
+std::vector<std::string> in_words(const Cell& cell, const Convention& present,
+                                  const Convention& meant) {
+  std::vector<std::string> out;
+  if (meant.dh != present.dh)
+    out.push_back(fmt::format("the DH table is in the {} convention, not the {} one",
+                              name_of(meant.dh), name_of(present.dh)));
+  unit_words(out, "the lengths of the DH table", present.length_unit, meant.length_unit);
+  unit_words(out, "the angles of the DH table", present.angle_unit, meant.angle_unit);
+  unit_words(out, "the joint angles of the measurements", present.turn_unit, meant.turn_unit);
+  unit_words(out, "the sliding joints of the measurements", present.slide_unit, meant.slide_unit);
+  unit_words(out, "the measured points", present.point_unit, meant.point_unit);
+  for (int j = 0; j < cell.joints(); ++j) {
+    const auto& name = cell.nominal.joints[j].name;
+    if (meant.reversed[j]) out.push_back(fmt::format("{} counts the other way", name));
+    if (meant.quarter_turns[j] != 0)
+      out.push_back(
+          fmt::format("the zero of {} is turned by {:+} deg", name, 90 * meant.quarter_turns[j]));
+  }
+  if (meant.mirror != Mirror::kNone) out.emplace_back(words_of(meant.mirror));
+  if (meant.frame_inverted)
+    out.emplace_back(
+        "the given frame is that of the tracker in the base, not of the base in the "
+        "tracker");
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "check/detective.hpp"
+
+namespace plumb::offline {
+
+/// RMS residual [m] with the frame as the cell gives it and only the target fitted (or given too).
+double misfit_in_given_frame(const Cell& cell, const Measurements& measured,
+                             const std::vector<int>& rows);
+
+/// The reading `best`, found with a free frame, made to agree with the frame of the cell: which
+/// axes are mirrored, and whether the frame is the inverse. Unchanged unless one of these leaves
+/// less than a tenth of the frame as given.
+Convention with_given_frame(const Cell& cell, const Measurements& measured,
+                            const std::vector<int>& rows, const Convention& labels,
+                            const Reading& best);
+
+}  // namespace plumb::offline

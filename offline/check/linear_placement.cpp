@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/linear_placement.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kRidge = 1e-9;       // of the target's information: a reflector nobody sees is 0
+constexpr double kFlat = 1e-6;        // a cloud thinner than this share of its size is flat
+constexpr double kHugeMisfit = 1e12;  // of an arm that does not move
+
+}  // namespace
+
+LinearPlacer::LinearPlacer(const Rows3& p_M, const std::array<bool, 3>& has_axis) {
+  const Eigen::Index n = p_M.rows();
+  for (int k = 0; k < 3; ++k)
+    if (has_axis[k]) axis_[axes_++] = k;
+  Eigen::MatrixXd A(n, axes_ + 1);
+  for (Eigen::Index k = 0; k < axes_; ++k) {
+    A.col(k) = p_M.col(axis_[k]);
+    size_ += (A.col(k).array() - A.col(k).mean()).square().sum();
+  }
+  A.col(axes_).setOnes();
+  size_ = std::sqrt(size_ / static_cast<double>(n));
+  Rows3 centred = p_M.rowwise() - p_M.colwise().mean();
+  for (int k = 0; k < 3; ++k)
+    if (!has_axis[k]) centred.col(k).setZero();
+  spread_ = centred.transpose() * centred / static_cast<double>(n);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
+  qr.setThreshold(kFlat);
+  const Eigen::Index rank = qr.rank();
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(n, rank);
+  Eigen::MatrixXd R_inverse = Eigen::MatrixXd::Zero(axes_ + 1, rank);
+  R_inverse.topRows(rank) = qr.matrixR()
+                                .topLeftCorner(rank, rank)
+                                .triangularView<Eigen::Upper>()
+                                .solve(Eigen::MatrixXd::Identity(rank, rank));
+  to_map_ = qr.colsPermutation() * R_inverse;
+  sides_.resize(n, 12);
+}
+
+LinearPlacement LinearPlacer::place(const std::vector<Transformd>& X_BT) {
+  const Eigen::Index n = sides_.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Transformd& X = X_BT[i];
+    for (int k = 0; k < 3; ++k) {
+      sides_(i, k) = X.p(k);
+      for (int c = 0; c < 3; ++c) sides_(i, 3 + 3 * k + c) = X.R(k, c);
+    }
+  }
+  coefficients_.noalias() = basis_.transpose() * sides_;
+  // Normal equations of t with M and b eliminated: sides minus their projection on the basis.
+  Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  double whole = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const auto p = sides_.col(k);
+    const auto R = sides_.middleCols<3>(3 + 3 * k);
+    const auto cp = coefficients_.col(k);
+    const auto cR = coefficients_.middleCols<3>(3 + 3 * k);
+    N += (R.transpose() * R).eval() - (cR.transpose() * cR).eval();
+    g -= (R.transpose() * p).eval() - (cR.transpose() * cp).eval();
+    whole += p.squaredNorm() - cp.squaredNorm();
+  }
+  LinearPlacement out;
+  const Eigen::Matrix3d ridged = N + kRidge * static_cast<double>(n) * Eigen::Matrix3d::Identity();
+  out.target_T = ridged.ldlt().solve(g);
+  out.left = std::max(0.0, whole - g.dot(out.target_T));
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::VectorXd map =
+        to_map_ * (coefficients_.col(k) + coefficients_.middleCols<3>(3 + 3 * k) * out.target_T);
+    for (Eigen::Index c = 0; c < axes_; ++c) out.M(k, axis_[c]) = map(c);
+  }
+  out.ratio = out.M.norm() / std::sqrt(static_cast<double>(axes_));
+  out.left_handed = axes_ == 3 && out.M.determinant() < 0.0;
+  const double unit = out.ratio * size_;
+  out.misfit = unit > 0.0 ? std::sqrt(out.left / static_cast<double>(n)) / unit : kHugeMisfit;
+  return out;
+}
+
+void LinearPlacer::tighten(LinearPlacement& placement) const {
+  // min over s, Q of tr[(M - s Q) C (M - s Q)^T]: Q from the SVD of M C, s = sum of its singular
+  // values over tr C.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(placement.M * spread_,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d Q = svd.matrixU() * svd.matrixV().transpose();
+  placement.ratio = svd.singularValues().sum() / spread_.trace();
+  placement.left_handed = axes_ == 3 && Q.determinant() < 0.0;
+  const Eigen::Matrix3d off = placement.M - placement.ratio * Q;
+  const double away = (off * spread_ * off.transpose()).trace();
+  const double all = placement.left / static_cast<double>(sides_.rows()) + std::max(0.0, away);
+  const double unit = placement.ratio * size_;
+  placement.misfit = unit > 0.0 ? std::sqrt(all) / unit : kHugeMisfit;
+}
+
+}  // namespace plumb::offline

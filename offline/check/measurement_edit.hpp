@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace plumb::offline {
+
+/// Changes to a measurement file; columns go by their name without the unit.
+struct MeasurementEdit {
+  std::map<std::string, std::string> units;  // the unit a column really has: its label changes
+  std::map<std::string, std::string> names;  // "x" becomes "y": axes that were swapped
+  std::set<std::string> negated;             // columns whose numbers change sign
+  bool empty() const { return units.empty() && names.empty() && negated.empty(); }
+};
+
+/// The text with headings renamed and signs turned, digit for digit: comments, other columns,
+/// separators and line ends stay. `header_line` counts from 1.
+std::string edited(const std::string& text, int header_line, const MeasurementEdit& edit);
+
+}  // namespace plumb::offline

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/soft_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/solver.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kMostSteps = 15;
+constexpr double kEnough = 1e-4;           // relative fall of the cost at which it stops
+constexpr double kNearNominal_m = 5e-3;    // 1 sigma of a real arm's lengths
+constexpr double kNearNominal_rad = 1e-2;  // and angles, joint zeros included
+constexpr double kSigma_m = 50e-6;         // weight of a coordinate against the two above
+constexpr double kTooFar = 5.0;            // sigma: an arm that far from nominal is another arm
+
+FitData unweighted(const Measurements& measured, const std::vector<int>& rows) {
+  FitData data;
+  data.measured = &measured;
+  data.rows = rows;
+  data.sigma_m = Rows3::Ones(measured.size(), 3);
+  return data;
+}
+
+/// Frame and target free, whatever the cell says, with or without the arm.
+std::vector<Parameter> parameters_of(const Cell& cell, bool with_arm) {
+  Cell free;
+  free.nominal = cell.nominal;
+  free.mechanics = cell.mechanics;
+  free.effects = {{.name = "geometry", .joints = {}, .options = {}, .place = {}}};
+  auto out = candidate_parameters(free, Orientation::kIgnored);
+  if (!with_arm) std::erase_if(out, [](const Parameter& p) { return p.of_robot(); });
+  return out;
+}
+
+/// Sum of squares with the pull towards nominal, in the unit of kSigma_m.
+class PulledFit {
+ public:
+  PulledFit(const FitData& data, const ArmState& nominal, const std::vector<Parameter>& parameters)
+      : data_(data), nominal_(nominal), parameters_(parameters) {
+    const auto count = static_cast<Eigen::Index>(parameters.size());
+    weight_ = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      if (parameters[i].of_robot())
+        weight_(i) = kSigma_m / (parameters[i].is_length() ? kNearNominal_m : kNearNominal_rad);
+  }
+
+  Eigen::VectorXd change(const ArmState& state) const {
+    Eigen::VectorXd out(weight_.size());
+    for (Eigen::Index i = 0; i < out.size(); ++i)
+      out(i) = weight_(i) > 0.0
+                   ? value_of(state, parameters_[i]) - value_of(nominal_, parameters_[i])
+                   : 0.0;
+    return out;
+  }
+
+  /// The largest change of the arm, in sigma.
+  double strain(const ArmState& state) const {
+    return change(state).cwiseProduct(weight_).cwiseAbs().maxCoeff() / kSigma_m;
+  }
+
+  double cost(const ArmState& state) const {
+    return evaluate(data_, state, {}).residual.squaredNorm() +
+           change(state).cwiseProduct(weight_).squaredNorm();
+  }
+
+  /// Gauss-Newton step with damping; false if it cannot be taken.
+  bool step(ArmState& state, double& cost_now, double& damping) const {
+    const Solution here = evaluate(data_, state, parameters_);
+    const Eigen::VectorXd w2 = weight_.array().square();
+    Eigen::MatrixXd N = here.jacobian.transpose() * here.jacobian;
+    N.diagonal() += w2;
+    const Eigen::VectorXd g =
+        here.jacobian.transpose() * here.residual - w2.cwiseProduct(change(state));
+    const double floor = 1e-12 * N.diagonal().maxCoeff();
+    for (int attempt = 0; attempt < 8; ++attempt, damping *= 10.0) {
+      Eigen::MatrixXd damped = N;
+      damped.diagonal() += (damping * N.diagonal()).array().max(floor).matrix();
+      const ArmState next = moved(state, parameters_, damped.ldlt().solve(g));
+      const double cost_next = cost(next);
+      if (!(cost_next < cost_now)) continue;
+      const bool worth = cost_now - cost_next > kEnough * cost_now;
+      state = next;
+      cost_now = cost_next;
+      damping *= 0.1;
+      return worth;
+    }
+    return false;
+  }
+
+ private:
+  const FitData& data_;
+  const ArmState& nominal_;
+  const std::vector<Parameter>& parameters_;
+  Eigen::VectorXd weight_;
+};
+
+SoftFit solved(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+               const ArmState& start, bool with_arm) {
+  const FitData data = unweighted(measured, rows);
+  const auto parameters = parameters_of(cell, with_arm);
+  ArmState nominal;
+  nominal.arm.calibrated = cell.nominal;
+  const PulledFit problem(data, nominal, parameters);
+  SoftFit out{start, 0.0};
+  double cost = problem.cost(start), damping = 1e-6;
+  for (int i = 0; i < kMostSteps && problem.step(out.state, cost, damping); ++i) {
+  }
+  if (with_arm && problem.strain(out.state) > kTooFar) out.state = start;
+  const double squares = evaluate(data, out.state, {}).residual.squaredNorm();
+  out.rms_m = std::sqrt(squares / static_cast<double>(rows.size()));
+  return out;
+}
+
+}  // namespace
+
+SoftFit soft_place(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                   const ArmState& start) {
+  return solved(cell, measured, rows, start, false);
+}
+
+SoftFit soft_fit(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                 const ArmState& placed) {
+  return solved(cell, measured, rows, placed, true);
+}
+
+ArmState state_near(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                    const Eigen::Matrix3d& M, const Eigen::Vector3d& target_T) {
+  ArmState out;
+  out.arm.calibrated = cell.nominal;
+  for (int k = 0; k < 3; ++k) out.X_TG.p[k] = target_T(k);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
+  Transformd X_MB;
+  X_MB.R = svd.matrixV() * Vector3(1, 1, handed).asDiagonal() * svd.matrixU().transpose();
+  out.X_MB = to_pose(X_MB);
+  const Measurements some = pick(measured, rows);
+  const Rows3 shift = residuals(some, predict_points(out, some.q));
+  const Eigen::RowVector3d mean = shift.colwise().mean();
+  for (int k = 0; k < 3; ++k) out.X_MB.p[k] = mean(k);
+  return out;
+}
+
+}  // namespace plumb::offline
