@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/separation.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "check/arm_shape.hpp"
+#include "fit/parameter_subset.hpp"
+#include "fit/random.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kPartner = 0.1;        // share of the column that a partner takes over
+constexpr double kIndependent = 1e-6;   // share that is left where nothing separates
+constexpr double kCorrelated = 0.95;    // |rho| worth a word
+constexpr double kNearParallel = 0.05;  // as the geometric model counts it [rad]
+constexpr double kOnTheAxis_m = 5e-3;   // a reflector nearer to the last axis hardly shows it
+constexpr double kWide = M_PI / 3.0;    // a joint that uses more, and that share of its limits,
+constexpr double kWideShare = 0.4;      // is not what is missing
+constexpr std::size_t kMostPairs = 12;
+constexpr int kImaginedPoses = 120;
+constexpr double kDegree = M_PI / 180.0;
+
+/// How a column is made of others: which ones, and what is left.
+struct Mixture {
+  std::vector<int> partners;  // into kept, largest first
+  double left = 0.0;          // share
+};
+
+Mixture mixture(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column) {
+  Mixture out;
+  const double whole = column.norm();
+  if (!(whole > 0.0)) return out;
+  const Eigen::VectorXd x = kept.colPivHouseholderQr().solve(column);
+  out.left = (column - kept * x).norm() / whole;
+  std::vector<std::pair<double, int>> shares;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double share = std::abs(x(i)) * kept.col(i).norm() / whole;
+    if (share > kPartner) shares.emplace_back(-share, static_cast<int>(i));
+  }
+  std::sort(shares.begin(), shares.end());
+  for (const auto& [share, i] : shares) out.partners.push_back(i);
+  return out;
+}
+
+class Explainer {
+ public:
+  Explainer(const Cell& cell, const FitData& data, const ArmState& state,
+            const std::vector<Parameter>& kept)
+      : cell_(cell),
+        data_(data),
+        state_(state),
+        kept_(kept),
+        shape_(arm_shape(cell, *data.measured, data.rows, state)) {}
+
+  std::vector<Separation> explain(const std::vector<Parameter>& held,
+                                  const Eigen::MatrixXd& covariance) {
+    parallel_lengths();
+    if (!held.empty()) explain_held(held);
+    explain_pairs(covariance);
+    return std::move(out_);
+  }
+
+ private:
+  std::string joint(int j) const { return cell_.nominal.joints[j].name; }
+
+  /// "J2.d" of parallel neighbours, which the model leaves out from the start.
+  void parallel_lengths() {
+    for (int j = 0; j + 1 < cell_.joints(); ++j) {
+      const std::string d = joint(j) + ".d", next = joint(j + 1) + ".d";
+      const auto has = [&](const std::string& name) {
+        return std::any_of(kept_.begin(), kept_.end(),
+                           [&](const Parameter& p) { return p.name == name; });
+      };
+      if (shape_.angle_to_next[j] > kNearParallel || has(d)) continue;
+      if (cell_.nominal.joints[j].type != format::JointType::kRevolute) continue;
+      out_.push_back({Separation::Cause::kArm,
+                      d,
+                      {next},
+                      1.0,
+                      fmt::format("{} and {} cannot be separated: {}", d, next, parallel(j))});
+    }
+  }
+
+  std::string parallel(int j) const {
+    return fmt::format("{} and {} are parallel to {:.2g} deg", joint(j), joint(j + 1),
+                       std::max(shape_.angle_to_next[j] / kDegree, 1e-3));
+  }
+
+  void explain_held(const std::vector<Parameter>& held) {
+    const Eigen::MatrixXd K = evaluate(data_, state_, kept_).jacobian;
+    const Eigen::MatrixXd H = evaluate(data_, state_, held).jacobian;
+    const auto [K_anywhere, H_anywhere] = at_imagined_poses(held);
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const Mixture here = mixture(K, H.col(column));
+      const bool seen = here.left > kIndependent;
+      const bool anywhere = mixture(K_anywhere, H_anywhere.col(column)).left > kIndependent;
+      out_.push_back(sentence(held[i], here, seen, anywhere));
+    }
+  }
+
+  /// The same derivatives at poses all over the joint limits: what not even those separate is a
+  /// matter of the arm.
+  std::pair<Eigen::MatrixXd, Eigen::MatrixXd> at_imagined_poses(
+      const std::vector<Parameter>& held) const {
+    Measurements imagined;
+    imagined.q.resize(kImaginedPoses, cell_.joints());
+    Random random(1);
+    for (Eigen::Index i = 0; i < imagined.q.rows(); ++i)
+      for (int j = 0; j < cell_.joints(); ++j) {
+        const auto& row = cell_.nominal.joints[j];
+        imagined.q(i, j) = row.q_min + random.unit() * (row.q_max - row.q_min);
+      }
+    imagined.p_M = Rows3::Zero(kImaginedPoses, 3);
+    imagined.has_axis = data_.measured->has_axis;
+    FitData data;
+    data.measured = &imagined;
+    for (int i = 0; i < kImaginedPoses; ++i) data.rows.push_back(i);
+    data.sigma_m = Rows3::Ones(kImaginedPoses, 3);
+    return {evaluate(data, state_, kept_).jacobian, evaluate(data, state_, held).jacobian};
+  }
+
+  Separation sentence(const Parameter& p, const Mixture& here, bool seen, bool anywhere) const {
+    using Cause = Separation::Cause;
+    Separation out{Cause::kChoice, p.name, {}, 1.0, ""};
+    bool only_frame = true, only_target = true;
+    for (const int i : here.partners) {
+      out.partners.push_back(kept_[i].name);
+      only_frame = only_frame && kept_[i].kind == Parameter::Kind::kFrame;
+      only_target = only_target && kept_[i].kind == Parameter::Kind::kTarget;
+    }
+    const std::string with =
+        out.partners.empty() ? "the rest" : fmt::format("{}", fmt::join(out.partners, ", "));
+    const std::string cannot = fmt::format("{} cannot be separated from {}: ", p.name, with);
+    if (seen) {
+      out.cause = Cause::kWeak;
+      out.text = fmt::format("{} is seen too weakly to be better than nominal: {}", p.name,
+                             reason(p, here));
+    } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_frame) {
+      out.text = cannot + "both move the base; the fitted frame carries it";
+    } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_target) {
+      out.text = cannot + "both move the reflector on the flange; the fitted target carries it";
+    } else if (!anywhere) {
+      const auto why = arm_reason(p, here);
+      out.cause = why.empty() ? Cause::kChoice : Cause::kArm;
+      out.text =
+          cannot + (why.empty() ? "no pose of this arm does, and one of them is enough" : why);
+    } else {
+      out.cause = Cause::kPoses;
+      out.text = cannot + reason(p, here);
+    }
+    return out;
+  }
+
+  /// First and last joint that take part.
+  std::pair<int, int> span(const Parameter& p, const Mixture& here) const {
+    int first = cell_.joints() - 1, last = 0;
+    const auto take = [&](const Parameter& parameter) {
+      const bool frame = parameter.kind == Parameter::Kind::kFrame;
+      const int j = frame ? 0 : parameter.of_robot() ? parameter.joint : cell_.joints() - 1;
+      first = std::min(first, j);
+      last = std::max(last, j);
+    };
+    take(p);
+    for (const int i : here.partners) take(kept_[i]);
+    // A row speaks of the link to the next joint, or from the one before.
+    const bool standard = cell_.nominal.convention == format::Convention::kStandard;
+    return {standard ? first : std::max(0, first - 1),
+            standard ? std::min(cell_.joints() - 1, last + 1) : last};
+  }
+
+  std::string arm_reason(const Parameter& p, const Mixture& here) const {
+    const auto [first, last] = span(p, here);
+    if (last == cell_.joints() - 1 && shape_.reflector_off_last_axis_m < kOnTheAxis_m)
+      return off_axis();
+    for (int j = first; j < last; ++j)
+      if (shape_.angle_to_next[j] < kNearParallel) return parallel(j);
+    return "";
+  }
+
+  std::string off_axis() const {
+    return fmt::format(
+        "the reflector is {:.2f} mm from the axis of {}, so that turning it hardly "
+        "moves the point: mount it further out",
+        shape_.reflector_off_last_axis_m * 1e3, joint(cell_.joints() - 1));
+  }
+
+  std::string reason(const Parameter& p, const Mixture& here) const {
+    const auto [first, last] = span(p, here);
+    for (int j = first; j <= last; ++j)
+      if (shape_.used[j] < kStill)
+        return fmt::format("{} never moves in these poses: move it by > 60 deg", joint(j));
+    const std::string arm = arm_reason(p, here);
+    if (!arm.empty()) return arm;
+    if (shape_.flat) return "all points lie in one plane: measure at other heights as well";
+    return poses_reason(first, last);
+  }
+
+  std::string poses_reason(int first, int last) const {
+    int least = first;
+    for (int j = first; j <= last; ++j)
+      if (shape_.used[j] / shape_.limits[j] < shape_.used[least] / shape_.limits[least]) least = j;
+    if (shape_.used[least] > kWide && shape_.used[least] > kWideShare * shape_.limits[least])
+      return "in all these poses they move the point alike; more poses, further apart, help";
+    const bool slides = cell_.nominal.joints[least].type == format::JointType::kPrismatic;
+    return fmt::format("these poses do not separate them; add poses that move {} over more than {}",
+                       joint(least), slides ? "half of its travel" : "60 deg");
+  }
+
+  void explain_pairs(const Eigen::MatrixXd& covariance) {
+    std::vector<Separation> pairs;
+    const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
+    for (Eigen::Index i = 0; i < covariance.rows(); ++i)
+      for (Eigen::Index k = i + 1; k < covariance.rows(); ++k) {
+        const double rho = covariance(i, k) / (sigma(i) * sigma(k));
+        const Parameter &a = kept_[i], &b = kept_[k];
+        if (std::abs(rho) < kCorrelated || (!a.of_robot() && !b.of_robot())) continue;
+        Mixture both;
+        both.partners = {static_cast<int>(k)};
+        pairs.push_back({Separation::Cause::kWeak,
+                         a.name,
+                         {b.name},
+                         rho,
+                         fmt::format("{} and {} hang together (rho {:+.3f}): {}", a.name, b.name,
+                                     rho, reason(a, both))});
+      }
+    std::sort(pairs.begin(), pairs.end(), [](const Separation& a, const Separation& b) {
+      return std::abs(a.rho) > std::abs(b.rho);
+    });
+    if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+    out_.insert(out_.end(), pairs.begin(), pairs.end());
+  }
+
+  const Cell& cell_;
+  const FitData& data_;
+  const ArmState& state_;
+  const std::vector<Parameter>& kept_;
+  ArmShape shape_;
+  std::vector<Separation> out_;
+};
+
+}  // namespace
+
+std::vector<Separation> separations(const Cell& cell, const FitData& data, const ArmState& state,
+                                    const std::vector<Parameter>& kept,
+                                    const std::vector<Parameter>& held,
+                                    const Eigen::MatrixXd& covariance) {
+  return Explainer(cell, data, state, kept).explain(held, covariance);
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/spectrum.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kNothing = 1e-7;  // of the largest: what the fit counts as no direction of its own
+
+}  // namespace
+
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& J) {
+  if (J.size() == 0) return {};
+  // R of J = Q R has the same ones and is small.
+  const Eigen::Index rows = std::min(J.rows(), J.cols());
+  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(J)
+                                .matrixQR()
+                                .topRows(rows)
+                                .triangularView<Eigen::Upper>();
+  return R.jacobiSvd().singularValues();
+}
+
+Spectrum spectrum(const Eigen::MatrixXd& J) {
+  Eigen::MatrixXd scaled = J;
+  for (Eigen::Index k = 0; k < J.cols(); ++k) {
+    const double length = J.col(k).norm();
+    if (length > 0.0) scaled.col(k) /= length;
+  }
+  Spectrum out;
+  out.values = singular_values(scaled);
+  if (out.values.size() == 0 || !(out.values(0) > 0.0)) return out;
+  out.rank = static_cast<int>((out.values.array() > kNothing * out.values(0)).count());
+  out.condition = out.values(0) / out.values(out.rank - 1);
+  return out;
+}
+
+}  // namespace plumb::offline
