@@ -26,6 +26,50 @@ constexpr Explanation kCodes[] = {
     {"W-RUN-NODATA",
      "The history was read, but not the cell's measurements; so it is not known which run is the "
      "current one."},
+    {"E-CHECK-CONVENTION",
+     "The files are not meant as they are labelled: another DH convention, unit, joint direction "
+     "or "
+     "handedness explains the points far better. plumb check lists every reading with what it "
+     "leaves; --fix writes the best one."},
+    {"E-CHECK-NOFIT",
+     "Neither the labels nor any other reading of units, conventions and directions explains the "
+     "points. Look for joints in another order, joints coupled by a linkage, rows that belong to "
+     "another arm, or a wrong DH table."},
+    {"E-CHECK-LIMITS",
+     "Joint readings lie outside the limits in cell.toml, which a real arm cannot do. Either the "
+     "limits are too narrow, or the readings are in another unit, direction or turn."},
+    {"E-CHECK-EQUAL",
+     "Every row has the same joint positions, so nothing about the arm can be learnt. Repeats of "
+     "one pose give the noise only."},
+    {"E-CHECK-NOTHING",
+     "Not one number of the arm can be told from these poses better than it is known already."},
+    {"W-CHECK-COPY",
+     "Readings that agree to the last digit are copies: a tracker never repeats itself like that. "
+     "They make the noise look smaller than it is."},
+    {"W-CHECK-STILL",
+     "A joint that never moves shows nothing of itself, and what is behind it looks like one "
+     "link."},
+    {"N-CHECK-CONSTANT",
+     "A context column that never changes cannot explain anything; the effects that need it are "
+     "listed as not testable."},
+    {"W-CHECK-COVERAGE",
+     "The poses use less than half of the limits of a joint. A calibration is trusted where it was "
+     "measured, so predictions far from there are guesses."},
+    {"W-CHECK-ROUNDED",
+     "The digits of the joint columns tell that they were rounded, by so much that it shows beside "
+     "the noise. Commanded values that the controller meets exactly may be round; readings not."},
+    {"W-CHECK-SEPARATE",
+     "Two or more numbers of the arm move the measured point in the same way at all these poses, "
+     "though not at others. One is held at nominal. Poses that move the named joint separate "
+     "them."},
+    {"W-CHECK-DIRECTION",
+     "check --fix wrote measurements whose joints count the way the DH table does. The targets of "
+     "correct and the controller must count the same way, or the DH table must be turned instead."},
+    {"N-CHECK-CONVENTION",
+     "There are too few different poses or axes to tell conventions apart, so the labels were "
+     "believed."},
+    {"N-CHECK-NOISE",
+     "Without repeats and without a stated sigma nothing can be compared with the noise floor."},
     {"E-FIT-CONVERGE",
      "The calibration did not settle. Most often a unit, the sign or zero of a joint, or the DH "
      "convention is wrong, so that no small change of the arm explains the measurements."},

@@ -2,6 +2,7 @@
 #include "check/arm_shape.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "plumb/runtime/chain.hpp"

@@ -66,6 +66,7 @@ class Editor {
     for (const auto& [joint, theta] : edit.theta)
       set_theta(robot["joints"][static_cast<std::size_t>(joint)], text_in(*unit_of(unit), theta));
     if (edit.files) set("measurement", "files", toml_list(*edit.files));
+    if (edit.held_out) set("measurement", "held_out", toml_string(*edit.held_out));
     if (edit.frame) {
       const std::string length = edit.length_unit.value_or(robot["length_unit"].value_or("mm"));
       set("measurement", "frame", toml_pose(*edit.frame, *unit_of(length), *unit_of(unit)));
@@ -123,7 +124,8 @@ class Editor {
 }  // namespace
 
 bool CellEdit::empty() const {
-  return !dh_convention && !length_unit && !angle_unit && theta.empty() && !files && !frame;
+  return !dh_convention && !length_unit && !angle_unit && theta.empty() && !files && !held_out &&
+         !frame;
 }
 
 std::string edited(const std::string& text, const std::string& file, const CellEdit& edit) {

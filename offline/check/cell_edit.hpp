@@ -15,6 +15,7 @@ struct CellEdit {
   std::optional<std::string> dh_convention, length_unit, angle_unit;
   std::map<int, double> theta;                    // of joint (zero-based) [rad]
   std::optional<std::vector<std::string>> files;  // of [measurement], relative to the cell
+  std::optional<std::string> held_out;            // of [measurement]
   std::optional<format::Pose> frame;              // of [measurement]
   bool empty() const;
 };

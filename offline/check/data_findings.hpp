@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// Where a row of the joined measurements stands.
+struct RowPlace {
+  int table = 0;
+  int row = 0;  // of that table
+};
+RowPlace row_place(const Measurements& measured, int row);
+
+/// Joint readings beyond their limits (E-CHECK-LIMITS, first rows with their lines), saying so if a
+/// whole turn less would be inside.
+std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measured);
+
+/// Rows with the very digits of another row's point (W-CHECK-COPY): a true repeat has its own
+/// reading. And poses that are all equal (E-CHECK-EQUAL).
+std::vector<Problem> copy_findings(const Measurements& measured);
+
+/// Context columns that hold one value only (N-CHECK-CONSTANT), and joints that never move.
+std::vector<Problem> constant_findings(const Cell& cell, const Measurements& measured);
+
+}  // namespace plumb::offline

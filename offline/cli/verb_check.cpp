@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cell_data.hpp"
+#include "cli/progress.hpp"
+#include "cli/repair.hpp"
+#include "cli/verbs.hpp"
+#include "show/check_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+struct Options {
+  bool fix = false;
+  WriteOptions write;
+};
+
+void hand_over(const Check& check, Outcome& outcome) {
+  for (const auto& problem : check.findings)
+    (problem.severity == Severity::kError ? outcome.errors : outcome.remarks).push_back(problem);
+  outcome.exit = check.exit;
+}
+
+/// What was wrong with the labels is put right; the rest stands.
+void fix(const Options& options, const Cell& cell, const Measurements& measured, const Check& check,
+         Outcome& outcome) {
+  if (!check.detection.changed) {
+    outcome.result["files"] = Json::array();
+    outcome.result["dry_run"] = options.write.dry_run;
+    outcome.text += "\nnothing to fix: the files are meant as they are labelled\n";
+    return;
+  }
+  outcome.text += "\n" + repair(cell, measured, check, options.write, outcome);
+  std::erase_if(outcome.errors, [](const Problem& p) { return p.code == "E-CHECK-CONVENTION"; });
+  if (outcome.errors.empty()) outcome.exit = Exit::kDone;
+  outcome.result["ok"] = outcome.errors.empty();
+  bool turned = false;
+  for (const bool reversed : check.detection.best.convention.reversed) turned = turned || reversed;
+  if (turned)
+    outcome.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-CHECK-DIRECTION",
+         .message = "the cell and the new measurements count some joints the other way than the "
+                    "old files did",
+         .help = "count them that way in the targets too, and on the controller"});
+}
+
+void check(const Options& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  const Measurements measured = open_measurements(cell, outcome);
+  const Progress progress(fmt::format("checking {} rows", measured.size()));
+  const Check found = check_cell(cell, measured);
+  outcome.result = show::check_json(cell, found);
+  outcome.text = show::check_text(cell, found);
+  hand_over(found, outcome);
+  if (options.fix) fix(options, cell, measured, found, outcome);
+}
+
+}  // namespace
+
+void add_check(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb = program.verb(
+      {.name = "check",
+       .summary = "Units, conventions, duplicates, limits, coverage, and what the data can show",
+       .examples = "  plumb check                       # is the cell meant as it is labelled?\n"
+                   "  plumb -C mycell check --fix       # and if not, put it right"},
+      [options](const Globals& g, Outcome& o) { check(*options, g, o); });
+  verb.add_flag("--fix", options->fix,
+                "Write the reading that fits: cell.toml in place, measurements as NAME_fixed.csv");
+  options->write.add_to(verb);
+}
+
+}  // namespace plumb::offline::cli

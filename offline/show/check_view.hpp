@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cell/cell.hpp"
+#include "check/check.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// `result` of `plumb check`.
+Json check_json(const Cell& cell, const Check& check);
+
+/// Verdict, readings, joints, what cannot be told apart, effects. Findings are shown apart.
+std::string check_text(const Cell& cell, const Check& check);
+
+}  // namespace plumb::offline::show
