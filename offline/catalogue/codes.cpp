@@ -43,6 +43,12 @@ constexpr Explanation kCodes[] = {
      "one pose give the noise only."},
     {"E-CHECK-NOTHING",
      "Not one number of the arm can be told from these poses better than it is known already."},
+    {"E-CHECK-FEW",
+     "The distinct poses give no more coordinates than there are numbers to find. Repeats do not "
+     "count: they tell of the noise only."},
+    {"W-CHECK-FEW",
+     "The distinct poses give hardly more coordinates than there are numbers to find, so that the "
+     "fit can follow the noise."},
     {"W-CHECK-COPY",
      "Readings that agree to the last digit are copies: a tracker never repeats itself like that. "
      "They make the noise look smaller than it is."},
@@ -68,6 +74,10 @@ constexpr Explanation kCodes[] = {
     {"N-CHECK-CONVENTION",
      "There are too few different poses or axes to tell conventions apart, so the labels were "
      "believed."},
+    {"N-CHECK-UNDECIDED",
+     "A reading that differs from the labels in one thing predicts the same points, so that these "
+     "measurements say nothing about it: the direction of a last joint whose axis runs through the "
+     "reflector, say. The label was kept."},
     {"N-CHECK-NOISE",
      "Without repeats and without a stated sigma nothing can be compared with the noise floor."},
     {"E-FIT-CONVERGE",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "check/data_findings.hpp"
 #include "check/data_sense.hpp"
@@ -16,6 +17,9 @@ namespace {
 constexpr double kFits = 0.01;         // of the cloud's size: no sensible arm leaves more
 constexpr double kSmallShare = 0.5;    // of the joint limits: predictions beyond are guesses
 constexpr double kFineRounding = 0.5;  // of the noise: no more than that goes unseen
+constexpr double kEnough = 1.5;        // coordinates for each number
+constexpr std::size_t kMostSentences = 4;
+constexpr double kOneChange = 1.05;  // of the labels
 constexpr int kPlacedRows = 300;
 
 std::vector<int> used_rows(const Measurements& measured) {
@@ -50,8 +54,17 @@ class Checker {
     out_.findings.push_back({severity, code, std::move(message), std::nullopt, std::move(help)});
   }
 
+  /// Problems of cell or data.
   void add(std::vector<Problem> more) {
-    for (auto& problem : more) out_.findings.push_back(std::move(problem));
+    for (auto& problem : more) {
+      if (problem.severity == Severity::kError) blame(Exit::kInput);
+      out_.findings.push_back(std::move(problem));
+    }
+  }
+
+  /// Wrong files weigh more than numbers that say no.
+  void blame(Exit exit) {
+    if (out_.exit != Exit::kInput) out_.exit = exit;
   }
 
   void convention_findings() {
@@ -59,13 +72,21 @@ class Checker {
     if (!d.why_not.empty())
       return find(Severity::kNote, "N-CHECK-CONVENTION",
                   "conventions were not checked: " + d.why_not, "measure more poses");
+    const bool fits = d.best.fitted_m <= kFits * d.best.size_m;
+    if (d.changed || !fits) blame(Exit::kInput);
     if (d.changed)
       return find(Severity::kError, "E-CHECK-CONVENTION",
                   fmt::format("{}: that leaves {:.3g} mm, as labelled it is {:.4g} mm",
                               fmt::join(out_.changes, "; "), d.best.fitted_m * 1e3,
                               d.present.fitted_m * 1e3),
                   "plumb check --fix");
-    if (d.best.fitted_m > kFits * d.best.size_m)
+    for (const auto& other : d.same)
+      if (other.changes < kOneChange)
+        find(Severity::kNote, "N-CHECK-UNDECIDED",
+             fmt::format("these points cannot tell whether {}",
+                         fmt::join(in_words(cell_, d.present.convention, other.convention), "; ")),
+             "mount the reflector further from the axis, or trust the label");
+    if (!fits)
       find(
           Severity::kError, "E-CHECK-NOFIT",
           fmt::format("no reading of these files fits: as labelled {:.4g} mm are left, and none of "
@@ -102,18 +123,51 @@ class Checker {
       out_.parameters = identifiability(cell, measured, rows);
     } catch (const Failure& failure) {
       out_.why_no_parameters = failure.problems().front().message;
-      add(failure.problems());
+      out_.findings.insert(out_.findings.end(), failure.problems().begin(),
+                           failure.problems().end());
+      blame(failure.exit_code());
       return;
     }
-    for (const auto& s : out_.parameters->separations)
-      if (s.cause == Separation::Cause::kPoses)
-        find(Severity::kWarning, "W-CHECK-SEPARATE", s.text, "plumb explain W-CHECK-SEPARATE");
+    separation_findings();
+    poses_enough(measured);
     const auto& estimates = out_.parameters->calibration.estimates;
     const bool any =
         std::any_of(estimates.begin(), estimates.end(), [](const auto& e) { return e.of_robot; });
-    if (!any && !cell.effects.empty() && cell.effects.front().name == "geometry")
-      find(Severity::kError, "E-CHECK-NOTHING", "these poses tell nothing about the arm",
-           "measure at least 30 poses all over the joint limits");
+    if (any || cell.effects.empty() || cell.effects.front().name != "geometry") return;
+    find(Severity::kError, "E-CHECK-NOTHING", "these poses tell nothing about the arm",
+         "measure at least 30 poses all over the joint limits");
+    blame(Exit::kNumbersSayNo);
+  }
+
+  void separation_findings() {
+    std::vector<std::string> names, texts;
+    for (const auto& s : out_.parameters->separations)
+      if (s.cause == Separation::Cause::kPoses) {
+        names.push_back(s.parameter);
+        texts.push_back(s.text);
+      }
+    if (names.size() > kMostSentences)
+      texts = {fmt::format("these poses tell too little of {}", fmt::join(names, ", "))};
+    for (auto& text : texts)
+      find(Severity::kWarning, "W-CHECK-SEPARATE", std::move(text),
+           "plumb explain W-CHECK-SEPARATE");
+  }
+
+  /// Each distinct pose gives its measured axes once; repeats give noise only.
+  void poses_enough(const Measurements& measured) {
+    int axes = measured.has_orientation() && cell_.measurement.sigma_rad ? 3 : 0;
+    for (const bool has : measured.has_axis) axes += has ? 1 : 0;
+    const std::set<int> groups(measured.replicate_group.begin(), measured.replicate_group.end());
+    const int coordinates = axes * static_cast<int>(groups.size());
+    const int needed = out_.parameters->rank_anywhere;
+    if (coordinates > kEnough * needed) return;
+    const bool too_few = coordinates <= needed;
+    find(too_few ? Severity::kError : Severity::kWarning, too_few ? "E-CHECK-FEW" : "W-CHECK-FEW",
+         fmt::format("{} poses give {} coordinates for {} numbers of arm, frame and target",
+                     groups.size(), coordinates, needed),
+         fmt::format("measure at least {} poses all over the joint limits",
+                     std::max(30, 2 * needed / std::max(1, axes))));
+    if (too_few) blame(Exit::kNumbersSayNo);
   }
 
   void coverage_findings() {
@@ -143,12 +197,6 @@ class Checker {
   void conclude() {
     std::stable_sort(out_.findings.begin(), out_.findings.end(),
                      [](const Problem& a, const Problem& b) { return a.severity < b.severity; });
-    for (const auto& problem : out_.findings) {
-      if (problem.severity != Severity::kError) continue;
-      const bool numbers = problem.code.starts_with("E-FIT") || problem.code == "E-CHECK-NOTHING";
-      if (!numbers) out_.exit = Exit::kInput;
-      if (numbers && out_.exit == Exit::kDone) out_.exit = Exit::kNumbersSayNo;
-    }
   }
 
   const Cell& cell_;

@@ -79,7 +79,8 @@ CellEdit text_edit(const Convention& present, const Convention& meant) {
 Cell reread(const Cell& cell, const CellEdit& edit) {
   if (edit.empty()) return cell;
   const std::string text = cell.text.empty() ? write_cell(cell) : cell.text;
-  Cell out = parse_cell(edited(text, cell.file.string(), edit), cell.file);
+  const auto file = cell.file.empty() ? std::filesystem::path("cell.toml") : cell.file;
+  Cell out = parse_cell(edited(text, file.string(), edit), file);
   out.measurement.files = cell.measurement.files;
   return out;
 }

@@ -13,18 +13,17 @@ const char* name_of(format::Convention dh) {
 const char* words_of(Mirror mirror) {
   switch (mirror) {
     case Mirror::kNegateX:
-      return "the measured coordinates are left-handed: x has the wrong sign";
+      return "the measured points are left-handed, x has the wrong sign";
     case Mirror::kNegateY:
-      return "the measured coordinates are left-handed: one axis has the wrong sign, or two are "
-             "swapped";
+      return "the measured points are left-handed (one axis negated, or two swapped)";
     case Mirror::kNegateZ:
-      return "the measured coordinates are left-handed: z has the wrong sign";
+      return "the measured points are left-handed, z has the wrong sign";
     case Mirror::kSwapXY:
-      return "the measured coordinates are left-handed: x and y are swapped";
+      return "the measured points are left-handed, x and y are swapped";
     case Mirror::kSwapYZ:
-      return "the measured coordinates are left-handed: y and z are swapped";
+      return "the measured points are left-handed, y and z are swapped";
     case Mirror::kSwapXZ:
-      return "the measured coordinates are left-handed: x and z are swapped";
+      return "the measured points are left-handed, x and z are swapped";
     default:
       return "";
   }
@@ -33,6 +32,16 @@ const char* words_of(Mirror mirror) {
 void unit_words(std::vector<std::string>& out, const char* what, const std::string& now,
                 const std::string& meant) {
   if (now != meant) out.push_back(fmt::format("{} are in {}, not {}", what, meant, now));
+}
+
+void reversed_words(std::vector<std::string>& out, const Cell& cell,
+                    const std::vector<bool>& reversed) {
+  std::vector<std::string> names;
+  for (int j = 0; j < cell.joints(); ++j)
+    if (reversed[j]) names.push_back(cell.nominal.joints[j].name);
+  if (!names.empty())
+    out.push_back(fmt::format("{} {} the other way", fmt::join(names, ", "),
+                              names.size() == 1 ? "counts" : "count"));
 }
 
 }  // namespace
@@ -48,9 +57,9 @@ std::vector<std::string> in_words(const Cell& cell, const Convention& present,
   unit_words(out, "the joint angles of the measurements", present.turn_unit, meant.turn_unit);
   unit_words(out, "the sliding joints of the measurements", present.slide_unit, meant.slide_unit);
   unit_words(out, "the measured points", present.point_unit, meant.point_unit);
+  reversed_words(out, cell, meant.reversed);
   for (int j = 0; j < cell.joints(); ++j) {
     const auto& name = cell.nominal.joints[j].name;
-    if (meant.reversed[j]) out.push_back(fmt::format("{} counts the other way", name));
     if (meant.quarter_turns[j] != 0)
       out.push_back(
           fmt::format("the zero of {} is turned by {:+} deg", name, 90 * meant.quarter_turns[j]));

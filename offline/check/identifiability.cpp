@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "check/imagined_poses.hpp"
 #include "check/spectrum.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/weights.hpp"
@@ -61,6 +62,7 @@ IdentifiabilityReport identifiability(const Cell& cell, const Measurements& meas
   const ArmState& state = out.calibration.state;
   out.candidates = static_cast<int>(candidates.size());
   out.rank = spectrum(evaluate(data, state, candidates).jacobian).rank;
+  out.rank_anywhere = spectrum(at_imagined_poses(cell, data, state, candidates)).rank;
   out.scaled_condition = spectrum(evaluate(data, state, kept).jacobian).condition;
   out.observability = typical_observability(data, state, kept);
   out.separations = separations(cell, data, state, kept, held, out.calibration.covariance);

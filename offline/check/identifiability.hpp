@@ -18,6 +18,7 @@ struct IdentifiabilityReport {
   Calibration calibration;
   int candidates = 0;
   int rank = 0;                   // by singular values, frame and target included
+  int rank_anywhere = 0;          // that poses all over the joint limits would give
   double scaled_condition = 0.0;  // of the parameters that are fitted, columns of unit length
   Observability observability;    // of these, in mm per 0.5 mm or 0.5 mrad
   std::vector<Separation> separations;

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "check/arm_shape.hpp"
+#include "check/imagined_poses.hpp"
 #include "fit/parameter_subset.hpp"
-#include "fit/random.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -22,7 +22,7 @@ constexpr double kOnTheAxis_m = 5e-3;   // a reflector nearer to the last axis h
 constexpr double kWide = M_PI / 3.0;    // a joint that uses more, and that share of its limits,
 constexpr double kWideShare = 0.4;      // is not what is missing
 constexpr std::size_t kMostPairs = 12;
-constexpr int kImaginedPoses = 120;
+constexpr std::size_t kMostPartners = 6;
 constexpr double kDegree = M_PI / 180.0;
 
 /// How a column is made of others: which ones, and what is left.
@@ -94,7 +94,8 @@ class Explainer {
   void explain_held(const std::vector<Parameter>& held) {
     const Eigen::MatrixXd K = evaluate(data_, state_, kept_).jacobian;
     const Eigen::MatrixXd H = evaluate(data_, state_, held).jacobian;
-    const auto [K_anywhere, H_anywhere] = at_imagined_poses(held);
+    const Eigen::MatrixXd K_anywhere = at_imagined_poses(cell_, data_, state_, kept_);
+    const Eigen::MatrixXd H_anywhere = at_imagined_poses(cell_, data_, state_, held);
     for (std::size_t i = 0; i < held.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const Mixture here = mixture(K, H.col(column));
@@ -102,27 +103,6 @@ class Explainer {
       const bool anywhere = mixture(K_anywhere, H_anywhere.col(column)).left > kIndependent;
       out_.push_back(sentence(held[i], here, seen, anywhere));
     }
-  }
-
-  /// The same derivatives at poses all over the joint limits: what not even those separate is a
-  /// matter of the arm.
-  std::pair<Eigen::MatrixXd, Eigen::MatrixXd> at_imagined_poses(
-      const std::vector<Parameter>& held) const {
-    Measurements imagined;
-    imagined.q.resize(kImaginedPoses, cell_.joints());
-    Random random(1);
-    for (Eigen::Index i = 0; i < imagined.q.rows(); ++i)
-      for (int j = 0; j < cell_.joints(); ++j) {
-        const auto& row = cell_.nominal.joints[j];
-        imagined.q(i, j) = row.q_min + random.unit() * (row.q_max - row.q_min);
-      }
-    imagined.p_M = Rows3::Zero(kImaginedPoses, 3);
-    imagined.has_axis = data_.measured->has_axis;
-    FitData data;
-    data.measured = &imagined;
-    for (int i = 0; i < kImaginedPoses; ++i) data.rows.push_back(i);
-    data.sigma_m = Rows3::Ones(kImaginedPoses, 3);
-    return {evaluate(data, state_, kept_).jacobian, evaluate(data, state_, held).jacobian};
   }
 
   Separation sentence(const Parameter& p, const Mixture& here, bool seen, bool anywhere) const {
@@ -152,7 +132,9 @@ class Explainer {
           cannot + (why.empty() ? "no pose of this arm does, and one of them is enough" : why);
     } else {
       out.cause = Cause::kPoses;
-      out.text = cannot + reason(p, here);
+      out.text = here.partners.size() > kMostPartners
+                     ? fmt::format("{} needs more poses than these", p.name)
+                     : cannot + poses_reason(p, here);
     }
     return out;
   }
@@ -192,16 +174,22 @@ class Explainer {
 
   std::string reason(const Parameter& p, const Mixture& here) const {
     const auto [first, last] = span(p, here);
-    for (int j = first; j <= last; ++j)
-      if (shape_.used[j] < kStill)
-        return fmt::format("{} never moves in these poses: move it by > 60 deg", joint(j));
+    if (still_joint(first, last) >= 0) return poses_reason(p, here);
     const std::string arm = arm_reason(p, here);
-    if (!arm.empty()) return arm;
-    if (shape_.flat) return "all points lie in one plane: measure at other heights as well";
-    return poses_reason(first, last);
+    return arm.empty() ? poses_reason(p, here) : arm;
   }
 
-  std::string poses_reason(int first, int last) const {
+  int still_joint(int first, int last) const {
+    for (int j = first; j <= last; ++j)
+      if (shape_.used[j] < kStill) return j;
+    return -1;
+  }
+
+  std::string poses_reason(const Parameter& p, const Mixture& here) const {
+    const auto [first, last] = span(p, here);
+    if (const int j = still_joint(first, last); j >= 0)
+      return fmt::format("{} never moves in these poses: move it by > 60 deg", joint(j));
+    if (shape_.flat) return "all points lie in one plane: measure at other heights as well";
     int least = first;
     for (int j = first; j <= last; ++j)
       if (shape_.used[j] / shape_.limits[j] < shape_.used[least] / shape_.limits[least]) least = j;

@@ -17,7 +17,10 @@ constexpr double kEnough = 1e-4;           // relative fall of the cost at which
 constexpr double kNearNominal_m = 5e-3;    // 1 sigma of a real arm's lengths
 constexpr double kNearNominal_rad = 1e-2;  // and angles, joint zeros included
 constexpr double kSigma_m = 50e-6;         // weight of a coordinate against the two above
-constexpr double kTooFar = 5.0;            // sigma: an arm that far from nominal is another arm
+constexpr double kOutlier = 6.0;           // medians: a row that far off is no part of the arm
+constexpr double kMostOutliers = 0.05;     // of the rows
+constexpr int kRounds = 2;
+constexpr double kTooFar = 5.0;  // sigma: an arm that far from nominal is another arm
 
 FitData unweighted(const Measurements& measured, const std::vector<int>& rows) {
   FitData data;
@@ -100,8 +103,8 @@ class PulledFit {
   Eigen::VectorXd weight_;
 };
 
-SoftFit solved(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
-               const ArmState& start, bool with_arm) {
+SoftFit solved_once(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                    const ArmState& start, bool with_arm) {
   const FitData data = unweighted(measured, rows);
   const auto parameters = parameters_of(cell, with_arm);
   ArmState nominal;
@@ -114,6 +117,34 @@ SoftFit solved(const Cell& cell, const Measurements& measured, const std::vector
   if (with_arm && problem.strain(out.state) > kTooFar) out.state = start;
   const double squares = evaluate(data, out.state, {}).residual.squaredNorm();
   out.rms_m = std::sqrt(squares / static_cast<double>(rows.size()));
+  return out;
+}
+
+/// The rows but for the few that stand out by far.
+std::vector<int> without_outliers(const Measurements& measured, const std::vector<int>& rows,
+                                  const ArmState& state) {
+  const Measurements some = pick(measured, rows);
+  const Eigen::VectorXd left = residuals(some, predict_points(state, some.q)).rowwise().norm();
+  std::vector<double> sorted(left.data(), left.data() + left.size());
+  std::sort(sorted.begin(), sorted.end());
+  const auto n = sorted.size();
+  const auto spared = static_cast<std::size_t>(kMostOutliers * static_cast<double>(n));
+  const double limit = std::max(kOutlier * sorted[n / 2], sorted[n - 1 - spared]);
+  std::vector<int> out;
+  for (std::size_t i = 0; i < n; ++i)
+    if (left(static_cast<Eigen::Index>(i)) <= limit) out.push_back(rows[i]);
+  return out;
+}
+
+SoftFit solved(const Cell& cell, const Measurements& measured, std::vector<int> rows,
+               const ArmState& start, bool with_arm) {
+  SoftFit out = solved_once(cell, measured, rows, start, with_arm);
+  for (int round = 0; round < kRounds; ++round) {
+    const auto fewer = without_outliers(measured, rows, out.state);
+    if (fewer.size() == rows.size()) break;
+    rows = fewer;
+    out = solved_once(cell, measured, rows, out.state, with_arm);
+  }
   return out;
 }
 

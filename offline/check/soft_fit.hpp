@@ -12,10 +12,11 @@ namespace plumb::offline {
 
 struct SoftFit {
   ArmState state;
-  double rms_m = 0.0;  // 3-D, over the given rows
+  double rms_m = 0.0;  // 3-D, over the rows but for gross outliers
 };
 
-/// Frame and target from `start`, the arm as it is. Levenberg-Marquardt, at most 15 steps.
+/// Frame and target from `start`, the arm as it is. Levenberg-Marquardt, at most 15 steps;
+/// rows off by 6 medians, at most 5 % a round, are left out.
 SoftFit soft_place(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                    const ArmState& start);
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/solver.hpp"
+
+namespace plumb::offline {
+
+/// Derivatives by `parameters` of the measured axes at 120 random poses all over the joint limits,
+/// unweighted: what not even these tell apart is a matter of the arm, not of the poses.
+Eigen::MatrixXd at_imagined_poses(const Cell& cell, const FitData& data, const ArmState& state,
+                                  const std::vector<Parameter>& parameters);
+
+}  // namespace plumb::offline
