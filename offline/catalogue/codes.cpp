@@ -52,6 +52,11 @@ constexpr Explanation kCodes[] = {
     {"W-CHECK-COPY",
      "Readings that agree to the last digit are copies: a tracker never repeats itself like that. "
      "They make the noise look smaller than it is."},
+    {"W-CHECK-OUTLIER",
+     "Readings lie farther from where all others put them than noise or an unknown effect "
+     "explains: "
+     "a wrong row, a broken beam, a reflector that slipped. The fit leaves them out and lists "
+     "them."},
     {"W-CHECK-STILL",
      "A joint that never moves shows nothing of itself, and what is behind it looks like one "
      "link."},

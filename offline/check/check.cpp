@@ -128,6 +128,8 @@ class Checker {
       blame(failure.exit_code());
       return;
     }
+    add(outlier_findings(measured, out_.parameters->calibration.outliers));
+    add(out_.parameters->calibration.remarks);
     separation_findings();
     poses_enough(measured);
     const auto& estimates = out_.parameters->calibration.estimates;

@@ -136,6 +136,21 @@ std::vector<Problem> copy_findings(const Measurements& measured) {
   return out;
 }
 
+std::vector<Problem> outlier_findings(const Measurements& measured,
+                                      const std::vector<Outlier>& outliers) {
+  if (outliers.empty()) return {};
+  std::vector<int> rows;
+  for (const auto& outlier : outliers) rows.push_back(outlier.row);
+  const Outlier& first = outliers.front();
+  return {{Severity::kWarning, "W-CHECK-OUTLIER",
+           fmt::format("{} {} by the others, {}: the farthest by {:.3g} mm, {:.0f} times the usual",
+                       rows.size(),
+                       rows.size() == 1 ? "reading is contradicted" : "readings are contradicted",
+                       lines_of(measured, rows), first.error_m * 1e3, first.times),
+           cell_of(measured, first.row, measured.has_axis[0] ? "x" : "y", "does not belong"),
+           "measure these poses again, or mark the rows with set = ignore"}};
+}
+
 std::vector<Problem> constant_findings(const Cell& cell, const Measurements& measured) {
   std::vector<Problem> out;
   for (int j = 0; j < cell.joints(); ++j) {

@@ -5,6 +5,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "fit/outliers.hpp"
 
 namespace plumb::offline {
 
@@ -22,6 +23,10 @@ std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measur
 /// Rows with the very digits of another row's point (W-CHECK-COPY): a true repeat has its own
 /// reading. And poses that are all equal (E-CHECK-EQUAL).
 std::vector<Problem> copy_findings(const Measurements& measured);
+
+/// Readings that the others contradict (W-CHECK-OUTLIER), farthest first, with their lines.
+std::vector<Problem> outlier_findings(const Measurements& measured,
+                                      const std::vector<Outlier>& outliers);
 
 /// Context columns that hold one value only (N-CHECK-CONSTANT), and joints that never move.
 std::vector<Problem> constant_findings(const Cell& cell, const Measurements& measured);

@@ -118,6 +118,23 @@ TEST(Check, ACopiedPointIsSuspicious) {
   EXPECT_EQ(check.exit, Exit::kDone);
 }
 
+TEST(Check, AGrossOutlierIsNamedWithItsLineAndSpoilsNothingElse) {
+  Files files = files_of(1, {});
+  auto lines = lines_of(files.csv);
+  const auto row = lines.size() - 7;
+  const auto at = lines[row].rfind(',', lines[row].rfind(',') - 1);  // z, then t_s
+  const auto end = lines[row].find(',', at + 1);
+  const double z = std::stod(lines[row].substr(at + 1, end - at - 1));
+  lines[row].replace(at + 1, end - at - 1, std::to_string(z + 25.0));
+  files.csv = joined(lines);
+  const Check check = checked(files);
+  const Problem* problem = found(check, "W-CHECK-OUTLIER");
+  ASSERT_NE(problem, nullptr);
+  EXPECT_EQ(problem->place->line, static_cast<int>(row) + 1) << problem->message;
+  EXPECT_EQ(check.exit, Exit::kDone);
+  EXPECT_LT(check.detection.best.fitted_m, 0.1e-3);
+}
+
 TEST(Check, EqualPosesAreAnErrorOfTheData) {
   RowsN q = RowsN::Constant(40, 6, 0.2);
   const Check check = checked(files_of(1, {.q = q}));
