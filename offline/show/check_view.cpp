@@ -20,8 +20,8 @@ std::string residual(double metres, double size) {
 std::string readings_text(const Cell& cell, const Detection& d) {
   if (!d.why_not.empty()) return "  conventions not checked: " + d.why_not + "\n";
   const Convention& labels = d.present.convention;
-  TextTable table({"reading: what is left [mm]", "placed", "fitted", ""});
-  table.left_from(3);
+  TextTable table({"placed [mm]", "fitted [mm]", "how the files are read"});
+  table.left_from(2);
   std::vector<Reading> rows = d.table;
   const auto is_best = [&](const Reading& r) { return r.convention == d.best.convention; };
   std::stable_partition(rows.begin(), rows.end(), is_best);
@@ -30,9 +30,10 @@ std::string readings_text(const Cell& cell, const Detection& d) {
   if (std::none_of(rows.begin(), rows.end(), labelled)) rows.push_back(d.present);
   for (const auto& r : rows) {
     const auto words = in_words(cell, labels, r.convention);
-    std::string name = words.empty() ? "as labelled" : fmt::format("{}", fmt::join(words, "; "));
-    table.add({std::move(name), residual(r.placed_m, r.size_m), residual(r.fitted_m, r.size_m),
-               is_best(r) ? "<- best" : ""});
+    const std::string name =
+        words.empty() ? "as labelled" : fmt::format("{}", fmt::join(words, "; "));
+    table.add({residual(r.placed_m, r.size_m), residual(r.fitted_m, r.size_m),
+               (is_best(r) ? "best: " : "") + name});
   }
   return table.text() + fmt::format("  {} readings tried\n", d.tried);
 }

@@ -58,7 +58,7 @@ struct Timed {
 // A reading is right if the repaired files predict the points as well as the files before the
 // scrambling did: what predicts the same points cannot be told apart by points.
 TEST(Detective, NamesTheRightReadingOfScrambledFiles) {
-  const long count = tests::scaled(100);
+  const long count = tests::scaled(60);
   const std::uint64_t seed = 20;
   std::printf("%ld scrambled cells, seed %d\n", count, static_cast<int>(seed));
   tests::Random random(seed);
@@ -88,7 +88,7 @@ TEST(Detective, NamesTheRightReadingOfScrambledFiles) {
 }
 
 TEST(Detective, ChangesNothingInSoundFiles) {
-  const long count = tests::scaled(100);
+  const long count = tests::scaled(60);
   const std::uint64_t seed = 21;
   std::printf("%ld sound cells, seed %d\n", count, static_cast<int>(seed));
   tests::Random random(seed);
@@ -120,7 +120,7 @@ Files six_joints(std::uint64_t seed) {
 TEST(Detective, FindsZerosTurnedByQuarterTurns) {
   const scrambled::Folder folder;
   Timed timed;
-  const long count = tests::scaled(20);
+  const long count = tests::scaled(10);
   for (long seed = 1; seed <= count; ++seed) {
     const Files sound = six_joints(static_cast<std::uint64_t>(seed));
     Case c = opened(sound, folder.path());
