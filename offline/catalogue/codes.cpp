@@ -85,6 +85,45 @@ constexpr Explanation kCodes[] = {
      "reflector, say. The label was kept."},
     {"N-CHECK-NOISE",
      "Without repeats and without a stated sigma nothing can be compared with the noise floor."},
+    {"E-IMPORT-BINARY",
+     "import reads text. Export the measurements as text (CSV) from the program they come from."},
+    {"E-IMPORT-EMPTY", "There is nothing in the file."},
+    {"E-IMPORT-HEADER",
+     "No line names the columns. Name them yourself: --header \"pose,q1_deg,...,x_mm,y_mm,z_mm\"."},
+    {"E-IMPORT-RAGGED",
+     "A row has more or fewer cells than the header. Often the last line was cut off while "
+     "copying, "
+     "or the separator was not recognised: --separator."},
+    {"E-IMPORT-ROWS", "The file has a header, and nothing below it."},
+    {"E-IMPORT-DECIMAL",
+     "Every comma of the file has three digits behind it: it may divide thousands or decimals. Say "
+     "which with --decimal."},
+    {"E-IMPORT-NUMBER", "A column of numbers holds something else. NaN and infinity are none."},
+    {"E-IMPORT-UNIT",
+     "A recognised column does not say its unit. Name it: --map \"X=x_mm\". A wrong unit is the "
+     "commonest cause of a wrong calibration, so none is assumed."},
+    {"E-IMPORT-MAP", "--map names a column that the file has not, or a new name without a unit."},
+    {"E-IMPORT-TWICE", "Two columns would become the same one. Leave one out with --map OLD=-."},
+    {"E-IMPORT-ROT",
+     "The order of three turns: xyz-fixed is R = Rz Ry Rx, xyz-moving is R = Rx Ry Rz, and so on "
+     "for every order of axes."},
+    {"E-IMPORT-JOIN", "The two files cannot be laid side by side in the way asked for."},
+    {"N-IMPORT-ENCODING", "The file was not UTF-8 and was converted."},
+    {"N-IMPORT-PREAMBLE",
+     "Lines above the header that are neither comments nor data were skipped."},
+    {"N-IMPORT-MIDNIGHT", "A clock without a date jumped back: a day was added from there on."},
+    {"N-IMPORT-ROT",
+     "Three angles say nothing without the order of the turns. State it with --rot, or they are "
+     "left out."},
+    {"N-IMPORT-LEFT",
+     "These columns mean nothing to plumb. --map keeps them under a name of yours."},
+    {"W-IMPORT-TIME",
+     "A spreadsheet has rewritten the time stamps so that they cannot be recovered. Export again "
+     "and do not open the file in between."},
+    {"W-IMPORT-SHIFT",
+     "Joined by order, the files fit the arm only if one is shifted: a row is missing or too "
+     "many."},
+    {"W-IMPORT-PARTNERS", "Rows that have no partner in the other file were dropped."},
     {"E-FIT-CONVERGE",
      "The calibration did not settle. Most often a unit, the sign or zero of a joint, or the DH "
      "convention is wrong, so that no small change of the arm explains the measurements."},
@@ -128,10 +167,12 @@ constexpr Explanation kCodes[] = {
     {"E-MODEL-CHECKSUM", "The bytes of the file changed since it was written."},
     {"E-MODEL-NEWER", "The file was written by a newer plumb with a schema this one cannot read."},
     {"E-MODEL-EFFECT",
-     "The file lists a physical effect that this program cannot evaluate: a law it does not know, a "
+     "The file lists a physical effect that this program cannot evaluate: a law it does not know, "
+     "a "
      "newer version of one, or numbers of another count."},
     {"E-EFFECT-DATA",
-     "A listed effect needs something that these measurements do not hold: the direction from which "
+     "A listed effect needs something that these measurements do not hold: the direction from "
+     "which "
      "joints came, a temperature, the row after which something moved."},
     {"E-MODEL-MALFORMED", "The structure of the file is broken."},
     {"E-MODEL-INCONSISTENT",

@@ -8,6 +8,7 @@ namespace plumb::offline::cli {
 
 void add_demo(Program& program);
 void add_new(Program& program);
+void add_import(Program& program);
 void add_check(Program& program);
 void add_fit(Program& program);
 void add_compare(Program& program);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cell/problem.hpp"
+
+namespace plumb::offline {
+
+/// One column on its way into measurements.csv: numbers keep the digits they came with.
+struct ImportedColumn {
+  std::string from;  // what it was called; "" if derived
+  std::string name;  // canonical, without unit
+  std::string unit;
+  std::vector<std::string> text;  // decimal point; as it will be written
+
+  std::string heading() const { return unit.empty() ? name : name + "_" + unit; }
+};
+
+/// A foreign file as plumb understood it.
+struct Imported {
+  std::string file;
+  std::string sha256;
+  std::string separator, decimal;  // in words
+  std::vector<ImportedColumn> columns;
+  std::vector<std::string> left_out;
+  std::vector<int> lines;  // of the rows
+  std::vector<std::pair<std::string, std::string>> comments;
+  std::vector<Problem> remarks;
+
+  int rows() const { return static_cast<int>(lines.size()); }
+  const ImportedColumn* find(const std::string& name) const {
+    for (const auto& column : columns)
+      if (column.name == name) return &column;
+    return nullptr;
+  }
+};
+
+}  // namespace plumb::offline

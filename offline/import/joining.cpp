@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/joining.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "cell/units.hpp"
+#include "fit/calibrate.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+constexpr int kMostShift = 5;
+constexpr double kClearlyBetter = 0.2;  // times the residual
+constexpr int kFewPairs = 8;
+
+[[noreturn]] void refuse(const Imported& file, std::string message, std::string help) {
+  throw Failure(Exit::kInput, {.code = "E-IMPORT-JOIN",
+                               .message = std::move(message),
+                               .place = Place{.file = file.file, .line = 1},
+                               .help = std::move(help)});
+}
+
+std::vector<double> si_values(const ImportedColumn& column) {
+  const auto unit = unit_of(column.unit);
+  std::vector<double> out;
+  for (const auto& text : column.text) {
+    double value = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    out.push_back(unit ? unit->to_si(value) : value);
+  }
+  return out;
+}
+
+Pairs pairs_by_pose(const Imported& a, const Imported& b) {
+  const ImportedColumn *in_a = a.find("pose"), *in_b = b.find("pose");
+  for (const auto* file : {in_a == nullptr ? &a : nullptr, in_b == nullptr ? &b : nullptr})
+    if (file != nullptr)
+      refuse(*file, "no column names the poses", "--join order, or: --map \"Point=pose\"");
+  std::map<std::string, std::vector<int>> rows;
+  for (int i = 0; i < b.rows(); ++i) rows[in_b->text[i]].push_back(i);
+  std::map<std::string, std::size_t> used;
+  Pairs out;
+  for (int i = 0; i < a.rows(); ++i) {
+    const auto& name = in_a->text[i];
+    const auto at = rows.find(name);
+    if (at == rows.end()) continue;
+    // Poses measured several times: one row of joints may stand for all of them.
+    if (std::count(in_a->text.begin(), in_a->text.end(), name) == 1)
+      for (int k : at->second) out.emplace_back(i, k);
+    else if (used[name] < at->second.size())
+      out.emplace_back(i, at->second[used[name]++]);
+  }
+  return out;
+}
+
+Pairs pairs_by_time(const Imported& a, const Imported& b, double max_gap_s) {
+  const ImportedColumn *in_a = a.find("t"), *in_b = b.find("t");
+  if (in_a == nullptr || in_b == nullptr)
+    refuse(in_a == nullptr ? a : b, "no column tells the time", "--map \"Clock=t_s\"");
+  const auto t_a = si_values(*in_a), t_b = si_values(*in_b);
+  Pairs out;
+  for (int k = 0; k < b.rows(); ++k) {
+    int best = -1;
+    for (int i = 0; i < a.rows(); ++i)
+      if (best < 0 || std::abs(t_a[i] - t_b[k]) < std::abs(t_a[best] - t_b[k])) best = i;
+    if (best >= 0 && std::abs(t_a[best] - t_b[k]) <= max_gap_s) out.emplace_back(best, k);
+  }
+  return out;
+}
+
+Pairs shifted(const Imported& a, const Imported& b, int shift) {
+  Pairs out;
+  for (int i = 0; i < a.rows(); ++i)
+    if (i + shift >= 0 && i + shift < b.rows()) out.emplace_back(i, i + shift);
+  return out;
+}
+
+const ImportedColumn* either(const Imported& a, const Imported& b, const std::string& name,
+                             bool& in_first) {
+  const ImportedColumn* found = a.find(name);
+  in_first = found != nullptr;
+  return found != nullptr ? found : b.find(name);
+}
+
+/// RMS distance [m] once frame and target are placed; nothing if the files lack joints or points.
+std::optional<double> residual(const Imported& a, const Imported& b, const Pairs& pairs,
+                               const Cell& cell) {
+  Measurements m;
+  const auto n = static_cast<Eigen::Index>(pairs.size());
+  m.q.resize(n, cell.joints());
+  m.p_M = Rows3::Zero(n, 3);
+  const auto fill = [&](const std::string& name, auto set) {
+    bool in_first = false;
+    const ImportedColumn* column = either(a, b, name, in_first);
+    if (column == nullptr) return false;
+    const auto values = si_values(*column);
+    for (Eigen::Index i = 0; i < n; ++i)
+      set(i, values[in_first ? pairs[i].first : pairs[i].second]);
+    return true;
+  };
+  for (int j = 0; j < cell.joints(); ++j)
+    if (!fill("q" + std::to_string(j + 1), [&](Eigen::Index i, double v) { m.q(i, j) = v; }))
+      return std::nullopt;
+  for (int k = 0; k < 3; ++k)
+    m.has_axis[k] =
+        fill(std::string(1, "xyz"[k]), [&](Eigen::Index i, double v) { m.p_M(i, k) = v; });
+  if (!m.has_axis[0] && !m.has_axis[1]) return std::nullopt;
+  m.pose.resize(pairs.size());
+  m.set.assign(pairs.size(), SetMark::kUnmarked);
+  std::vector<int> rows(pairs.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  const ArmState placed = place_nominal(cell, m, rows);
+  return std::sqrt(residuals(m, predict_points(placed, m)).squaredNorm() / static_cast<double>(n));
+}
+
+Pairs pairs_by_order(const Imported& a, const Imported& b, const Cell* cell,
+                     std::vector<Problem>& remarks) {
+  const bool equal = a.rows() == b.rows();
+  if (cell == nullptr) {
+    if (equal) return shifted(a, b, 0);
+    refuse(b, fmt::format("{} rows here, {} in {}", b.rows(), a.rows(), a.file),
+           "--join pose; or make the cell first (plumb new), so that its arm tells the shift");
+  }
+  double best = std::numeric_limits<double>::infinity(), unshifted = best;
+  int shift = 0;
+  for (int s = -kMostShift; s <= kMostShift; ++s) {
+    const Pairs pairs = shifted(a, b, s);
+    if (static_cast<int>(pairs.size()) < kFewPairs) continue;
+    const auto rms = residual(a, b, pairs, *cell);
+    if (!rms) break;
+    if (s == 0) unshifted = *rms;
+    if (*rms < best) best = *rms, shift = s;
+  }
+  if (shift == 0 || (equal && best > kClearlyBetter * unshifted)) return shifted(a, b, 0);
+  remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-IMPORT-SHIFT",
+       .message = fmt::format("{} is shifted by {} row{} against {}: residual {:.2f} mm, {:.2f} mm "
+                              "without the shift",
+                              b.file, shift, std::abs(shift) == 1 ? "" : "s", a.file, best * 1e3,
+                              unshifted * 1e3),
+       .place = Place{.file = b.file, .line = 1},
+       .help = "look for a missing or extra row at the beginning of one of the files"});
+  return shifted(a, b, shift);
+}
+
+}  // namespace
+
+Imported join(const Imported& first, const Imported& second, const JoinWishes& wishes) {
+  Imported out;
+  out.file = first.file;
+  out.separator = first.separator;
+  out.decimal = first.decimal;
+  out.comments = first.comments;
+  out.remarks = first.remarks;
+  out.remarks.insert(out.remarks.end(), second.remarks.begin(), second.remarks.end());
+  out.left_out = first.left_out;
+  out.left_out.insert(out.left_out.end(), second.left_out.begin(), second.left_out.end());
+  Pairs pairs;
+  switch (wishes.by) {
+    case JoinBy::kPose:
+      pairs = pairs_by_pose(first, second);
+      break;
+    case JoinBy::kTime:
+      pairs = pairs_by_time(first, second, wishes.max_gap_s);
+      break;
+    default:
+      pairs = pairs_by_order(first, second, wishes.cell, out.remarks);
+  }
+  if (pairs.empty())
+    refuse(second, fmt::format("no row belongs to a row of {}", first.file),
+           "--join pose, --join time --max-gap 5, or --join order");
+  for (const auto& [i, k] : pairs) out.lines.push_back(first.lines[i]);
+  for (const auto& column : first.columns) {
+    ImportedColumn copy{column.from, column.name, column.unit, {}};
+    for (const auto& [i, k] : pairs) copy.text.push_back(column.text[i]);
+    out.columns.push_back(std::move(copy));
+  }
+  for (const auto& column : second.columns) {
+    if (first.find(column.name) != nullptr) continue;
+    ImportedColumn copy{column.from, column.name, column.unit, {}};
+    for (const auto& [i, k] : pairs) copy.text.push_back(column.text[k]);
+    out.columns.push_back(std::move(copy));
+  }
+  const auto lost = static_cast<std::size_t>(std::max(first.rows(), second.rows())) - pairs.size();
+  if (lost > 0)
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-IMPORT-PARTNERS",
+         .message = fmt::format("{} rows have no partner in the other file and were dropped", lost),
+         .place = Place{.file = second.file, .line = 1},
+         .help = "compare the two files; --max-gap widens what counts as the same time"});
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cell/problem.hpp"
+
+namespace plumb::offline {
+
+/// A foreign text file as UTF-8 lines, without line ends.
+struct SourceText {
+  std::string file;
+  std::string sha256;
+  std::string bytes;                    // UTF-8; the lines point into it
+  std::vector<std::string_view> lines;  // line n is lines[n - 1]
+  std::vector<Problem> remarks;         // the encoding, if it was not UTF-8
+
+  SourceText() = default;
+  SourceText(const SourceText&) = delete;
+  SourceText& operator=(const SourceText&) = delete;
+};
+
+/// Turns UTF-16 (with its mark) and Latin-1 into UTF-8 and says so. Throws Failure (kInput):
+/// E-IMPORT-EMPTY, E-IMPORT-BINARY.
+void decode(std::string bytes, const std::string& file, SourceText& out);
+
+}  // namespace plumb::offline
