@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "cell/problem.hpp"
+
+namespace plumb::tests {
+
+inline void require(bool holds, const char* law) {
+  if (holds) return;
+  std::fprintf(stderr, "broken: %s\n", law);
+  std::abort();
+}
+
+/// A refusal is of the user's input, and says what and how.
+inline void require_helpful(const offline::Failure& failure) {
+  require(
+      failure.exit_code() == offline::Exit::kInput || failure.exit_code() == offline::Exit::kUsage,
+      "a bad file is exit 3 or 2");
+  require(!failure.problems().empty(), "a refusal has a reason");
+  for (const auto& problem : failure.problems()) {
+    require(!problem.code.empty() && !problem.message.empty(), "a reason has a code and words");
+    (void)offline::render(problem);
+  }
+}
+
+}  // namespace plumb::tests
