@@ -7,8 +7,6 @@ namespace {
 constexpr Explanation kCodes[] = {
     {"E-USAGE", "The command line is not right. plumb VERB --help begins with two examples."},
     {"E-USAGE-VERB", "There is no such verb. plumb --help lists them in the order of work."},
-    {"E-NEW-URDF",
-     "Reading URDF is not part of this version. Write the DH table as CSV and use --dh."},
     {"E-GATE-RMS",
      "The held-out RMS exceeds --max-rms. No run was kept; plumb compare shows where it fails."},
     {"E-GATE",
@@ -85,6 +83,23 @@ constexpr Explanation kCodes[] = {
      "reflector, say. The label was kept."},
     {"N-CHECK-NOISE",
      "Without repeats and without a stated sigma nothing can be compared with the noise floor."},
+    {"E-URDF",
+     "The file is no URDF, or not whole: an element or attribute that every robot needs lacks."},
+    {"E-URDF-TIP",
+     "The arm goes from the file's root to one link. If several links end the tree, name one: "
+     "--tip."},
+    {"E-URDF-JOINT",
+     "plumb calibrates serial arms of 1 to 9 revolute or sliding joints. Mimicking, floating and "
+     "planar "
+     "joints on the way to the tip are not of that kind."},
+    {"N-NEW-CONVENTION",
+     "The same arm can be written in both DH conventions. From a URDF either is computed; choose "
+     "the "
+     "one your controller's documents use."},
+    {"W-EXPORT-LOST",
+     "URDF says where joints and links are, and nothing about elasticity, gear errors or trees. "
+     "The "
+     "model file of plumb compile holds them all."},
     {"E-IMPORT-BINARY",
      "import reads text. Export the measurements as text (CSV) from the program they come from."},
     {"E-IMPORT-EMPTY", "There is nothing in the file."},
@@ -134,6 +149,9 @@ constexpr Explanation kCodes[] = {
      "The calibration settled, but the points are still missed by more than 1 % of the length of "
      "all links. No error of an arm is that large: a unit, the sign or zero of a joint, the DH "
      "convention or the order of the columns is wrong. plumb check tries them."},
+    {"E-FIT-FAR",
+     "The fit meets the points only by bending the nominal arm by more than 100 mm or 10 deg. Then "
+     "cell.toml describes another arm, or the same one in the other DH convention."},
     {"W-FIT-AMBIGUOUS",
      "Two positions of the tracker explain these poses almost equally well, for example one turned "
      "by 180 deg when all points lie in a plane. State the frame, or measure poses that differ."},

@@ -5,9 +5,11 @@
 #include <memory>
 
 #include "cell/cell.hpp"
+#include "cell/file.hpp"
 #include "cli/dh_file.hpp"
 #include "cli/output_files.hpp"
 #include "cli/verbs.hpp"
+#include "urdf/urdf_reader.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -17,15 +19,16 @@ namespace fs = std::filesystem;
 constexpr double kNearParallel = 0.05;  // sine of the angle between neighbouring axes
 
 struct Options {
-  std::string directory, dh, urdf, convention, name, serial;
+  std::string directory, dh, urdf, tip, convention, name, serial;
   WriteOptions write;
 };
 
 void check(const Options& options) {
-  if (!options.urdf.empty())
-    throw Failure(Exit::kUsage, {.code = "E-NEW-URDF",
-                                 .message = "reading URDF is not available in this version",
-                                 .help = "plumb new DIR --dh dh.csv --convention standard"});
+  if (!options.urdf.empty() && !options.dh.empty())
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = "--dh and --urdf both describe the arm",
+                                 .help = "give one of them"});
+  if (!options.urdf.empty()) return;
   if (options.dh.empty())
     throw Failure(Exit::kUsage, {.code = "E-USAGE",
                                  .message = "new needs the DH table of the arm",
@@ -48,17 +51,30 @@ std::vector<JointMechanics> mechanics_of(const format::Chain& chain) {
   return out;
 }
 
+/// DH rows are computed, so the convention is a matter of taste.
+Cell urdf_cell(const Options& options, format::Convention convention, Outcome& outcome) {
+  outcome.inputs.push_back({display_name(options.urdf), sha256(read_file(options.urdf))});
+  if (options.convention.empty())
+    outcome.remarks.push_back({.severity = Severity::kNote,
+                               .code = "N-NEW-CONVENTION",
+                               .message = "the DH rows are written in the standard convention",
+                               .help = "--convention modified for the other one"});
+  return read_urdf(options.urdf, options.tip, convention);
+}
+
 Cell new_cell(const Options& options, const fs::path& folder, Outcome& outcome) {
+  const auto convention = options.convention == "modified" ? format::Convention::kModified
+                                                           : format::Convention::kStandard;
   Cell cell;
+  if (!options.urdf.empty()) cell = urdf_cell(options, convention, outcome);
   cell.directory = folder;
   cell.name = options.name.empty() ? folder.filename().string() : options.name;
   cell.serial = options.serial;
-  cell.robot_name = cell.name;
-  cell.nominal = read_dh(options.dh,
-                         options.convention == "standard" ? format::Convention::kStandard
-                                                          : format::Convention::kModified,
-                         outcome);
-  cell.mechanics = mechanics_of(cell.nominal);
+  if (options.urdf.empty()) {
+    cell.robot_name = cell.name;
+    cell.nominal = read_dh(options.dh, convention, outcome);
+    cell.mechanics = mechanics_of(cell.nominal);
+  }
   cell.measurement.files = {folder / "measurements.csv"};
   cell.effects = {{.name = "geometry", .joints = {}, .options = {}, .place = {}}};
   return cell;
@@ -77,25 +93,29 @@ void make(const Options& options, const Globals&, Outcome& outcome) {
   outcome.text = fmt::format(
       "A cell for an arm of {} joints, {} DH.\n\n  {}\n\nNext: put the measurements into {}, then\n"
       "  plumb -C {} fit\n",
-      cell.joints(), options.convention, wrote(file, options.write),
-      (fs::path(options.directory) / "measurements.csv").string(), options.directory);
+      cell.joints(), options.convention.empty() ? "standard" : options.convention,
+      wrote(file, options.write), (fs::path(options.directory) / "measurements.csv").string(),
+      options.directory);
 }
 
 }  // namespace
 
 void add_new(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
-      {.name = "new",
-       .summary = "Write a commented cell.toml from a DH table",
-       .examples = "  plumb new mycell --dh dh.csv --convention modified\n"
-                   "  plumb new mycell --dh dh.csv --convention standard --name \"Cell 4\""},
-      [options](const Globals& g, Outcome& o) { make(*options, g, o); });
+  CLI::App& verb =
+      program.verb({.name = "new",
+                    .summary = "Write a commented cell.toml from a DH table or a URDF file",
+                    .examples = "  plumb new mycell --dh dh.csv --convention modified\n"
+                                "  plumb new mycell --urdf arm.urdf --tip tool0 --name \"Cell 4\""},
+                   [options](const Globals& g, Outcome& o) { make(*options, g, o); });
   verb.add_option("DIR", options->directory, "Folder of the new cell")->required();
   verb.add_option("--dh", options->dh,
                   "CSV file: joint,alpha_deg,a_mm,d_mm,theta_deg[,q_min_deg,q_max_deg,type]")
       ->type_name("FILE");
-  verb.add_option("--urdf", options->urdf, "Not available in this version")->type_name("FILE");
+  verb.add_option("--urdf", options->urdf, "URDF file: its DH rows are computed")
+      ->type_name("FILE");
+  verb.add_option("--tip", options->tip, "Link of the URDF where the arm ends; else its only tip")
+      ->type_name("LINK");
   verb.add_option("--convention", options->convention, "standard (distal) or modified (Craig)")
       ->check(CLI::IsMember({"standard", "modified"}))
       ->type_name("NAME");

@@ -15,6 +15,7 @@ void add_compare(Program& program);
 void add_runs(Program& program);
 void add_diff(Program& program);
 void add_compile(Program& program);
+void add_export(Program& program);
 void add_inspect(Program& program);
 void add_predict(Program& program);
 void add_correct(Program& program);

@@ -179,8 +179,10 @@ Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
   if (all.size() == 1) return std::move(all.front());
   std::sort(all.begin(), all.end(),
             [](const Coarse& a, const Coarse& b) { return a.scatter() < b.scatter(); });
-  if (all[1].scatter() < kNearlyAsGood * all[0].scatter())
-    remarks.push_back(ambiguous_frame(all[0].solution.state, all[1].solution.state));
+  const auto& [best, other] = std::pair(all[0].solution.state, all[1].solution.state);
+  if (all[1].scatter() < kNearlyAsGood * all[0].scatter() &&
+      turn_between(best, other) > kSameTurn_rad)
+    remarks.push_back(ambiguous_frame(best, other));
   return std::move(all.front());
 }
 
@@ -224,6 +226,7 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   std::vector<Problem> remarks;
   Coarse coarse = coarse_from_any(even, starts, candidates, remarks);
   Calibration out = refined(cell, data, std::move(coarse), candidates);
+  check_same_arm(out.estimates);
   warn_of_far_parameters(out.estimates, remarks);
   out.remarks = std::move(remarks);
   return out;

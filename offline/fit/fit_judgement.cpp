@@ -11,6 +11,20 @@ namespace {
 constexpr double kMissedShare = 0.01;  // of the reach
 constexpr double kFar_m = 20e-3;
 constexpr double kFar_rad = 2.0 * M_PI / 180.0;
+constexpr double kAnotherArm_m = 100e-3;
+constexpr double kAnotherArm_rad = 10.0 * M_PI / 180.0;
+
+bool beyond(const Estimate& e, double limit_m, double limit_rad) {
+  return e.of_robot && e.unit.empty() &&
+         std::abs(e.value - e.nominal) > (e.is_length ? limit_m : limit_rad);
+}
+
+std::string how_far(const Estimate& e) {
+  const double change = e.value - e.nominal;
+  return fmt::format("{} ended {:.2f} {} from nominal", e.name,
+                     e.is_length ? change * 1e3 : change * 180.0 / M_PI,
+                     e.is_length ? "mm" : "deg");
+}
 
 }  // namespace
 
@@ -55,20 +69,24 @@ Problem ambiguous_frame(const ArmState& best, const ArmState& other) {
           .help = "state the frame: [measurement] frame = { xyz, rpy }, or measure other poses"};
 }
 
+void check_same_arm(const std::vector<Estimate>& estimates) {
+  for (const auto& e : estimates)
+    if (beyond(e, kAnotherArm_m, kAnotherArm_rad))
+      throw Failure(Exit::kNumbersSayNo,
+                    {.code = "E-FIT-FAR",
+                     .message = how_far(e) + ": these points are of another arm than cell.toml's",
+                     .help = "find the wrong DH convention, unit or joint sign: plumb check"});
+}
+
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks) {
-  for (const auto& e : estimates) {
-    const double change = e.value - e.nominal;
-    if (!e.of_robot || !e.unit.empty() || std::abs(change) <= (e.is_length ? kFar_m : kFar_rad))
-      continue;
-    remarks.push_back(
-        {.severity = Severity::kWarning,
-         .code = "W-FIT-FAR",
-         .message = fmt::format("{} ended {:.2f} {} from nominal", e.name,
-                                e.is_length ? change * 1e3 : change * 180.0 / M_PI,
-                                e.is_length ? "mm" : "deg"),
-         .help = "compare the nominal value with the data sheet; to hold it: [fit] fixed = [\"" +
-                 e.name + "\"]"});
-  }
+  for (const auto& e : estimates)
+    if (beyond(e, kFar_m, kFar_rad))
+      remarks.push_back(
+          {.severity = Severity::kWarning,
+           .code = "W-FIT-FAR",
+           .message = how_far(e),
+           .help = "compare the nominal value with the data sheet; to hold it: [fit] fixed = [\"" +
+                   e.name + "\"]"});
 }
 
 }  // namespace plumb::offline

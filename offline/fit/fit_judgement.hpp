@@ -24,6 +24,10 @@ void check_meets(const Cell& cell, const FitData& data, const Solution& solution
 /// W-FIT-AMBIGUOUS: frames `best` and `other` fit almost equally well.
 Problem ambiguous_frame(const ArmState& best, const ArmState& other);
 
+/// E-FIT-FAR: a number of the arm more than 100 mm or 10 deg from nominal: the data bent it into
+/// another arm.
+void check_same_arm(const std::vector<Estimate>& estimates);
+
 /// W-FIT-FAR: an arm's number more than 20 mm or 2 deg from nominal is rather a wrong nominal.
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks);
 

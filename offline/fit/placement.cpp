@@ -15,7 +15,6 @@ constexpr int kTurnPoses = 60;              // enough to find one
 constexpr double kSuspiciousStart = 0.003;  // of the reach: the start may be wrong
 constexpr double kPlacingShare = 1e-9;  // frame and target are held only if truly without effect
 constexpr double kNotMuchWorse = 9.0;  // times the cost of the best: an arm's errors may reverse it
-constexpr double kSameTurn_rad = 0.01;
 constexpr std::size_t kMostPlacements = 4;
 
 double rms(const Eigen::VectorXd& v) {
@@ -74,10 +73,6 @@ bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& 
   return rms(solution.residual) * sigma > kSuspiciousStart * reach(nominal.arm.calibrated);
 }
 
-double turn_between(const ArmState& a, const ArmState& b) {
-  return rotation_vector(from_pose(a.X_MB).R.transpose() * from_pose(b.X_MB).R).norm();
-}
-
 /// `more` joins `found` unless the same minimum is there already.
 void join(std::vector<Solution>& found, Solution more) {
   for (auto& one : found)
@@ -104,6 +99,10 @@ std::vector<Solution> turned_placements(const FitData& data, const ArmState& fro
 }
 
 }  // namespace
+
+double turn_between(const ArmState& a, const ArmState& b) {
+  return rotation_vector(from_pose(a.X_MB).R.transpose() * from_pose(b.X_MB).R).norm();
+}
 
 std::vector<Solution> placements(const FitData& data, const ArmState& nominal,
                                  const std::vector<Parameter>& candidates) {

@@ -14,6 +14,10 @@ namespace plumb::offline {
 std::vector<Solution> placements(const FitData& data, const ArmState& nominal,
                                  const std::vector<Parameter>& candidates);
 
+/// Angle between two tracker frames [rad]; below kSameTurn_rad they are one.
+double turn_between(const ArmState& a, const ArmState& b);
+inline constexpr double kSameTurn_rad = 0.01;
+
 /// The best of them, on all of `data`.
 Solution place(const FitData& data, const ArmState& nominal,
                const std::vector<Parameter>& candidates);

@@ -165,23 +165,21 @@ TEST(RobustFit, DeletionDistancesAreThoseOfFitsWithoutThePose) {
   }
 }
 
-TEST(RobustFit, RefusesAnArmOfAnotherConventionOrSaysHowFarItWasBent) {
-  int refused = 0, warned = 0, cells = 0;
+TEST(RobustFit, RefusesAnArmOfAnotherConventionInsteadOfBendingIt) {
+  int refused = 0, cells = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Cell cell = random_cell(seed, 6, format::Convention::kStandard, ArmKind::kRevolute);
     const Simulation s = simulate(cell, plan_of(seed, 100, kNoise_m));
     cell.nominal.convention = format::Convention::kModified;
     ++cells;
     try {
-      const auto remarks = calibrate(cell, s.measured, all_rows(s.measured)).remarks;
-      warned += !remarks.empty();
+      (void)calibrate(cell, s.measured, all_rows(s.measured));
     } catch (const Failure& f) {
       EXPECT_EQ(f.exit_code(), Exit::kNumbersSayNo);
       ++refused;
     }
   }
-  std::printf("%d refused, %d warned of\n", refused, warned);
-  EXPECT_EQ(refused + warned, cells);
+  EXPECT_EQ(refused, cells);
 }
 
 TEST(Prior, HoldsAParameterTheTighterTheSmallerItsSigma) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plumb/format/model.hpp"
+#include "plumb/runtime/transform.hpp"
+
+namespace plumb::offline {
+
+/// A moving joint at its zero position, in the root frame.
+struct JointAxis {
+  std::string name;
+  format::JointType type = format::JointType::kRevolute;
+  Vector3 point = Vector3::Zero();       // on the axis [m]
+  Vector3 direction = Vector3::UnitZ();  // unit length
+  double q_min = 0.0, q_max = 0.0;
+};
+
+struct DhArm {
+  format::Chain chain;  // its forward kinematics are those of the axes, to rounding
+  std::vector<Transformd> behind_joint;  // P_i at zero, root frame: where link masses are expressed
+};
+
+/// DH rows of an arm given by its axes and by the tip at zero. Frames lie on the common normals;
+/// where neighbours are nearer to parallel than 0.01 rad Hayati's beta takes the place of a distant
+/// normal [Hayati 1983]. What DH cannot say at both ends goes to base and tool.
+DhArm to_dh(const std::vector<JointAxis>& axes, const Transformd& X_RT,
+            format::Convention convention);
+
+}  // namespace plumb::offline

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <kdl/chain.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
+
+#include "cell/cell.hpp"
+#include "plumb/runtime/chain.hpp"
+#include "tests/import/temporary_file.hpp"
+#include "tests/random_numbers.hpp"
+#include "urdf/urdf_reader.hpp"
+#include "urdf/urdf_writer.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using tests::Random;
+using tests::scaled;
+
+/// An arm drawn joint by joint; KDL is built from the same numbers, never from our reader.
+struct RandomArm {
+  KDL::Chain kdl;
+  std::string urdf = "<robot name=\"random\">\n  <link name=\"l0\"/>\n";
+  int moving = 0;
+
+  explicit RandomArm(std::uint64_t seed) {
+    Random dice(seed);
+    const int joints = 1 + dice.below(9);
+    for (int i = 0; i < joints + 2; ++i) {
+      // Square angles, parallel and collinear axes are the usual case; so are rounded ones.
+      const auto angle = [&] {
+        const int kind = dice.below(4);
+        if (kind == 0) return 0.0;
+        if (kind == 1) return M_PI_2 * (dice.below(4) - 1);
+        return kind == 2 ? 1.5707963 * (dice.below(3) - 1) : dice.uniform(-3, 3);
+      };
+      const auto length = [&] { return dice.below(3) == 0 ? 0.0 : dice.uniform(-0.5, 0.5); };
+      const double x = length(), y = length(), z = length(), r = angle(), p = angle(), w = angle();
+      const bool fixed = i >= joints || dice.below(6) == 0;
+      const bool slides = dice.below(5) == 0;
+      double axis[3] = {0, 0, dice.below(2) == 0 ? 1.0 : -1.0};
+      if (dice.below(4) == 0)
+        for (double& a : axis) a = dice.uniform(-1, 1);
+      urdf += fmt::format(
+          "  <link name=\"l{}\"><inertial><mass value=\"{}\"/><origin xyz=\"0.1 0 0\"/>"
+          "<inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
+          "izz=\"1\"/></inertial></link>\n"
+          "  <joint name=\"j{}\" type=\"{}\"><origin xyz=\"{} {} {}\" rpy=\"{} {} {}\"/>"
+          "<parent link=\"l{}\"/><child link=\"l{}\"/><axis xyz=\"{} {} {}\"/>"
+          "<limit lower=\"-2\" upper=\"2\" effort=\"1\" velocity=\"1\"/></joint>\n",
+          i + 1, i + 1.5, i + 1,
+          fixed    ? "fixed"
+          : slides ? "prismatic"
+                   : "revolute",
+          x, y, z, r, p, w, i, i + 1, axis[0], axis[1], axis[2]);
+      const KDL::Frame origin(KDL::Rotation::RPY(r, p, w), KDL::Vector(x, y, z));
+      kdl.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), origin));
+      if (fixed) continue;
+      const KDL::Vector direction(axis[0], axis[1], axis[2]);
+      kdl.addSegment(
+          KDL::Segment(KDL::Joint("", KDL::Vector::Zero(), direction,
+                                  slides ? KDL::Joint::TransAxis : KDL::Joint::RotAxis)));
+      ++moving;
+    }
+    urdf += "</robot>\n";
+  }
+};
+
+/// Largest difference of the two forward kinematics over some poses [m], and of rotations.
+double worst_difference(const KDL::Chain& kdl, const format::Chain& ours, Random& dice) {
+  KDL::ChainFkSolverPos_recursive solver(kdl);
+  const Chain chain(ours);
+  const auto n = static_cast<unsigned>(chain.joints());
+  double worst = 0.0;
+  for (int k = 0; k < 5; ++k) {
+    KDL::JntArray q(n);
+    std::vector<double> own;
+    for (unsigned j = 0; j < n; ++j) own.push_back(q(j) = dice.uniform(-2, 2));
+    KDL::Frame there;
+    solver.JntToCart(q, there);
+    const Transformd X = chain.forward<double>(own);
+    for (int i = 0; i < 3; ++i) {
+      worst = std::max(worst, std::abs(X.p(i) - there.p(i)));
+      for (int j = 0; j < 3; ++j) worst = std::max(worst, std::abs(X.R(i, j) - there.M(i, j)));
+    }
+  }
+  return worst;
+}
+
+TEST(Urdf, BecomesDhRowsWithTheSameForwardKinematics) {
+  const long arms = scaled(400);
+  const tests::TemporaryFolder folder;
+  int read = 0;
+  double worst = 0.0;
+  for (long seed = 1; seed <= arms; ++seed) {
+    const RandomArm arm(seed);
+    if (arm.moving == 0) continue;
+    const auto file = folder.put("arm.urdf", arm.urdf);
+    for (const auto convention : {format::Convention::kStandard, format::Convention::kModified}) {
+      const Cell cell = read_urdf(file, "", convention);
+      ASSERT_EQ(cell.joints(), arm.moving);
+      Random dice(seed);
+      const double difference = worst_difference(arm.kdl, cell.nominal, dice);
+      EXPECT_LT(difference, 1e-9) << "seed " << seed << "\n" << arm.urdf;
+      worst = std::max(worst, difference);
+      ++read;
+    }
+  }
+  std::printf("%d arms, worst difference %.1e\n", read, worst);
+}
+
+TEST(Urdf, WrittenAndReadAgainIsTheSameArm) {
+  const tests::TemporaryFolder folder;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const RandomArm arm(seed);
+    if (arm.moving == 0) continue;
+    Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), "", format::Convention::kStandard);
+    Random dice(seed);
+    for (auto& row : cell.nominal.joints) {
+      row.alpha += dice.uniform(-1e-3, 1e-3);
+      row.beta += dice.uniform(-1e-3, 1e-3);
+      row.post.d = {dice.uniform(-1e-3, 1e-3), 0, 1e-4};
+      row.offset = dice.uniform(-1e-3, 1e-3);
+    }
+    const Cell again = read_urdf(folder.put("out.urdf", write_urdf("R&D <arm>", cell.nominal)),
+                                 "tool0", format::Convention::kModified);
+    const Chain a(cell.nominal), b(again.nominal);
+    std::vector<double> q;
+    for (int j = 0; j < cell.joints(); ++j) q.push_back(dice.uniform(-2, 2));
+    EXPECT_LT((a.forward<double>(q).p - b.forward<double>(q).p).norm(), 1e-9);
+  }
+}
+
+TEST(Urdf, ACellWrittenFromItReadsBackToTheSameArm) {
+  const tests::TemporaryFolder folder;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const RandomArm arm(seed);
+    if (arm.moving == 0) continue;
+    Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), "", format::Convention::kModified);
+    cell.measurement.files = {"/cell/measurements.csv"};
+    cell.directory = "/cell";
+    const Cell again = parse_cell(write_cell(cell), "/cell/cell.toml");
+    Random dice(seed);
+    EXPECT_LT(worst_difference(arm.kdl, again.nominal, dice), 1e-9) << write_cell(cell);
+  }
+}
+
+TEST(Urdf, MassesOfFixedChildrenHangOnTheJointAheadOfThem) {
+  const tests::TemporaryFolder folder;
+  const RandomArm arm(7);
+  const Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), "", format::Convention::kStandard);
+  double sum = 0.0;
+  for (const auto& m : cell.mechanics) sum += m.link_mass_kg.value_or(0.0);
+  double expected = 0.0;
+  bool moving = false;
+  for (std::size_t at = 0; (at = arm.urdf.find("<joint", at)) != std::string::npos; ++at) {
+    const auto type = arm.urdf.find("type=\"", at) + 6;
+    moving = moving || arm.urdf.compare(type, 5, "fixed") != 0;
+    const auto mass = arm.urdf.rfind("mass value=\"", at) + 12;
+    if (moving) expected += std::stod(arm.urdf.substr(mass));
+  }
+  EXPECT_NEAR(sum, expected, 1e-9);
+}
+
+std::string refusal(const std::string& urdf, const std::string& tip = "") {
+  const tests::TemporaryFolder folder;
+  try {
+    (void)read_urdf(folder.put("arm.urdf", urdf), tip, format::Convention::kStandard);
+  } catch (const Failure& f) {
+    EXPECT_EQ(f.exit_code(), Exit::kInput);
+    EXPECT_FALSE(f.problems().front().help.empty());
+    return f.problems().front().code;
+  }
+  return "accepted";
+}
+
+TEST(Urdf, WhatIsNoSerialArmIsRefusedByName) {
+  EXPECT_EQ(refusal("<robot"), "E-URDF");
+  EXPECT_EQ(refusal("<robot name=\"a\"><link name=\"l\"/></robot>"), "E-URDF-JOINT");
+  const std::string floating =
+      "<robot name=\"a\"><link name=\"l\"/><link name=\"m\"/><joint name=\"j\" type=\"floating\">"
+      "<parent link=\"l\"/><child link=\"m\"/></joint></robot>";
+  EXPECT_EQ(refusal(floating), "E-URDF-JOINT");
+  const std::string two =
+      "<robot name=\"a\"><link name=\"l\"/><link name=\"m\"/><link name=\"n\"/>"
+      "<joint name=\"j\" type=\"continuous\"><parent link=\"l\"/><child link=\"m\"/></joint>"
+      "<joint name=\"k\" type=\"continuous\"><parent link=\"l\"/><child "
+      "link=\"n\"/></joint></robot>";
+  EXPECT_EQ(refusal(two), "E-URDF-TIP");
+  EXPECT_EQ(refusal(two, "o"), "E-URDF-TIP");
+  EXPECT_EQ(refusal(two, "n"), "accepted");
+}
+
+}  // namespace
+}  // namespace plumb::offline
