@@ -221,6 +221,9 @@ constexpr Explanation kCodes[] = {
     {"E-DEMO-NAME", "There is no sample cell of that name. plumb demo --list shows them."},
     {"E-SIM-PLAN", "The simulation that was asked for makes no sense; the message says why."},
     {"E-SIM-EFFECT", "The simulator does not know that effect. plumb simulate --list shows them."},
+    {"E-SIM-SIZE",
+     "A hidden effect cannot get the size that was asked for: no noise to measure it by, or nothing "
+     "of it is left when geometry has been fitted."},
     {"E-SIM-JOINT", "A joint of a hidden effect does not exist in this cell, or has no size."},
     {"E-EXPLAIN",
      "plumb explain knows messages, effects, status texts and terms; without a word it lists "

@@ -53,7 +53,7 @@ Frames Arm::frames(const VectorXd& q, const Deflection& deflection) const {
     X = X * deflection.link[i];
   }
   out.flange = X * between_[joints()];
-  out.tool = out.flange * tool_;
+  out.tool = out.flange * tool_ * deflection.tool;
   return out;
 }
 

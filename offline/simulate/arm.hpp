@@ -19,6 +19,7 @@ struct Deflection {
   VectorXd dq;                   // joint positions [rad] or [m]
   std::vector<Isometry3d> link;  // motion of all that is behind joint i, in its frame P_i
   Isometry3d base = Isometry3d::Identity();  // motion of the whole arm, base frame
+  Isometry3d tool = Isometry3d::Identity();  // motion of the reflector, tool frame
   Vector3d tip_B = Vector3d::Zero();         // of the measured point, base frame [m]
 };
 

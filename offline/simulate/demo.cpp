@@ -4,6 +4,7 @@
 #include "simulate/arm_rows.hpp"
 #include "simulate/planar.hpp"
 #include "simulate/simulate.hpp"
+#include "simulate/study_arms.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -31,40 +32,52 @@ void label(Cell& cell, const std::string& name, const std::string& serial,
   cell.robot_name = robot;
 }
 
-// Table 2 of the published study, rounded to nominal values, and a sixth axis.
-Demo compliance() {
-  Cell cell = sim::cell_from_sheet(Convention::kModified,
-                                   {{0, 0, 642, 0, -180, 180},
-                                    {.alpha_deg = -90,
-                                     .a_mm = 250,
-                                     .d_mm = 450,
-                                     .theta_deg = -90,
-                                     .q_min = -115,
-                                     .q_max = 120,
-                                     .parallel_next = true},
-                                    {0, 950, -450, 90, -140, 145},
-                                    {90, 0, 800, 0, -180, 180},
-                                    {-90, 0, 0, 0, -120, 120},
-                                    {90, 0, 194, 0, -180, 180}},
-                                   150);
-  label(cell, "Demo: heavy arm", "DEMO-COMPLIANCE", "Heavy six-axis arm, TX200-like");
+Demo heavy(const std::string& title, const std::string& serial, const std::string& effect) {
+  Cell cell = sim::heavy_arm();
+  label(cell, title, serial, "Heavy six-axis arm, TX200-like");
   cell.payload = {60.0, {0.03, 0.01, 0.08}};
-  return {cell, usual_plan({"joint_compliance:J2=150urad,J3=150urad"})};
+  return {cell, usual_plan({effect})};
+}
+
+Demo light(const std::string& title, const std::string& serial, const std::string& effect) {
+  Cell cell = sim::light_arm();
+  label(cell, title, serial, "Light six-axis arm, UR10-like");
+  cell.payload = {2.0, {0.0, 0.0, 0.05}};
+  return {cell, usual_plan({effect})};
+}
+
+Demo compliance() {
+  return heavy("Demo: heavy arm", "DEMO-COMPLIANCE", "joint_compliance:J2=150urad,J3=150urad");
 }
 
 Demo gear() {
-  Cell cell =
-      sim::cell_from_sheet(Convention::kStandard,
-                           {{90, 0, 127.3, 0, -180, 180},
-                            {.a_mm = -612, .q_min = -180, .q_max = 0, .parallel_next = true},
-                            {.a_mm = -572.3, .q_min = -150, .q_max = 150, .parallel_next = true},
-                            {90, 0, 163.9, 0, -180, 180},
-                            {-90, 0, 115.7, 0, -180, 180},
-                            {0, 0, 92.2, 0, -180, 180}},
-                           120);
-  label(cell, "Demo: collaborative arm", "DEMO-GEAR", "Light six-axis arm, UR10-like");
-  cell.payload = {2.0, {0.0, 0.0, 0.05}};
-  return {cell, usual_plan({"gear_harmonics:J2=150urad,J3=150urad"})};
+  return light("Demo: collaborative arm", "DEMO-GEAR", "gear_harmonics:J2=150urad,J3=150urad");
+}
+
+Demo ripple() { return light("Demo: tooth mesh", "DEMO-RIPPLE", "gear_ripple:J2:5@cycles=20"); }
+
+Demo bumped() { return heavy("Demo: bumped reflector", "DEMO-BUMPED", "step_reflector::8@at=0.6"); }
+
+Demo reversal() {
+  Demo demo = light("Demo: backlash", "DEMO-REVERSAL", "reversal:J2,J3:4");
+  demo.plan.choice.order = PoseChoice::Order::kNearest;
+  return demo;
+}
+
+Demo thermal() {
+  Demo demo = heavy("Demo: warming up", "DEMO-THERMAL", "thermal_growth::4");
+  demo.plan.seconds_per_pose = 45.0;
+  return demo;
+}
+
+Demo unknown() { return light("Demo: nobody knows", "DEMO-UNKNOWN", "joint_product:J5:5@a=4,b=6"); }
+
+Demo mixed() {
+  Demo demo = heavy("Demo: three at once", "DEMO-MIXED", "joint_compliance:J2,J3:5");
+  demo.plan.truth.effects.push_back("gear_harmonics:J1:2");
+  demo.plan.truth.effects.push_back("drift::2");
+  demo.plan.outlier_share = 0.01;
+  return demo;
 }
 
 Demo scara() {
@@ -121,6 +134,12 @@ const std::vector<Entry>& entries() {
       {"compliance", "heavy six-axis arm whose second and third joint yield under gravity",
        compliance},
       {"gear", "light six-axis arm with gear errors once and twice a turn", gear},
+      {"ripple", "light six-axis arm, tooth mesh of the second gear: 20 cycles a turn", ripple},
+      {"bumped", "heavy arm whose reflector slipped on the way", bumped},
+      {"reversal", "light arm that stops short by the side it comes from", reversal},
+      {"thermal", "heavy arm that grows as it warms up", thermal},
+      {"unknown", "light arm whose fifth joint errs with the fourth and sixth together", unknown},
+      {"mixed", "heavy arm with three effects and a few gross outliers", mixed},
       {"beam", "planar arm whose links bend, 200 random poses", beam},
       {"scara", "four joints, one of them slides; gear errors", scara},
       {"clean", "six-axis arm with nothing hidden but its geometry", clean},

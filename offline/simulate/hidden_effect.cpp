@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/law.hpp"
+#include "simulate/law_list.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -32,18 +32,14 @@ class Reader {
 
   HiddenEffect read() {
     HiddenEffect out;
-    const std::size_t colon = std::min(spec_.find(':'), spec_.size());
+    end_ = std::min(spec_.find('@'), spec_.size());
+    const std::size_t colon = find(':', 0);
     const auto [name, size] = name_and_size(0, colon);
     const sim::LawEntry& law = law_named(name);
     out.name = law.name;
-    if (size.begin != size.end) out.size = size_of(size, law);
-    if (colon == spec_.size()) return out;
-    if (!law.per_joint) fail(colon, 1, out.name + " works on the whole arm", "no joints here");
-    for (std::size_t begin = colon + 1; begin <= spec_.size();) {
-      const std::size_t end = std::min(spec_.find(',', begin), spec_.size());
-      add_joint(begin, end, law, out);
-      begin = end + 1;
-    }
+    if (size.begin != size.end) add_size(size, law, out);
+    if (colon < end_) read_joints(colon, law, out);
+    if (end_ < spec_.size()) read_numbers(law, out);
     return out;
   }
 
@@ -54,6 +50,65 @@ class Reader {
   struct Item {
     Span name, size;
   };
+
+  std::size_t find(char c, std::size_t from) const { return std::min(spec_.find(c, from), end_); }
+
+  void read_joints(std::size_t colon, const sim::LawEntry& law, HiddenEffect& out) {
+    const std::size_t second = find(':', colon + 1);
+    const bool whole_arm = law.on == sim::LawEntry::On::kArm;
+    if (whole_arm && (second == end_ || second > colon + 1)) {
+      fail(colon, 1, out.name + " works on the whole arm", "no joints here");
+    }
+    const bool skipped = second == colon + 1 && second < end_;
+    for (std::size_t begin = colon + 1; !skipped && begin <= second;) {
+      const std::size_t end = std::min(find(',', begin), second);
+      add_joint(begin, end, law, out);
+      begin = end + 1;
+    }
+    if (second < end_) add_sigma({second + 1, end_}, law, out);
+  }
+
+  // @KEY=NUMBER,...
+  void read_numbers(const sim::LawEntry& law, HiddenEffect& out) {
+    const std::size_t begin_all = end_ + 1;
+    end_ = spec_.size();
+    for (std::size_t begin = begin_all; begin <= end_;) {
+      const std::size_t end = find(',', begin);
+      const auto [key, value] = name_and_size(begin, end);
+      if (std::find(law.keys.begin(), law.keys.end(), text(key)) == law.keys.end()) {
+        fail(key, law.name + " has no number '" + text(key) + "'", suggestion(text(key), law.keys));
+      }
+      if (value.begin == value.end) fail(key, text(key) + " needs a number", "such as cycles=20");
+      out.numbers[text(key)] = plain_number(value, "such as cycles=20");
+      begin = end + 1;
+    }
+  }
+
+  double plain_number(Span span, const std::string& help) const {
+    double value = 0.0;
+    const char* last = spec_.data() + span.end;
+    const auto [rest, error] = std::from_chars(spec_.data() + span.begin, last, value);
+    if (error != std::errc() || rest != last || !(value > 0.0) || !std::isfinite(value)) {
+      fail(span, "a positive number stands here", help);
+    }
+    return value;
+  }
+
+  void add_sigma(Span span, const sim::LawEntry& law, HiddenEffect& out) const {
+    if (law.size == Size::kNone) fail(span, law.name + " has no size", "remove it");
+    const bool sized = std::any_of(out.joints.begin(), out.joints.end(),
+                                   [](const auto& part) { return part.size.has_value(); });
+    if (sized || out.size) fail(span, "there is a size already", "remove one of them");
+    out.size_sigma = plain_number(span, "times the noise, such as 5");
+  }
+
+  void add_size(Span span, const sim::LawEntry& law, HiddenEffect& out) const {
+    constexpr std::string_view kSigma = "sigma";
+    if (text(span).ends_with(kSigma)) {
+      return add_sigma({span.begin, span.end - kSigma.size()}, law, out);
+    }
+    out.size = size_of(span, law);
+  }
 
   Item name_and_size(std::size_t begin, std::size_t end) const {
     const std::size_t equals = spec_.find('=', begin);
@@ -84,7 +139,10 @@ class Reader {
     for (const auto& other : out.joints) {
       if (other.joint == part.joint) fail(span, text(span) + " is named twice", "remove it");
     }
-    if (size.begin != size.end) part.size = size_of(size, law);
+    if (size.begin != size.end) {
+      if (out.size_sigma) fail(size, "there is a size already", "remove one of them");
+      part.size = size_of(size, law);
+    }
     out.joints.push_back(part);
   }
 
@@ -106,6 +164,7 @@ class Reader {
   }
 
   static std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+    if (known.empty()) return "remove it";
     if (const auto near = did_you_mean(word, known)) return "did you mean '" + *near + "'?";
     std::string all;
     for (const auto& name : known) all += (all.empty() ? "" : ", ") + name;
@@ -124,6 +183,7 @@ class Reader {
 
   const std::string& spec_;
   const Cell& cell_;
+  std::size_t end_ = 0;  // of what stands before '@'
 };
 
 }  // namespace

@@ -12,23 +12,6 @@ constexpr double kHardlyLoaded = 3e-3;  // of weight times reach
 
 }  // namespace
 
-std::vector<Visit> drive(const RowsN& q, const VectorXd& start, double seconds_per_pose) {
-  std::vector<Visit> visits;
-  Visit now{start, VectorXd::Zero(start.size()), VectorXd::Zero(start.size())};
-  for (int row = 0; row < q.rows(); ++row) {
-    now.time_s = row * seconds_per_pose;
-    for (int j = 0; j < start.size(); ++j) {
-      const double step = q(row, j) - now.q(j);
-      if (step == 0.0) continue;
-      now.direction(j) = step > 0.0 ? 1.0 : -1.0;
-      now.travel(j) = std::abs(step);
-    }
-    now.q = q.row(row).transpose();
-    visits.push_back(now);
-  }
-  return visits;
-}
-
 std::vector<VectorXd> reference_poses(const World& world) {
   Random random(world.seed, "reference poses");
   std::vector<VectorXd> poses;
@@ -83,34 +66,6 @@ std::vector<SizedJoint> sized_joints(const HiddenEffect& effect, const World& wo
                                  std::nullopt, "plumb simulate --help lists the effects"});
   }
   return out;
-}
-
-const std::vector<LawEntry>& law_entries() {
-  using Size = LawEntry::Size;
-  static const std::vector<LawEntry> entries{
-      {"joint_compliance", "joints yield under gravity, softer at high load; size: largest angle",
-       Size::kAngle, true, false, make_joint_compliance},
-      {"gear_harmonics", "once, twice and a little thrice per turn, more under load; size: first",
-       Size::kAngle, true, false, make_gear_harmonics},
-      {"link_flexure", "links bend as tapered beams; size: largest rotation of the link's end",
-       Size::kAngle, true, false, make_link_flexure},
-      {"drift", "the base moves slowly against the tracker; size: shift in the first hour",
-       Size::kLength, false, false, make_drift},
-      {"reversal", "joints stop short by the side they come from; size: half the gap", Size::kAngle,
-       true, true, make_reversal},
-      {"planar_published", "beams of the planar study, as its printed figures need them",
-       Size::kNone, false, false, make_planar_published},
-      {"planar_printed", "beams of the planar study, printed dimensions and correct statics",
-       Size::kNone, false, false, make_planar_printed},
-  };
-  return entries;
-}
-
-const LawEntry* find_law(const std::string& name) {
-  const auto& entries = law_entries();
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const LawEntry& entry) { return entry.name == name; });
-  return found == entries.end() ? nullptr : &*found;
 }
 
 }  // namespace plumb::offline::sim

@@ -7,20 +7,9 @@
 
 #include "simulate/simulate.hpp"
 #include "simulate/statics.hpp"
+#include "simulate/visit.hpp"
 
 namespace plumb::offline::sim {
-
-/// One pose as it was driven to.
-struct Visit {
-  VectorXd q;          // [rad] or [m]
-  VectorXd direction;  // -1, 0 (never moved) or 1: sign of each joint's last move
-  VectorXd travel;     // size of that move [rad] or [m]
-  double time_s = 0.0;
-};
-
-/// Visits in the order of q, starting from rest in the middle of the joint limits. A joint that
-/// does not move keeps its last direction and travel.
-std::vector<Visit> drive(const RowsN& q, const VectorXd& start, double seconds_per_pose);
 
 /// The arm as its laws see it; outlives them.
 struct World {
@@ -29,7 +18,19 @@ struct World {
   const MassModel& masses;
   const std::vector<Visit>& visits;
   VectorXd q_min, q_max;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  // of the arm
+  double session_s = 0.0;
+  Isometry3d X_MB = Isometry3d::Identity();  // true base in the tracker frame
+  Isometry3d X_TG = Isometry3d::Identity();  // reflector in the tool frame
+  double most_payload_kg = 0.0;
+};
+
+/// One visit with what follows from it; frames and loads are those of the rigid true arm.
+struct Moment {
+  int row = 0;
+  const Visit& visit;
+  const Frames& frames;
+  const Loads& loads;
 };
 
 /// Poses inside the limits on which sizes are defined; the same for every plan with that seed.
@@ -43,10 +44,14 @@ VectorXd largest_torque(const World& world);
 class Law {
  public:
   virtual ~Law() = default;
-  /// Adds what the effect does at visit `row`; frames and loads are those of the rigid true arm.
-  virtual void bend(int row, const Frames& frames, const Loads& loads, Deflection& out) const = 0;
+  /// Adds what the effect does at one visit; in proportion to its size.
+  virtual void bend(const Moment& now, Deflection& out) const = 0;
   /// Its true numbers, for the truth file: one object, or an array of one object per "joint".
   virtual nlohmann::ordered_json truth() const = 0;
+  /// What it truly depends on, where that is the question: "q4", "t", "previous q2".
+  virtual std::vector<std::string> inputs() const { return {}; }
+  /// Writes into `effect` what it took from this session, so that it is the same in another one.
+  virtual void pin(HiddenEffect&) const {}
 };
 
 /// A joint a law works on (or the link behind it) and how much.
@@ -63,22 +68,17 @@ std::vector<SizedJoint> sized_joints(const HiddenEffect& effect, const World& wo
                                      const std::vector<bool>& usual, double fallback,
                                      const std::string& why_not);
 
-// The makers, one per law; formulas stand above their code.
-std::unique_ptr<Law> make_joint_compliance(const HiddenEffect& effect, const World& world);
-std::unique_ptr<Law> make_gear_harmonics(const HiddenEffect& effect, const World& world);
-std::unique_ptr<Law> make_link_flexure(const HiddenEffect& effect, const World& world);
-std::unique_ptr<Law> make_drift(const HiddenEffect& effect, const World& world);
-std::unique_ptr<Law> make_reversal(const HiddenEffect& effect, const World& world);
-std::unique_ptr<Law> make_planar_published(const HiddenEffect& effect, const World& world);
-std::unique_ptr<Law> make_planar_printed(const HiddenEffect& effect, const World& world);
-
 /// What the simulator knows of a law before it is made.
 struct LawEntry {
   std::string name;
-  std::string line;  // for --help
+  std::string line;     // for --help
+  std::string library;  // what a diagnosis should call it, or "unknown"
   enum class Size { kNone, kAngle, kLength } size = Size::kAngle;
-  bool per_joint = true;
-  bool needs_direction = false;  // its columns are then always recorded
+  enum class On { kJoints, kArm } on = On::kJoints;
+  enum class Domain { kRobot, kEnvironment, kMeasurement, kProcedure } domain = Domain::kRobot;
+  enum class Needs { kNothing, kDirection, kTemperature } needs = Needs::kNothing;  // then recorded
+  std::vector<std::string> keys;     // of HiddenEffect::numbers
+  std::vector<std::string> same_as;  // what else may explain it as well
   std::unique_ptr<Law> (*make)(const HiddenEffect&, const World&) = nullptr;
 };
 const std::vector<LawEntry>& law_entries();

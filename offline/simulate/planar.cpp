@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "simulate/arm_rows.hpp"
-#include "simulate/law.hpp"
+#include "simulate/law_list.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -91,10 +91,10 @@ namespace {
 
 class PlanarBeams : public Law {
  public:
-  PlanarBeams(PlanarVariant variant, const World& world) : variant_(variant), world_(world) {}
+  explicit PlanarBeams(PlanarVariant variant) : variant_(variant) {}
 
-  void bend(int row, const Frames&, const Loads&, Deflection& out) const override {
-    const VectorXd& q = world_.visits[row].q;
+  void bend(const Moment& now, Deflection& out) const override {
+    const VectorXd& q = now.visit.q;
     out.tip_B.head<2>() += planar_deflection(variant_, q(0), q(1));
   }
 
@@ -106,10 +106,10 @@ class PlanarBeams : public Law {
             {"link_3_loads_turn_with",
              variant_ == PlanarVariant::kPublished ? "phi23" : "phi12 + phi23"}};
   }
+  std::vector<std::string> inputs() const override { return {"q1", "q2"}; }
 
  private:
   PlanarVariant variant_;
-  const World& world_;
 };
 
 bool is_planar_arm(const format::Chain& chain) {
@@ -128,7 +128,7 @@ std::unique_ptr<Law> make_planar(PlanarVariant variant, const HiddenEffect& effe
                                  effect.name + " is only for the planar arm of the study",
                                  std::nullopt, "plumb demo planar-printed writes such a cell"});
   }
-  return std::make_unique<PlanarBeams>(variant, world);
+  return std::make_unique<PlanarBeams>(variant);
 }
 
 }  // namespace

@@ -2,12 +2,19 @@
 #include "simulate/recording.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace plumb::offline {
 namespace sim {
 namespace {
 
 constexpr int kEveryTenth = 10;
+constexpr double kLeastOutlier = 30.0, kMostOutlier = 300.0;  // [sigma]
+constexpr double kOutlierUnit_m = 10e-6;                      // without noise
+constexpr double kZero_degC = 20.0;
+constexpr double kSensor_K = 0.03;   // 1 sigma
+constexpr double kDisplay_K = 0.01;  // resolution
 
 // P001, P002 and on: as many digits as the last one needs, at least three.
 std::string pose_name(int pose, int poses) {
@@ -25,17 +32,52 @@ Column number_column(const std::string& name, const std::string& unit, Quantity 
   return column;
 }
 
-bool needs_direction(const SimulationPlan& plan, const Cell& cell) {
-  if (plan.directions == SimulationPlan::Directions::kRecorded) return true;
-  return std::any_of(plan.truth.effects.begin(), plan.truth.effects.end(), [&](const auto& spec) {
-    return find_law(parse_hidden_effect(spec, cell).name)->needs_direction;
+bool needs(const std::vector<HiddenEffect>& effects, LawEntry::Needs what) {
+  return std::any_of(effects.begin(), effects.end(), [&](const HiddenEffect& effect) {
+    return find_law(effect.name)->needs == what;
   });
+}
+
+bool is_recorded(Recorded asked, bool needed) {
+  return asked == Recorded::kAlways || (asked == Recorded::kIfNeeded && needed);
+}
+
+// Held-out poses at random, all readings of a pose alike.
+std::vector<SetMark> marks(const SimulationPlan& plan, const std::vector<int>& pose_of_row) {
+  std::vector<SetMark> out(pose_of_row.size(), SetMark::kUnmarked);
+  if (plan.held_share == 0.0) return out;
+  Random random(plan.seed, "held-out");
+  SetMark mark = SetMark::kFit;
+  for (std::size_t row = 0; row < out.size(); ++row) {
+    const bool first = row == 0 || pose_of_row[row] != pose_of_row[row - 1];
+    if (first) mark = random.uniform() < plan.held_share ? SetMark::kHeld : SetMark::kFit;
+    out[row] = mark;
+  }
+  return out;
+}
+
+template <class Value>
+void add_column(std::vector<Column>& columns, Column column, const std::vector<Visit>& visits,
+                Value value) {
+  for (const auto& visit : visits) column.values.push_back(value(visit));
+  columns.push_back(std::move(column));
+}
+
+void add_payloads(std::vector<Column>& out, const std::vector<Visit>& visits) {
+  add_column(out, number_column("payload", "kg", Quantity::kMass), visits,
+             [](const Visit& visit) { return visit.payload.mass_kg; });
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string name = std::string("payload_c") + "xyz"[k];
+    add_column(out, number_column(name, "mm", Quantity::kLength), visits,
+               [k](const Visit& visit) { return visit.payload.com_m[k]; });
+  }
 }
 
 }  // namespace
 
-Recording::Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses)
-    : cell_(cell), plan_(plan), noise_(plan.seed, "noise") {
+Recording::Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses,
+                     const std::vector<HiddenEffect>& effects)
+    : cell_(cell), plan_(plan), effects_(effects), noise_(plan.seed, "noise") {
   const int distinct = static_cast<int>(poses.rows());
   for (int pose = 0; pose < distinct; ++pose) {
     const int times = pose % kEveryTenth == 0 ? plan.repeats : 1;
@@ -48,7 +90,7 @@ Recording::Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& 
     measured_.pose.push_back(pose_name(pose, distinct));
     measured_.q.row(row) = poses.row(pose);
   }
-  measured_.set.assign(rows, SetMark::kUnmarked);
+  measured_.set = marks(plan, measured_.replicate_group);
   measured_.p_M = Rows3::Zero(rows, 3);
   measured_.has_axis = plan.axes;
   if (plan.noise_rad) measured_.quat_M.resize(rows, 4);
@@ -66,20 +108,74 @@ void Recording::measure(int row, const Isometry3d& X_MG) {
   for (int k = 0; k < 4; ++k) measured_.quat_M(row, k) = pose.q[k];
 }
 
-std::vector<Column> Recording::context(const std::vector<Visit>& visits) const {
-  std::vector<Column> columns{number_column("t", "s", Quantity::kTime)};
-  for (const auto& visit : visits) columns[0].values.push_back(visit.time_s);
-  if (!needs_direction(plan_, cell_)) return columns;
-  for (int j = 0; j < cell_.joints(); ++j) {
-    const bool slides = cell_.nominal.joints[j].type == format::JointType::kPrismatic;
-    const std::string joint = "j" + std::to_string(j + 1);
-    columns.push_back(number_column("dir_" + joint, "", Quantity::kNumber));
-    for (const auto& visit : visits) columns.back().values.push_back(visit.direction(j));
-    columns.push_back(number_column("travel_" + joint, slides ? "mm" : "deg",
-                                    slides ? Quantity::kLength : Quantity::kAngle));
-    for (const auto& visit : visits) columns.back().values.push_back(visit.travel(j));
+std::vector<Outlier> Recording::spoil() {
+  Random random(plan_.seed, "outliers");
+  const double unit = plan_.noise_m > 0.0 ? plan_.noise_m : kOutlierUnit_m;
+  std::vector<int> left(static_cast<std::size_t>(rows()));
+  std::iota(left.begin(), left.end(), 0);
+  std::vector<Outlier> out;
+  const long count = std::lround(plan_.outlier_share * rows());
+  for (long k = 0; k < count; ++k) {
+    const int at = random.below(static_cast<int>(left.size()));
+    const Vector3d shift = unit * random.uniform(kLeastOutlier, kMostOutlier) * random.direction();
+    out.push_back({left[static_cast<std::size_t>(at)], {shift.x(), shift.y(), shift.z()}});
+    left.erase(left.begin() + at);
   }
-  return columns;
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+  for (const auto& outlier : out) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (plan_.axes[k]) measured_.p_M(outlier.row, static_cast<int>(k)) += outlier.shift_M[k];
+    }
+  }
+  return out;
+}
+
+// Sensors sit elsewhere than the zones, lag behind them and are noisy.
+void Recording::add_temperatures(std::vector<Column>& out, const std::vector<Visit>& visits) const {
+  Random random(plan_.seed, "temperature noise");
+  const int n = cell_.joints();
+  const auto add = [&](const std::string& name, auto kelvin) {
+    add_column(out, number_column(name, "degC", Quantity::kTemperature), visits,
+               [&](const Visit& visit) {
+                 const double T = kZero_degC + kelvin(visit) + kSensor_K * random.normal();
+                 return std::round(T / kDisplay_K) * kDisplay_K;
+               });
+  };
+  const int shoulder = std::min(2, n), elbow = std::min(3, n);
+  add("temp", [&](const Visit& visit) {
+    return 0.6 * visit.zone_K(shoulder) + 0.3 * visit.zone_K(std::min(1, n)) + 0.1 * visit.room_K;
+  });
+  add("temp_room", [](const Visit& visit) { return visit.room_K; });
+  add("temp_elbow",
+      [&](const Visit& visit) { return 0.8 * visit.zone_K(elbow) + 0.2 * visit.room_K; });
+}
+
+void Recording::add_directions(std::vector<Column>& out, const std::vector<Visit>& visits) const {
+  for (int j = 0; j < cell_.joints(); ++j) {
+    const bool slides =
+        cell_.nominal.joints[static_cast<std::size_t>(j)].type == format::JointType::kPrismatic;
+    const std::string joint = "j" + std::to_string(j + 1);
+    add_column(out, number_column("dir_" + joint, "", Quantity::kNumber), visits,
+               [j](const Visit& visit) { return visit.direction(j); });
+    add_column(out,
+               number_column("travel_" + joint, slides ? "mm" : "deg",
+                             slides ? Quantity::kLength : Quantity::kAngle),
+               visits, [j](const Visit& visit) { return visit.travel(j); });
+  }
+}
+
+std::vector<Column> Recording::context(const std::vector<Visit>& visits) const {
+  std::vector<Column> out;
+  add_column(out, number_column("t", "s", Quantity::kTime), visits,
+             [](const Visit& visit) { return visit.time_s; });
+  if (is_recorded(plan_.directions, needs(effects_, LawEntry::Needs::kDirection))) {
+    add_directions(out, visits);
+  }
+  if (!plan_.payloads.empty()) add_payloads(out, visits);
+  if (is_recorded(plan_.temperatures, needs(effects_, LawEntry::Needs::kTemperature))) {
+    add_temperatures(out, visits);
+  }
+  return out;
 }
 
 Measurements Recording::finish(const std::vector<Column>& context) const {

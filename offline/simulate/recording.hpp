@@ -11,7 +11,8 @@ namespace plumb::offline::sim {
 class Recording {
  public:
   /// `poses` are the distinct ones; every tenth is written plan.repeats times.
-  Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses);
+  Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses,
+            const std::vector<HiddenEffect>& effects);
 
   int rows() const { return measured_.size(); }
   const RowsN& joint_rows() const { return measured_.q; }
@@ -19,14 +20,21 @@ class Recording {
   /// Row by row, in order: point and orientation of the reflector, noise added.
   void measure(int row, const Isometry3d& X_MG);
 
-  /// t_s, and how each joint arrived where asked for or needed by a hidden effect.
+  /// Moves plan.outlier_share of the rows far away and says which, by row.
+  std::vector<Outlier> spoil();
+
+  /// t_s; payloads; how each joint arrived and temperatures where asked for or needed by an effect.
   std::vector<Column> context(const std::vector<Visit>& visits) const;
 
   Measurements finish(const std::vector<Column>& context) const;
 
  private:
+  void add_temperatures(std::vector<Column>& out, const std::vector<Visit>& visits) const;
+  void add_directions(std::vector<Column>& out, const std::vector<Visit>& visits) const;
+
   const Cell& cell_;
   const SimulationPlan& plan_;
+  const std::vector<HiddenEffect>& effects_;
   Random noise_;
   Measurements measured_;
 };

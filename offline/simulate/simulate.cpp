@@ -3,18 +3,21 @@
 
 #include <cmath>
 
+#include "simulate/climate.hpp"
+#include "simulate/poses.hpp"
 #include "simulate/recording.hpp"
-#include "simulate/truth.hpp"
+#include "simulate/session.hpp"
 
 namespace plumb::offline {
 namespace {
 
-using sim::HiddenLaw;
 using sim::Isometry3d;
 using sim::Random;
 using sim::Vector3d;
 using sim::VectorXd;
 using sim::Visit;
+
+constexpr int kMostSorted = 20000;
 
 void check(const Cell& cell, const SimulationPlan& plan) {
   const auto refuse = [](const std::string& message, const std::string& help) {
@@ -32,6 +35,22 @@ void check(const Cell& cell, const SimulationPlan& plan) {
       !sigma(plan.truth.geometry_m) || !sigma(plan.truth.geometry_rad)) {
     refuse("a standard deviation is zero or positive", "use for example 10 um");
   }
+  const auto share = [](double s) { return s >= 0.0 && s <= 1.0; };
+  if (!share(plan.held_share) || !share(plan.outlier_share) || !share(plan.truth.mass_share)) {
+    refuse("a share is between 0 and 1", "use for example 2%");
+  }
+  if (!share(plan.choice.range) || plan.choice.range == 0.0) {
+    refuse("the range of the poses is a share of the joint range", "use for example 60%");
+  }
+  if (plan.choice.grid_levels < 0 || plan.choice.grid_levels == 1) {
+    refuse("a grid has at least two levels", "use for example 7, or 0 for no grid");
+  }
+  if (plan.choice.order == PoseChoice::Order::kNearest && plan.poses > kMostSorted) {
+    refuse("too many poses to sort by distance", "ask for at most 20000, or leave them as drawn");
+  }
+  for (const auto& payload : plan.payloads) {
+    if (!sigma(payload.mass_kg)) refuse("a payload is zero or positive", "use for example 2 kg");
+  }
   for (const auto& row : cell.nominal.joints) {
     if (plan.q.rows() == 0 && !(row.q_min < row.q_max)) {
       refuse("joint " + row.name + " has no range to move in", "set its limits q = [min, max]");
@@ -42,17 +61,6 @@ void check(const Cell& cell, const SimulationPlan& plan) {
 VectorXd limits(const Cell& cell, double format::JointRow::*which) {
   VectorXd q(cell.joints());
   for (int j = 0; j < cell.joints(); ++j) q(j) = cell.nominal.joints[j].*which;
-  return q;
-}
-
-// Distinct poses: given, or uniform inside the limits.
-RowsN distinct_poses(const SimulationPlan& plan, const VectorXd& q_min, const VectorXd& q_max) {
-  if (plan.q.rows() > 0) return plan.q;
-  Random random(plan.seed, "poses");
-  RowsN q(plan.poses, q_min.size());
-  for (Eigen::Index row = 0; row < q.rows(); ++row) {
-    for (Eigen::Index j = 0; j < q.cols(); ++j) q(row, j) = random.uniform(q_min(j), q_max(j));
-  }
   return q;
 }
 
@@ -76,26 +84,52 @@ Isometry3d place_target(const Cell& cell, const SimulationPlan& plan, std::uint6
   return X_TG;
 }
 
-std::vector<HiddenLaw> make_laws(const SimulationPlan& plan, const sim::World& world) {
-  std::vector<HiddenLaw> laws;
-  for (const auto& spec : plan.truth.effects) {
-    const HiddenEffect effect = parse_hidden_effect(spec, world.cell);
-    laws.push_back({effect.name, sim::find_law(effect.name)->make(effect, world)});
-  }
-  return laws;
+std::vector<HiddenEffect> hidden_effects(const Cell& cell, const HiddenTruth& truth) {
+  if (!truth.sized.empty()) return truth.sized;
+  std::vector<HiddenEffect> out;
+  for (const auto& spec : truth.effects) out.push_back(parse_hidden_effect(spec, cell));
+  return out;
 }
 
-// X_BG of one visit: rigid arm first, then everything that bends it.
-Isometry3d true_pose(const sim::World& world, const std::vector<HiddenLaw>& laws, int row,
-                     const Isometry3d& X_TG) {
-  const VectorXd& q = world.visits[row].q;
-  const sim::Frames rigid = world.arm.frames(q);
-  const sim::Loads loads(world.masses, rigid);
-  sim::Deflection deflection(world.arm.joints());
-  for (const auto& hidden : laws) hidden.law->bend(row, rigid, loads, deflection);
-  Isometry3d X_BG = world.arm.frames(q, deflection).tool * X_TG;
-  X_BG.translation() += deflection.tip_B;
-  return X_BG;
+const Payload& heaviest(const Cell& cell, const SimulationPlan& plan) {
+  const Payload* out = plan.payloads.empty() ? &cell.payload : &plan.payloads.front();
+  for (const auto& payload : plan.payloads) {
+    if (payload.mass_kg > out->mass_kg) out = &payload;
+  }
+  return *out;
+}
+
+sim::MassModel true_masses(const Cell& cell, const SimulationPlan& plan, const sim::Arm& arm,
+                           std::uint64_t seed) {
+  auto out = sim::guess_masses(cell, arm, plan.truth.mass_share, Random(seed, "masses"));
+  const Payload& payload = heaviest(cell, plan);
+  out.payload = payload.mass_kg;
+  out.payload_com = Vector3d(payload.com_m.data());
+  return out;
+}
+
+// Every pose carries one of the payloads.
+void load(std::vector<Visit>& visits, const Cell& cell, const SimulationPlan& plan) {
+  Random random(plan.seed, "payloads");
+  for (std::size_t row = 0; row < visits.size(); ++row) {
+    const bool same_stop = row > 0 && visits[row].q == visits[row - 1].q;
+    if (same_stop) {
+      visits[row].payload = visits[row - 1].payload;
+    } else if (plan.payloads.empty()) {
+      visits[row].payload = cell.payload;
+    } else {
+      const int which = random.below(static_cast<int>(plan.payloads.size()));
+      visits[row].payload = plan.payloads[static_cast<std::size_t>(which)];
+    }
+  }
+}
+
+void warm(std::vector<Visit>& visits, const SimulationPlan& plan, const sim::Climate& climate) {
+  if (plan.climate == SimulationPlan::Climate::kConstant) return;
+  for (auto& visit : visits) {
+    visit.room_K = climate.air(visit.time_s);
+    visit.zone_K = climate.zones(visit.time_s);
+  }
 }
 
 }  // namespace
@@ -106,30 +140,37 @@ Simulation simulate(const Cell& cell, const SimulationPlan& plan) {
   Simulation out;
   out.true_chain = sim::draw_geometry(cell, plan.truth, Random(arm_seed, "geometry"));
   const sim::Arm arm(out.true_chain);
-  const auto masses = sim::guess_masses(cell, arm, Random(arm_seed, "masses"));
+  const auto masses = true_masses(cell, plan, arm, arm_seed);
   const VectorXd q_min = limits(cell, &format::JointRow::q_min);
   const VectorXd q_max = limits(cell, &format::JointRow::q_max);
 
-  const RowsN poses = distinct_poses(plan, q_min, q_max);
-  sim::Recording recording(cell, plan, poses);
-  const auto visits =
-      sim::drive(recording.joint_rows(), 0.5 * (q_min + q_max), plan.seconds_per_pose);
-  const sim::World world{cell, arm, masses, visits, q_min, q_max, arm_seed};
-  const auto laws = make_laws(plan, world);
+  const auto effects = hidden_effects(cell, plan.truth);
+  sim::Recording recording(cell, plan, sim::distinct_poses(plan, q_min, q_max), effects);
+  auto visits = sim::drive(recording.joint_rows(), 0.5 * (q_min + q_max), plan.seconds_per_pose);
+  const double session_s = plan.session_s.value_or(recording.rows() * plan.seconds_per_pose);
+  load(visits, cell, plan);
+  warm(visits, plan, sim::Climate(cell.joints(), session_s, Random(arm_seed, "climate")));
 
   const Isometry3d X_MB = place_tracker(cell, plan, arm_seed);
   const Isometry3d X_TG = place_target(cell, plan, arm_seed);
+  const sim::World world{cell,     arm,       masses, visits, q_min,         q_max,
+                         arm_seed, session_s, X_MB,   X_TG,   masses.payload};
+  auto hidden = sim::make_laws(effects, world, plan);
+  out.effects = std::move(hidden.effects);
+  out.sizes = std::move(hidden.sizes);
+
   out.X_MB = sim::to_pose(X_MB);
   out.X_TG = sim::to_pose(X_TG);
   out.true_p_M.resize(recording.rows(), 3);
   for (int row = 0; row < recording.rows(); ++row) {
-    const Isometry3d X_MG = X_MB * true_pose(world, laws, row, X_TG);
+    const Isometry3d X_MG = sim::bent_pose(world, hidden.laws, row);
     out.true_p_M.row(row) = X_MG.translation().transpose();
     recording.measure(row, X_MG);
   }
+  out.outliers = recording.spoil();
   out.context = recording.context(visits);
   out.measured = recording.finish(out.context);
-  out.truth_json = sim::truth_json(cell, plan, out, laws);
+  out.truth_json = sim::truth_json(cell, plan, out, hidden.laws);
   return out;
 }
 

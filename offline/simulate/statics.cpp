@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kCarriedPerCubicMetre = 5.0;   // [kg/m^3]
 constexpr double kWeightPerPayloadMetre = 3.0;  // [1/m]
-constexpr double kMassRatio = 0.6;              // of a link to the one before it
+constexpr double kComError_m = 0.1;
+constexpr double kLeastMass = 0.2;  // of the one in the cell
+constexpr double kMassRatio = 0.6;  // of a link to the one before it
 
 double guessed_moving_mass(const Cell& cell, double reach) {
   const double carried =
@@ -25,7 +27,7 @@ Vector3d guessed_com(const Arm& arm, int i, Random& random) {
 
 }  // namespace
 
-MassModel guess_masses(const Cell& cell, const Arm& arm, Random random) {
+MassModel guess_masses(const Cell& cell, const Arm& arm, double share, Random random) {
   MassModel out;
   const int n = arm.joints();
   const double first =
@@ -35,6 +37,9 @@ MassModel guess_masses(const Cell& cell, const Arm& arm, Random random) {
     const Vector3d guess = guessed_com(arm, i, random);
     out.mass.push_back(known.link_mass_kg.value_or(first * std::pow(kMassRatio, i)));
     out.com.push_back(known.link_com_m ? Vector3d(known.link_com_m->data()) : guess);
+    if (share == 0.0) continue;
+    out.mass[i] *= std::max(1.0 + share * random.normal(), kLeastMass);
+    for (int k = 0; k < 3; ++k) out.com[i](k) += share * kComError_m * random.normal();
   }
   out.payload = cell.payload.mass_kg;
   out.payload_com = Vector3d(cell.payload.com_m.data());
@@ -42,13 +47,14 @@ MassModel guess_masses(const Cell& cell, const Arm& arm, Random random) {
   return out;
 }
 
-Loads::Loads(const MassModel& masses, const Frames& frames)
+Loads::Loads(const MassModel& masses, const Frames& frames, double payload_kg,
+             const Vector3d& com_F)
     : mass_(masses.mass.size() + 1),
       first_moment_(masses.mass.size() + 1),
       gravity_(masses.gravity) {
   const int n = static_cast<int>(masses.mass.size());
-  mass_[n] = masses.payload;
-  first_moment_[n] = masses.payload * (frames.flange * masses.payload_com);
+  mass_[n] = payload_kg;
+  first_moment_[n] = payload_kg * (frames.flange * com_F);
   for (int i = n - 1; i >= 0; --i) {
     mass_[i] = mass_[i + 1] + masses.mass[i];
     first_moment_[i] = first_moment_[i + 1] + masses.mass[i] * (frames.joint[i] * masses.com[i]);

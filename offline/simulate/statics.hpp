@@ -21,12 +21,15 @@ struct MassModel {
   Vector3d gravity;                         // base frame [m/s^2]
 };
 
-MassModel guess_masses(const Cell& cell, const Arm& arm, Random random);
+/// What the cell states is off by `share` (1 sigma), a centre of mass by share times 0.1 m.
+MassModel guess_masses(const Cell& cell, const Arm& arm, double share, Random random);
 
 /// Weight of everything behind a joint, at one pose, base frame.
 class Loads {
  public:
-  Loads(const MassModel& masses, const Frames& frames);
+  Loads(const MassModel& masses, const Frames& frames)
+      : Loads(masses, frames, masses.payload, masses.payload_com) {}
+  Loads(const MassModel& masses, const Frames& frames, double payload_kg, const Vector3d& com_F);
 
   /// Weight of links j .. end and the payload [N]; j = joints: the payload alone.
   Vector3d force(int j) const { return mass_[j] * gravity_; }
@@ -36,6 +39,10 @@ class Loads {
   }
   /// Gravity torque on revolute joint j about its own axis [N m].
   double torque(int j) const { return axis_[j].dot(moment(j, origin_[j])); }
+  /// The payload's share of it.
+  double payload_torque(int j) const {
+    return axis_[j].dot(moment(static_cast<int>(axis_.size()), origin_[j]));
+  }
 
  private:
   std::vector<double> mass_;            // [kg], links j .. end and payload

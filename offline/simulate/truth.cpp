@@ -34,16 +34,69 @@ Json parameters(const format::Chain& nominal, const format::Chain& real) {
   return out;
 }
 
-Json effects(const std::vector<HiddenLaw>& laws) {
-  Json out = Json::array();
-  for (const auto& [name, law] : laws) {
-    const Json numbers = law->truth();
-    Json entry{{"effect", name}, {"joints", Json::array()}};
-    if (numbers.is_array()) {
-      for (const auto& part : numbers) entry["joints"].push_back(part["joint"]);
+const char* name_of(LawEntry::Domain domain) {
+  switch (domain) {
+    case LawEntry::Domain::kEnvironment:
+      return "environment";
+    case LawEntry::Domain::kMeasurement:
+      return "measurement";
+    case LawEntry::Domain::kProcedure:
+      return "procedure";
+    default:
+      return "robot";
+  }
+}
+
+Json size_json(const EffectSize& size, double noise_m) {
+  Json out{{"visible_um", size.visible_m * 1e6}, {"rms_um", size.rms_m * 1e6}};
+  if (noise_m > 0.0) out["visible_sigma"] = size.visible_m / noise_m;
+  return out;
+}
+
+// Where a row stands, for whoever knows only the file.
+void name_poses(Json& numbers, const Simulation& simulation) {
+  if (!numbers.contains("row_after")) return;
+  const auto row = numbers["row_after"].get<std::size_t>();
+  const auto& names = simulation.measured.pose;
+  if (row == 0 || row >= names.size()) return;
+  numbers["pose_before"] = names[row - 1];
+  numbers["pose_after"] = names[row];
+}
+
+Json effect(const HiddenLaw& hidden, const Simulation& simulation) {
+  const LawEntry& entry = *find_law(hidden.name);
+  Json numbers = hidden.law->truth();
+  Json out{{"effect", hidden.name},           {"class", entry.library},
+           {"domain", name_of(entry.domain)}, {"joints", Json::array()},
+           {"inputs", hidden.law->inputs()},  {"same_as", entry.same_as}};
+  if (!numbers.is_array()) {
+    name_poses(numbers, simulation);
+  } else {
+    for (auto& part : numbers) {
+      out["joints"].push_back(part["joint"]);
+      name_poses(part, simulation);
     }
-    entry["numbers"] = numbers;
-    out.push_back(entry);
+  }
+  out["numbers"] = numbers;
+  return out;
+}
+
+Json effects(const std::vector<HiddenLaw>& laws, const Simulation& simulation, double noise_m) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    Json entry = effect(laws[k], simulation);
+    entry["size"] = size_json(simulation.sizes[k], noise_m);
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+Json outliers(const Simulation& simulation) {
+  Json out = Json::array();
+  for (const auto& outlier : simulation.outliers) {
+    out.push_back({{"row", outlier.row},
+                   {"pose", simulation.measured.pose[static_cast<std::size_t>(outlier.row)]},
+                   {"shift_mm", in_mm(outlier.shift_M)}});
   }
   return out;
 }
@@ -69,7 +122,8 @@ std::string truth_json(const Cell& cell, const SimulationPlan& plan, const Simul
   out["frame"] = {{"xyz_mm", in_mm(simulation.X_MB.p)}, {"quat_wxyz", simulation.X_MB.q}};
   out["target_mm"] = in_mm(simulation.X_TG.p);
   out["target_quat_wxyz"] = simulation.X_TG.q;
-  out["effects"] = effects(laws);
+  out["effects"] = effects(laws, simulation, plan.noise_m);
+  out["outliers"] = outliers(simulation);
   out["poses"] = poses(simulation);
   return out.dump(1) + "\n";
 }

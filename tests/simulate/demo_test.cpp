@@ -10,9 +10,11 @@ namespace {
 
 // Mean and largest shift of the measured point by the hidden effects alone [mm].
 std::pair<double, double> effect_mm(const Cell& cell, SimulationPlan plan) {
+  plan.truth.sized = simulate(cell, plan).effects;
   plan.noise_m = 0.0;
   const auto with = simulate(cell, plan);
   plan.truth.effects.clear();
+  plan.truth.sized.clear();
   const auto without = simulate(cell, plan);
   const auto shift = (1e3 * (with.true_p_M - without.true_p_M)).rowwise().norm().eval();
   return {shift.mean(), shift.maxCoeff()};

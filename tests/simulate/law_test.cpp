@@ -133,7 +133,8 @@ TEST(Drift, ReachesItsSizeAfterOneHour) {
   const Vector3d moved_um = 1e6 * (simulation.true_p_M.row(120).transpose() - p);
   EXPECT_NEAR((moved_um - expected_um).norm(), 0.0, 0.05);  // second order
   const Vector3d early_um = 1e6 * (simulation.true_p_M.row(40).transpose() - p);
-  const double g = 0.6 * (1 - std::exp(-1.0)) / (1 - std::exp(-3.0)) + 0.4 / 3.0;
+  const double g = 0.6 * (1 - std::exp(-1.0)) / (1 - std::exp(-3.0)) + 0.4 / 3.0 +
+                   0.05 * std::sin(4 * kPi / 3.0);
   EXPECT_NEAR((early_um - g * expected_um).norm(), 0.0, 0.05);
 }
 

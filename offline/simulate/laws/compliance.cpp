@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "simulate/law.hpp"
+#include "simulate/law_list.hpp"
 
 namespace plumb::offline::sim {
 namespace {
@@ -19,9 +19,9 @@ class JointCompliance : public Law {
  public:
   explicit JointCompliance(std::vector<Spring> springs) : springs_(std::move(springs)) {}
 
-  void bend(int, const Frames&, const Loads& loads, Deflection& out) const override {
+  void bend(const Moment& now, Deflection& out) const override {
     for (const auto& spring : springs_) {
-      const double x = loads.torque(spring.at.joint) / spring.torque;
+      const double x = now.loads.torque(spring.at.joint) / spring.torque;
       out.dq(spring.at.joint) +=
           spring.at.size * ((1.0 - kSoftening) * x + kSoftening * x * std::abs(x));
     }

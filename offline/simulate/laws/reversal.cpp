@@ -2,25 +2,33 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/law.hpp"
+#include "simulate/law_list.hpp"
 
 namespace plumb::offline::sim {
 namespace {
 
 constexpr double kUsualSize_rad = 100e-6;
+constexpr double kFrictionShare = 0.3;
 constexpr double kTravel_rad = std::numbers::pi / 180.0;  // until the other flank carries
 
-/// Hysteresis with memory: b <- b + (-size sgn(d) - b) (1 - exp(-travel / q_c)) at every move,
-/// dq = b; after long moves dq = -size sgn(d).
+/// Hysteresis with memory and friction that grows with load:
+///   b <- b + (-size sgn(d) - b) (1 - exp(-travel / q_c)) at every move, dq = b (1 + 0.3 |x|)
+/// x = torque / largest torque; after long moves b = -size sgn(d).
 class Reversal : public Law {
  public:
-  Reversal(std::vector<SizedJoint> joints, const World& world) : joints_(std::move(joints)) {
-    dq_.assign(world.visits.size(), VectorXd::Zero(world.arm.joints()));
+  Reversal(std::vector<SizedJoint> joints, const World& world)
+      : joints_(std::move(joints)), torque_(largest_torque(world)) {
+    unloaded_.assign(world.visits.size(), VectorXd::Zero(world.arm.joints()));
     for (const auto& at : joints_) wind(at, world);
   }
 
-  void bend(int row, const Frames&, const Loads&, Deflection& out) const override {
-    out.dq += dq_[row];
+  void bend(const Moment& now, Deflection& out) const override {
+    for (const auto& at : joints_) {
+      const int j = at.joint;
+      const double x = torque_(j) > 0.0 ? now.loads.torque(j) / torque_(j) : 0.0;
+      out.dq(j) +=
+          unloaded_[static_cast<std::size_t>(now.row)](j) * (1.0 + kFrictionShare * std::abs(x));
+    }
   }
 
   nlohmann::ordered_json truth() const override {
@@ -28,7 +36,8 @@ class Reversal : public Law {
     for (const auto& at : joints_) {
       out.push_back({{"joint", at.name},
                      {"half_gap_urad", at.size * 1e6},
-                     {"travel_deg", kTravel_rad * 180.0 / std::numbers::pi}});
+                     {"travel_deg", kTravel_rad * 180.0 / std::numbers::pi},
+                     {"more_under_load_by", torque_(at.joint) > 0.0 ? kFrictionShare : 0.0}});
     }
     return out;
   }
@@ -42,12 +51,13 @@ class Reversal : public Law {
       const double step = std::abs(visit.q(at.joint) - last_q);
       b -= (flank - b) * std::expm1(-step / kTravel_rad);
       last_q = visit.q(at.joint);
-      dq_[row](at.joint) = b;
+      unloaded_[row](at.joint) = b;
     }
   }
 
   std::vector<SizedJoint> joints_;
-  std::vector<VectorXd> dq_;
+  VectorXd torque_;
+  std::vector<VectorXd> unloaded_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/law.hpp"
+#include "simulate/law_list.hpp"
 
 namespace plumb::offline::sim {
 namespace {
@@ -21,17 +21,16 @@ struct Gear {
 
 class GearHarmonics : public Law {
  public:
-  GearHarmonics(std::vector<Gear> gears, const World& world)
-      : gears_(std::move(gears)), world_(world) {}
+  explicit GearHarmonics(std::vector<Gear> gears) : gears_(std::move(gears)) {}
 
-  void bend(int row, const Frames&, const Loads& loads, Deflection& out) const override {
+  void bend(const Moment& now, Deflection& out) const override {
     for (const auto& gear : gears_) {
-      const double q = world_.visits[row].q(gear.at.joint);
+      const double q = now.visit.q(gear.at.joint);
       double sum = 0.0;
       for (std::size_t h = 0; h < kShare.size(); ++h) {
         sum += kShare[h] * std::sin(static_cast<double>(h + 1) * q + gear.phase[h]);
       }
-      const double load = gear.torque > 0.0 ? loads.torque(gear.at.joint) / gear.torque : 0.0;
+      const double load = gear.torque > 0.0 ? now.loads.torque(gear.at.joint) / gear.torque : 0.0;
       out.dq(gear.at.joint) += gear.at.size * (1.0 + kLoadShare * load) * sum;
     }
   }
@@ -55,7 +54,6 @@ class GearHarmonics : public Law {
 
  private:
   std::vector<Gear> gears_;
-  const World& world_;
 };
 
 }  // namespace
@@ -73,7 +71,7 @@ std::unique_ptr<Law> make_gear_harmonics(const HiddenEffect& effect, const World
   for (const auto& at : sized_joints(effect, world, turns, turns, kUsualSize_rad, "it slides")) {
     gears.push_back({at, phase[at.joint], torque(at.joint)});
   }
-  return std::make_unique<GearHarmonics>(std::move(gears), world);
+  return std::make_unique<GearHarmonics>(std::move(gears));
 }
 
 }  // namespace plumb::offline::sim

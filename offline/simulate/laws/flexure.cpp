@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "simulate/beam.hpp"
-#include "simulate/law.hpp"
+#include "simulate/law_list.hpp"
 
 namespace plumb::offline::sim {
 namespace {
@@ -30,13 +30,13 @@ class LinkFlexure : public Law {
   LinkFlexure(std::vector<Link> links, const World& world)
       : links_(std::move(links)), world_(world) {}
 
-  void bend(int row, const Frames& frames, const Loads& loads, Deflection& out) const override {
+  void bend(const Moment& now, Deflection& out) const override {
     for (const auto& link : links_) {
       const int i = link.at.joint;
-      const VectorXd& q = world_.visits[row].q;
-      const BeamEnd end = bend_link(world_, i, link.beam, q, frames, loads);
+      const VectorXd& q = now.visit.q;
+      const BeamEnd end = bend_link(world_, i, link.beam, q, now.frames, now.loads);
       // The end turns about itself: move it to the origin of P_i and back.
-      const Eigen::Matrix3d to_link = frames.joint[i].linear().transpose();
+      const Eigen::Matrix3d to_link = now.frames.joint[i].linear().transpose();
       const Eigen::Translation3d lever(world_.arm.link_vector(i, q));
       const Eigen::Translation3d shift(Vector3d(to_link * end.displacement));
       out.link[i] = shift * lever * exp(Vector3d::Zero(), to_link * end.rotation) *

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/law_list.hpp"
+
+#include <algorithm>
+
+namespace plumb::offline::sim {
+namespace {
+
+using Size = LawEntry::Size;
+using On = LawEntry::On;
+using Domain = LawEntry::Domain;
+using Needs = LawEntry::Needs;
+
+LawEntry of_joints(const std::string& name, const std::string& line,
+                   MadeLaw (*make)(const HiddenEffect&, const World&)) {
+  LawEntry out;
+  out.name = out.library = name;
+  out.line = line;
+  out.make = make;
+  return out;
+}
+
+LawEntry of_arm(const std::string& name, const std::string& line, Size size, Domain domain,
+                MadeLaw (*make)(const HiddenEffect&, const World&)) {
+  LawEntry out = of_joints(name, line, make);
+  out.size = size;
+  out.on = On::kArm;
+  out.domain = domain;
+  return out;
+}
+
+LawEntry with_keys(LawEntry entry, std::vector<std::string> keys) {
+  entry.keys = std::move(keys);
+  return entry;
+}
+
+LawEntry needing(LawEntry entry, Needs needs) {
+  entry.needs = needs;
+  return entry;
+}
+
+/// What a diagnosis may call it as well, because no data can tell them apart.
+LawEntry like(LawEntry entry, std::vector<std::string> others) {
+  entry.same_as = std::move(others);
+  return entry;
+}
+
+LawEntry called(LawEntry entry, const std::string& library) {
+  entry.library = library;
+  return entry;
+}
+
+LawEntry during(LawEntry entry, Domain domain) {
+  entry.domain = domain;
+  return entry;
+}
+
+void add_gravity_laws(std::vector<LawEntry>& all) {
+  all.push_back(
+      like(of_joints("joint_compliance",
+                     "joints yield under gravity, softer at high load; size: largest angle",
+                     make_joint_compliance),
+           {"gravity_free", "joint_compliance_soft"}));
+  all.push_back(like(of_joints("joint_compliance_soft",
+                               "joints soft at small torque, stiffer beyond; size: largest angle",
+                               make_soft_joint_compliance),
+                     {"joint_compliance", "backlash_load"}));
+  all.push_back(with_keys(
+      of_joints("cross_compliance", "a joint yields to the torque of another one; @from=2",
+                make_cross_compliance),
+      {"from"}));
+  all.push_back(like(
+      of_joints("payload_compliance", "joints yield to the payload only", make_payload_compliance),
+      {"wrench_compliance"}));
+  all.push_back(like(of_joints("backlash_load",
+                               "teeth change flank with the torque; size: half gap", make_backlash),
+                     {"joint_compliance_soft"}));
+  all.push_back(like(of_joints("gravity_compensator", "balancing spring of J2; size: largest angle",
+                               make_gravity_compensator),
+                     {"gear_harmonics", "encoder_eccentricity", "joint_table"}));
+  all.push_back(of_joints("link_flexure",
+                          "links bend as tapered beams; size: largest rotation of the link's end",
+                          make_link_flexure));
+  all.push_back(of_arm("base_compliance", "the base plate tilts; size: largest angle", Size::kAngle,
+                       Domain::kRobot, make_base_compliance));
+  all.push_back(of_arm("tool_sag", "the tool hangs on a soft coupling; size: largest shift",
+                       Size::kLength, Domain::kRobot, make_tool_sag));
+}
+
+void add_joint_laws(std::vector<LawEntry>& all) {
+  all.push_back(
+      like(of_joints("gear_harmonics",
+                     "once, twice and a little thrice per turn, more under load; size: first",
+                     make_gear_harmonics),
+           {"encoder_eccentricity", "gravity_compensator", "joint_table"}));
+  all.push_back(
+      with_keys(like(of_joints("gear_ripple", "many cycles a turn with sidebands; @cycles=20",
+                               make_gear_ripple),
+                     {"gear_harmonics"}),
+                {"cycles"}));
+  all.push_back(like(of_joints("joint_table", "any periodic error of a joint and one worn tooth",
+                               make_joint_table),
+                     {"gear_harmonics", "gear_ripple"}));
+  all.push_back(of_joints("encoder_scale", "a wrong number of increments; size: error a radian",
+                          make_encoder_scale));
+  all.push_back(like(of_joints("encoder_eccentricity", "code wheel beside its axis; size: in radii",
+                               make_encoder_eccentricity),
+                     {"gear_harmonics", "gravity_compensator", "joint_table"}));
+  all.push_back(of_joints("axis_wobble",
+                          "axis tilts and runs out once and twice a turn; size: tilt",
+                          make_axis_wobble));
+  all.push_back(of_arm("wrist_coupling", "wrist gears drive one another; size: error a radian",
+                       Size::kAngle, Domain::kRobot, make_wrist_coupling));
+}
+
+void add_history_laws(std::vector<LawEntry>& all) {
+  all.push_back(needing(
+      of_joints("reversal", "joints stop short by the side they come from; size: half the gap",
+                make_reversal),
+      Needs::kDirection));
+  all.push_back(needing(
+      during(of_joints("settling_lag", "joints were read before standstill", make_settling_lag),
+             Domain::kProcedure),
+      Needs::kDirection));
+  all.push_back(needing(of_arm("thermal_growth", "links grow, the column tilts; size: arm, 10 K",
+                               Size::kLength, Domain::kEnvironment, make_thermal_growth),
+                        Needs::kTemperature));
+  all.push_back(of_arm("drift",
+                       "the base moves slowly against the tracker; size: shift in the first hour",
+                       Size::kLength, Domain::kMeasurement, make_drift));
+  all.push_back(
+      with_keys(called(of_arm("step_reflector", "the reflector slips; @at=0.5 of the time",
+                              Size::kLength, Domain::kMeasurement, make_step_reflector),
+                       "step"),
+                {"at", "at_s"}));
+  all.push_back(with_keys(called(of_arm("step_base", "the tracker is pushed; @at=0.5 of the time",
+                                        Size::kLength, Domain::kMeasurement, make_step_base),
+                                 "step"),
+                          {"at", "at_s"}));
+  all.push_back(
+      with_keys(called(during(of_joints("step_encoder", "an encoder slips; @at=0.5 of the time",
+                                        make_step_encoder),
+                              Domain::kMeasurement),
+                       "step"),
+                {"at", "at_s"}));
+  all.push_back(of_arm("tracker", "radial offset, scale, errors of its angles; size: radial offset",
+                       Size::kLength, Domain::kMeasurement, make_tracker));
+}
+
+void add_unknown_laws(std::vector<LawEntry>& all) {
+  const auto unknown = [](LawEntry entry) { return called(std::move(entry), "unknown"); };
+  all.push_back(
+      needing(like(unknown(of_joints("dress_pack", "hoses wind up and rub on a wrist joint",
+                                     make_dress_pack)),
+                   {"joint_table", "gear_harmonics", "encoder_scale", "reversal"}),
+              Needs::kDirection));
+  all.push_back(with_keys(
+      unknown(of_joints("joint_product", "a joint errs with two others together; @a=4,b=6",
+                        make_joint_product)),
+      {"a", "b"}));
+  all.push_back(with_keys(
+      unknown(of_joints("other_joint", "a joint errs with another's angle; @from=1,cycles=2",
+                        make_other_joint)),
+      {"from", "cycles"}));
+  all.push_back(unknown(of_joints(
+      "joint_memory", "a joint remembers where it stood one pose before", make_joint_memory)));
+  all.push_back(
+      needing(unknown(of_joints("warm_encoder", "a joint's zero moves as its drive warms up",
+                                make_warm_encoder)),
+              Needs::kTemperature));
+  all.push_back(
+      with_keys(unknown(of_arm("room_sway", "the base breathes in periods; @period_s=3600",
+                               Size::kLength, Domain::kMeasurement, make_room_sway)),
+                {"period_s"}));
+  all.push_back(
+      with_keys(unknown(of_arm("tool_wander", "the reflector moves in periods; @period_s=3600",
+                               Size::kLength, Domain::kMeasurement, make_tool_wander)),
+                {"period_s"}));
+}
+
+void add_planar_laws(std::vector<LawEntry>& all) {
+  all.push_back(called(
+      of_arm("planar_published", "beams of the planar study, as its printed figures need them",
+             Size::kNone, Domain::kRobot, make_planar_published),
+      "unknown"));
+  all.push_back(called(
+      of_arm("planar_printed", "beams of the planar study, printed dimensions and correct statics",
+             Size::kNone, Domain::kRobot, make_planar_printed),
+      "link_flexure"));
+}
+
+}  // namespace
+
+const std::vector<LawEntry>& law_entries() {
+  static const std::vector<LawEntry> entries = [] {
+    std::vector<LawEntry> all;
+    add_gravity_laws(all);
+    add_joint_laws(all);
+    add_history_laws(all);
+    add_unknown_laws(all);
+    add_planar_laws(all);
+    return all;
+  }();
+  return entries;
+}
+
+const LawEntry* find_law(const std::string& name) {
+  const auto& entries = law_entries();
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const LawEntry& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace plumb::offline::sim

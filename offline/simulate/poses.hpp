@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "simulate/simulate.hpp"
+
+namespace plumb::offline::sim {
+
+/// The distinct poses of a plan in the order in which they are visited: its own q, or drawn inside
+/// the joint limits [rad] or [m] as plan.choice says.
+RowsN distinct_poses(const SimulationPlan& plan, const Eigen::VectorXd& q_min,
+                     const Eigen::VectorXd& q_max);
+
+}  // namespace plumb::offline::sim
