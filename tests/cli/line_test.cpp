@@ -31,13 +31,14 @@ TEST_P(WholeLine, FromMeasurementsToACorrectedPose) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Demos, WholeLine,
-                         testing::Values("compliance", "gear", "beam", "scara", "clean"),
+                         testing::Values("compliance", "gear", "ripple", "bumped", "reversal",
+                                         "thermal", "unknown", "mixed", "beam", "scara", "clean"),
                          [](const auto& demo) { return demo.param; });
 
 TEST(Demo, ListsItsNames) {
   const Sandbox box;
   const Json demos = box.plumb({"demo", "--list", "--json"}).json().at("result").at("demos");
-  EXPECT_GE(demos.size(), 5U);
+  EXPECT_GE(demos.size(), 11U);
   EXPECT_TRUE(box.listing().empty());
 }
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/simulate_options.hpp"
+
+#include <algorithm>
+
+namespace plumb::offline::cli {
+namespace {
+
+double share(const std::string& option, const std::string& text) {
+  if (const auto value = parse_percent(text)) return *value;
+  throw Failure(Exit::kUsage, {Severity::kError, "E-SIM-PLAN", option + " is no share: " + text,
+                               std::nullopt, "write " + option + " 2%"});
+}
+
+void add_arm_options(CLI::App& verb, SimulateOptions& options) {
+  verb.add_option("--geometry-mm", options.geometry_mm, "1 sigma of every length error")
+      ->type_name("MM")
+      ->capture_default_str();
+  verb.add_option("--geometry-mrad", options.geometry_mrad, "1 sigma of every angle error")
+      ->type_name("MRAD")
+      ->capture_default_str();
+  verb.add_option("--effect,--hidden", options.hidden,
+                  "Effect the nominal model lacks: gear_ripple:J2:5 (5 sigma) or "
+                  "joint_compliance:J2=150urad; may be repeated")
+      ->type_name("EFFECT")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb.add_option("--mass-error", options.mass_error, "1 sigma of every mass of the cell")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  verb.add_flag("--list", options.list, "List the effects that --effect takes");
+}
+
+void add_measuring_options(CLI::App& verb, SimulateOptions& options) {
+  verb.add_option("--poses", options.poses, "Distinct poses, uniform inside the joint limits")
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_option("--repeats", options.repeats, "Measure every tenth pose so often")
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_option("--noise-um,--sigma-um", options.noise_um, "Noise of each axis, 1 sigma")
+      ->type_name("UM")
+      ->capture_default_str();
+  verb.add_option("--noise-urad", options.noise_urad, "Measure orientation too, with this noise")
+      ->type_name("URAD");
+  verb.add_flag("--directions", options.directions, "Record how each joint arrived");
+  verb.add_option("--outliers", options.outliers, "Share of rows that are far off")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  verb.add_option("--held", options.held, "Share of poses that column set holds out")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  verb.add_option("--seed", options.seed, "Seed of arm, poses and noise")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void add_session_options(CLI::App& verb, SimulateOptions& options) {
+  verb.add_option("--payloads", options.payloads_kg, "Each pose carries one of these, in kg")
+      ->type_name("KG,KG,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb.add_flag("--temperatures", options.temperatures, "Record temperatures");
+  verb.add_flag("--constant-temperature", options.constant_temperature, "All at 20 degC");
+  verb.add_option("--order", options.order, "Order of the poses")
+      ->check(CLI::IsMember({"drawn", "nearest"}))
+      ->capture_default_str();
+  verb.add_option("--grid", options.grid, "Joints only on so many places each; 0: anywhere")
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_option("--range", options.range, "Share of each joint's range, around its middle")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  verb.add_option("--seconds", options.seconds, "Time from row to row")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--fresh", options.fresh, "Also fresh poses of the same session, noise-free")
+      ->type_name("FILE");
+  verb.add_option("--fresh-poses", options.fresh_poses, "How many")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void add_file_options(CLI::App& verb, SimulateOptions& options) {
+  verb.add_option("-o,--output", options.output, "Measurements; else the cell's own file")
+      ->type_name("FILE");
+  verb.add_option("--truth", options.truth, "The truth; else truth.json beside cell.toml")
+      ->type_name("FILE");
+  options.write.add_to(verb);
+}
+
+}  // namespace
+
+void SimulateOptions::add_to(CLI::App& verb) {
+  add_measuring_options(verb, *this);
+  add_session_options(verb, *this);
+  add_arm_options(verb, *this);
+  add_file_options(verb, *this);
+}
+
+SimulationPlan SimulateOptions::plan(const Cell& cell) const {
+  SimulationPlan out;
+  out.poses = poses;
+  out.repeats = repeats;
+  out.noise_m = noise_um * 1e-6;
+  if (noise_urad) out.noise_rad = *noise_urad * 1e-6;
+  if (directions) out.directions = Recorded::kAlways;
+  if (temperatures) out.temperatures = Recorded::kAlways;
+  if (constant_temperature) out.climate = SimulationPlan::Climate::kConstant;
+  for (const double kg : payloads_kg) out.payloads.push_back({kg, cell.payload.com_m});
+  out.outlier_share = share("--outliers", outliers);
+  out.held_share = share("--held", held);
+  out.choice.range = share("--range", range);
+  out.choice.grid_levels = grid;
+  if (order == "nearest") out.choice.order = PoseChoice::Order::kNearest;
+  out.seconds_per_pose = seconds;
+  out.truth.mass_share = share("--mass-error", mass_error);
+  out.seed = seed;
+  out.truth.geometry_m = geometry_mm * 1e-3;
+  out.truth.geometry_rad = geometry_mrad * 1e-3;
+  out.truth.effects = hidden;
+  return out;
+}
+
+SimulationPlan SimulateOptions::fresh_plan(SimulationPlan plan,
+                                           const Simulation& simulation) const {
+  const double session_s = simulation.measured.size() * plan.seconds_per_pose;
+  plan.truth.seed = plan.truth.seed.value_or(plan.seed);
+  plan.truth.sized = simulation.effects;
+  plan.truth.effects.clear();
+  plan.seed += 1;
+  plan.poses = fresh_poses;
+  plan.repeats = 1;
+  plan.noise_m = plan.outlier_share = plan.held_share = 0.0;
+  plan.session_s = session_s;
+  plan.seconds_per_pose = session_s / std::max(fresh_poses, 1);
+  return plan;
+}
+
+}  // namespace plumb::offline::cli
