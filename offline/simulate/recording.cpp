@@ -108,12 +108,12 @@ void Recording::measure(int row, const Isometry3d& X_MG) {
   for (int k = 0; k < 4; ++k) measured_.quat_M(row, k) = pose.q[k];
 }
 
-std::vector<Outlier> Recording::spoil() {
+std::vector<GrossOutlier> Recording::spoil() {
   Random random(plan_.seed, "outliers");
   const double unit = plan_.noise_m > 0.0 ? plan_.noise_m : kOutlierUnit_m;
   std::vector<int> left(static_cast<std::size_t>(rows()));
   std::iota(left.begin(), left.end(), 0);
-  std::vector<Outlier> out;
+  std::vector<GrossOutlier> out;
   const long count = std::lround(plan_.outlier_share * rows());
   for (long k = 0; k < count; ++k) {
     const int at = random.below(static_cast<int>(left.size()));

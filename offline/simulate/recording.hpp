@@ -21,7 +21,7 @@ class Recording {
   void measure(int row, const Isometry3d& X_MG);
 
   /// Moves plan.outlier_share of the rows far away and says which, by row.
-  std::vector<Outlier> spoil();
+  std::vector<GrossOutlier> spoil();
 
   /// t_s; payloads; how each joint arrived and temperatures where asked for or needed by an effect.
   std::vector<Column> context(const std::vector<Visit>& visits) const;

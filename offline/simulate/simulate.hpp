@@ -81,19 +81,19 @@ struct EffectSize {
   double visible_m = 0.0;  // per axis, geometry having been fitted to it
 };
 
-struct Outlier {
+struct GrossOutlier {
   int row = 0;
   std::array<double, 3> shift_M{};  // [m]
 };
 
 struct Simulation {
-  Measurements measured;              // its one table holds the context columns
-  std::vector<Column> context;        // t_s; and what is recorded of SimulationPlan
-  Rows3 true_p_M;                     // without noise and outliers [m]
-  std::vector<HiddenEffect> effects;  // with the sizes and numbers they got
-  std::vector<EffectSize> sizes;      // of each of them
-  std::vector<Outlier> outliers;      // by row
-  format::Chain true_chain;           // the geometry that was drawn
+  Measurements measured;               // its one table holds the context columns
+  std::vector<Column> context;         // t_s; and what is recorded of SimulationPlan
+  Rows3 true_p_M;                      // without noise and outliers [m]
+  std::vector<HiddenEffect> effects;   // with the sizes and numbers they got
+  std::vector<EffectSize> sizes;       // of each of them
+  std::vector<GrossOutlier> outliers;  // by row
+  format::Chain true_chain;            // the geometry that was drawn
   format::Pose X_MB;
   format::Pose X_TG;       // reflector G in the tool frame; turned if its place is fitted
   std::string truth_json;  // every true parameter, for the scorer only

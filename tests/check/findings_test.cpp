@@ -32,7 +32,7 @@ Files files_of(std::uint64_t seed, const Options& options) {
   plan.q = options.q;
   plan.seed = seed;
   plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
-  if (options.directions) plan.directions = SimulationPlan::Directions::kRecorded;
+  if (options.directions) plan.directions = Recorded::kAlways;
   return {write_cell(cell), simulated_csv(cell, simulate(cell, plan)), {}};
 }
 

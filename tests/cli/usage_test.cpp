@@ -49,7 +49,7 @@ TEST(Usage, EveryMistakeOfTheCommandLineIsExitTwo) {
       {"predict", "a.plumb", "--data", "f.csv", "--dry-run"},
       {"predict", "a.plumb", "--data", "f.csv", "--run", "1"},
       {"new", "d"},
-      {"new", "d", "--urdf", "arm.urdf"},
+      {"new", "d", "--urdf", "arm.urdf", "--dh", "dh.csv"},
       {"new", "d", "--dh", "f.csv"},
       {"new", "d", "--dh", "f.csv", "--convention", "craig"},
       {"demo", "complience"},
