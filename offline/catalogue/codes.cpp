@@ -222,7 +222,8 @@ constexpr Explanation kCodes[] = {
     {"E-SIM-PLAN", "The simulation that was asked for makes no sense; the message says why."},
     {"E-SIM-EFFECT", "The simulator does not know that effect. plumb simulate --list shows them."},
     {"E-SIM-SIZE",
-     "A hidden effect cannot get the size that was asked for: no noise to measure it by, or nothing "
+     "A hidden effect cannot get the size that was asked for: no noise to measure it by, or "
+     "nothing "
      "of it is left when geometry has been fitted."},
     {"E-SIM-JOINT", "A joint of a hidden effect does not exist in this cell, or has no size."},
     {"E-EXPLAIN",

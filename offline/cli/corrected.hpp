@@ -17,7 +17,8 @@ struct Corrected {
 };
 
 /// Each target is solved from its own joint state, or else from the last solution, `start` [rad] or
-/// [m] being the first; `sensors` are the temperatures the model reads. A target without quaternion has the nominal orientation at its seed.
+/// [m] being the first; `sensors` are the temperatures the model reads. A target without quaternion
+/// has the nominal orientation at its seed.
 Corrected correct_targets(const Corrector& corrector, const Targets& targets,
                           const std::vector<double>& start,
                           const std::vector<std::string>& sensors = {});

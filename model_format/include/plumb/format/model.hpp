@@ -100,8 +100,8 @@ struct LinkMass {
 
 /// What the loads of the effects come from. No links: masses unknown, taken as 0.
 struct Mechanics {
-  std::vector<LinkMass> links;  // one per joint, or none
-  double payload_kg = 0.0;      // unless the context knows better
+  std::vector<LinkMass> links;            // one per joint, or none
+  double payload_kg = 0.0;                // unless the context knows better
   std::array<double, 3> payload_com_m{};  // flange frame: the tip without the tool
   bool operator==(const Mechanics&) const = default;
 };
