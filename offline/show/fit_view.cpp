@@ -6,28 +6,15 @@
 #include <numeric>
 
 #include "show/error_table.hpp"
+#include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
 namespace {
 
-/// How a parameter is shown: lengths in mm and angles in deg of the arm, um and urad of effects.
-struct ShownUnit {
-  std::string name;
-  double per_si = 1.0;
-  bool plain = true;
-};
-
-ShownUnit unit_of(const Estimate& e) {
-  if (e.unit.empty()) return {unit(e.is_length), shown(1.0, e.is_length)};
-  if (e.unit == "rad") return {"urad", 1e6};
-  if (e.unit == "m") return {"um", 1e6};
-  return {e.unit, 1.0, false};
-}
-
 Json parameter_json(const Estimate& e) {
-  const ShownUnit u = unit_of(e);
+  const ParameterUnit u = unit_of(e);
   Json out{{"name", e.name}};
   put(out, "value", e.value * u.per_si);
   out["unit"] = u.name;
@@ -76,12 +63,9 @@ std::string parameter_table(const std::vector<Estimate>& estimates) {
   table.left_from(5);
   for (const auto& e : estimates) {
     if (!e.of_robot) continue;
-    const ShownUnit u = unit_of(e);
-    const auto number = [&](double si) {
-      return u.plain ? fmt::format("{:.4f}", si * u.per_si) : fmt::format("{:.4g}", si * u.per_si);
-    };
-    table.add({e.name, number(e.nominal), number(e.value),
-               (e.value > e.nominal ? "+" : "") + number(e.value - e.nominal), number(e.std),
+    const ParameterUnit u = unit_of(e);
+    table.add({e.name, u.text(e.nominal), u.text(e.value),
+               (e.value > e.nominal ? "+" : "") + u.text(e.value - e.nominal), u.text(e.std),
                u.name});
   }
   return table.text();

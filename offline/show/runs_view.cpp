@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 /// A parameter of either run; NaN where that run did not fit it.
 struct Change {
   std::string name;
-  bool is_length = false;
+  ParameterUnit unit;
   double a = NAN, b = NAN, std = NAN;
 };
 
@@ -32,12 +33,12 @@ std::vector<Change> changes(const Run& a, const Run& b) {
     if (!e.of_robot) continue;
     const Estimate* other = find(b, e.name);
     if (other && other->value == e.value) continue;
-    out.push_back({e.name, e.is_length, e.value, other ? other->value : NAN,
+    out.push_back({e.name, unit_of(e), e.value, other ? other->value : NAN,
                    other ? std::hypot(e.std, other->std) : e.std});
   }
   for (const auto& e : b.fit.calibration.estimates)
     if (e.of_robot && find(a, e.name) == nullptr)
-      out.push_back({e.name, e.is_length, NAN, e.value, e.std});
+      out.push_back({e.name, unit_of(e), NAN, e.value, e.std});
   return out;
 }
 
@@ -51,17 +52,17 @@ std::vector<std::string> only_in(const std::vector<std::string>& these,
 
 Json change_json(const Change& c) {
   constexpr const char* kNotFitted = "not fitted in that run";
-  Json out{{"name", c.name}, {"unit", unit(c.is_length)}};
-  put(out, "a", shown(c.a, c.is_length), kNotFitted);
-  put(out, "b", shown(c.b, c.is_length), kNotFitted);
-  put(out, "change", shown(c.b - c.a, c.is_length), "fitted in one run only");
-  put(out, "std", shown(c.std, c.is_length));
+  Json out{{"name", c.name}, {"unit", c.unit.name}};
+  put(out, "a", c.a * c.unit.per_si, kNotFitted);
+  put(out, "b", c.b * c.unit.per_si, kNotFitted);
+  put(out, "change", (c.b - c.a) * c.unit.per_si, "fitted in one run only");
+  put(out, "std", c.std * c.unit.per_si);
   return out;
 }
 
-std::string number(double si, bool is_length, const char* sign) {
+std::string number(double si, const ParameterUnit& unit, const char* sign) {
   if (!std::isfinite(si)) return "-";
-  return fmt::format("{}{:.4f}", si >= 0 ? sign : "", shown(si, is_length));
+  return (si >= 0 ? sign : "") + unit.text(si);
 }
 
 std::string verdict_of(const Run& a, const Run& b) {
@@ -130,9 +131,8 @@ std::string diff_text(const Run& a, const Run& b) {
                    "change", "1 sigma", ""});
   table.left_from(5);
   for (const auto& c : all)
-    table.add({c.name, number(c.a, c.is_length, ""), number(c.b, c.is_length, ""),
-               number(c.b - c.a, c.is_length, "+"), number(c.std, c.is_length, ""),
-               unit(c.is_length)});
+    table.add({c.name, number(c.a, c.unit, ""), number(c.b, c.unit, ""),
+               number(c.b - c.a, c.unit, "+"), number(c.std, c.unit, ""), c.unit.name});
   return out + table.text();
 }
 
