@@ -22,7 +22,10 @@ struct Step {
                                     .parameters = kParameters,
                                     .constants = kConstants};
   enum Of { kTool = 0, kBase = 1, kJoint = 2 };
-  static int of(const EffectShape& shape) { return static_cast<int>(shape.constants[1] + 0.5); }
+  static int of(const EffectShape& shape) {
+    const double code = shape.constants[1];
+    return code < 0.5 ? kTool : code < 1.5 ? kBase : kJoint;
+  }
   /// Tool: the shift. Base: shift and turn. Joint: one offset.
   static int count(const EffectShape& shape) {
     return of(shape) == kTool ? 3 : of(shape) == kBase ? 6 : 1;
