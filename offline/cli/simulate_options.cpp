@@ -28,6 +28,10 @@ void add_arm_options(CLI::App& verb, SimulateOptions& options) {
   verb.add_option("--mass-error", options.mass_error, "1 sigma of every mass of the cell")
       ->type_name("SHARE")
       ->capture_default_str();
+  verb.add_option("--richness", options.richness,
+                  "What is of second order in the hidden laws, times this; 0: plain laws")
+      ->type_name("X")
+      ->capture_default_str();
   verb.add_flag("--list", options.list, "List the effects that --effect takes");
 }
 
@@ -119,6 +123,7 @@ SimulationPlan SimulateOptions::plan(const Cell& cell) const {
   out.seed = seed;
   out.truth.geometry_m = geometry_mm * 1e-3;
   out.truth.geometry_rad = geometry_mrad * 1e-3;
+  out.truth.richness = richness;
   out.truth.effects = hidden;
   return out;
 }

@@ -20,6 +20,7 @@ struct SimulateOptions {
   std::optional<double> noise_urad;
   double geometry_mm = 0.3;
   double geometry_mrad = 0.3;
+  double richness = 1.0;
   std::uint64_t seed = 1;
   std::vector<std::string> hidden;
   bool directions = false;

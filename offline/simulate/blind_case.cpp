@@ -74,6 +74,7 @@ SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
   plan.held_share = request.held_share;
   plan.outlier_share = request.outlier_share;
   plan.truth.effects = request.effects;
+  plan.truth.richness = request.richness;
   plan.truth.seed = request.seed;
   plan.session_s = request.session_s;
   const int rows = request.poses + (request.poses + 9) / 10 * (request.repeats - 1);

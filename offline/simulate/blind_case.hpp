@@ -22,6 +22,7 @@ struct BlindRequest {
   int fresh_poses = 500;
   int repeats = 3;  // of every tenth pose
   std::uint64_t seed = 1;
+  double richness = 1.0;  // of the laws, see HiddenTruth
   double outlier_share = 0.0;
   double session_s = 3.0 * 3600.0;
   PoseChoice choice;

@@ -12,10 +12,13 @@ constexpr double kMinute = 60.0;
 constexpr double kHour = 3600.0;
 constexpr int kTableSteps = 2000;
 constexpr double kWorkInPause = 0.2;
+constexpr double kRise_K = 8.0;
+constexpr double kLag = 28.0 * kMinute;
+constexpr double kSpread = 0.3;
 
 }  // namespace
 
-Climate::Climate(int joints, double session_s, Random random)
+Climate::Climate(int joints, double session_s, double spread, Random random)
     : period_s_(random.uniform(35.0, 75.0) * kMinute),
       phase_(random.uniform(-std::numbers::pi, std::numbers::pi)),
       swing_K_(random.uniform(0.6, 1.6)),
@@ -26,8 +29,8 @@ Climate::Climate(int joints, double session_s, Random random)
       rise_(joints + 1),
       lag_(joints + 1) {
   for (int zone = 0; zone <= joints; ++zone) {
-    rise_(zone) = random.uniform(3.0, 14.0);
-    lag_(zone) = random.uniform(12.0, 50.0) * kMinute;
+    rise_(zone) = kRise_K * std::exp(spread * random.uniform(-kSpread, kSpread));
+    lag_(zone) = kLag * std::exp(spread * random.uniform(-kSpread, kSpread));
   }
   // Exact for a target that stays constant over one step.
   VectorXd T = VectorXd::Constant(joints + 1, air(0.0));

@@ -14,8 +14,9 @@ namespace plumb::offline::sim {
 ///   T_zone' = (T_air + rise_zone work(t) - T_zone) / lag_zone, T_zone(0) = T_air(0)
 class Climate {
  public:
-  /// `session_s` is only where the pause lies and how far the table reaches.
-  Climate(int joints, double session_s, Random random);
+  /// `spread` of the zones: 0 makes them all alike. `session_s` is only where the pause lies and
+  /// how far the table reaches.
+  Climate(int joints, double session_s, double spread, Random random);
 
   double air(double time_s) const;
   /// [0] column, [i] link behind joint i.

@@ -23,6 +23,7 @@ struct World {
   Isometry3d X_MB = Isometry3d::Identity();  // true base in the tracker frame
   Isometry3d X_TG = Isometry3d::Identity();  // reflector in the tool frame
   double most_payload_kg = 0.0;
+  double richness = 1.0;  // times what is of second order in every law
 };
 
 /// One visit with what follows from it; frames and loads are those of the rigid true arm.

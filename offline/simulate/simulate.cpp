@@ -39,6 +39,9 @@ void check(const Cell& cell, const SimulationPlan& plan) {
   if (!share(plan.held_share) || !share(plan.outlier_share) || !share(plan.truth.mass_share)) {
     refuse("a share is between 0 and 1", "use for example 2%");
   }
+  if (!(plan.truth.richness >= 0.0 && plan.truth.richness <= 3.0)) {
+    refuse("the richness of the laws is between 0 and 3", "use 1, or 0 for the plainest laws");
+  }
   if (!share(plan.choice.range) || plan.choice.range == 0.0) {
     refuse("the range of the poses is a share of the joint range", "use for example 60%");
   }
@@ -149,12 +152,13 @@ Simulation simulate(const Cell& cell, const SimulationPlan& plan) {
   auto visits = sim::drive(recording.joint_rows(), 0.5 * (q_min + q_max), plan.seconds_per_pose);
   const double session_s = plan.session_s.value_or(recording.rows() * plan.seconds_per_pose);
   load(visits, cell, plan);
-  warm(visits, plan, sim::Climate(cell.joints(), session_s, Random(arm_seed, "climate")));
+  warm(visits, plan,
+       sim::Climate(cell.joints(), session_s, plan.truth.richness, Random(arm_seed, "climate")));
 
   const Isometry3d X_MB = place_tracker(cell, plan, arm_seed);
   const Isometry3d X_TG = place_target(cell, plan, arm_seed);
-  const sim::World world{cell,     arm,       masses, visits, q_min,         q_max,
-                         arm_seed, session_s, X_MB,   X_TG,   masses.payload};
+  const sim::World world{cell,     arm,       masses, visits, q_min,          q_max,
+                         arm_seed, session_s, X_MB,   X_TG,   masses.payload, plan.truth.richness};
   auto hidden = sim::make_laws(effects, world, plan);
   out.effects = std::move(hidden.effects);
   out.sizes = std::move(hidden.sizes);

@@ -36,6 +36,7 @@ struct HiddenTruth {
   double geometry_m = 0.0;            // 1 sigma of every length error
   double geometry_rad = 0.0;          // 1 sigma of every angle error
   double mass_share = 0.0;            // 1 sigma of every link's mass over the one in the cell
+  double richness = 1.0;              // of the laws: 0 leaves only what the library also knows
   std::vector<std::string> effects;   // laws of the simulator, see parse_hidden_effect
   std::vector<HiddenEffect> sized;    // instead: as Simulation::effects gave them, for fresh poses
   std::optional<std::uint64_t> seed;  // of the arm and its set-up; the plan's if not given: state

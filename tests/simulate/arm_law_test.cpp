@@ -73,7 +73,7 @@ TEST(Climate, FollowsItsDifferentialEquation) {
   const double session = 4 * 3600.0;
   const int n = 6;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const sim::Climate climate(n, session, sim::Random(seed, "climate"));
+    const sim::Climate climate(n, session, 1.0, sim::Random(seed, "climate"));
     EXPECT_LT((climate.zones(0.0).array() - climate.air(0.0)).abs().maxCoeff(), 1e-12);
     Eigen::VectorXd T = climate.zones(0.0);
     const auto slope = [&](double t, const Eigen::VectorXd& now) {  // before the pause
@@ -93,7 +93,7 @@ TEST(Climate, FollowsItsDifferentialEquation) {
 
 TEST(Climate, SettlesAtItsRiseOverTheAir) {
   const double day = 30 * 24 * 3600.0;
-  const sim::Climate climate(3, day, sim::Random(4, "climate"));
+  const sim::Climate climate(3, day, 1.0, sim::Random(4, "climate"));
   const double t = 0.3 * day;
   double low = 1e9, high = -1e9;
   for (double s = t - 5 * climate.period_s(); s <= t; s += 60.0) {
@@ -111,7 +111,7 @@ TEST(ThermalGrowth, IsLengthTimesExpansionTimesTemperature) {
   plan.seconds_per_pose = 60.0;
   const auto simulation = simulate(one_joint(), plan);
   const auto truth = first_effect(simulation);
-  const sim::Climate climate(1, 200 * 60.0, sim::Random(plan.seed, "climate"));
+  const sim::Climate climate(1, 200 * 60.0, 1.0, sim::Random(plan.seed, "climate"));
   const double alpha = truth["alpha_per_K"][0];
   for (int row = 0; row < 200; row += 7) {
     const auto T = climate.zones(row * 60.0);
@@ -236,7 +236,7 @@ TEST(WarmEncoder, MovesItsZeroWithTheZoneOfItsDrive) {
   SimulationPlan plan = noise_free(still(100, 0.7), "warm_encoder:J1=100urad");
   plan.seconds_per_pose = 100.0;
   const auto error = joint_error(simulate(one_joint(), plan));
-  const sim::Climate climate(1, 1e4, sim::Random(plan.seed, "climate"));
+  const sim::Climate climate(1, 1e4, 1.0, sim::Random(plan.seed, "climate"));
   for (int row = 0; row < 100; row += 9) {
     EXPECT_NEAR(error[row], 10e-6 * climate.zones(row * 100.0)(1), 1e-12);
   }

@@ -32,11 +32,13 @@ Cell unloaded_joint() {
 }
 
 // |coefficient| of sin(h q + phase) for h = 0 .. most.
-std::vector<double> amplitudes(const std::string& effect, int most) {
+std::vector<double> amplitudes(const std::string& effect, int most, double richness = 1.0) {
   const int n = 128;
   std::vector<double> q, out;
   for (int k = 0; k < n; ++k) q.push_back(2 * kPi * k / n - kPi);
-  const auto error = joint_error(simulate(unloaded_joint(), noise_free(q, effect)));
+  SimulationPlan plan = noise_free(q, effect);
+  plan.truth.richness = richness;
+  const auto error = joint_error(simulate(unloaded_joint(), plan));
   for (int h = 0; h <= most; ++h) {
     std::complex<double> sum = 0.0;
     for (int k = 0; k < n; ++k) sum += error[k] * std::polar(1.0, -h * q[k]);
@@ -78,9 +80,20 @@ TEST(Eccentricity, HasTheHarmonicsOfItsSeriesAndOnlyTheFirstWhenSmall) {
 TEST(GearRipple, HasItsCyclesAndTwoSidebands) {
   const auto found = amplitudes("gear_ripple:J1=100urad@cycles=20", 40);
   for (int h = 1; h <= 40; ++h) {
-    const double expected = h == 20 ? 100e-6 : (h == 19 || h == 21 ? 15e-6 : 0.0);
+    const double expected = h == 20 ? 100e-6 : (h == 19 || h == 21 ? 6e-6 : 0.0);
     EXPECT_NEAR(found[h], expected, 1e-12) << h;
   }
+}
+
+TEST(Richness, OfZeroLeavesThePlainLaw) {
+  const auto ripple = amplitudes("gear_ripple:J1=100urad@cycles=20", 40, 0.0);
+  const auto harmonics = amplitudes("gear_harmonics:J1=100urad", 6, 0.0);
+  for (int h = 1; h <= 40; ++h) EXPECT_NEAR(ripple[h], h == 20 ? 100e-6 : 0.0, 1e-12) << h;
+  for (int h = 3; h <= 6; ++h) EXPECT_NEAR(harmonics[h], 0.0, 1e-12) << h;
+  SimulationPlan plan = noise_free({0.0, 1.2}, "joint_compliance:J1=150urad");
+  plan.truth.richness = 0.0;
+  const auto error = joint_error(simulate(loaded_joint(), plan));
+  EXPECT_NEAR(error[1] / error[0], std::cos(1.2), 1e-6) << "a linear spring";
 }
 
 TEST(GearRipple, DrawsCyclesThatAreHardlyEverWhole) {

@@ -112,7 +112,7 @@ TEST(LinkFlexure, PayloadBendsTheLinkAsAConeAndTurnsTheTool) {
   cell.measurement.target_T = {0.2, 0.0, 0.0};
   const auto simulation = simulate(cell, noise_free({0.0}, "link_flexure:J1=100urad"));
   const double EI = first_effect(simulation)[0]["root_EI_Nm2"];
-  const double P = 98.1, taper = 0.4;
+  const double P = 98.1, taper = first_effect(simulation)[0]["taper"];
   // Slope of a cone: P L^2/EI int (1-x)/(1-tx)^4 dx = P L^2/EI (3 - 2t) / (6 (1-t)^2).
   const double sag = P / (3 * EI * (1 - taper));
   const double slope = P / EI * (3 - 2 * taper) / (6 * std::pow(1 - taper, 2));

@@ -20,8 +20,8 @@ MadeLaw make_backlash(const HiddenEffect& effect, const World& world) {
        sized_joints(effect, world, loaded, loaded, kUsual_rad, "gravity does not turn it")) {
     Random random = joint_random(world, "backlash", at.joint);
     const double width = random.uniform(0.04, 0.12);
-    const double centre = random.uniform(-0.03, 0.03);
-    const double more = random.uniform(0.1, 0.3);
+    const double centre = world.richness * random.uniform(-0.03, 0.03);
+    const double more = world.richness * random.uniform(0.1, 0.3);
     const double most = torque(at.joint);
     out.push_back({at,
                    [=](const Moment& now) {

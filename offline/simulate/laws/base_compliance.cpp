@@ -35,17 +35,18 @@ MadeLaw make_base_compliance(const HiddenEffect& effect, const World& world) {
   const Eigen::AngleAxisd turned(bearing, Vector3d::UnitZ());
   const Eigen::Matrix3d A = turned.toRotationMatrix() * Vector3d(1.0, other, 0.3).asDiagonal() *
                             turned.toRotationMatrix().transpose();
+  const double soft = kSoftening * world.richness;
   ArmBending out;
   out.bend = [=](const Moment& now, Deflection& deflection) {
     const Vector3d m = now.loads.moment(0, Vector3d::Zero()) / most;
-    const Vector3d turn = size * (1.0 - kSoftening + kSoftening * m.norm()) * (A * m);
+    const Vector3d turn = size * (1.0 - soft + soft * m.norm()) * (A * m);
     deflection.base = exp(Vector3d::Zero(), turn) * deflection.base;
   };
   out.truth = {{"largest_urad", size * 1e6},
                {"largest_moment_Nm", most},
                {"stiff_way_share", other},
                {"soft_axis_bearing_rad", bearing},
-               {"softening", kSoftening}};
+               {"softening", soft}};
   return arm_law(std::move(out));
 }
 

@@ -13,6 +13,7 @@ constexpr double kUsualTip_m = 0.2e-3;  // of one joint, arm stretched
 struct Spring {
   SizedJoint at;        // size [rad] at the largest torque
   double torque = 1.0;  // largest at the reference poses [N m]
+  double softening = kSoftening;
 };
 
 class JointCompliance : public Law {
@@ -23,18 +24,19 @@ class JointCompliance : public Law {
     for (const auto& spring : springs_) {
       const double x = now.loads.torque(spring.at.joint) / spring.torque;
       out.dq(spring.at.joint) +=
-          spring.at.size * ((1.0 - kSoftening) * x + kSoftening * x * std::abs(x));
+          spring.at.size * ((1.0 - spring.softening) * x + spring.softening * x * std::abs(x));
     }
   }
 
   nlohmann::ordered_json truth() const override {
     auto out = nlohmann::ordered_json::array();
     for (const auto& spring : springs_) {
-      out.push_back({{"joint", spring.at.name},
-                     {"largest_urad", spring.at.size * 1e6},
-                     {"largest_torque_Nm", spring.torque},
-                     {"stiffness_Nm_per_rad", spring.torque / spring.at.size / (1.0 - kSoftening)},
-                     {"softening", kSoftening}});
+      out.push_back(
+          {{"joint", spring.at.name},
+           {"largest_urad", spring.at.size * 1e6},
+           {"largest_torque_Nm", spring.torque},
+           {"stiffness_Nm_per_rad", spring.torque / spring.at.size / (1.0 - spring.softening)},
+           {"softening", spring.softening}});
     }
     return out;
   }
@@ -54,7 +56,7 @@ std::unique_ptr<Law> make_joint_compliance(const HiddenEffect& effect, const Wor
   std::vector<Spring> springs;
   for (const auto& at : sized_joints(effect, world, loaded, loaded, kUsualTip_m / world.arm.reach(),
                                      "gravity does not turn it")) {
-    springs.push_back({at, torque(at.joint)});
+    springs.push_back({at, torque(at.joint), kSoftening * world.richness});
   }
   return std::make_unique<JointCompliance>(std::move(springs));
 }

@@ -30,18 +30,17 @@ MadeLaw make_cross_compliance(const HiddenEffect& effect, const World& world) {
     const int from = joint_number(effect, "from", world, loaded_neighbour(torque, at.joint));
     if (torque(from) <= 0.0) refuse(effect, "gravity does not turn the other joint");
     if (from == at.joint) refuse(effect, "the other joint is the same");
-    const double most = torque(from);
+    const double most = torque(from), soft = kSoftening * world.richness;
     const double sign = joint_random(world, "cross", at.joint).below(2) == 0 ? -1.0 : 1.0;
     out.push_back({at,
                    [=](const Moment& now) {
                      const double y = now.loads.torque(from) / most;
-                     return sign * at.size *
-                            ((1.0 - kSoftening) * y + kSoftening * y * std::abs(y));
+                     return sign * at.size * ((1.0 - soft) * y + soft * y * std::abs(y));
                    },
                    {{"torque_of", world.cell.nominal.joints[from].name},
                     {"sign", sign},
                     {"largest_torque_Nm", most},
-                    {"softening", kSoftening}},
+                    {"softening", soft}},
                    {"tau" + std::to_string(from + 1)}});
   }
   return joint_law(std::move(out));

@@ -17,12 +17,13 @@ constexpr double kUsualSize_m = 0.15e-3;
 /// g = a (1 - exp(-t/T)) / (1 - exp(-1 h/T)) + (1 - a) t / 1 h + b sin(4 pi t / 1 h).
 class Drift : public Law {
  public:
-  Drift(const Vector3d& d, const Vector3d& e) : d_(d), e_(e) {}
+  Drift(const Vector3d& d, const Vector3d& e, double swing_share)
+      : d_(d), e_(e), swing_share_(swing_share) {}
 
   void bend(const Moment& now, Deflection& out) const override {
     const double t = now.visit.time_s;
     const double lag = std::expm1(-t / kLag_s) / std::expm1(-kHour_s / kLag_s);
-    const double swing = kSwingShare * std::sin(4.0 * std::numbers::pi * t / kHour_s);
+    const double swing = swing_share_ * std::sin(4.0 * std::numbers::pi * t / kHour_s);
     const double g = kLagShare * lag + (1.0 - kLagShare) * t / kHour_s + swing;
     out.base = exp(d_ * g, e_ * g) * out.base;
   }
@@ -33,11 +34,12 @@ class Drift : public Law {
             {"rotation_urad_in_first_hour", {e_urad.x(), e_urad.y(), e_urad.z()}},
             {"lag_s", kLag_s},
             {"lag_share", kLagShare},
-            {"swing_share", kSwingShare}};
+            {"swing_share", swing_share_}};
   }
 
  private:
   Vector3d d_, e_;
+  double swing_share_;
 };
 
 }  // namespace
@@ -47,7 +49,7 @@ std::unique_ptr<Law> make_drift(const HiddenEffect& effect, const World& world) 
   const double size = effect.size.value_or(kUsualSize_m);
   const Vector3d d = size * random.direction();
   const Vector3d e = 0.5 * size / world.arm.reach() * random.direction();
-  return std::make_unique<Drift>(d, e);
+  return std::make_unique<Drift>(d, e, kSwingShare * world.richness);
 }
 
 }  // namespace plumb::offline::sim

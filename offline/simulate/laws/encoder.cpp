@@ -16,14 +16,15 @@ MadeLaw make_encoder_scale(const HiddenEffect& effect, const World& world) {
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
                                      kUsual_rad, "it slides")) {
+    const double dish = kDish * world.richness;
     const double middle = 0.5 * (world.q_min(at.joint) + world.q_max(at.joint));
     const double sign = joint_random(world, "encoder scale", at.joint).below(2) == 0 ? -1.0 : 1.0;
     out.push_back({at,
                    [=](const Moment& now) {
                      const double x = now.visit.q(at.joint) - middle;
-                     return sign * at.size * (x + kDish * x * x);
+                     return sign * at.size * (x + dish * x * x);
                    },
-                   {{"sign", sign}, {"square_per_rad", kDish}},
+                   {{"sign", sign}, {"square_per_rad", dish}},
                    {angle_name(at.joint)}});
   }
   return joint_law(std::move(out));

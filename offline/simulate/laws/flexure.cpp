@@ -84,6 +84,8 @@ std::unique_ptr<Law> make_link_flexure(const HiddenEffect& effect, const World& 
   for (int i = 0; i < n; ++i) {
     beams[i].length = world.arm.link_vector(i, middle).norm();
     beams[i].mass = world.masses.mass[i];
+    Random random(world.seed, "taper " + std::to_string(i));
+    beams[i].taper = world.richness * random.uniform(0.1, 0.3);
     possible.push_back(beams[i].length > 0.01 * reach);
     usual.push_back(beams[i].length > kUsualLength * reach);
   }

@@ -8,15 +8,18 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr std::array kShare{1.0, 0.6, 0.08};  // of the first, second and third harmonic
-constexpr double kLoadShare = 0.15;           // growth of the amplitude at the largest torque
+using Shares = std::array<double, 3>;  // of the first, second and third harmonic
+constexpr Shares kShare{1.0, 0.6, 0.08};
+constexpr double kLoadShare = 0.15;  // growth of the amplitude at the largest torque
 constexpr double kUsualSize_rad = 100e-6;
 
 /// dq = size (1 + m torque / largest torque) sum_h share_h sin(h q + phase_h).
 struct Gear {
   SizedJoint at;
-  std::array<double, kShare.size()> phase{};
+  Shares phase{};
   double torque = 0.0;  // largest at the reference poses [N m]; 0: no load
+  Shares share = kShare;
+  double load_share = kLoadShare;
 };
 
 class GearHarmonics : public Law {
@@ -28,10 +31,10 @@ class GearHarmonics : public Law {
       const double q = now.visit.q(gear.at.joint);
       double sum = 0.0;
       for (std::size_t h = 0; h < kShare.size(); ++h) {
-        sum += kShare[h] * std::sin(static_cast<double>(h + 1) * q + gear.phase[h]);
+        sum += gear.share[h] * std::sin(static_cast<double>(h + 1) * q + gear.phase[h]);
       }
       const double load = gear.torque > 0.0 ? now.loads.torque(gear.at.joint) / gear.torque : 0.0;
-      out.dq(gear.at.joint) += gear.at.size * (1.0 + kLoadShare * load) * sum;
+      out.dq(gear.at.joint) += gear.at.size * (1.0 + gear.load_share * load) * sum;
     }
   }
 
@@ -41,12 +44,12 @@ class GearHarmonics : public Law {
       auto harmonics = nlohmann::ordered_json::array();
       for (std::size_t h = 0; h < kShare.size(); ++h) {
         harmonics.push_back({{"cycles_per_turn", h + 1},
-                             {"amplitude_urad", gear.at.size * kShare[h] * 1e6},
+                             {"amplitude_urad", gear.at.size * gear.share[h] * 1e6},
                              {"phase_rad", gear.phase[h]}});
       }
       out.push_back({{"joint", gear.at.name},
                      {"harmonics", harmonics},
-                     {"load_share", gear.torque > 0.0 ? kLoadShare : 0.0},
+                     {"load_share", gear.torque > 0.0 ? gear.load_share : 0.0},
                      {"largest_torque_Nm", gear.torque}});
     }
     return out;
@@ -62,14 +65,17 @@ std::unique_ptr<Law> make_gear_harmonics(const HiddenEffect& effect, const World
   std::vector<bool> turns;
   for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
   Random random(world.seed, "gear phases");
-  std::vector<std::array<double, kShare.size()>> phase(turns.size());
+  std::vector<Shares> phase(turns.size());
   for (auto& joint : phase) {
     for (double& p : joint) p = random.uniform(-std::numbers::pi, std::numbers::pi);
   }
   const VectorXd torque = largest_torque(world);
   std::vector<Gear> gears;
   for (const auto& at : sized_joints(effect, world, turns, turns, kUsualSize_rad, "it slides")) {
-    gears.push_back({at, phase[at.joint], torque(at.joint)});
+    Gear gear{at, phase[at.joint], torque(at.joint)};
+    gear.share[2] *= world.richness;
+    gear.load_share *= world.richness;
+    gears.push_back(gear);
   }
   return std::make_unique<GearHarmonics>(std::move(gears));
 }

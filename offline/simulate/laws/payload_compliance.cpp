@@ -37,13 +37,13 @@ MadeLaw make_payload_compliance(const HiddenEffect& effect, const World& world) 
   std::vector<JointError> out;
   for (const auto& at :
        sized_joints(effect, world, loaded, loaded, kUsual_rad, "the payload does not turn it")) {
-    const double most = torque(at.joint);
+    const double most = torque(at.joint), cubic = kProgressive * world.richness;
     out.push_back({at,
                    [=](const Moment& now) {
                      const double x = now.loads.payload_torque(at.joint) / most;
-                     return at.size * ((1.0 - kProgressive) * x + kProgressive * x * x * x);
+                     return at.size * ((1.0 - cubic) * x + cubic * x * x * x);
                    },
-                   {{"largest_torque_Nm", most}, {"cubic_share", kProgressive}}});
+                   {{"largest_torque_Nm", most}, {"cubic_share", cubic}}});
   }
   return joint_law(std::move(out));
 }

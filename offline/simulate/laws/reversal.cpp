@@ -17,7 +17,9 @@ constexpr double kTravel_rad = std::numbers::pi / 180.0;  // until the other fla
 class Reversal : public Law {
  public:
   Reversal(std::vector<SizedJoint> joints, const World& world)
-      : joints_(std::move(joints)), torque_(largest_torque(world)) {
+      : joints_(std::move(joints)),
+        torque_(largest_torque(world)),
+        friction_share_(kFrictionShare * world.richness) {
     unloaded_.assign(world.visits.size(), VectorXd::Zero(world.arm.joints()));
     for (const auto& at : joints_) wind(at, world);
   }
@@ -27,7 +29,7 @@ class Reversal : public Law {
       const int j = at.joint;
       const double x = torque_(j) > 0.0 ? now.loads.torque(j) / torque_(j) : 0.0;
       out.dq(j) +=
-          unloaded_[static_cast<std::size_t>(now.row)](j) * (1.0 + kFrictionShare * std::abs(x));
+          unloaded_[static_cast<std::size_t>(now.row)](j) * (1.0 + friction_share_ * std::abs(x));
     }
   }
 
@@ -37,7 +39,7 @@ class Reversal : public Law {
       out.push_back({{"joint", at.name},
                      {"half_gap_urad", at.size * 1e6},
                      {"travel_deg", kTravel_rad * 180.0 / std::numbers::pi},
-                     {"more_under_load_by", torque_(at.joint) > 0.0 ? kFrictionShare : 0.0}});
+                     {"more_under_load_by", torque_(at.joint) > 0.0 ? friction_share_ : 0.0}});
     }
     return out;
   }
@@ -57,6 +59,7 @@ class Reversal : public Law {
 
   std::vector<SizedJoint> joints_;
   VectorXd torque_;
+  double friction_share_;
   std::vector<VectorXd> unloaded_;
 };
 

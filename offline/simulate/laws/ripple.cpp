@@ -11,7 +11,7 @@ namespace {
 constexpr double kSlowest = 0.5;
 constexpr double kFastest = 40.0;
 constexpr double kFromHarmonics = 0.25;  // kept away from 1 and 2 cycles a turn
-constexpr double kSideband = 0.15;
+constexpr double kSideband = 0.06;
 constexpr double kLoadShare = 0.15;
 
 // Log-uniform, hardly ever whole.
@@ -39,19 +39,20 @@ MadeLaw make_gear_ripple(const HiddenEffect& effect, const World& world) {
     const double k = number(effect, "cycles", draw_cycles(random));
     const double p0 = draw_phase(random), p1 = draw_phase(random), p2 = draw_phase(random);
     const double most = torque(at.joint);
-    out.push_back(
-        {at,
-         [=](const Moment& now) {
-           const double q = now.visit.q(at.joint);
-           const double x = most > 0.0 ? now.loads.torque(at.joint) / most : 0.0;
-           const double sides = std::sin((k - 1.0) * q + p1) + std::sin((k + 1.0) * q + p2);
-           return at.size * ((1.0 + kLoadShare * x) * std::sin(k * q + p0) + kSideband * sides);
-         },
-         {{"cycles_per_turn", k},
-          {"phase_rad", p0},
-          {"sideband_share", kSideband},
-          {"load_share", most > 0.0 ? kLoadShare : 0.0}},
-         {angle_name(at.joint)}});
+    const double side = kSideband * world.richness, load = kLoadShare * world.richness;
+    out.push_back({at,
+                   [=](const Moment& now) {
+                     const double q = now.visit.q(at.joint);
+                     const double x = most > 0.0 ? now.loads.torque(at.joint) / most : 0.0;
+                     const double sides =
+                         std::sin((k - 1.0) * q + p1) + std::sin((k + 1.0) * q + p2);
+                     return at.size * ((1.0 + load * x) * std::sin(k * q + p0) + side * sides);
+                   },
+                   {{"cycles_per_turn", k},
+                    {"phase_rad", p0},
+                    {"sideband_share", side},
+                    {"load_share", most > 0.0 ? load : 0.0}},
+                   {angle_name(at.joint)}});
   }
   return joint_law(std::move(out));
 }

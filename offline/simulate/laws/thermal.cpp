@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWarm_K = 10.0;
 constexpr double kUsual_m = 0.25e-3;
-constexpr double kTiltShare = 0.25;
+constexpr double kTiltShare = 0.15;
 
 }  // namespace
 
@@ -22,11 +22,12 @@ MadeLaw make_thermal_growth(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "thermal growth");
   std::vector<double> alpha;
   for (int i = 0; i < world.arm.joints(); ++i) {
-    alpha.push_back(size / (reach * kWarm_K) * random.uniform(0.8, 1.2));
+    alpha.push_back(size / (reach * kWarm_K) *
+                    (1.0 + world.richness * random.uniform(-0.15, 0.15)));
   }
   const double bearing = random.uniform(-3.0, 3.0);
-  const Vector3d tilt =
-      kTiltShare * size / (reach * kWarm_K) * Vector3d(std::cos(bearing), std::sin(bearing), 0.0);
+  const Vector3d tilt = world.richness * kTiltShare * size / (reach * kWarm_K) *
+                        Vector3d(std::cos(bearing), std::sin(bearing), 0.0);
   ArmBending out;
   out.bend = [=, &world](const Moment& now, Deflection& deflection) {
     for (int i = 0; i < world.arm.joints(); ++i) {

@@ -21,7 +21,8 @@ MadeLaw make_wrist_coupling(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "wrist coupling");
   const double k45 = effect.size.value_or(kUsual_rad);
   const double k46 = k45 * random.uniform(-1.0, 1.0), k56 = k45 * random.uniform(-1.0, 1.0);
-  const auto through = [](double q) { return q + kTeeth * std::sin(2.0 * q); };
+  const double teeth = kTeeth * world.richness;
+  const auto through = [=](double q) { return q + teeth * std::sin(2.0 * q); };
   ArmBending out;
   out.bend = [=](const Moment& now, Deflection& deflection) {
     const double q4 = now.visit.q(n - 3), q5 = now.visit.q(n - 2);
@@ -31,7 +32,7 @@ MadeLaw make_wrist_coupling(const HiddenEffect& effect, const World& world) {
   out.truth = {{"k45_urad_per_rad", k45 * 1e6},
                {"k46_urad_per_rad", k46 * 1e6},
                {"k56_urad_per_rad", k56 * 1e6},
-               {"teeth_share", kTeeth}};
+               {"teeth_share", teeth}};
   out.inputs = {angle_name(n - 3), angle_name(n - 2)};
   return arm_law(std::move(out));
 }
