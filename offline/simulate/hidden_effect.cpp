@@ -55,8 +55,7 @@ class Reader {
 
   void read_joints(std::size_t colon, const sim::LawEntry& law, HiddenEffect& out) {
     const std::size_t second = find(':', colon + 1);
-    const bool whole_arm = law.on == sim::LawEntry::On::kArm;
-    if (whole_arm && (second == end_ || second > colon + 1)) {
+    if (law.on == sim::LawEntry::On::kArm && (second == end_ || second > colon + 1)) {
       fail(colon, 1, out.name + " works on the whole arm", "no joints here");
     }
     const bool skipped = second == colon + 1 && second < end_;
@@ -70,9 +69,8 @@ class Reader {
 
   // @KEY=NUMBER,...
   void read_numbers(const sim::LawEntry& law, HiddenEffect& out) {
-    const std::size_t begin_all = end_ + 1;
-    end_ = spec_.size();
-    for (std::size_t begin = begin_all; begin <= end_;) {
+    std::size_t begin = end_ + 1;
+    for (end_ = spec_.size(); begin <= end_;) {
       const std::size_t end = find(',', begin);
       const auto [key, value] = name_and_size(begin, end);
       if (std::find(law.keys.begin(), law.keys.end(), text(key)) == law.keys.end()) {

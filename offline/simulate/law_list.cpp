@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/law_list.hpp"
+#include "simulate/law_entry.hpp"
 
 #include <algorithm>
 
@@ -7,53 +8,8 @@ namespace plumb::offline::sim {
 namespace {
 
 using Size = LawEntry::Size;
-using On = LawEntry::On;
 using Domain = LawEntry::Domain;
 using Needs = LawEntry::Needs;
-
-LawEntry of_joints(const std::string& name, const std::string& line,
-                   MadeLaw (*make)(const HiddenEffect&, const World&)) {
-  LawEntry out;
-  out.name = out.library = name;
-  out.line = line;
-  out.make = make;
-  return out;
-}
-
-LawEntry of_arm(const std::string& name, const std::string& line, Size size, Domain domain,
-                MadeLaw (*make)(const HiddenEffect&, const World&)) {
-  LawEntry out = of_joints(name, line, make);
-  out.size = size;
-  out.on = On::kArm;
-  out.domain = domain;
-  return out;
-}
-
-LawEntry with_keys(LawEntry entry, std::vector<std::string> keys) {
-  entry.keys = std::move(keys);
-  return entry;
-}
-
-LawEntry needing(LawEntry entry, Needs needs) {
-  entry.needs = needs;
-  return entry;
-}
-
-/// What a diagnosis may call it as well, because no data can tell them apart.
-LawEntry like(LawEntry entry, std::vector<std::string> others) {
-  entry.same_as = std::move(others);
-  return entry;
-}
-
-LawEntry called(LawEntry entry, const std::string& library) {
-  entry.library = library;
-  return entry;
-}
-
-LawEntry during(LawEntry entry, Domain domain) {
-  entry.domain = domain;
-  return entry;
-}
 
 void add_gravity_laws(std::vector<LawEntry>& all) {
   all.push_back(
