@@ -141,6 +141,7 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
   out.state = solution.state;
   out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
+  out.parameters = subset.kept;
   out.held = subset.held;
   return out;
 }

@@ -8,6 +8,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/geometry.hpp"
 #include "fit/outliers.hpp"
 
 namespace plumb::offline {
@@ -28,6 +29,7 @@ struct Calibration {
   std::vector<Outlier> outliers;    // poses that the others contradict: not fitted, farthest first
   std::vector<Problem> remarks;     // what the numbers look like
   std::vector<Estimate> estimates;  // the identifiable subset, in covariance order
+  std::vector<Parameter> parameters;  // the same ones
   std::vector<std::string> held;    // kept at nominal: these poses say less about them
   Eigen::MatrixXd covariance;       // SI
   int rank = 0;                     // independent columns, of all candidates

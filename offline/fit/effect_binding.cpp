@@ -69,10 +69,11 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
 std::vector<double> torque_constants(const Cell& cell, const Measurements& measured,
                                      const EffectEntry& entry,
                                      const std::vector<std::uint8_t>& joints) {
+  if (const double given = option_or(entry, "torque_Nm", 0.0); given > 0.0)
+    return std::vector<double>(joints.size(), given);
   const auto largest = largest_torques(cell, measured);
   std::vector<double> out;
-  for (int j : joints)
-    out.push_back(option_or(entry, "torque_Nm", std::max(1e-6, kTorqueShare * largest[j])));
+  for (int j : joints) out.push_back(std::max(1e-6, kTorqueShare * largest[j]));
   return out;
 }
 
@@ -149,22 +150,25 @@ std::string tail(const format::Effect& effect, const EffectInfo& info, int index
 
 }  // namespace
 
+format::Effect bind_effect(const Cell& cell, const Measurements& measured,
+                           const EffectEntry& entry) {
+  const int law = find_effect_law(entry.name);
+  const EffectInfo& info = effect_info(law);
+  format::Effect out;
+  out.name = entry.name;
+  out.version = info.version;
+  out.joints = joints_of(cell, entry, info);
+  bind_constants(cell, measured, entry, out);
+  const EffectShape shape{cell.joints(), out.joints, out.constants};
+  out.parameters.assign(static_cast<std::size_t>(effect_parameter_count(law, shape)), 0.0);
+  return out;
+}
+
 std::vector<format::Effect> bind_effects(const Cell& cell, const Measurements& measured) {
   std::vector<format::Effect> out;
-  for (const auto& entry : cell.effects) {
-    const int law = find_effect_law(entry.name);
-    if (law < 0) continue;  // geometry, local_tree
-    const EffectInfo& info = effect_info(law);
-    format::Effect effect;
-    effect.name = entry.name;
-    effect.version = info.version;
-    effect.joints = joints_of(cell, entry, info);
-    bind_constants(cell, measured, entry, effect);
-    effect.parameters.assign(static_cast<std::size_t>(effect_parameter_count(
-                                 law, {cell.joints(), effect.joints, effect.constants})),
-                             0.0);
-    out.push_back(std::move(effect));
-  }
+  for (const auto& entry : cell.effects)
+    if (find_effect_law(entry.name) >= 0)  // not geometry, local_tree
+      out.push_back(bind_effect(cell, measured, entry));
   return out;
 }
 

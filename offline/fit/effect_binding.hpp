@@ -16,6 +16,10 @@ namespace plumb::offline {
 /// Throws Failure (kInput) if a given one cannot work with these measurements.
 std::vector<format::Effect> bind_effects(const Cell& cell, const Measurements& measured);
 
+/// The same for one of them; `entry` names a law of the library.
+format::Effect bind_effect(const Cell& cell, const Measurements& measured,
+                           const EffectEntry& entry);
+
 /// Masses and payload of the cell.
 format::Mechanics mechanics_of(const Cell& cell);
 

@@ -50,6 +50,7 @@ NoiseFloor noise_floor(const Cell& cell, const Measurements& measured) {
   if (repeats.dof >= kEnoughRepeats) {
     out.sigma_m = std::sqrt(repeats.squares / (repeats.dof * axes));
     out.source = NoiseFloor::Source::kRepeats;
+    out.dof = repeats.dof * axes;
   } else if (measured.sigma_m.rows() > 0) {
     // Columns of axes that were not measured hold zeros.
     out.sigma_m = std::sqrt(measured.sigma_m.squaredNorm() /

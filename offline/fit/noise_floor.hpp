@@ -11,6 +11,7 @@ struct NoiseFloor {
   double sigma_m = 0.0;  // 1 sigma per axis
   double mean_m = 0.0;   // mean error: 1.596 sigma with three axes, 1.253 with two
   double rms_m = 0.0;    // sqrt(axes) sigma
+  int dof = 0;           // repeated coordinates behind it; 0: sigma as stated
   enum class Source { kNone, kRepeats, kSigma } source = Source::kNone;
 };
 

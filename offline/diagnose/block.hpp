@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "diagnose/stage.hpp"
+
+namespace plumb::offline {
+
+/// Structure that belongs to no law of the library, in words.
+struct Pattern {
+  std::string subject;                  // "joint 5", "the tool frame"
+  std::string words;                    // "depends on q4 and q6 together"
+  std::vector<std::string> depends_on;  // "q4", "t", "temp_base"
+  double harmonic = 0.0;                // 0: none
+  bool empty() const { return subject.empty(); }
+};
+
+/// Something that may be missing from the model: how it would move the measured point, per typical
+/// size. Either a function of the pose times one joint, or any motion.
+struct Block {
+  EffectEntry entry;  // of the library, as it would stand in the cell; no name: a pattern
+  Pattern pattern;
+  int joint = -1;            // `columns` multiply its motion; -1: they are motions themselves
+  Eigen::MatrixXd columns;   // (poses, b) times a joint, or (lines, b)
+  Eigen::VectorXd typical;   // SI value of each column's parameter that makes it 1
+  std::vector<int> members;  // place of each column among the effect's parameters
+  bool of_library() const { return !entry.name.empty(); }
+};
+
+/// Motions of a block, whitened, shape (lines, b).
+Eigen::MatrixXd motions(const Stage& stage, const Block& block);
+
+using BlockVisitor = std::function<void(const Block&)>;
+
+/// Every law of the library that `testable` allows, joint by joint, with its non-linear numbers on
+/// a grid. Returns nothing twice; columns live only while they are visited.
+void visit_library(const Stage& stage, const std::vector<std::string>& not_testable,
+                   const BlockVisitor& visit);
+
+/// One block of the library again, with other constants.
+Block library_block(const Stage& stage, const EffectEntry& entry);
+
+/// Generic structure, so that what no law explains is not forced into one.
+void visit_patterns(const Stage& stage, const BlockVisitor& visit);
+
+}  // namespace plumb::offline

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/scan.hpp"
+
+namespace plumb::offline {
+
+/// What the first scan found, for the reader: best first, with held-out errors alone and after the
+/// best one, parameters, and what each cannot be told from.
+std::vector<Candidate> candidates_of(const Stage& stage, const Scan& scan);
+
+/// What the best pattern of a scan amounts to at that stage.
+UnknownStructure unknown_structure(const Stage& stage, const Found& pattern);
+
+}  // namespace plumb::offline

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "check/data_sense.hpp"
+#include "diagnose/candidates.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/forward.hpp"
+#include "diagnose/verdict.hpp"
+#include "fit/split.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kFewestFreeLines = 20.0;
+
+/// The cell without what is learnt: the tree comes after the physics.
+Cell physics_of(Cell cell) {
+  std::erase_if(cell.effects, [](const EffectEntry& e) { return e.name == "local_tree"; });
+  return cell;
+}
+
+/// Predictions of poses that had no say.
+class HeldOut {
+ public:
+  HeldOut(const Measurements& measured, const Split& split)
+      : measured_(measured), rows_(held_rows(split)), predicted_(measured.p_M) {}
+
+  void put(const Calibration& calibration, const std::vector<int>& rows) {
+    const Rows3 points = predict_points(calibration.state, pick(measured_, rows));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
+  }
+  ErrorStats stats() const {
+    const Rows3 error = residuals(measured_, predicted_);
+    std::vector<double> norms;
+    for (int row : rows_) norms.push_back(error.row(row).norm());
+    return summarise(std::move(norms));
+  }
+
+ private:
+  const Measurements& measured_;
+  std::vector<int> rows_;
+  Rows3 predicted_;
+};
+
+/// All that a diagnosis works with.
+struct Work {
+  Cell cell;
+  const Measurements& measured;
+  Split split;
+  std::vector<int> fit, held;  // held: for good, none with folds
+  std::vector<Testable> testable;
+  std::vector<std::string> not_testable;
+  const DiagnosisRequest& request;
+
+  ForwardStart start(const std::vector<int>& rows, bool quiet) const {
+    return {cell, measured, rows, not_testable,
+            quiet ? std::function<void(const std::string&)>() : request.tell};
+  }
+};
+
+/// A list of effects, chosen beforehand, on poses that had no say.
+ErrorStats held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
+                       const Calibration& fitted) {
+  HeldOut out(w.measured, w.split);
+  if (w.split.folds == 0) out.put(fitted, w.held);
+  for (int k = 0; k < w.split.folds; ++k)
+    out.put(refitted(w.cell, w.measured, fit_rows(w.split, k), effects, fitted),
+            held_rows(w.split, k));
+  return out.stats();
+}
+
+/// The whole selection once more around every fold.
+ErrorStats nested_held_out(const Work& w) {
+  HeldOut out(w.measured, w.split);
+  for (int k = 0; k < w.split.folds; ++k) {
+    const auto inside = fit_rows(w.split, k);
+    const Calibration base = calibrate(w.cell, w.measured, inside);
+    const Stage stage =
+        make_stage(w.cell, w.measured, base, without_outliers(inside, base), {});
+    const Forward found =
+        forward(w.start(inside, true), base, stage, scan(stage, w.not_testable, {}));
+    out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
+  }
+  return out.stats();
+}
+
+bool judgeable(const Stage& stage) {
+  return static_cast<double>(stage.fit_lines - stage.rank) >= kFewestFreeLines;
+}
+
+Finding finding_of(const Scan& look, const Stage& stage) {
+  if (!judgeable(stage)) return Finding::kUndecidable;
+  if (look.unknown()) return Finding::kUnknown;
+  if (look.supported() != nullptr) return Finding::kMissing;
+  return stage.noise.known ? Finding::kComplete : Finding::kUndecidable;
+}
+
+void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, const Scan& first,
+                    Diagnosis& out) {
+  const Forward found = forward(w.start(w.fit, false), base, stage, first);
+  for (const auto& step : found.steps)
+    out.added.push_back(
+        {step.entry, step.ln_bayes, held_out_of(w, step.effects, step.calibration)});
+  if (!found.steps.empty()) out.effects = found.steps.back().effects;
+  if (w.split.folds > 0) {
+    out.nested = true;
+    out.after = nested_held_out(w);
+  } else if (!out.added.empty()) {
+    out.after = out.added.back().held;
+  }
+  out.finding_after = Finding::kComplete;
+  if (found.unknown) {
+    out.finding_after = Finding::kUnknown;
+    out.unknown_after = found.unknown;
+  } else if (!stage.noise.known || !judgeable(stage)) {
+    out.finding_after = Finding::kUndecidable;
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Cell& cell, const Measurements& measured,
+                   const DiagnosisRequest& request) {
+  Work w{physics_of(cell), measured,
+         split_poses(measured, cell.measurement.held_out, cell.measurement.seed), {}, {}, {}, {},
+         request};
+  w.fit = fit_rows(w.split);
+  if (w.split.folds == 0) w.held = held_rows(w.split);
+  w.testable = testable_effects(w.cell, data_sense(w.cell, measured, w.fit));
+  Diagnosis out;
+  for (const auto& answer : w.testable)
+    if (answer.answer == Testable::Answer::kNo) {
+      out.not_testable.push_back(answer);
+      w.not_testable.push_back(answer.effect);
+    }
+  const Calibration base = calibrate(w.cell, measured, w.fit);
+  const auto rows = without_outliers(w.fit, base);
+  const Stage stage = make_stage(w.cell, measured, base, rows, w.held);
+  const Scan first = scan(stage, w.not_testable, {});
+  out.floor = noise_floor(w.cell, measured);
+  out.poses_fit = static_cast<int>(w.fit.size());
+  out.poses_held = static_cast<int>(held_rows(w.split).size());
+  out.blocks = first.blocks;
+  for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
+  out.finding = finding_of(first, stage);
+  out.candidates = candidates_of(stage, first);
+  if (out.finding == Finding::kUnknown)
+    out.unknown = unknown_structure(stage, *first.pattern);
+  out.before = out.after = held_out_of(w, w.cell.effects, base);
+  out.effects = w.cell.effects;
+  if (request.apply) go_all_the_way(w, base, stage, first, out);
+  out.text = verdict_text(w.cell, out);
+  out.text_after = verdict_after_text(w.cell, out);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "check/effect_rules.hpp"
+#include "diagnose/block.hpp"
+#include "fit/error_stats.hpp"
+#include "fit/noise_floor.hpp"
+
+namespace plumb::offline {
+
+/// What a diagnosis comes to.
+enum class Finding {
+  kComplete,    // nothing more is supported
+  kMissing,     // an effect of the library is
+  kUnknown,     // structure that none of them explains
+  kUndecidable  // too few poses, no noise floor, or an exact tie
+};
+
+/// A fitted number of a candidate. SI.
+struct CandidateNumber {
+  std::string name, unit;
+  double value = 0.0, std = 0.0;
+  double typical = 0.0;  // 0: the arm decides
+  bool plausible = true;
+};
+
+/// An effect at a joint, and what speaks for it. Errors in [m].
+struct Candidate {
+  EffectEntry entry;
+  std::string title;   // "gear ripple"
+  std::string domain;  // "robot"
+  double ln_bayes = 0.0;
+  double gain = 0.0, gain_se = 0.0;  // share of the RMS, K-fold inside the fit poses
+  ErrorStats alone;                  // held out, with this effect
+  ErrorStats after;                  // with the best one and this one
+  std::vector<double> cycles;
+  bool supported = false;
+  bool plausible = true;
+  std::vector<CandidateNumber> numbers;
+  double explained = 0.0;  // share of what the model leaves
+  double absorbed = 0.0;   // share of its motion that the geometry imitates
+  std::vector<std::string> confounded_with;  // "gear_harmonics:J2"
+  std::string separate;                      // the measurement that tells them apart
+};
+
+struct UnknownStructure {
+  Pattern pattern;
+  double share = 0.0;    // of what the model leaves
+  double rms_m = 0.0;    // motion of the measured point
+  double rms_rad = 0.0;  // of the joint; 0: no joint
+};
+
+struct Addition {
+  EffectEntry entry;
+  double ln_bayes = 0.0;
+  ErrorStats held;
+};
+
+struct Diagnosis {
+  Finding finding = Finding::kComplete;
+  std::optional<Finding> finding_after;  // with `apply`
+  std::string text, text_after;          // the verdicts in words
+  NoiseFloor floor;
+  int poses_fit = 0, poses_held = 0;
+  bool nested = false;      // held-out figures come from folds around the whole diagnosis
+  ErrorStats before, after;
+  std::vector<Addition> added;
+  std::vector<Candidate> candidates;  // by ln B
+  std::vector<Testable> not_testable;
+  std::optional<UnknownStructure> unknown;        // at the start
+  std::optional<UnknownStructure> unknown_after;  // at the end
+  std::vector<EffectEntry> effects;               // the list at the end
+  std::vector<std::string> outliers;              // poses left out
+  double blocks = 0.0;                            // tried in one look
+};
+
+struct DiagnosisRequest {
+  bool apply = false;
+  std::function<void(const std::string&)> tell;  // progress
+};
+
+/// Which physical effect is missing. Selection sees the fit poses alone; held-out poses give every
+/// figure, once. Below 60 poses the folds go around the whole diagnosis. Throws as `calibrate`.
+Diagnosis diagnose(const Cell& cell, const Measurements& measured,
+                   const DiagnosisRequest& request);
+
+}  // namespace plumb::offline

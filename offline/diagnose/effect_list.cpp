@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/effect_list.hpp"
+
+#include <algorithm>
+
+namespace plumb::offline {
+namespace {
+
+/// Effects whose joints are a set; of the others they mean something together.
+bool joints_add_up(const EffectEntry& entry) {
+  return !entry.joints.empty() && entry.name != "cross_compliance" && entry.name != "step" &&
+         entry.name != "formula";
+}
+
+bool like(const EffectEntry& a, const EffectEntry& b) {
+  if (a.name != b.name) return false;
+  return std::all_of(b.options.begin(), b.options.end(), [&](const auto& option) {
+    const auto it = a.options.find(option.first);
+    return it != a.options.end() && it->second == option.second;
+  });
+}
+
+bool contains(const std::vector<int>& all, int joint) {
+  return std::find(all.begin(), all.end(), joint) != all.end();
+}
+
+}  // namespace
+
+std::vector<EffectEntry> with_effect(std::vector<EffectEntry> effects, const EffectEntry& entry) {
+  if (joints_add_up(entry))
+    for (auto& old : effects)
+      if (old.name == entry.name && old.options == entry.options && !old.joints.empty()) {
+        for (int joint : entry.joints)
+          if (!contains(old.joints, joint)) old.joints.push_back(joint);
+        std::sort(old.joints.begin(), old.joints.end());
+        return effects;
+      }
+  effects.push_back(entry);
+  return effects;
+}
+
+std::vector<EffectEntry> without_effect(std::vector<EffectEntry> effects,
+                                        const EffectEntry& entry) {
+  std::vector<EffectEntry> out;
+  for (auto& old : effects) {
+    if (!like(old, entry)) {
+      out.push_back(std::move(old));
+      continue;
+    }
+    if (entry.joints.empty() || old.joints == entry.joints) continue;
+    if (!joints_add_up(old)) {
+      out.push_back(std::move(old));
+      continue;
+    }
+    std::erase_if(old.joints, [&](int joint) { return contains(entry.joints, joint); });
+    if (!old.joints.empty()) out.push_back(std::move(old));
+  }
+  return out;
+}
+
+bool has_effect(const std::vector<EffectEntry>& effects, const EffectEntry& entry) {
+  return std::any_of(effects.begin(), effects.end(), [&](const EffectEntry& old) {
+    if (old.name != entry.name || old.options != entry.options) return false;
+    if (old.joints.empty() || old.joints == entry.joints) return true;
+    return joints_add_up(entry) &&
+           std::all_of(entry.joints.begin(), entry.joints.end(),
+                       [&](int joint) { return contains(old.joints, joint); });
+  });
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/evidence.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::array kWidths = {0.1, 0.3, 1.0, 3.0, 10.0};
+constexpr double kNothingLeft = 1e-12;  // share of Q: rounding
+
+double ln_bayes_at(double tau, const Eigen::ArrayXd& w, const Eigen::ArrayXd& v, double Q,
+                   const EvidenceScale& scale) {
+  const double ridge = scale.variance / (tau * tau);
+  const double paid = -0.5 * (1.0 + w / ridge).log().sum();
+  const double before = scale.dof * scale.variance + Q;
+  const double after = before - (v.square() / (w + ridge)).sum();
+  return paid -
+         0.5 * (scale.lines + scale.dof) * std::log(std::max(after, kNothingLeft * before) / before);
+}
+
+}  // namespace
+
+Evidence evidence(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double Q,
+                  const EvidenceScale& scale) {
+  Eigen::ArrayXd w, u;
+  if (gram.rows() == 1) {
+    w = gram.diagonal().array();
+    u = v.array();
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+    w = eigen.eigenvalues().array();
+    u = (eigen.eigenvectors().transpose() * v).array();
+  }
+  w = w.max(0.0);
+  std::array<double, kWidths.size()> ln{};
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < kWidths.size(); ++i) {
+    ln[i] = ln_bayes_at(kWidths[i], w, u, Q, scale);
+    if (ln[i] > ln[best]) best = i;
+  }
+  double sum = 0.0;
+  for (double l : ln) sum += std::exp(l - ln[best]);
+  return {ln[best] + std::log(sum / static_cast<double>(kWidths.size())), kWidths[best]};
+}
+
+}  // namespace plumb::offline

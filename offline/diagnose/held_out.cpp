@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/held_out.hpp"
+
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+/// 3-D error of each pose of whitened lines.
+void add_norms(const Stage& s, const Segment& at, const Eigen::VectorXd& lines,
+               std::vector<double>& out) {
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    double sum = 0.0;
+    for (int k = 0; k < s.axes; ++k) {
+      const Eigen::Index line = (at.begin + i) * s.axes + k;
+      sum += std::pow(lines(i * s.axes + k) * s.sigma[line], 2);
+    }
+    out.push_back(std::sqrt(sum));
+  }
+}
+
+auto lines_of(const Stage& s, const Segment& at) {
+  return Eigen::seqN(at.begin * s.axes, at.size() * s.axes);
+}
+
+}  // namespace
+
+ErrorStats held_out_error(const Judge& judge) {
+  const Stage& s = judge.stage();
+  std::vector<double> norms;
+  if (s.held.size() > 0) {
+    add_norms(s, s.held, s.y(lines_of(s, s.held)), norms);
+    return summarise(std::move(norms));
+  }
+  for (std::size_t f = 0; f < s.folds.size(); ++f) {
+    const auto at = lines_of(s, s.folds[f]);
+    add_norms(s, s.folds[f], s.y(at) - s.U(at, Eigen::all) * judge.without(f).model, norms);
+  }
+  return summarise(std::move(norms));
+}
+
+ErrorStats held_out_error(const Judge& judge, const Block& block, const Trial& trial) {
+  const Stage& s = judge.stage();
+  const Eigen::MatrixXd X = motions(s, block);
+  std::vector<double> norms;
+  if (s.held.size() > 0) {
+    const auto at = lines_of(s, s.held);
+    const Eigen::VectorXd a =
+        -(s.U.topRows(s.fit_lines).transpose() * (X.topRows(s.fit_lines) * trial.theta));
+    add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - X(at, Eigen::all) * trial.theta,
+              norms);
+    return summarise(std::move(norms));
+  }
+  for (std::size_t f = 0; f < s.folds.size(); ++f) {
+    const auto at = lines_of(s, s.folds[f]);
+    const auto fitted = judge.without(f, trial);
+    add_norms(s, s.folds[f],
+              s.y(at) - s.U(at, Eigen::all) * fitted.model - X(at, Eigen::all) * fitted.block,
+              norms);
+  }
+  return summarise(std::move(norms));
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "diagnose/block.hpp"
+#include "fit/dual.hpp"
+#include "fit/effect_binding.hpp"
+#include "plumb/runtime/effect_library.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kTypicalMotion_m = 0.1e-3;  // RMS, of parameters whose size the arm decides
+constexpr std::array kTorqueShares = {0.1, 0.3, 1.0};
+constexpr std::array kTransitions_deg = {0.05, 0.2, 0.6, 2.0};
+constexpr double kFirstRipple = 2.5, kLastRipple = 40.0, kRippleStep = 0.5;
+constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
+
+/// Laws that only turn the joint they are listed for.
+const std::set<std::string, std::less<>> kJointLaws = {
+    "joint_compliance", "joint_compliance_soft", "gravity_free",       "gear_harmonics",
+    "gear_ripple",      "encoder_scale",         "encoder_eccentricity", "reversal",
+    "backlash_load",    "settling_lag",          "cross_compliance",   "payload_compliance",
+    "wrench_compliance"};
+
+/// Laws that are another one in disguise, or too wide a net: named as confounded, never searched.
+const std::set<std::string, std::less<>> kNotSearched = {
+    "encoder_eccentricity", "gravity_compensator", "joint_table", "step"};
+
+struct Bound {
+  const Stage& stage;
+  format::Effect effect;
+  int law = -1;
+  EffectShape shape;
+  int sensor = -1;
+
+  Bound(const Stage& s, const EffectEntry& entry)
+      : stage(s), effect(bind_effect(*s.cell, *s.measured, entry)), law(find_effect_law(entry.name)) {
+    shape = {s.joints(), effect.joints, effect.constants};
+    for (const auto& need : effect.context)
+      if (need.input == format::ContextInput::kTemperature)
+        sensor = static_cast<int>(std::find(s.sensors.begin(), s.sensors.end(), need.name) -
+                                  s.sensors.begin());
+  }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(effect.parameters.size()); }
+
+  Situation at(Eigen::Index i) const {
+    return {.q = stage.q(i),
+            .chain = stage.chain,
+            .frames = stage.frames[i],
+            .loads = stage.loads[i],
+            .context = stage.context[i],
+            .temperature_degC =
+                sensor < 0 ? kUnknown : stage.context[i].temperature_degC[sensor]};
+  }
+};
+
+/// Calls visit(pose, first parameter, motion) with derivatives by up to eight parameters.
+template <class Visit>
+void differentiate(const Bound& bound, const Visit& visit) {
+  for (Eigen::Index first = 0; first < bound.count(); first += Dual::kLanes) {
+    std::vector<Dual> theta(bound.effect.parameters.begin(), bound.effect.parameters.end());
+    const Eigen::Index lanes = std::min<Eigen::Index>(Dual::kLanes, bound.count() - first);
+    for (Eigen::Index l = 0; l < lanes; ++l) theta[first + l].d(l) = 1.0;
+    for (Eigen::Index i = 0; i < bound.stage.poses(); ++i) {
+      Motion<Dual> motion;
+      apply_effect<Dual>(bound.law, theta, bound.shape, bound.at(i), motion);
+      for (Eigen::Index l = 0; l < lanes; ++l) visit(i, first + l, l, motion);
+    }
+  }
+}
+
+void joint_columns(const Bound& bound, Block& out) {
+  const int joint = bound.effect.joints.front();
+  out.joint = joint;
+  out.columns.resize(bound.stage.poses(), bound.count());
+  differentiate(bound, [&](Eigen::Index i, Eigen::Index c, Eigen::Index lane, const auto& motion) {
+    out.columns(i, c) = motion.dq[joint].d(lane);
+  });
+}
+
+void motion_columns(const Bound& bound, Block& out) {
+  const Stage& s = bound.stage;
+  out.columns.setZero(s.poses() * s.axes, bound.count());
+  differentiate(bound, [&](Eigen::Index i, Eigen::Index c, Eigen::Index lane, const auto& motion) {
+    Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
+    const Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
+    d = s.X_MB.R * (d + cross<double>(e, s.arm_B[i]));
+    Eigen::Index line = i * s.axes;
+    for (int k = 0; k < 3; ++k)
+      if (s.measured->has_axis[k]) {
+        double sum = d(k) / s.sigma[line];
+        for (int j = 0; j < s.joints(); ++j) sum += s.joint[j](line) * motion.dq[j].d(lane);
+        out.columns(line++, c) = sum;
+      }
+  });
+}
+
+/// RMS motion of the measured point [m] per unit of a column.
+double motion_of(const Stage& s, const Block& block, Eigen::Index c) {
+  double sum = 0.0;
+  if (block.joint < 0)
+    sum = block.columns.col(c).squaredNorm();
+  else
+    sum = (block.columns.col(c).array().square() * s.joint_square[block.joint].array()).sum();
+  return std::sqrt(sum / static_cast<double>(std::max<Eigen::Index>(1, s.poses()))) * s.sigma_m;
+}
+
+double stated_typical(const Stage& s, const Bound& bound, const EffectParameter& info) {
+  const auto& name = bound.effect.name;
+  if (name == "joint_compliance" || name == "joint_compliance_soft") {
+    const auto& stiffness = s.cell->mechanics[bound.effect.joints.front()].stiffness_Nm_per_rad;
+    if (stiffness && info.typical == 0.0) return 1.0 / *stiffness;
+  }
+  return info.typical;
+}
+
+/// Divides by typical sizes; columns that move nothing are left out.
+void scale(const Bound& bound, Block& out) {
+  const Stage& s = bound.stage;
+  format::Model model;
+  model.effects = {bound.effect};
+  std::vector<Eigen::Index> moving;
+  std::vector<double> typical;
+  for (Eigen::Index c = 0; c < bound.count(); ++c) {
+    const double motion = motion_of(s, out, c);
+    if (!(motion > kNoMotion_m)) continue;
+    double size =
+        stated_typical(s, bound, effect_parameter(model, 0, static_cast<int>(c)));
+    if (size == 0.0) size = kTypicalMotion_m / motion;
+    moving.push_back(c);
+    typical.push_back(size);
+  }
+  Eigen::MatrixXd kept(out.columns.rows(), static_cast<Eigen::Index>(moving.size()));
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    kept.col(static_cast<Eigen::Index>(i)) = out.columns.col(moving[i]) * typical[i];
+  out.columns = std::move(kept);
+  out.typical = Eigen::Map<Eigen::VectorXd>(typical.data(), static_cast<Eigen::Index>(typical.size()));
+  out.members.assign(moving.begin(), moving.end());
+}
+
+EffectEntry entry_of(const std::string& name, std::vector<int> joints = {}) {
+  return {.name = name, .joints = std::move(joints), .options = {}, .place = {}};
+}
+
+std::vector<int> turning(const Stage& s) {
+  std::vector<int> out;
+  for (int j = 0; j < s.joints(); ++j)
+    if (s.chain.revolute(j)) out.push_back(j);
+  return out;
+}
+
+double largest_torque(const Stage& s, int joint) {
+  double out = 0.0;
+  for (const auto& loads : s.loads) out = std::max(out, std::abs(loads.joint[joint].torque));
+  return out;
+}
+
+double range_of(const Stage& s, int joint) {
+  double low = 1e300, high = -1e300;
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
+    low = std::min(low, s.q(i)[joint]);
+    high = std::max(high, s.q(i)[joint]);
+  }
+  return high - low;
+}
+
+/// sin and cos of k q_j for k in equal steps, by turning a vector on: two products a step.
+void visit_ripples(const Stage& s, int joint, const BlockVisitor& visit) {
+  const double range = range_of(s, joint);
+  if (range < 0.2) return;
+  const double step = std::min(kRippleStep, M_PI / range);
+  const auto first = static_cast<int>(std::ceil(kFirstRipple / step));
+  const auto last = static_cast<int>(std::floor(kLastRipple / step));
+  const Eigen::Index n = s.poses();
+  Eigen::ArrayXd turn_sin(n), turn_cos(n), sin(n), cos(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double q = s.q(i)[joint];
+    turn_sin(i) = std::sin(step * q);
+    turn_cos(i) = std::cos(step * q);
+    sin(i) = std::sin(first * step * q);
+    cos(i) = std::cos(first * step * q);
+  }
+  const int law = find_effect_law("gear_ripple");
+  const double typical = effect_info(law).parameters[0].typical;
+  Block block;
+  block.joint = joint;
+  block.entry = entry_of("gear_ripple", {joint});
+  block.typical = Eigen::Vector2d::Constant(typical);
+  block.members = {0, 1};
+  block.columns.resize(n, 2);
+  for (int k = first; k <= last; ++k) {
+    block.entry.options["cycles_per_turn"] = k * step;
+    block.columns.col(0) = sin * typical;
+    block.columns.col(1) = cos * typical;
+    visit(block);
+    const Eigen::ArrayXd next = sin * turn_cos + cos * turn_sin;
+    cos = cos * turn_cos - sin * turn_sin;
+    sin = next;
+  }
+}
+
+/// The non-linear numbers of a law that are tried.
+std::vector<EffectEntry> on_grid(const Stage& s, const EffectEntry& entry) {
+  std::vector<EffectEntry> out;
+  const auto with = [&](const char* key, EffectEntry::Value value) {
+    out.push_back(entry);
+    out.back().options[key] = std::move(value);
+  };
+  if (entry.name == "joint_compliance_soft" || entry.name == "backlash_load") {
+    const double torque = largest_torque(s, entry.joints.front());
+    for (double share : kTorqueShares)
+      if (torque > 0.0) with("torque_Nm", share * torque);
+  } else if (entry.name == "reversal") {
+    for (double transition : kTransitions_deg) with("transition_deg", transition);
+  } else if (entry.name == "thermal_growth") {
+    for (const auto& sensor : s.sensors) with("sensor", sensor);
+  } else {
+    out.push_back(entry);
+  }
+  return out;
+}
+
+std::vector<EffectEntry> entries_of(const Stage& s, int law) {
+  const EffectInfo& info = effect_info(law);
+  const std::string name(info.name);
+  std::vector<EffectEntry> out;
+  if (name == "cross_compliance") {
+    for (int i : turning(s))
+      for (int j : turning(s))
+        if (i != j && largest_torque(s, j) > 0.0) out.push_back(entry_of(name, {i, j}));
+  } else if (info.per_joint && name != "thermal_growth") {
+    for (int j : turning(s)) out.push_back(entry_of(name, {j}));
+  } else {
+    out.push_back(entry_of(name));
+  }
+  return out;
+}
+
+bool listed(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+Block library_block(const Stage& stage, const EffectEntry& entry) {
+  const Bound bound(stage, entry);
+  Block out;
+  out.entry = entry;
+  if (kJointLaws.contains(entry.name))
+    joint_columns(bound, out);
+  else
+    motion_columns(bound, out);
+  scale(bound, out);
+  return out;
+}
+
+void visit_library(const Stage& stage, const std::vector<std::string>& not_testable,
+                   const BlockVisitor& visit) {
+  for (int law = 0; law < kEffectLaws; ++law) {
+    const EffectInfo& info = effect_info(law);
+    if (kNotSearched.contains(info.name) || listed(not_testable, info.name)) continue;
+    if (info.name == "gear_ripple") {
+      for (int j : turning(stage)) visit_ripples(stage, j, visit);
+      continue;
+    }
+    for (const auto& entry : entries_of(stage, law))
+      for (const auto& tried : on_grid(stage, entry)) {
+        const Block block = library_block(stage, tried);
+        if (block.columns.cols() > 0) visit(block);
+      }
+  }
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/scan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnose/change_points.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kAhead_nats = 10.0;   // a pattern over the library's best
+constexpr double kAhead_share = 0.05;  // and of what is left
+constexpr std::size_t kPeaks = 8;
+constexpr int kRefinements = 12;
+
+double number(const EffectEntry& entry, const char* key) {
+  const auto it = entry.options.find(key);
+  return it == entry.options.end() ? 0.0 : std::get<double>(it->second);
+}
+
+/// Collects the best of every effect and joint.
+class Collector {
+ public:
+  Collector(const Stage& stage, const Judge& judge, const std::vector<std::string>& banned)
+      : stage_(stage), judge_(judge), banned_(banned) {}
+
+  void take(const Block& block) {
+    ++blocks_;
+    const std::string key = key_of(*stage_.cell, block.entry);
+    if (std::find(banned_.begin(), banned_.end(), key) != banned_.end()) return;
+    Trial trial = judge_.judge(block);
+    if (block.entry.name == "gear_ripple")
+      ripples_[key].push_back({number(block.entry, "cycles_per_turn"), trial.evidence.ln_bayes});
+    keep(best_[key], block, std::move(trial));
+  }
+  void take_pattern(const Block& block) {
+    ++blocks_;
+    if (!keep(pattern_, block, judge_.judge(block)) || block.joint < 0) return;
+    const Eigen::VectorXd fitted = block.columns * pattern_->trial.theta;
+    pattern_->rms_joint = std::sqrt(fitted.squaredNorm() / static_cast<double>(fitted.size()));
+  }
+  void count(int more) { blocks_ += more; }
+
+  std::map<std::string, std::optional<Found>> best_;
+  std::map<std::string, std::vector<std::pair<double, double>>> ripples_;
+  std::optional<Found> pattern_;
+  double blocks_ = 0.0;
+
+ private:
+  static bool keep(std::optional<Found>& best, const Block& block, Trial trial) {
+    if (best && best->ln_bayes() >= trial.evidence.ln_bayes) return false;
+    best = Found{block.entry, block.pattern, std::move(trial), {}, 0.0, {}, 0.0};
+    return true;
+  }
+  const Stage& stage_;
+  const Judge& judge_;
+  const std::vector<std::string>& banned_;
+};
+
+/// Local maxima over k that stand for themselves, highest first.
+std::vector<double> peaks(std::vector<std::pair<double, double>> spectrum, double threshold) {
+  std::sort(spectrum.begin(), spectrum.end());
+  std::vector<std::pair<double, double>> found;
+  for (std::size_t i = 0; i < spectrum.size(); ++i) {
+    const double here = spectrum[i].second;
+    if (here < threshold) continue;
+    if (i > 0 && spectrum[i - 1].second > here) continue;
+    if (i + 1 < spectrum.size() && spectrum[i + 1].second >= here) continue;
+    found.push_back({-here, spectrum[i].first});
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<double> out;
+  for (const auto& [ln, k] : found) out.push_back(k);
+  if (out.size() > kPeaks) out.resize(kPeaks);
+  return out;
+}
+
+/// Non-linear number of an entry and how far its neighbours on the grid are.
+struct Knob {
+  const char* key;
+  double step;       // added, or as a factor
+  bool factor;
+};
+std::optional<Knob> knob_of(const EffectEntry& entry) {
+  if (entry.name == "gear_ripple") return Knob{"cycles_per_turn", 0.25, false};
+  if (entry.name == "backlash_load" || entry.name == "joint_compliance_soft")
+    return Knob{"torque_Nm", 1.7, true};
+  if (entry.name == "reversal") return Knob{"transition_deg", 1.7, true};
+  return std::nullopt;
+}
+
+/// Climbs from the grid's best number, halving the step.
+void refine(const Stage& stage, const Judge& judge, Found& found) {
+  auto knob = knob_of(found.entry);
+  if (!knob) return;
+  for (int i = 0; i < kRefinements; ++i) {
+    bool better = false;
+    for (const double sign : {-1.0, 1.0}) {
+      EffectEntry entry = found.entry;
+      double& value = std::get<double>(entry.options[knob->key]);
+      value = knob->factor ? value * std::pow(knob->step, sign) : value + sign * knob->step;
+      if (!(value > 0.0)) continue;
+      Trial trial = judge.judge(library_block(stage, entry));
+      if (trial.evidence.ln_bayes <= found.ln_bayes()) continue;
+      found.entry = std::move(entry);
+      found.trial = std::move(trial);
+      better = true;
+      break;
+    }
+    if (better) continue;
+    knob->step = knob->factor ? std::sqrt(knob->step) : 0.5 * knob->step;
+    if (knob->factor ? knob->step < 1.05 : knob->step < 0.004) break;
+  }
+}
+
+/// Refinement comes to numbers with many digits; nobody wants them in a cell file.
+void round_knob(const Stage& stage, const Judge& judge, Found& found) {
+  const auto knob = knob_of(found.entry);
+  if (!knob) return;
+  double& value = std::get<double>(found.entry.options[knob->key]);
+  const double digits = knob->factor ? std::pow(10.0, 2 - std::floor(std::log10(value))) : 100.0;
+  value = std::round(value * digits) / digits;
+  found.trial = judge.judge(library_block(stage, found.entry));
+}
+
+}  // namespace
+
+std::string key_of(const Cell& cell, const EffectEntry& entry) {
+  std::string out = entry.name;
+  for (std::size_t i = 0; i < entry.joints.size(); ++i)
+    out += (i == 0 ? ":" : ",") + cell.nominal.joints[entry.joints[i]].name;
+  if (entry.name == "step") out += "/" + std::get<std::string>(entry.options.at("of"));
+  return out;
+}
+
+const Found* Scan::supported() const {
+  for (const auto& found : library)
+    if (found.score > kSupported && found.gain.clear) return &found;
+  return nullptr;
+}
+
+bool Scan::unknown() const {
+  if (!pattern || !(pattern->score > kSupported) || !pattern->gain.clear) return false;
+  if (library.empty()) return true;
+  const Found& best = library.front();
+  return pattern->ln_bayes() > best.ln_bayes() + kAhead_nats &&
+         pattern->trial.explained > best.trial.explained + kAhead_share;
+}
+
+Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
+          const std::vector<std::string>& banned) {
+  const Judge judge(stage);
+  Collector all(stage, judge, banned);
+  visit_library(stage, not_testable, [&](const Block& b) { all.take(b); });
+  if (std::find(not_testable.begin(), not_testable.end(), "step") == not_testable.end()) {
+    int cuts = 0;
+    for (const auto& point : change_points(stage, cuts)) all.take(library_block(stage, point.entry));
+    all.count(cuts);
+  }
+  visit_patterns(stage, [&](const Block& b) { all.take_pattern(b); });
+  Scan out;
+  out.blocks = all.blocks_;
+  const double paid = std::log(std::max(1.0, all.blocks_));
+  for (auto& [key, found] : all.best_) {
+    if (found->ln_bayes() - paid > 0.0) {
+      refine(stage, judge, *found);
+      round_knob(stage, judge, *found);
+    }
+    found->score = found->ln_bayes() - paid;
+    if (const auto it = all.ripples_.find(key); it != all.ripples_.end())
+      found->cycles = peaks(it->second, paid + kSupported);
+    out.library.push_back(std::move(*found));
+  }
+  std::stable_sort(out.library.begin(), out.library.end(),
+                   [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
+  for (auto& found : out.library)
+    if (found.score > kSupported) found.gain = judge.gain(found.trial);
+  out.pattern = std::move(all.pattern_);
+  if (out.pattern) {
+    out.pattern->score = out.pattern->ln_bayes() - paid;
+    out.pattern->gain = judge.gain(out.pattern->trial);
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

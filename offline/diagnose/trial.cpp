@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/trial.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kClearShare = 0.01;
+constexpr double kRidge = 1e-9;  // a fold may be all that says something about a parameter
+
+Products products_of_joint(const Stage& s, const Block& block, const Segment& at) {
+  const auto S = block.columns.middleRows(at.begin, at.size());
+  const auto square = s.joint_square[block.joint].segment(at.begin, at.size());
+  Products out;
+  const Eigen::MatrixXd weighed = square.asDiagonal() * S;
+  out.XX = S.transpose() * weighed;
+  out.UX = s.joint_U[block.joint].middleRows(at.begin, at.size()).transpose() * S;
+  out.Xy = S.transpose() * s.joint_y[block.joint].segment(at.begin, at.size());
+  return out;
+}
+
+Products products_of_motions(const Stage& s, const Block& block, const Segment& at) {
+  const Eigen::Index first = at.begin * s.axes, count = at.size() * s.axes;
+  const auto X = block.columns.middleRows(first, count);
+  Products out;
+  out.XX = X.transpose() * X;
+  out.UX = s.U.middleRows(first, count).transpose() * X;
+  out.Xy = X.transpose() * s.y.segment(first, count);
+  return out;
+}
+
+Products sum_of(const std::vector<Products>& all) {
+  Products out = all.front();
+  for (std::size_t f = 1; f < all.size(); ++f) {
+    out.XX += all[f].XX;
+    out.UX += all[f].UX;
+    out.Xy += all[f].Xy;
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::MatrixXd motions(const Stage& s, const Block& block) {
+  if (block.joint < 0) return block.columns;
+  Eigen::MatrixXd out(s.poses() * s.axes, block.columns.cols());
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    out.row(i) = block.columns.row(i / s.axes) * s.joint[block.joint](i);
+  return out;
+}
+
+Judge::Judge(const Stage& stage) : stage_(stage) {
+  const Eigen::Index p = stage.rank;
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(p, p);
+  scale_.lines = static_cast<double>(std::max<Eigen::Index>(1, stage.fit_lines - p));
+  scale_.variance = stage.noise.known ? stage.noise.variance : stage.Q / scale_.lines;
+  scale_.variance = std::max(scale_.variance, 1e-12);
+  scale_.dof = stage.noise.known ? stage.noise.dof : 0.0;
+  for (const auto& at : stage.folds) {
+    const auto U = stage.U.middleRows(at.begin * stage.axes, at.size() * stage.axes);
+    const auto y = stage.y.segment(at.begin * stage.axes, at.size() * stage.axes);
+    Fold fold;
+    fold.UU = U.transpose() * U;
+    fold.Uy = U.transpose() * y;
+    fold.yy = y.squaredNorm();
+    fold.without = (I * (1.0 + kRidge) - fold.UU).llt().solve(I);
+    const Eigen::VectorXd a = -(fold.without * fold.Uy);
+    fold.error = fold.yy - 2.0 * a.dot(fold.Uy) + a.dot(fold.UU * a);
+    folds_.push_back(std::move(fold));
+  }
+}
+
+Trial Judge::judge(const Block& block) const {
+  Trial out;
+  for (const auto& at : stage_.folds)
+    out.folds.push_back(block.joint >= 0 ? products_of_joint(stage_, block, at)
+                                         : products_of_motions(stage_, block, at));
+  const Products all = sum_of(out.folds);
+  const Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
+  out.evidence = evidence(gram, all.Xy, stage_.Q, scale_);
+  const double ridge = scale_.variance / std::pow(out.evidence.width, 2);
+  const Eigen::MatrixXd penalised =
+      gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols());
+  out.theta = penalised.ldlt().solve(all.Xy);
+  const double seen = out.theta.dot(gram * out.theta), whole = out.theta.dot(all.XX * out.theta);
+  out.explained = stage_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / stage_.Q : 0.0;
+  out.absorbed = whole > 0.0 ? std::clamp(1.0 - seen / whole, 0.0, 1.0) : 0.0;
+  return out;
+}
+
+Judge::Without Judge::without(std::size_t f) const {
+  return {-(folds_[f].without * folds_[f].Uy), {}};
+}
+
+Judge::Without Judge::without(std::size_t f, const Trial& trial) const {
+  const Products all = sum_of(trial.folds);
+  const double left = std::max(scale_.variance, stage_.Q * (1.0 - trial.explained) / scale_.lines);
+  const double ridge = left / std::pow(trial.evidence.width, 2);
+  const Eigen::Index b = all.Xy.size();
+  const Fold& fold = folds_[f];
+  const Products& held = trial.folds[f];
+  const Eigen::MatrixXd B = all.UX - held.UX;
+  const Eigen::MatrixXd AB = fold.without * B;
+  const Eigen::MatrixXd S =
+      all.XX - held.XX - B.transpose() * AB + ridge * Eigen::MatrixXd::Identity(b, b);
+  const Eigen::VectorXd theta = S.ldlt().solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
+  return {-(fold.without * fold.Uy) - AB * theta, theta};
+}
+
+Gain Judge::gain(const Trial& trial) const {
+  double before = 0.0, after = 0.0, sum = 0.0, squares = 0.0;
+  for (std::size_t f = 0; f < folds_.size(); ++f) {
+    const Fold& fold = folds_[f];
+    const Products& held = trial.folds[f];
+    const auto [a, theta] = without(f, trial);
+    const double error = fold.yy - 2.0 * (a.dot(fold.Uy) + theta.dot(held.Xy)) +
+                         a.dot(fold.UU * a) + 2.0 * a.dot(held.UX * theta) +
+                         theta.dot(held.XX * theta);
+    const double better = fold.error - error;
+    before += fold.error;
+    after += error;
+    sum += better;
+    squares += better * better;
+  }
+  const auto K = static_cast<double>(folds_.size());
+  const double mean = sum / K;
+  const double se = std::sqrt(std::max(0.0, squares / K - mean * mean) / std::max(1.0, K - 1.0));
+  Gain out;
+  if (before <= 0.0) return out;
+  out.share = 1.0 - std::sqrt(std::max(0.0, after) / before);
+  // d(1 - sqrt(1 - x)) = dx / (2 sqrt(1 - x))
+  out.share_se = 0.5 * K * se / before / std::sqrt(std::max(1e-6, after / before));
+  out.clear = out.share > kClearShare && mean > se;
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnose/block.hpp"
+#include "diagnose/evidence.hpp"
+
+namespace plumb::offline {
+
+/// Products of a block with itself, the model and the residual over one segment of poses.
+struct Products {
+  Eigen::MatrixXd XX;  // (b, b)
+  Eigen::MatrixXd UX;  // (rank, b)
+  Eigen::VectorXd Xy;  // (b,)
+};
+
+/// How far a held-out error falls, fold by fold inside the fit poses.
+struct Gain {
+  double share = 0.0;      // of the RMS
+  double share_se = 0.0;   // standard error of that, over the folds
+  bool clear = false;      // more than 1 %, and more than one standard error
+};
+
+/// A block judged at a stage.
+struct Trial {
+  std::vector<Products> folds;
+  Evidence evidence;
+  double explained = 0.0;        // share of the residual's sum of squares
+  double absorbed = 0.0;         // share of the motion that the model can imitate
+  Eigen::VectorXd theta;         // fitted size of each column, 1 = typical
+};
+
+/// Judges blocks at one stage. Cost of a block: its columns times (rank + columns) a pose; a
+/// held-out gain costs no pass over the poses.
+class Judge {
+ public:
+  explicit Judge(const Stage& stage);
+
+  Trial judge(const Block& block) const;
+
+  /// K-fold gain: model and block refitted without each fold, all from products.
+  Gain gain(const Trial& trial) const;
+
+  /// Sizes fitted without one fold: of the model's columns U, and of the block's.
+  struct Without {
+    Eigen::VectorXd model, block;
+  };
+  Without without(std::size_t fold) const;
+  Without without(std::size_t fold, const Trial& trial) const;
+
+  const Stage& stage() const { return stage_; }
+  EvidenceScale scale() const { return scale_; }
+
+ private:
+  struct Fold {
+    Eigen::MatrixXd UU;       // (rank, rank) of the fold
+    Eigen::VectorXd Uy;       // (rank,)
+    double yy = 0.0;
+    Eigen::MatrixXd without;  // (U^T U of the others)^-1
+    double error = 0.0;       // held-out sum of squares of the model alone
+  };
+  const Stage& stage_;
+  EvidenceScale scale_;
+  std::vector<Fold> folds_;
+};
+
+}  // namespace plumb::offline

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/blind/marks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace plumb::tests {
+namespace {
+
+using offline::Finding;
+using Which = std::function<bool(const Score&)>;
+
+/// Marks are those of a study of thousands; a slice may miss by chance. Two standard errors of the
+/// share are granted, which vanish as the study grows.
+double slack(double share, int n) { return 2.0 * std::sqrt(share * (1.0 - share) / n); }
+
+class Marks {
+ public:
+  explicit Marks(const std::vector<Score>& scores) : scores_(scores) {}
+
+  void at_least(const std::string& what, double share, const Which& of, const Which& holds) {
+    add_share(what, share, of, holds, true);
+  }
+  void at_most(const std::string& what, double share, const Which& of, const Which& holds) {
+    add_share(what, share, of, holds, false);
+  }
+  void median_at_most(const std::string& what, double limit, const Which& of,
+                      const std::function<double(const Score&)>& value) {
+    std::vector<double> all;
+    for (const auto& s : scores_)
+      if (s.made && of(s)) all.push_back(value(s));
+    if (all.empty()) return;
+    std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+    const double median = all[all.size() / 2];
+    // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for sigma.
+    const double granted = 0.6 * limit / std::sqrt(static_cast<double>(all.size()));
+    marks_.push_back({what, fmt::format("{:.2f} of {}", median, all.size()),
+                      fmt::format("median <= {:.2f}", limit), median <= limit + granted});
+  }
+  std::vector<Mark> take() { return std::move(marks_); }
+
+ private:
+  void add_share(const std::string& what, double share, const Which& of, const Which& holds,
+                 bool least) {
+    int n = 0, k = 0;
+    for (const auto& s : scores_)
+      if (s.made && of(s)) ++n, k += holds(s);
+    if (n == 0) return;
+    const double got = static_cast<double>(k) / n;
+    const double granted = slack(share, n) + (least ? 0.0 : 1e-9);
+    marks_.push_back({what, fmt::format("{:.1f} % of {}", 100.0 * got, n),
+                      fmt::format("{} {:.1f} %", least ? ">=" : "<=", 100.0 * share),
+                      least ? got >= share - granted : got <= share + granted});
+  }
+  const std::vector<Score>& scores_;
+  std::vector<Mark> marks_;
+};
+
+bool known_one(const Score& s) { return s.drawn.group == Group::kOne; }
+
+void add_naming(Marks& m) {
+  m.at_least("right class first, >= 1 sigma", 0.95, known_one,
+             [](const Score& s) { return s.class_first; });
+  m.at_least("right effect and joint first", 0.90, known_one,
+             [](const Score& s) { return s.joint_first; });
+  m.at_least("effect of 0.5 sigma, N >= 150", 0.85,
+             [](const Score& s) { return s.drawn.group == Group::kWeak; },
+             [](const Score& s) { return s.class_first; });
+  m.at_most("nothing hidden, yet something named", 0.01,
+            [](const Score& s) { return s.drawn.group == Group::kNothing; },
+            [](const Score& s) { return s.finding != Finding::kComplete; });
+  m.at_most("cases with a false extra effect", 0.03,
+            [](const Score& s) { return s.drawn.group != Group::kUnknown; },
+            [](const Score& s) { return s.extra > 0; });
+  m.at_least("unknown effect: verdict and inputs, >= 2 sigma", 0.95,
+             [](const Score& s) { return s.drawn.group == Group::kUnknown; },
+             [](const Score& s) { return s.unknown_said && s.inputs_right; });
+  m.at_most("known effect called unknown", 0.01,
+            [](const Score& s) {
+              return s.drawn.group == Group::kOne || s.drawn.group == Group::kWeak;
+            },
+            [](const Score& s) { return s.finding == Finding::kUnknown; });
+  m.at_least("step of 5 sigma: pose within 1", 0.95,
+             [](const Score& s) { return s.drawn.group == Group::kStep; },
+             [](const Score& s) { return s.step_found; });
+  for (std::size_t i = 0; i < 3; ++i)
+    m.at_least(fmt::format("three effects: recall of the one of {} sigma",
+                           i == 0   ? 5
+                           : i == 1 ? 2
+                                    : 1),
+               i == 0   ? 0.97
+               : i == 1 ? 0.90
+                        : 0.80,
+               [](const Score& s) { return s.drawn.group == Group::kThree; },
+               [i](const Score& s) { return s.recalled[i]; });
+}
+
+void add_errors(Marks& m) {
+  struct Row {
+    int poses;
+    double error, held, honest;
+  };
+  for (const Row& row : {Row{45, 0.80, 1.25, 0.20}, Row{150, 0.45, 1.10, 0.15},
+                         Row{500, 0.30, 1.05, 0.08}, Row{1500, 0.25, 1.05, 0.08}}) {
+    const Which strong = [row](const Score& s) {
+      return s.drawn.group == Group::kOne && s.drawn.request.poses == row.poses &&
+             s.drawn.hidden.front().sigmas == 5.0;
+    };
+    m.median_at_most(fmt::format("true error after, 5 sigma effect, N = {} [sigma]", row.poses),
+                     row.error, strong, [](const Score& s) { return s.after; });
+    m.median_at_most(fmt::format("held-out RMS / floor, N = {}", row.poses), row.held, strong,
+                     [](const Score& s) { return s.held_over_floor; });
+  }
+  m.at_least("added effects lowered the true error", 0.97,
+             [](const Score& s) { return s.extra == 0 && s.before > s.after * 1.001; },
+             [](const Score&) { return true; });
+  m.at_most("worse than geometry only", 0.005, [](const Score&) { return true; },
+            [](const Score& s) { return s.after > 1.02 * s.before + 0.02; });
+}
+
+}  // namespace
+
+std::vector<Mark> marks_of(const std::vector<Score>& scores) {
+  Marks out(scores);
+  add_naming(out);
+  add_errors(out);
+  return out.take();
+}
+
+std::string table_of(const std::vector<Mark>& marks) {
+  std::string out = "| mark | found | pass | |\n|---|---|---|---|\n";
+  for (const auto& m : marks)
+    out += fmt::format("| {} | {} | {} | {} |\n", m.what, m.value, m.pass,
+                       m.passed ? "passed" : "MISSED");
+  return out;
+}
+
+std::string line_of(int number, const Score& s) {
+  std::string hidden;
+  for (const auto& effect : s.drawn.request.effects) hidden += " " + effect;
+  if (!s.made) return fmt::format("{} {}{}: not made: {}", number, name_of(s.drawn.group), hidden, s.why_not);
+  return fmt::format("{} {} N={} class {} joint {} extra {} unk {} in {} err {:.2f}->{:.2f} held {:.2f} {:.2f}s{} || {}", number,
+                     name_of(s.drawn.group), s.drawn.request.poses, s.class_first, s.joint_first,
+                     s.extra, s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.seconds, hidden, s.said);
+}
+
+}  // namespace plumb::tests

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/blind/score.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cell/file.hpp"
+#include "diagnose/scan.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/cell_data.hpp"
+#include "simulate/law.hpp"
+
+namespace plumb::tests {
+namespace {
+
+using namespace offline;
+namespace fs = std::filesystem;
+
+/// What a diagnosis may see: the two files, read back.
+struct Seen {
+  Cell cell;
+  Measurements measured;
+};
+
+Seen written_and_read(const BlindCase& blind, std::uint64_t seed) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("plumb_blind_{}", seed);
+  fs::create_directories(folder);
+  write_file_atomically(folder / "cell.toml", blind.cell_toml);
+  write_file_atomically(folder / "measurements.csv", blind.measurements_csv);
+  Seen out{read_cell(folder / "cell.toml"), {}};
+  out.measured = read_cell_measurements(out.cell);
+  fs::remove_all(folder);
+  return out;
+}
+
+bool is_like(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
+  return std::find(hidden.names.begin(), hidden.names.end(), entry.name) != hidden.names.end();
+}
+
+bool at_joint(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
+  return hidden.joint < 0 || entry.joints.empty() || entry.joints.front() == hidden.joint ||
+         std::find(entry.joints.begin(), entry.joints.end(), hidden.joint) != entry.joints.end();
+}
+
+/// Per-axis RMS from the noise-free truth on fresh poses, in sigma. Effects of the measurement act
+/// on fresh poses too unless they happened once.
+double true_error(const Seen& seen, const std::vector<EffectEntry>& effects, const BlindCase& blind,
+                  const std::vector<int>& rows) {
+  Cell cell = seen.cell;
+  cell.effects = effects;
+  const Calibration c = calibrate(cell, seen.measured, rows);
+  ArmState arm = c.state;
+  // Thrown away before the arm works: steps, drift, lag, the tracker.
+  for (auto& effect : arm.arm.effects) {
+    const EffectInfo& info = effect_info(find_effect_law(effect.name));
+    if (info.domain == EffectDomain::kMeasurement || info.domain == EffectDomain::kProcedure)
+      std::fill(effect.parameters.begin(), effect.parameters.end(), 0.0);
+  }
+  const auto& fresh = blind.fresh_robot;
+  const Rows3 error = fresh.true_p_M - predict_points(arm, fresh.measured);
+  return std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
+}
+
+void score_unknown(const BlindCase& blind, const Diagnosis& d, Score& out) {
+  const auto truth = nlohmann::json::parse(blind.truth_json);
+  std::vector<std::string> inputs;
+  for (const auto& effect : truth["effects"])
+    if (effect.contains("inputs"))
+      for (const auto& input : effect["inputs"]) inputs.push_back(input);
+  const auto& found = d.unknown ? d.unknown : d.unknown_after;
+  out.unknown_said = found.has_value();
+  if (!found) return;
+  const auto& said = found->pattern.depends_on;
+  out.inputs_right = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+    return std::any_of(said.begin(), said.end(), [&](const std::string& name) {
+      return name == input || (input == "temp" && name.rfind("temp", 0) == 0);
+    });
+  });
+}
+
+bool finds_step(const BlindCase& blind, const Diagnosis& d) {
+  const auto truth = nlohmann::json::parse(blind.truth_json);
+  for (const auto& effect : truth["effects"]) {
+    const auto& at = effect.contains("after_row") ? effect : effect["parameters"];
+    if (!at.contains("after_row")) continue;
+    for (const auto& added : d.added)
+      if (added.entry.name == "step" &&
+          std::abs(std::get<double>(added.entry.options.at("after_row")) -
+                   at["after_row"].get<double>()) <= 1.5)
+        return true;
+  }
+  return false;
+}
+
+std::string words_of(const Cell& cell, const Diagnosis& d) {
+  std::string out = d.candidates.empty() ? "-" : key_of(cell, d.candidates.front().entry);
+  out += " |";
+  for (const auto& added : d.added) out += " " + key_of(cell, added.entry);
+  if (const auto& u = d.unknown ? d.unknown : d.unknown_after)
+    out += " | unknown: " + u->pattern.subject + " " + u->pattern.words;
+  return out;
+}
+
+void judge(const Seen& seen, const BlindCase& blind, const Diagnosis& d, Score& out) {
+  out.finding = d.finding;
+  out.finding_after = d.finding_after.value_or(d.finding);
+  out.said = words_of(seen.cell, d);
+  const auto& hidden = out.drawn.hidden;
+  if (!hidden.empty() && !d.candidates.empty()) {
+    const EffectEntry& first = d.candidates.front().entry;
+    out.class_first = d.finding == Finding::kMissing && is_like(hidden.front(), first);
+    out.joint_first = out.class_first && at_joint(hidden.front(), first);
+  }
+  for (const auto& one : hidden)
+    out.recalled.push_back(std::any_of(d.added.begin(), d.added.end(), [&](const Addition& a) {
+      return is_like(one, a.entry) && at_joint(one, a.entry);
+    }));
+  for (const auto& added : d.added)
+    out.extra += std::none_of(hidden.begin(), hidden.end(), [&](const auto& one) {
+      return is_like(one, added.entry) && at_joint(one, added.entry);
+    });
+  if (out.drawn.group == Group::kUnknown) score_unknown(blind, d, out);
+  if (out.drawn.group == Group::kStep) out.step_found = finds_step(blind, d);
+}
+
+}  // namespace
+
+Score run_case(const HiddenCase& drawn) {
+  Score out;
+  out.drawn = drawn;
+  try {
+    const BlindCase blind = make_blind_case(drawn.request);
+    const Seen seen = written_and_read(blind, drawn.request.seed);
+    const auto start = std::chrono::steady_clock::now();
+    const Diagnosis d = diagnose(seen.cell, seen.measured, {.apply = true, .tell = {}});
+    out.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    judge(seen, blind, d, out);
+    std::vector<int> rows(static_cast<std::size_t>(seen.measured.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<int>(i);
+    const double sigma = drawn.request.sigma_m;
+    out.before = true_error(seen, seen.cell.effects, blind, rows) / sigma;
+    out.after = true_error(seen, d.effects, blind, rows) / sigma;
+    const double axes = 3.0;
+    out.held_over_floor = d.after.rms / (std::sqrt(axes) * sigma);
+    out.held_over_true =
+        d.after.rms / (sigma * std::sqrt(axes * (1.0 + out.after * out.after)));
+    out.made = true;
+  } catch (const Failure& failure) {
+    out.why_not = failure.what();
+  }
+  return out;
+}
+
+}  // namespace plumb::tests

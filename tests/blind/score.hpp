@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnose/diagnosis.hpp"
+#include "tests/blind/hidden_case.hpp"
+
+namespace plumb::tests {
+
+/// How one diagnosis did against the truth. Errors in sigma.
+struct Score {
+  HiddenCase drawn;
+  bool made = false;  // the arm could be simulated and calibrated
+  std::string why_not;
+  offline::Finding finding{}, finding_after{};
+  bool class_first = false, joint_first = false;  // of the largest hidden effect
+  std::vector<bool> recalled;                     // of each hidden effect
+  int extra = 0;                                  // added, but nothing like it is hidden
+  bool inputs_right = false;                      // of an unknown effect
+  bool unknown_said = false;
+  bool step_found = false;
+  double before = 0.0, after = 0.0;  // true error, per-axis RMS in sigma
+  double held_over_floor = 0.0;      // held-out RMS over noise floor
+  double held_over_true = 0.0;       // held-out RMS over what fresh noisy poses would show
+  double seconds = 0.0;
+  std::string said;  // first candidate, what was added
+};
+
+/// Simulates, diagnoses with `apply`, and only then looks at the truth.
+Score run_case(const HiddenCase& drawn);
+
+}  // namespace plumb::tests
