@@ -11,6 +11,8 @@
 namespace plumb::offline {
 namespace {
 
+constexpr double kNoMove = 1e-5;  // rad or m: encoders at rest
+
 int row_count(std::span<const Table> tables) {
   int rows = 0;
   for (const auto& table : tables) rows += table.rows();
@@ -88,7 +90,8 @@ ContextRows::RowsN steps_of(const ContextRows::RowsN& q) {
   ContextRows::RowsN out = ContextRows::RowsN::Zero(q.rows(), q.cols());
   for (Eigen::Index i = 1; i < q.rows(); ++i) {
     const double largest = (q.row(i) - q.row(i - 1)).cwiseAbs().maxCoeff();
-    if (largest > 0.0) out.row(i) = (q.row(i) - q.row(i - 1)) / largest;
+    // A pose read again is still the stop of the move before.
+    out.row(i) = largest > kNoMove ? ((q.row(i) - q.row(i - 1)) / largest).eval() : out.row(i - 1);
   }
   return out;
 }

@@ -29,6 +29,7 @@ struct Block {
   Eigen::MatrixXd columns;   // (poses, b) times a joint, or (lines, b)
   Eigen::VectorXd typical;   // SI value of each column's parameter that makes it 1
   std::vector<int> members;  // place of each column among the effect's parameters
+  std::vector<bool> positive;  // columns whose size cannot be negative; empty: none
   bool of_library() const { return !entry.name.empty(); }
 };
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double kTypicalMotion_m = 0.1e-3;  // RMS, of parameters whose size the arm decides
 constexpr std::array kTorqueShares = {0.1, 0.3, 1.0};
 constexpr std::array kTransitions_deg = {0.05, 0.2, 0.6, 2.0};
-constexpr double kFirstRipple = 2.5, kLastRipple = 40.0, kRippleStep = 0.5;
+constexpr std::array kSettlingShares = {0.1, 0.3};  // of the session
+constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
 constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
 
 /// Laws that only turn the joint they are listed for.
@@ -127,11 +128,12 @@ void scale(const Bound& bound, Block& out) {
   for (Eigen::Index c = 0; c < bound.count(); ++c) {
     const double motion = motion_of(s, out, c);
     if (!(motion > kNoMotion_m)) continue;
-    double size =
-        stated_typical(s, bound, effect_parameter(model, 0, static_cast<int>(c)));
+    const EffectParameter& info = effect_parameter(model, 0, static_cast<int>(c));
+    double size = stated_typical(s, bound, info);
     if (size == 0.0) size = kTypicalMotion_m / motion;
     moving.push_back(c);
     typical.push_back(size);
+    out.positive.push_back(info.low == 0.0 && info.high > 0.0);
   }
   Eigen::MatrixXd kept(out.columns.rows(), static_cast<Eigen::Index>(moving.size()));
   for (std::size_t i = 0; i < moving.size(); ++i)
@@ -167,12 +169,25 @@ double range_of(const Stage& s, int joint) {
   return high - low;
 }
 
+double session_of(const Stage& s) {
+  double low = 1e300, high = -1e300;
+  for (const auto& c : s.context) {
+    const double now = c.time_s == c.time_s ? c.time_s : c.order;
+    low = std::min(low, now);
+    high = std::max(high, now);
+  }
+  return high - low;
+}
+
+/// Slower waves over the joint's range are its first two harmonics, or a straight line.
+double first_ripple(double range) { return 2.0 + 2.0 * M_PI / range; }
+
 /// sin and cos of k q_j for k in equal steps, by turning a vector on: two products a step.
 void visit_ripples(const Stage& s, int joint, const BlockVisitor& visit) {
   const double range = range_of(s, joint);
   if (range < 0.2) return;
   const double step = std::min(kRippleStep, M_PI / range);
-  const auto first = static_cast<int>(std::ceil(kFirstRipple / step));
+  const auto first = static_cast<int>(std::ceil(first_ripple(range) / step));
   const auto last = static_cast<int>(std::floor(kLastRipple / step));
   const Eigen::Index n = s.poses();
   Eigen::ArrayXd turn_sin(n), turn_cos(n), sin(n), cos(n);
@@ -215,6 +230,9 @@ std::vector<EffectEntry> on_grid(const Stage& s, const EffectEntry& entry) {
       if (torque > 0.0) with("torque_Nm", share * torque);
   } else if (entry.name == "reversal") {
     for (double transition : kTransitions_deg) with("transition_deg", transition);
+  } else if (entry.name == "drift") {
+    out.push_back(entry);
+    for (double share : kSettlingShares) with("settling_s", share * session_of(s));
   } else if (entry.name == "thermal_growth") {
     for (const auto& sensor : s.sensors) with("sensor", sensor);
   } else {

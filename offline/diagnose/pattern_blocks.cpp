@@ -13,6 +13,7 @@ constexpr double kShift_m = 50e-6;
 constexpr double kTurn_rad = 30e-6;
 constexpr int kHarmonics = 3;    // of another joint
 constexpr int kPeriods = 40;     // half periods in the series
+constexpr double kNoMove = 1e-5;   // rad or m: encoders at rest
 constexpr double kShortest = 0.2;  // rad: a joint that moves less shows no harmonic
 
 /// A number known at every pose; patterns are built of them.
@@ -173,19 +174,22 @@ void visit_periods(const Stage& s, const BlockVisitor& visit) {
   }
 }
 
+/// The row of the stop before, whatever fold it is in; repeats of a pose are one stop.
+int stop_before(const Measurements& measured, int row) {
+  int before = row;
+  while (before > 0 &&
+         (measured.q.row(before) - measured.q.row(row)).cwiseAbs().maxCoeff() <= kNoMove)
+    --before;
+  return before;
+}
+
 /// What happened just before a pose.
 void visit_history(const Stage& s, const std::vector<Input>& q, const std::vector<int>& turning,
                    const BlockVisitor& visit) {
   for (int j : turning) {
-    // The move from the row before, whatever file or fold that row is in.
     Eigen::ArrayXd before(s.poses());
-    bool whole = true;
-    for (Eigen::Index i = 0; i < s.poses() && whole; ++i) {
-      const int row = s.row[i];
-      before(i) = row > 0 ? s.measured->q(row - 1, j) : q[j].value(i);
-      whole = std::isfinite(before(i));
-    }
-    if (!whole) continue;
+    for (Eigen::Index i = 0; i < s.poses(); ++i)
+      before(i) = s.measured->q(stop_before(*s.measured, s.row[i]), j);
     const Eigen::ArrayXd step = q[j].value - before;
     visit(on_joint(j,
                    {{}, "depends on where it stood one pose before",

@@ -16,6 +16,7 @@ constexpr double kAhead_nats = 10.0;   // a pattern over the library's best
 constexpr double kAhead_share = 0.05;  // and of what is left
 constexpr std::size_t kPeaks = 8;
 constexpr int kRefinements = 12;
+constexpr double kLongestTransition_deg = 3.0;  // beyond it is no friction
 
 double number(const EffectEntry& entry, const char* key) {
   const auto it = entry.options.find(key);
@@ -84,12 +85,13 @@ struct Knob {
   const char* key;
   double step;       // added, or as a factor
   bool factor;
+  double most;
 };
 std::optional<Knob> knob_of(const EffectEntry& entry) {
-  if (entry.name == "gear_ripple") return Knob{"cycles_per_turn", 0.25, false};
+  if (entry.name == "gear_ripple") return Knob{"cycles_per_turn", 0.25, false, 1e6};
   if (entry.name == "backlash_load" || entry.name == "joint_compliance_soft")
-    return Knob{"torque_Nm", 1.7, true};
-  if (entry.name == "reversal") return Knob{"transition_deg", 1.7, true};
+    return Knob{"torque_Nm", 1.7, true, 1e6};
+  if (entry.name == "reversal") return Knob{"transition_deg", 1.7, true, kLongestTransition_deg};
   return std::nullopt;
 }
 
@@ -103,7 +105,7 @@ void refine(const Stage& stage, const Judge& judge, Found& found) {
       EffectEntry entry = found.entry;
       double& value = std::get<double>(entry.options[knob->key]);
       value = knob->factor ? value * std::pow(knob->step, sign) : value + sign * knob->step;
-      if (!(value > 0.0)) continue;
+      if (!(value > 0.0 && value <= knob->most)) continue;
       Trial trial = judge.judge(library_block(stage, entry));
       if (trial.evidence.ln_bayes <= found.ln_bayes()) continue;
       found.entry = std::move(entry);

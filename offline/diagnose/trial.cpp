@@ -9,6 +9,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kClearShare = 0.01;
+constexpr double kImpossible = -1e6;  // ln B of what only the wrong sign would explain
 constexpr double kRidge = 1e-9;  // a fold may be all that says something about a parameter
 
 Products products_of_joint(const Stage& s, const Block& block, const Segment& at) {
@@ -42,6 +43,10 @@ Products sum_of(const std::vector<Products>& all) {
   return out;
 }
 
+Products active_of(const Products& all, const std::vector<Eigen::Index>& active) {
+  return {all.XX(active, active), all.UX(Eigen::all, active), all.Xy(active)};
+}
+
 }  // namespace
 
 Eigen::MatrixXd motions(const Stage& s, const Block& block) {
@@ -73,21 +78,45 @@ Judge::Judge(const Stage& stage) : stage_(stage) {
   }
 }
 
+/// The column that its sign forbids most, or -1.
+static Eigen::Index most_negative(const Block& block, const std::vector<Eigen::Index>& active,
+                                  const Eigen::VectorXd& theta) {
+  Eigen::Index worst = -1;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (block.positive.empty() || !block.positive[active[i]] || theta(at) >= 0.0) continue;
+    if (worst < 0 || theta(at) < theta(worst)) worst = at;
+  }
+  return worst;
+}
+
 Trial Judge::judge(const Block& block) const {
   Trial out;
   for (const auto& at : stage_.folds)
     out.folds.push_back(block.joint >= 0 ? products_of_joint(stage_, block, at)
                                          : products_of_motions(stage_, block, at));
   const Products all = sum_of(out.folds);
-  const Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
-  out.evidence = evidence(gram, all.Xy, stage_.Q, scale_);
-  const double ridge = scale_.variance / std::pow(out.evidence.width, 2);
-  const Eigen::MatrixXd penalised =
-      gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols());
-  out.theta = penalised.ldlt().solve(all.Xy);
-  const double seen = out.theta.dot(gram * out.theta), whole = out.theta.dot(all.XX * out.theta);
+  const Eigen::MatrixXd whole = all.XX - all.UX.transpose() * all.UX;
+  for (Eigen::Index c = 0; c < all.Xy.size(); ++c) out.active.push_back(c);
+  out.theta.setZero(all.Xy.size());
+  while (!out.active.empty()) {
+    const Eigen::MatrixXd gram = whole(out.active, out.active);
+    const Eigen::VectorXd v = all.Xy(out.active);
+    out.evidence = evidence(gram, v, stage_.Q, scale_);
+    const double ridge = scale_.variance / std::pow(out.evidence.width, 2);
+    const Eigen::VectorXd theta =
+        (gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).ldlt().solve(v);
+    const Eigen::Index worst = most_negative(block, out.active, theta);
+    if (worst < 0) {
+      out.theta(out.active) = theta;
+      break;
+    }
+    out.active.erase(out.active.begin() + worst);
+  }
+  if (out.active.empty()) out.evidence.ln_bayes = kImpossible;
+  const double seen = out.theta.dot(whole * out.theta), moved = out.theta.dot(all.XX * out.theta);
   out.explained = stage_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / stage_.Q : 0.0;
-  out.absorbed = whole > 0.0 ? std::clamp(1.0 - seen / whole, 0.0, 1.0) : 0.0;
+  out.absorbed = moved > 0.0 ? std::clamp(1.0 - seen / moved, 0.0, 1.0) : 0.0;
   return out;
 }
 
@@ -96,18 +125,20 @@ Judge::Without Judge::without(std::size_t f) const {
 }
 
 Judge::Without Judge::without(std::size_t f, const Trial& trial) const {
-  const Products all = sum_of(trial.folds);
+  const Products all = active_of(sum_of(trial.folds), trial.active);
+  const Products held = active_of(trial.folds[f], trial.active);
   const double left = std::max(scale_.variance, stage_.Q * (1.0 - trial.explained) / scale_.lines);
   const double ridge = left / std::pow(trial.evidence.width, 2);
   const Eigen::Index b = all.Xy.size();
   const Fold& fold = folds_[f];
-  const Products& held = trial.folds[f];
   const Eigen::MatrixXd B = all.UX - held.UX;
   const Eigen::MatrixXd AB = fold.without * B;
   const Eigen::MatrixXd S =
       all.XX - held.XX - B.transpose() * AB + ridge * Eigen::MatrixXd::Identity(b, b);
   const Eigen::VectorXd theta = S.ldlt().solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
-  return {-(fold.without * fold.Uy) - AB * theta, theta};
+  Without out{-(fold.without * fold.Uy) - AB * theta, Eigen::VectorXd::Zero(trial.theta.size())};
+  out.block(trial.active) = theta;
+  return out;
 }
 
 Gain Judge::gain(const Trial& trial) const {

@@ -30,6 +30,7 @@ struct Trial {
   double explained = 0.0;        // share of the residual's sum of squares
   double absorbed = 0.0;         // share of the motion that the model can imitate
   Eigen::VectorXd theta;         // fitted size of each column, 1 = typical
+  std::vector<Eigen::Index> active;  // columns that are not held at 0 by their sign
 };
 
 /// Judges blocks at one stage. Cost of a block: its columns times (rank + columns) a pose; a

@@ -77,11 +77,12 @@ std::vector<double> torque_constants(const Cell& cell, const Measurements& measu
   return out;
 }
 
-std::vector<double> drift_span(const Measurements& measured) {
+std::vector<double> drift_constants(const Measurements& measured, const EffectEntry& entry) {
   const auto& c = measured.context;
   const Eigen::VectorXd& t = c.time_s.size() > 0 ? c.time_s : c.order;
-  if (t.size() == 0) return {0.0, 1.0};
-  return {t.minCoeff(), std::max(1e-9, t.maxCoeff() - t.minCoeff())};
+  const double settling = option_or(entry, "settling_s", 0.0);
+  if (t.size() == 0) return {0.0, 1.0, settling};
+  return {t.minCoeff(), std::max(1e-9, t.maxCoeff() - t.minCoeff()), settling};
 }
 
 std::vector<double> step_constants(const EffectEntry& entry) {
@@ -133,7 +134,7 @@ void bind_constants(const Cell& cell, const Measurements& measured, const Effect
     out.constants = {reference};
     out.context = {{ContextInput::kTemperature, sensor, reference}};
   } else if (name == "drift") {
-    out.constants = drift_span(measured);
+    out.constants = drift_constants(measured, entry);
   } else if (name == "step") {
     out.constants = step_constants(entry);
   } else if (name == "gravity_compensator") {

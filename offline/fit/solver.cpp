@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "fit/effect_binding.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -18,9 +20,20 @@ struct KnownParameter {
   double mean, sigma;
 };
 
-std::vector<KnownParameter> known(const FitData& data, const std::vector<Parameter>& parameters) {
+constexpr double kWidePrior = 5.0;  // typical sizes
+
+/// What the cell says, and of effects: that they are hardly ever many times their typical size.
+/// Without it, what geometry nearly imitates (the scale of a tracker) would run away.
+std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
+                                  const std::vector<Parameter>& parameters) {
   std::vector<KnownParameter> out;
   if (data.cell == nullptr) return out;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!parameters[i].of_effect()) continue;
+    const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
+    const double typical = effect_parameter(start.arm, joint, component).typical;
+    if (typical > 0.0) out.push_back({static_cast<Eigen::Index>(i), 0.0, kWidePrior * typical});
+  }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;
   for (const auto& [name, sigma] : data.cell->fit.priors)
@@ -34,7 +47,7 @@ std::vector<KnownParameter> known(const FitData& data, const std::vector<Paramet
 class GeometryCost final : public ceres::CostFunction {
  public:
   GeometryCost(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters)
-      : data_(data), start_(start), parameters_(parameters), known_(known(data, parameters)) {
+      : data_(data), start_(start), parameters_(parameters), known_(known(data, start, parameters)) {
     set_num_residuals(data.residual_count() + static_cast<int>(known_.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }

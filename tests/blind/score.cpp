@@ -87,11 +87,11 @@ bool finds_step(const BlindCase& blind, const Diagnosis& d) {
   const auto truth = nlohmann::json::parse(blind.truth_json);
   for (const auto& effect : truth["effects"]) {
     const auto& at = effect.contains("after_row") ? effect : effect["parameters"];
-    if (!at.contains("after_row")) continue;
+    if (!at.contains("row_after")) continue;
     for (const auto& added : d.added)
       if (added.entry.name == "step" &&
           std::abs(std::get<double>(added.entry.options.at("after_row")) -
-                   at["after_row"].get<double>()) <= 1.5)
+                   at["row_after"].get<double>()) <= 1.5)
         return true;
   }
   return false;

@@ -7,7 +7,7 @@ namespace plumb::effects {
 
 /// Play in a gear, pressed to one flank by the load: dq_j = b_j / 2 tanh(tau_j / t).
 struct BacklashLoad {
-  static constexpr EffectParameter kParameters[] = {{"b", "rad", 150e-6, -5e-3, 5e-3}};
+  static constexpr EffectParameter kParameters[] = {{"b", "rad", 150e-6, 0.0, 5e-3}};
   static constexpr const char* kConstants[] = {"torque_Nm"};  // t, per joint
   static constexpr EffectInfo kInfo{.name = "backlash_load",
                                     .version = 1,

@@ -5,12 +5,13 @@
 
 namespace plumb::effects {
 
-/// A foundation that gives way: the base turns by k M, M the moment of all weights about its
-/// origin.
+/// A foundation that gives way: the base turns by K M, M the moment of all weights about its origin
+/// and K symmetric, since a foundation is rarely softest along the axes of the base.
 struct BaseCompliance {
-  static constexpr EffectParameter kParameters[] = {{"kx", "rad/(N m)", 0.0, 0.0, 1e-3},
-                                                    {"ky", "rad/(N m)", 0.0, 0.0, 1e-3},
-                                                    {"kz", "rad/(N m)", 0.0, 0.0, 1e-3}};
+  static constexpr EffectParameter kParameters[] = {
+      {"kxx", "rad/(N m)", 0.0, 0.0, 1e-3},   {"kyy", "rad/(N m)", 0.0, 0.0, 1e-3},
+      {"kzz", "rad/(N m)", 0.0, 0.0, 1e-3},   {"kxy", "rad/(N m)", 0.0, -1e-3, 1e-3},
+      {"kxz", "rad/(N m)", 0.0, -1e-3, 1e-3}, {"kyz", "rad/(N m)", 0.0, -1e-3, 1e-3}};
   static constexpr EffectInfo kInfo{.name = "base_compliance",
                                     .version = 1,
                                     .title = "compliance of the base",
@@ -26,7 +27,9 @@ struct BaseCompliance {
     const auto& first = at.loads.joint[0];
     const Vector3 moment = first.moment + cross<double>(at.frames.joint[0].p, first.force);
     out.twist(Transformd{}, at.frames.tip.p, Vec3<S>(S(0.0), S(0.0), S(0.0)),
-              Vec3<S>(k[0] * moment(0), k[1] * moment(1), k[2] * moment(2)));
+              Vec3<S>(k[0] * moment(0) + k[3] * moment(1) + k[4] * moment(2),
+                      k[3] * moment(0) + k[1] * moment(1) + k[5] * moment(2),
+                      k[4] * moment(0) + k[5] * moment(1) + k[2] * moment(2)));
   }
 };
 

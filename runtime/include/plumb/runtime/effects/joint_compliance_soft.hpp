@@ -9,7 +9,7 @@ namespace plumb::effects {
 /// tau_j.
 struct JointComplianceSoft {
   static constexpr EffectParameter kParameters[] = {{"c", "rad/(N m)", 0.0, 0.0, 1e-2},
-                                                    {"d", "rad", 150e-6, -5e-3, 5e-3}};
+                                                    {"d", "rad", 150e-6, 0.0, 5e-3}};
   static constexpr const char* kConstants[] = {"torque_Nm"};  // t, per joint
   static constexpr EffectInfo kInfo{.name = "joint_compliance_soft",
                                     .version = 1,

@@ -8,7 +8,7 @@ namespace plumb::effects {
 /// Lost motion: a joint stays behind by h_j on the side it came from, once it has travelled farther
 /// than about r: dq_j = -h_j d_j (1 - e^(-travel_j / r)), d_j = +1, -1, or 0 = unknown.
 struct Reversal {
-  static constexpr EffectParameter kParameters[] = {{"h", "rad", 100e-6, -5e-3, 5e-3}};
+  static constexpr EffectParameter kParameters[] = {{"h", "rad", 100e-6, 0.0, 5e-3}};
   static constexpr const char* kConstants[] = {"transition_rad"};
   static constexpr EffectInfo kInfo{.name = "reversal",
                                     .version = 1,

@@ -5,11 +5,15 @@
 
 namespace plumb::effects {
 
-/// A tool or gripper that hangs: displacement c_k (R^T g)_k m in tool axes, m the payload.
+/// A tool or gripper that hangs on a soft flange: displacement of its tip C (R^T g) m in tool axes,
+/// m the payload. C is full, since a weight beside the flange also tilts it.
 struct ToolSag {
-  static constexpr EffectParameter kParameters[] = {{"cx", "m/N", 0.0, -1e-3, 1e-3},
-                                                    {"cy", "m/N", 0.0, -1e-3, 1e-3},
-                                                    {"cz", "m/N", 0.0, -1e-3, 1e-3}};
+  static constexpr EffectParameter kParameters[] = {
+      {"cxx", "m/N", 0.0, 0.0, 1e-3},   {"cxy", "m/N", 0.0, -1e-3, 1e-3},
+      {"cxz", "m/N", 0.0, -1e-3, 1e-3}, {"cyx", "m/N", 0.0, -1e-3, 1e-3},
+      {"cyy", "m/N", 0.0, 0.0, 1e-3},   {"cyz", "m/N", 0.0, -1e-3, 1e-3},
+      {"czx", "m/N", 0.0, -1e-3, 1e-3}, {"czy", "m/N", 0.0, -1e-3, 1e-3},
+      {"czz", "m/N", 0.0, 0.0, 1e-3}};
   static constexpr EffectInfo kInfo{.name = "tool_sag",
                                     .version = 1,
                                     .title = "sag of the tool",
@@ -24,7 +28,9 @@ struct ToolSag {
   static void apply(std::span<const S> c, const EffectShape&, const Situation& at, Motion<S>& out) {
     const Vector3 pull = transpose_times<double>(at.frames.tip.R, at.loads.payload_force);
     out.twist(at.frames.tip, at.frames.tip.p,
-              Vec3<S>(c[0] * pull(0), c[1] * pull(1), c[2] * pull(2)),
+              Vec3<S>(c[0] * pull(0) + c[1] * pull(1) + c[2] * pull(2),
+                      c[3] * pull(0) + c[4] * pull(1) + c[5] * pull(2),
+                      c[6] * pull(0) + c[7] * pull(1) + c[8] * pull(2)),
               Vec3<S>(S(0.0), S(0.0), S(0.0)));
   }
 };
