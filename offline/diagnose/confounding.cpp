@@ -55,7 +55,6 @@ std::vector<std::string> disguises(const EffectEntry& entry) {
   std::vector<std::string> out;
   if (entry.name == "gear_harmonics") {
     out = {"encoder_eccentricity"};
-    if (!entry.joints.empty() && entry.joints.front() == 1) out.push_back("gravity_compensator");
   }
   return out;
 }

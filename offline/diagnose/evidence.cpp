@@ -9,7 +9,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::array kWidths = {0.1, 0.3, 1.0, 3.0, 10.0};
+constexpr std::array kWidths = {0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
 constexpr double kNothingLeft = 1e-12;  // share of Q: rounding
 
 double ln_bayes_at(double tau, const Eigen::ArrayXd& w, const Eigen::ArrayXd& v, double Q,

@@ -14,6 +14,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr int kMostSteps = 60;
+constexpr double kRemainder = 0.15;  // of the motion of the strongest effect in the model
 
 /// Columns of one effect at one joint among the fitted parameters.
 struct Part {
@@ -72,6 +73,26 @@ double evidence_of(const Part& part, const Stage& stage, const Calibration& cali
   return evidence(gram, v, stage.Q + theta.dot(v), scale).ln_bayes;
 }
 
+/// RMS motion of a part that nothing else in the model could make, whitened.
+double motion_of(const Part& part, const Stage& stage, const Calibration& calibration) {
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));
+  for (Eigen::Index i = 0; i < theta.size(); ++i)
+    theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
+  const Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
+  return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
+}
+
+/// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
+/// no law is right to more than some percent. Waves of other lengths are other causes.
+bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
+                  const Found& found) {
+  double largest = 0.0;
+  for (const auto& part : parts_of(cell, calibration))
+    if (part.entry.name != "gear_ripple" || found.entry.name != "gear_ripple")
+      largest = std::max(largest, motion_of(part, stage, calibration));
+  return std::sqrt(std::max(0.0, found.trial.explained) * stage.Q) < kRemainder * largest;
+}
+
 std::string words(const Cell& cell, const EffectEntry& entry) { return key_of(cell, entry); }
 
 /// The part that lost its evidence, if one did; what was just added stays.
@@ -119,7 +140,9 @@ Forward forward(const ForwardStart& start, const Calibration& calibration, Stage
       out.unknown = unknown_structure(stage, *look.pattern);
       break;
     }
-    const Found* best = look.supported();
+    const Found* best = look.supported([&](const Found& found) {
+      return !is_remainder(cell, stage, now, found);
+    });
     if (best == nullptr) break;
     if (start.tell) start.tell(words(cell, best->entry));
     auto effects = with_effect(cell.effects, best->entry);

@@ -13,7 +13,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kTypicalMotion_m = 0.1e-3;  // RMS, of parameters whose size the arm decides
-constexpr std::array kTorqueShares = {0.1, 0.3, 1.0};
+constexpr std::array kTorqueShares = {0.03, 0.1, 0.3};
 constexpr std::array kTransitions_deg = {0.05, 0.2, 0.6, 2.0};
 constexpr std::array kSettlingShares = {0.1, 0.3};  // of the session
 constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
@@ -24,11 +24,11 @@ const std::set<std::string, std::less<>> kJointLaws = {
     "joint_compliance", "joint_compliance_soft", "gravity_free",       "gear_harmonics",
     "gear_ripple",      "encoder_scale",         "encoder_eccentricity", "reversal",
     "backlash_load",    "settling_lag",          "cross_compliance",   "payload_compliance",
-    "wrench_compliance"};
+    "wrench_compliance", "gravity_compensator"};
 
-/// Laws that are another one in disguise, or too wide a net: named as confounded, never searched.
+/// Another law in disguise, a net too wide, or found by its own scan.
 const std::set<std::string, std::less<>> kNotSearched = {
-    "encoder_eccentricity", "gravity_compensator", "joint_table", "step"};
+    "encoder_eccentricity", "joint_table", "step"};
 
 struct Bound {
   const Stage& stage;
@@ -249,6 +249,8 @@ std::vector<EffectEntry> entries_of(const Stage& s, int law) {
     for (int i : turning(s))
       for (int j : turning(s))
         if (i != j && largest_torque(s, j) > 0.0) out.push_back(entry_of(name, {i, j}));
+  } else if (name == "gravity_compensator") {
+    if (s.joints() > 1 && s.chain.revolute(1)) out.push_back(entry_of(name, {1}));
   } else if (info.per_joint && name != "thermal_growth") {
     for (int j : turning(s)) out.push_back(entry_of(name, {j}));
   } else {

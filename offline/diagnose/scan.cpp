@@ -90,7 +90,7 @@ struct Knob {
 std::optional<Knob> knob_of(const EffectEntry& entry) {
   if (entry.name == "gear_ripple") return Knob{"cycles_per_turn", 0.25, false, 1e6};
   if (entry.name == "backlash_load" || entry.name == "joint_compliance_soft")
-    return Knob{"torque_Nm", 1.7, true, 1e6};
+    return Knob{"torque_Nm", 1.7, true, 1e9};
   if (entry.name == "reversal") return Knob{"transition_deg", 1.7, true, kLongestTransition_deg};
   return std::nullopt;
 }
@@ -139,9 +139,9 @@ std::string key_of(const Cell& cell, const EffectEntry& entry) {
   return out;
 }
 
-const Found* Scan::supported() const {
+const Found* Scan::supported(const std::function<bool(const Found&)>& also) const {
   for (const auto& found : library)
-    if (found.score > kSupported && found.gain.clear) return &found;
+    if (found.score > kSupported && found.gain.clear && (!also || also(found))) return &found;
   return nullptr;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,8 @@ struct Scan {
   std::optional<Found> pattern;  // the best one
   double blocks = 0.0;           // tried
 
-  /// First of the library that evidence and held-out poses support, or null.
-  const Found* supported() const;
+  /// First of the library that evidence and held-out poses support, and `also` lets pass; or null.
+  const Found* supported(const std::function<bool(const Found&)>& also = {}) const;
   /// Whether the best pattern leaves the library's best far behind.
   bool unknown() const;
 };
