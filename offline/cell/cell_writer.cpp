@@ -3,6 +3,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/cell_sections.hpp"
+#include "cell/effects_edit.hpp"
 #include "cell/toml_text.hpp"
 #include "cell/units.hpp"
 
@@ -161,12 +162,7 @@ class CellWriter {
   void write_effect(const EffectEntry& effect) {
     int count = 0;
     for (const auto& other : cell_.effects) count += other.name == effect.name ? 1 : 0;
-    const std::string table = "effects." + effect.name;
-    line("{}", count > 1 ? "[[" + table + "]]" : "[" + table + "]");
-    std::vector<std::string> joints;
-    for (const int joint : effect.joints) joints.push_back(cell_.nominal.joints[joint].name);
-    if (!joints.empty()) line("joints = {}", toml_list(joints));
-    for (const auto& [key, value] : effect.options) line("{} = {}", key, toml_value(value));
+    out_ += effect_text(cell_, effect, count > 1);
   }
 
   void deploy() {

@@ -25,10 +25,10 @@ struct Pattern {
 struct Block {
   EffectEntry entry;  // of the library, as it would stand in the cell; no name: a pattern
   Pattern pattern;
-  int joint = -1;            // `columns` multiply its motion; -1: they are motions themselves
-  Eigen::MatrixXd columns;   // (poses, b) times a joint, or (lines, b)
-  Eigen::VectorXd typical;   // SI value of each column's parameter that makes it 1
-  std::vector<int> members;  // place of each column among the effect's parameters
+  int joint = -1;              // `columns` multiply its motion; -1: they are motions themselves
+  Eigen::MatrixXd columns;     // (poses, b) times a joint, or (lines, b)
+  Eigen::VectorXd typical;     // SI value of each column's parameter that makes it 1
+  std::vector<int> members;    // place of each column among the effect's parameters
   std::vector<bool> positive;  // columns whose size cannot be negative; empty: none
   bool of_library() const { return !entry.name.empty(); }
 };
@@ -45,6 +45,9 @@ void visit_library(const Stage& stage, const std::vector<std::string>& not_testa
 
 /// One block of the library again, with other constants.
 Block library_block(const Stage& stage, const EffectEntry& entry);
+
+/// Largest load of a joint at the poses [N m].
+double largest_torque(const Stage& stage, int joint);
 
 /// Generic structure, so that what no law explains is not forced into one.
 void visit_patterns(const Stage& stage, const BlockVisitor& visit);

@@ -15,8 +15,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kListed = 12;
-constexpr std::size_t kCompared = 8;     // for confounding
-constexpr double kConfounded = 0.8;      // mutual reproduction
+constexpr std::size_t kCompared = 8;      // for confounding
+constexpr double kConfounded = 0.8;       // mutual reproduction
 constexpr double kPlausibleTimes = 20.0;  // the typical size
 
 const char* word(EffectDomain domain) {
@@ -49,8 +49,8 @@ std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, cons
     UX += trial.folds[f].UX;
   }
   gram -= UX.transpose() * UX;
-  const double left = std::max(judge.scale().variance,
-                               s.Q * (1.0 - trial.explained) / judge.scale().lines);
+  const double left =
+      std::max(judge.scale().variance, s.Q * (1.0 - trial.explained) / judge.scale().lines);
   gram.diagonal().array() += left / std::pow(trial.evidence.width, 2);
   const Eigen::MatrixXd C =
       left * gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
@@ -79,7 +79,8 @@ Candidate candidate(const Stage& s, const Judge& judge, const Found& found) {
   out.gain_se = gain.share_se;
   out.cycles = found.cycles;
   if (out.cycles.empty())
-    if (const auto it = found.entry.options.find("cycles_per_turn"); it != found.entry.options.end())
+    if (const auto it = found.entry.options.find("cycles_per_turn");
+        it != found.entry.options.end())
       out.cycles = {std::get<double>(it->second)};
   out.supported = found.score > kSupported && gain.clear;
   out.numbers = numbers_of(s, judge, block, found.trial);

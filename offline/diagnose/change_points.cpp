@@ -55,9 +55,8 @@ std::vector<Running> kinds(const Stage& s) {
 std::vector<ChangePoint> change_points(const Stage& s, int& tried) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(s.fit_poses()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return s.context[a].order < s.context[b].order;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return s.context[a].order < s.context[b].order; });
   const EvidenceScale scale = Judge(s).scale();
   std::vector<ChangePoint> out;
   const auto n = static_cast<Eigen::Index>(order.size());
@@ -68,8 +67,7 @@ std::vector<ChangePoint> change_points(const Stage& s, int& tried) {
       if (n - cut < kLeast) continue;
       const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
       ++tried;
-      const Evidence found =
-          evidence(kind.XX - kind.UX.transpose() * kind.UX, kind.Xy, s.Q, scale);
+      const Evidence found = evidence(kind.XX - kind.UX.transpose() * kind.UX, kind.Xy, s.Q, scale);
       if (found.ln_bayes <= best.ln_bayes) continue;
       best.ln_bayes = found.ln_bayes;
       // Poses between the two were not looked at: the middle.

@@ -76,8 +76,7 @@ ErrorStats nested_held_out(const Work& w) {
   for (int k = 0; k < w.split.folds; ++k) {
     const auto inside = fit_rows(w.split, k);
     const Calibration base = calibrate(w.cell, w.measured, inside);
-    const Stage stage =
-        make_stage(w.cell, w.measured, base, without_outliers(inside, base), {});
+    const Stage stage = make_stage(w.cell, w.measured, base, without_outliers(inside, base), {});
     const Forward found =
         forward(w.start(inside, true), base, stage, scan(stage, w.not_testable, {}));
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
@@ -122,8 +121,13 @@ void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, 
 
 Diagnosis diagnose(const Cell& cell, const Measurements& measured,
                    const DiagnosisRequest& request) {
-  Work w{physics_of(cell), measured,
-         split_poses(measured, cell.measurement.held_out, cell.measurement.seed), {}, {}, {}, {},
+  Work w{physics_of(cell),
+         measured,
+         split_poses(measured, cell.measurement.held_out, cell.measurement.seed),
+         {},
+         {},
+         {},
+         {},
          request};
   w.fit = fit_rows(w.split);
   if (w.split.folds == 0) w.held = held_rows(w.split);
@@ -145,8 +149,7 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
   for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, stage);
   out.candidates = candidates_of(stage, first);
-  if (out.finding == Finding::kUnknown)
-    out.unknown = unknown_structure(stage, *first.pattern);
+  if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(stage, *first.pattern);
   out.before = out.after = held_out_of(w, w.cell.effects, base);
   out.effects = w.cell.effects;
   if (request.apply) go_all_the_way(w, base, stage, first, out);

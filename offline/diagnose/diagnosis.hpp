@@ -44,8 +44,8 @@ struct Candidate {
   bool supported = false;
   bool plausible = true;
   std::vector<CandidateNumber> numbers;
-  double explained = 0.0;  // share of what the model leaves
-  double absorbed = 0.0;   // share of its motion that the geometry imitates
+  double explained = 0.0;                    // share of what the model leaves
+  double absorbed = 0.0;                     // share of its motion that the geometry imitates
   std::vector<std::string> confounded_with;  // "gear_harmonics:J2"
   std::string separate;                      // the measurement that tells them apart
 };
@@ -69,7 +69,7 @@ struct Diagnosis {
   std::string text, text_after;          // the verdicts in words
   NoiseFloor floor;
   int poses_fit = 0, poses_held = 0;
-  bool nested = false;      // held-out figures come from folds around the whole diagnosis
+  bool nested = false;  // held-out figures come from folds around the whole diagnosis
   ErrorStats before, after;
   std::vector<Addition> added;
   std::vector<Candidate> candidates;  // by ln B
@@ -88,7 +88,6 @@ struct DiagnosisRequest {
 
 /// Which physical effect is missing. Selection sees the fit poses alone; held-out poses give every
 /// figure, once. Below 60 poses the folds go around the whole diagnosis. Throws as `calibrate`.
-Diagnosis diagnose(const Cell& cell, const Measurements& measured,
-                   const DiagnosisRequest& request);
+Diagnosis diagnose(const Cell& cell, const Measurements& measured, const DiagnosisRequest& request);
 
 }  // namespace plumb::offline

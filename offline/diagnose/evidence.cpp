@@ -18,8 +18,8 @@ double ln_bayes_at(double tau, const Eigen::ArrayXd& w, const Eigen::ArrayXd& v,
   const double paid = -0.5 * (1.0 + w / ridge).log().sum();
   const double before = scale.dof * scale.variance + Q;
   const double after = before - (v.square() / (w + ridge)).sum();
-  return paid -
-         0.5 * (scale.lines + scale.dof) * std::log(std::max(after, kNothingLeft * before) / before);
+  return paid - 0.5 * (scale.lines + scale.dof) *
+                    std::log(std::max(after, kNothingLeft * before) / before);
 }
 
 }  // namespace

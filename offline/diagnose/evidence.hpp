@@ -18,8 +18,8 @@ struct Evidence {
   double width = 1.0;     // the width with the largest B: 1 is the typical size
 };
 
-/// Bayes factor of columns X with effects theta ~ N(0, tau^2 I), tau on {0.1, 0.3, 1, 3, 10, 30}, and
-/// noise of a scaled inverse chi^2 around s^2, the residual y and X being cleared of the model:
+/// Bayes factor of columns X with effects theta ~ N(0, tau^2 I), tau on {0.1, 0.3, 1, 3, 10, 30},
+/// and noise of a scaled inverse chi^2 around s^2, the residual y and X being cleared of the model:
 ///
 ///   ln B = -1/2 sum ln(1 + w_i tau^2 / s^2)
 ///          - (n + nu)/2 ln[(nu s^2 + Q - sum v_i^2 / (w_i + s^2 / tau^2)) / (nu s^2 + Q)]

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "diagnose/candidates.hpp"
 #include "diagnose/effect_list.hpp"
@@ -14,6 +15,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr int kMostSteps = 60;
+constexpr std::size_t kMostExchanges = 4;
 constexpr double kRemainder = 0.15;  // of the motion of the strongest effect in the model
 
 /// Columns of one effect at one joint among the fitted parameters.
@@ -35,7 +37,8 @@ std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
     const auto& effect = effects[p.joint];
     const EffectInfo& info = effect_info(find_effect_law(effect.name));
     const bool apart = info.per_joint && effect.name != "thermal_growth" && !effect.joints.empty();
-    const int each = static_cast<int>(effect.parameters.size() / std::max<std::size_t>(1, effect.joints.size()));
+    const int each =
+        static_cast<int>(effect.parameters.size() / std::max<std::size_t>(1, effect.joints.size()));
     const int at = apart && effect.name != "gravity_free" ? p.component / std::max(1, each) : -1;
     Part& part = found[{p.joint, at}];
     part.entry = *entries[p.joint];
@@ -93,8 +96,6 @@ bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calib
   return std::sqrt(std::max(0.0, found.trial.explained) * stage.Q) < kRemainder * largest;
 }
 
-std::string words(const Cell& cell, const EffectEntry& entry) { return key_of(cell, entry); }
-
 /// The part that lost its evidence, if one did; what was just added stays.
 std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
                                 const Calibration& calibration,
@@ -111,6 +112,140 @@ std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
   }
   return out;
 }
+
+/// One selection under way.
+class Selection {
+ public:
+  Selection(const ForwardStart& start, const Calibration& calibration, Stage stage, Scan look)
+      : start_(start),
+        now_{start.cell, calibration},
+        stage_(std::move(stage)),
+        look_(std::move(look)) {
+    stage_.cell = &now_.cell;
+  }
+
+  Forward run() {
+    Forward out;
+    for (int step = 0; step < kMostSteps; ++step) {
+      if (look_.unknown()) {
+        out.unknown = unknown_structure(stage_, *look_.pattern);
+        break;
+      }
+      const Found* best = look_.supported(
+          [&](const Found& f) { return !is_remainder(now_.cell, stage_, now_.calibration, f); });
+      if (best == nullptr && !exchange()) break;
+      if (best != nullptr) add(Found(*best));
+    }
+    out.steps = steps();
+    return out;
+  }
+
+ private:
+  struct Model {
+    Cell cell;
+    Calibration calibration;
+  };
+
+  Model fitted(const std::vector<EffectEntry>& effects) const {
+    Model out{start_.cell,
+              refitted(start_.cell, start_.measured, start_.fit, effects, now_.calibration)};
+    out.cell.effects = effects;
+    return out;
+  }
+
+  Stage stage_of(const Model& model) const {
+    return make_stage(model.cell, start_.measured, model.calibration,
+                      without_outliers(start_.fit, model.calibration), {});
+  }
+
+  void look_at(Model model) {
+    now_ = std::move(model);
+    stage_ = stage_of(now_);
+    look_ = scan(stage_, start_.not_testable, banned_);
+  }
+
+  void add(const Found& best) {
+    if (start_.tell) start_.tell(key_of(now_.cell, best.entry));
+    try {
+      Model next = fitted(with_effect(now_.cell.effects, best.entry));
+      const Stage stage = stage_of(next);
+      added_.push_back({best.entry, best.ln_bayes()});
+      if (const auto weak =
+              lost(next.cell, stage, next.calibration, start_.cell.effects, best.entry)) {
+        banned_.push_back(key_of(next.cell, *weak));
+        forget(*weak);
+        next = fitted(without_effect(next.cell.effects, *weak));
+      }
+      look_at(std::move(next));
+    } catch (const Failure&) {
+      // An effect that cannot be fitted jointly is none that these poses support.
+      banned_.push_back(key_of(now_.cell, best.entry));
+      look_ = scan(stage_, start_.not_testable, banned_);
+    }
+  }
+
+  /// What was chosen first was chosen while the others were still missing. Each effect is taken
+  /// out once and looked for again; true if another one does its work better.
+  bool exchange() {
+    if (added_.size() < 2) return false;
+    for (const auto& [entry, ln] : added_) {
+      const std::string key = key_of(now_.cell, entry);
+      if (entry.name == "gear_ripple" || tried_.contains(key) || tried_.size() >= kMostExchanges)
+        continue;
+      tried_.insert(key);
+      try {
+        const Model without = fitted(without_effect(now_.cell.effects, entry));
+        const Stage stage = stage_of(without);
+        const Scan look = scan(stage, start_.not_testable, banned_);
+        const Found* other = look.supported();
+        if (other == nullptr || key_of(now_.cell, other->entry) == key) continue;
+        const auto own =
+            std::find_if(look.library.begin(), look.library.end(),
+                         [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
+        if (own != look.library.end() && other->ln_bayes() < own->ln_bayes() + kSupported) continue;
+        const Found chosen = *other;
+        look_at(fitted(with_effect(without.cell.effects, chosen.entry)));
+        const EffectEntry gone = entry;
+        forget(gone);
+        added_.push_back({chosen.entry, chosen.ln_bayes()});
+        return true;
+      } catch (const Failure&) {
+        continue;
+      }
+    }
+    return false;
+  }
+
+  void forget(const EffectEntry& entry) {
+    std::erase_if(added_, [&](const auto& a) {
+      return a.first.name == entry.name && a.first.joints == entry.joints &&
+             a.first.options == entry.options;
+    });
+  }
+
+  /// The effects one by one, strongest first, each with the model as it was then.
+  std::vector<ForwardStep> steps() {
+    std::stable_sort(added_.begin(), added_.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::vector<ForwardStep> out;
+    auto effects = start_.cell.effects;
+    for (const auto& [entry, ln] : added_) {
+      effects = with_effect(effects, entry);
+      const bool last = out.size() + 1 == added_.size();
+      out.push_back({entry, ln, last ? now_.cell.effects : effects,
+                     last ? now_.calibration : fitted(effects).calibration});
+    }
+    return out;
+  }
+
+  const ForwardStart& start_;
+  Model now_;
+  Stage stage_;
+  Scan look_;
+  std::vector<std::string> banned_;
+  std::vector<std::pair<EffectEntry, double>> added_;
+  std::set<std::string> tried_;
+};
 
 }  // namespace
 
@@ -130,49 +265,7 @@ Calibration refitted(const Cell& cell, const Measurements& measured, const std::
 
 Forward forward(const ForwardStart& start, const Calibration& calibration, Stage stage,
                 const Scan& first) {
-  Forward out;
-  Cell cell = start.cell;
-  Calibration now = calibration;
-  Scan look = first;
-  std::vector<std::string> banned;
-  for (int step = 0; step < kMostSteps; ++step) {
-    if (look.unknown()) {
-      out.unknown = unknown_structure(stage, *look.pattern);
-      break;
-    }
-    const Found* best = look.supported([&](const Found& found) {
-      return !is_remainder(cell, stage, now, found);
-    });
-    if (best == nullptr) break;
-    if (start.tell) start.tell(words(cell, best->entry));
-    auto effects = with_effect(cell.effects, best->entry);
-    try {
-      Calibration next = refitted(start.cell, start.measured, start.fit, effects, now);
-      Cell with = start.cell;
-      with.effects = effects;
-      const auto rows = without_outliers(start.fit, next);
-      stage = make_stage(with, start.measured, next, rows, {});
-      if (const auto weak = lost(with, stage, next, start.cell.effects, best->entry)) {
-        banned.push_back(key_of(cell, *weak));
-        effects = without_effect(effects, *weak);
-        with.effects = effects;
-        next = refitted(start.cell, start.measured, start.fit, effects, next);
-        stage = make_stage(with, start.measured, next, without_outliers(start.fit, next), {});
-      }
-      cell = with;
-      stage.cell = &cell;
-      now = next;
-      out.steps.push_back({best->entry, best->ln_bayes(), effects, next});
-      look = scan(stage, start.not_testable, banned);
-    } catch (const Failure&) {
-      // An effect that cannot be fitted jointly is none that these poses support.
-      banned.push_back(key_of(cell, best->entry));
-      const auto rows = without_outliers(start.fit, now);
-      stage = make_stage(cell, start.measured, now, rows, {});
-      look = scan(stage, start.not_testable, banned);
-    }
-  }
-  return out;
+  return Selection(start, calibration, std::move(stage), first).run();
 }
 
 }  // namespace plumb::offline

@@ -15,20 +15,21 @@ namespace {
 constexpr double kTypicalMotion_m = 0.1e-3;  // RMS, of parameters whose size the arm decides
 constexpr std::array kTorqueShares = {0.03, 0.1, 0.3};
 constexpr std::array kTransitions_deg = {0.05, 0.2, 0.6, 2.0};
+constexpr std::array kSpringRatios = {0.25, 0.5, 0.8};
 constexpr std::array kSettlingShares = {0.1, 0.3};  // of the session
 constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
 constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
 
 /// Laws that only turn the joint they are listed for.
 const std::set<std::string, std::less<>> kJointLaws = {
-    "joint_compliance", "joint_compliance_soft", "gravity_free",       "gear_harmonics",
-    "gear_ripple",      "encoder_scale",         "encoder_eccentricity", "reversal",
-    "backlash_load",    "settling_lag",          "cross_compliance",   "payload_compliance",
+    "joint_compliance",  "joint_compliance_soft", "gravity_free",         "gear_harmonics",
+    "gear_ripple",       "encoder_scale",         "encoder_eccentricity", "reversal",
+    "backlash_load",     "settling_lag",          "cross_compliance",     "payload_compliance",
     "wrench_compliance", "gravity_compensator"};
 
 /// Another law in disguise, a net too wide, or found by its own scan.
-const std::set<std::string, std::less<>> kNotSearched = {
-    "encoder_eccentricity", "joint_table", "step"};
+const std::set<std::string, std::less<>> kNotSearched = {"encoder_eccentricity", "joint_table",
+                                                         "step"};
 
 struct Bound {
   const Stage& stage;
@@ -38,7 +39,9 @@ struct Bound {
   int sensor = -1;
 
   Bound(const Stage& s, const EffectEntry& entry)
-      : stage(s), effect(bind_effect(*s.cell, *s.measured, entry)), law(find_effect_law(entry.name)) {
+      : stage(s),
+        effect(bind_effect(*s.cell, *s.measured, entry)),
+        law(find_effect_law(entry.name)) {
     shape = {s.joints(), effect.joints, effect.constants};
     for (const auto& need : effect.context)
       if (need.input == format::ContextInput::kTemperature)
@@ -53,8 +56,7 @@ struct Bound {
             .frames = stage.frames[i],
             .loads = stage.loads[i],
             .context = stage.context[i],
-            .temperature_degC =
-                sensor < 0 ? kUnknown : stage.context[i].temperature_degC[sensor]};
+            .temperature_degC = sensor < 0 ? kUnknown : stage.context[i].temperature_degC[sensor]};
   }
 };
 
@@ -139,7 +141,8 @@ void scale(const Bound& bound, Block& out) {
   for (std::size_t i = 0; i < moving.size(); ++i)
     kept.col(static_cast<Eigen::Index>(i)) = out.columns.col(moving[i]) * typical[i];
   out.columns = std::move(kept);
-  out.typical = Eigen::Map<Eigen::VectorXd>(typical.data(), static_cast<Eigen::Index>(typical.size()));
+  out.typical =
+      Eigen::Map<Eigen::VectorXd>(typical.data(), static_cast<Eigen::Index>(typical.size()));
   out.members.assign(moving.begin(), moving.end());
 }
 
@@ -151,12 +154,6 @@ std::vector<int> turning(const Stage& s) {
   std::vector<int> out;
   for (int j = 0; j < s.joints(); ++j)
     if (s.chain.revolute(j)) out.push_back(j);
-  return out;
-}
-
-double largest_torque(const Stage& s, int joint) {
-  double out = 0.0;
-  for (const auto& loads : s.loads) out = std::max(out, std::abs(loads.joint[joint].torque));
   return out;
 }
 
@@ -230,6 +227,12 @@ std::vector<EffectEntry> on_grid(const Stage& s, const EffectEntry& entry) {
       if (torque > 0.0) with("torque_Nm", share * torque);
   } else if (entry.name == "reversal") {
     for (double transition : kTransitions_deg) with("transition_deg", transition);
+  } else if (entry.name == "gravity_compensator") {
+    for (double length : kSpringRatios)
+      for (double anchor : kSpringRatios) {
+        with("length_ratio", length);
+        out.back().options["anchor_ratio"] = anchor;
+      }
   } else if (entry.name == "drift") {
     out.push_back(entry);
     for (double share : kSettlingShares) with("settling_s", share * session_of(s));
@@ -264,6 +267,12 @@ bool listed(const std::vector<std::string>& names, std::string_view name) {
 }
 
 }  // namespace
+
+double largest_torque(const Stage& s, int joint) {
+  double out = 0.0;
+  for (const auto& loads : s.loads) out = std::max(out, std::abs(loads.joint[joint].torque));
+  return out;
+}
 
 Block library_block(const Stage& stage, const EffectEntry& entry) {
   const Bound bound(stage, entry);

@@ -11,16 +11,16 @@ namespace {
 constexpr double kAngle_rad = 100e-6;  // typical sizes
 constexpr double kShift_m = 50e-6;
 constexpr double kTurn_rad = 30e-6;
-constexpr int kHarmonics = 3;    // of another joint
-constexpr int kPeriods = 40;     // half periods in the series
+constexpr int kHarmonics = 3;      // of another joint
+constexpr int kPeriods = 40;       // half periods in the series
 constexpr double kNoMove = 1e-5;   // rad or m: encoders at rest
 constexpr double kShortest = 0.2;  // rad: a joint that moves less shows no harmonic
 
 /// A number known at every pose; patterns are built of them.
 struct Input {
-  std::string name;        // "q4"
-  Eigen::ArrayXd value;    // (poses,)
-  std::string plainly;     // "q4", "time", "the temperature temp_base"
+  std::string name;      // "q4"
+  Eigen::ArrayXd value;  // (poses,)
+  std::string plainly;   // "q4", "time", "the temperature temp_base"
 };
 
 double span_of(const Input& input) { return input.value.maxCoeff() - input.value.minCoeff(); }
@@ -65,12 +65,12 @@ std::optional<Input> time_input(const Stage& s) {
 std::vector<Input> surroundings(const Stage& s) {
   std::vector<Input> out;
   for (std::size_t k = 0; k < s.sensors.size(); ++k)
-    if (auto input = normalised(
-            s.sensors[k], "temperature " + s.sensors[k],
-            gathered(s, [&](const Context& c) { return c.temperature_degC[k]; })))
+    if (auto input =
+            normalised(s.sensors[k], "temperature " + s.sensors[k],
+                       gathered(s, [&](const Context& c) { return c.temperature_degC[k]; })))
       out.push_back(std::move(*input));
-  if (auto input =
-          normalised("payload", "payload", gathered(s, [](const Context& c) { return c.payload_kg; })))
+  if (auto input = normalised("payload", "payload",
+                              gathered(s, [](const Context& c) { return c.payload_kg; })))
     out.push_back(std::move(*input));
   return out;
 }
@@ -118,11 +118,13 @@ void visit_other_joints(const std::vector<Input>& q, const std::vector<int>& tur
       for (int j : turning)
         if (j != k)
           visit(on_joint(j,
-                         {{}, fmt::format("depends on {}, {} a turn", q[k].name,
-                                          h == 1   ? "once"
-                                          : h == 2 ? "twice"
-                                                   : "three times"),
-                          {q[k].name}, static_cast<double>(h)},
+                         {{},
+                          fmt::format("depends on {}, {} a turn", q[k].name,
+                                      h == 1   ? "once"
+                                      : h == 2 ? "twice"
+                                               : "three times"),
+                          {q[k].name},
+                          static_cast<double>(h)},
                          {sin, cos}));
     }
 }
@@ -139,13 +141,16 @@ void visit_pairs(const std::vector<Input>& q, const std::vector<int>& turning,
       const std::vector<Eigen::ArrayXd> shapes = {sa * sb, sa * cb, ca * sb, ca * cb};
       for (int j : turning)
         visit(on_joint(j,
-                       {{}, fmt::format("depends on {} and {} together", a.name, b.name),
-                        {a.name, b.name}, 0.0},
+                       {{},
+                        fmt::format("depends on {} and {} together", a.name, b.name),
+                        {a.name, b.name},
+                        0.0},
                        shapes));
     }
 }
 
-void visit_surroundings(const Stage& s, const std::vector<int>& turning, const BlockVisitor& visit) {
+void visit_surroundings(const Stage& s, const std::vector<int>& turning,
+                        const BlockVisitor& visit) {
   for (const auto& input : surroundings(s)) {
     const Pattern pattern{{}, "moves with the " + input.plainly, {input.name}, 0.0};
     for (int j : turning) visit(on_joint(j, pattern, {input.value}));
@@ -192,15 +197,18 @@ void visit_history(const Stage& s, const std::vector<Input>& q, const std::vecto
       before(i) = s.measured->q(stop_before(*s.measured, s.row[i]), j);
     const Eigen::ArrayXd step = q[j].value - before;
     visit(on_joint(j,
-                   {{}, "depends on where it stood one pose before",
-                    {fmt::format("previous q{}", j + 1)}, 1.0},
+                   {{},
+                    "depends on where it stood one pose before",
+                    {fmt::format("previous q{}", j + 1)},
+                    1.0},
                    {before.sin(), before.cos()}));
-    visit(on_joint(j,
-                   {{}, "depends on its own last move", {fmt::format("step q{}", j + 1)}, 0.0},
+    visit(on_joint(j, {{}, "depends on its own last move", {fmt::format("step q{}", j + 1)}, 0.0},
                    {step}));
     visit(on_joint(j,
-                   {{}, "depends on the direction of its own last move",
-                    {fmt::format("direction q{}", j + 1)}, 0.0},
+                   {{},
+                    "depends on the direction of its own last move",
+                    {fmt::format("direction q{}", j + 1)},
+                    0.0},
                    {step.sign()}));
   }
 }

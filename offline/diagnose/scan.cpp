@@ -17,6 +17,7 @@ constexpr double kAhead_share = 0.05;  // and of what is left
 constexpr std::size_t kPeaks = 8;
 constexpr int kRefinements = 12;
 constexpr double kLongestTransition_deg = 3.0;  // beyond it is no friction
+constexpr double kWidestTransition = 0.35;      // of the largest torque: beyond it is a spring
 
 double number(const EffectEntry& entry, const char* key) {
   const auto it = entry.options.find(key);
@@ -83,21 +84,22 @@ std::vector<double> peaks(std::vector<std::pair<double, double>> spectrum, doubl
 /// Non-linear number of an entry and how far its neighbours on the grid are.
 struct Knob {
   const char* key;
-  double step;       // added, or as a factor
+  double step;  // added, or as a factor
   bool factor;
   double most;
 };
-std::optional<Knob> knob_of(const EffectEntry& entry) {
+std::optional<Knob> knob_of(const Stage& stage, const EffectEntry& entry) {
   if (entry.name == "gear_ripple") return Knob{"cycles_per_turn", 0.25, false, 1e6};
   if (entry.name == "backlash_load" || entry.name == "joint_compliance_soft")
-    return Knob{"torque_Nm", 1.7, true, 1e9};
+    return Knob{"torque_Nm", 1.7, true,
+                kWidestTransition * largest_torque(stage, entry.joints.front())};
   if (entry.name == "reversal") return Knob{"transition_deg", 1.7, true, kLongestTransition_deg};
   return std::nullopt;
 }
 
 /// Climbs from the grid's best number, halving the step.
 void refine(const Stage& stage, const Judge& judge, Found& found) {
-  auto knob = knob_of(found.entry);
+  auto knob = knob_of(stage, found.entry);
   if (!knob) return;
   for (int i = 0; i < kRefinements; ++i) {
     bool better = false;
@@ -121,7 +123,7 @@ void refine(const Stage& stage, const Judge& judge, Found& found) {
 
 /// Refinement comes to numbers with many digits; nobody wants them in a cell file.
 void round_knob(const Stage& stage, const Judge& judge, Found& found) {
-  const auto knob = knob_of(found.entry);
+  const auto knob = knob_of(stage, found.entry);
   if (!knob) return;
   double& value = std::get<double>(found.entry.options[knob->key]);
   const double digits = knob->factor ? std::pow(10.0, 2 - std::floor(std::log10(value))) : 100.0;
@@ -160,7 +162,8 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
   visit_library(stage, not_testable, [&](const Block& b) { all.take(b); });
   if (std::find(not_testable.begin(), not_testable.end(), "step") == not_testable.end()) {
     int cuts = 0;
-    for (const auto& point : change_points(stage, cuts)) all.take(library_block(stage, point.entry));
+    for (const auto& point : change_points(stage, cuts))
+      all.take(library_block(stage, point.entry));
     all.count(cuts);
   }
   visit_patterns(stage, [&](const Block& b) { all.take_pattern(b); });
@@ -168,11 +171,12 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
   out.blocks = all.blocks_;
   const double paid = std::log(std::max(1.0, all.blocks_));
   for (auto& [key, found] : all.best_) {
-    if (found->ln_bayes() - paid > 0.0) {
+    // What is gained off the grid was searched for as well: it does not count.
+    found->score = found->ln_bayes() - paid;
+    if (found->score > 0.0) {
       refine(stage, judge, *found);
       round_knob(stage, judge, *found);
     }
-    found->score = found->ln_bayes() - paid;
     if (const auto it = all.ripples_.find(key); it != all.ripples_.end())
       found->cycles = peaks(it->second, paid + kSupported);
     out.library.push_back(std::move(*found));

@@ -99,8 +99,7 @@ void fill_carriers(Stage& s) {
     const Vector3 target = f.tip.p + s.arm_B[i];
     for (int j = 0; j < s.joints(); ++j) {
       const Vector3 axis = f.joint[j].R.col(2) * s.chain.scale(j);
-      const Vector3 v =
-          s.chain.revolute(j) ? cross<double>(axis, target - f.joint[j].p) : axis;
+      const Vector3 v = s.chain.revolute(j) ? cross<double>(axis, target - f.joint[j].p) : axis;
       put(s, i, R_MB * v, s.joint[j]);
     }
     for (int k = 0; k < 3; ++k) {
@@ -133,8 +132,8 @@ void clear_of_model(const Calibration& calibration, Stage& s, const Rows3& sigma
   const Eigen::MatrixXd R = qr.matrixQR().topLeftCorner(s.rank, s.rank);
   R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(s.U);
   Eigen::MatrixXd half = Eigen::MatrixXd::Zero(J.cols(), s.rank);
-  half.topRows(s.rank) = R.triangularView<Eigen::Upper>().solve(
-      Eigen::MatrixXd::Identity(s.rank, s.rank));
+  half.topRows(s.rank) =
+      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(s.rank, s.rank));
   half = scale.asDiagonal() * (qr.colsPermutation() * half);
   s.inverse_information = half * half.transpose();
   const auto U_fit = s.U.topRows(s.fit_lines);

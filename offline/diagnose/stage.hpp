@@ -30,18 +30,18 @@ struct Segment {
 struct Stage {
   const Cell* cell = nullptr;
   const Measurements* measured = nullptr;
-  std::vector<int> row;           // of the measurements
-  std::vector<Segment> folds;     // of the fit poses
-  Segment held;                   // may be empty
-  int axes = 3;                   // measured ones
-  Eigen::Index fit_lines = 0;     // axes * fit poses
-  Eigen::Index rank = 0;          // of the model's own columns
+  std::vector<int> row;        // of the measurements
+  std::vector<Segment> folds;  // of the fit poses
+  Segment held;                // may be empty
+  int axes = 3;                // measured ones
+  Eigen::Index fit_lines = 0;  // axes * fit poses
+  Eigen::Index rank = 0;       // of the model's own columns
   NoiseScale noise;
-  double sigma_m = 0.0;           // typical 1 sigma of a coordinate
+  double sigma_m = 0.0;  // typical 1 sigma of a coordinate
 
-  Eigen::VectorXd y;              // (lines,) residual; held lines keep all of theirs
-  Eigen::MatrixXd U;              // (lines, rank) model columns, orthonormal over the fit lines
-  double Q = 0.0;                 // sum of squares of y over the fit lines
+  Eigen::VectorXd y;  // (lines,) residual; held lines keep all of theirs
+  Eigen::MatrixXd U;  // (lines, rank) model columns, orthonormal over the fit lines
+  double Q = 0.0;     // sum of squares of y over the fit lines
   Eigen::MatrixXd inverse_information;  // of the model's parameters, SI, stated sigma
 
   /// Whitened motion of the measured point, per unit of joint j: shape (lines,) each.
@@ -58,9 +58,9 @@ struct Stage {
   std::vector<ChainFrames<double>> frames;
   std::vector<Loads> loads;
   std::vector<Context> context;
-  std::vector<double> sigma;       // (lines,)
+  std::vector<double> sigma;  // (lines,)
   Transformd X_MB;
-  std::vector<Vector3> arm_B;      // tip to target
+  std::vector<Vector3> arm_B;  // tip to target
   std::vector<std::string> sensors;
 
   Eigen::Index poses() const { return static_cast<Eigen::Index>(row.size()); }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kClearShare = 0.01;
 constexpr double kImpossible = -1e6;  // ln B of what only the wrong sign would explain
-constexpr double kRidge = 1e-9;  // a fold may be all that says something about a parameter
+constexpr double kRidge = 1e-9;       // a fold may be all that says something about a parameter
 
 Products products_of_joint(const Stage& s, const Block& block, const Segment& at) {
   const auto S = block.columns.middleRows(at.begin, at.size());

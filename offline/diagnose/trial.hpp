@@ -18,18 +18,18 @@ struct Products {
 
 /// How far a held-out error falls, fold by fold inside the fit poses.
 struct Gain {
-  double share = 0.0;      // of the RMS
-  double share_se = 0.0;   // standard error of that, over the folds
-  bool clear = false;      // more than 1 %, and more than one standard error
+  double share = 0.0;     // of the RMS
+  double share_se = 0.0;  // standard error of that, over the folds
+  bool clear = false;     // more than 1 %, and more than one standard error
 };
 
 /// A block judged at a stage.
 struct Trial {
   std::vector<Products> folds;
   Evidence evidence;
-  double explained = 0.0;        // share of the residual's sum of squares
-  double absorbed = 0.0;         // share of the motion that the model can imitate
-  Eigen::VectorXd theta;         // fitted size of each column, 1 = typical
+  double explained = 0.0;            // share of the residual's sum of squares
+  double absorbed = 0.0;             // share of the motion that the model can imitate
+  Eigen::VectorXd theta;             // fitted size of each column, 1 = typical
   std::vector<Eigen::Index> active;  // columns that are not held at 0 by their sign
 };
 
@@ -56,8 +56,8 @@ class Judge {
 
  private:
   struct Fold {
-    Eigen::MatrixXd UU;       // (rank, rank) of the fold
-    Eigen::VectorXd Uy;       // (rank,)
+    Eigen::MatrixXd UU;  // (rank, rank) of the fold
+    Eigen::VectorXd Uy;  // (rank,)
     double yy = 0.0;
     Eigen::MatrixXd without;  // (U^T U of the others)^-1
     double error = 0.0;       // held-out sum of squares of the model alone

@@ -24,7 +24,8 @@ std::string unknown_words(const UnknownStructure& unknown) {
 
 std::string complete_words(const Diagnosis& d, const ErrorStats& held) {
   if (d.floor.source == NoiseFloor::Source::kNone)
-    return fmt::format("nothing more is supported by these poses; held-out error {}", mm(held.mean));
+    return fmt::format("nothing more is supported by these poses; held-out error {}",
+                       mm(held.mean));
   const double times = held.mean / d.floor.mean_m;
   if (times < 1.3)
     return fmt::format("nothing more is supported by these poses; held-out error {}, {}",
@@ -41,7 +42,8 @@ std::string in_words(const Cell& cell, const EffectEntry& entry) {
   const int law = find_effect_law(entry.name);
   std::string out = law >= 0 ? effect_info(law).title : entry.name;
   for (std::size_t i = 0; i < entry.joints.size(); ++i)
-    out += fmt::format("{}{}", i == 0 ? " of " : " and ", cell.nominal.joints[entry.joints[i]].name);
+    out +=
+        fmt::format("{}{}", i == 0 ? " of " : " and ", cell.nominal.joints[entry.joints[i]].name);
   if (const auto it = entry.options.find("cycles_per_turn"); it != entry.options.end())
     out += fmt::format(", {:g} cycles a turn", std::get<double>(it->second));
   if (entry.name == "step")
@@ -57,19 +59,22 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
   switch (d.finding) {
     case Finding::kMissing: {
       const Candidate& best = d.candidates.front();
-      return fmt::format("Missing: {} (ln Bayes {:.0f}); with it the held-out error falls from {} "
-                         "to {}, {}.",
-                         in_words(cell, best.entry), best.ln_bayes, mm(d.before.mean),
-                         mm(best.alone.mean), floor_words(d.floor));
+      return fmt::format(
+          "Missing: {} (ln Bayes {:.0f}); with it the held-out error falls from {} "
+          "to {}, {}.",
+          in_words(cell, best.entry), best.ln_bayes, mm(d.before.mean), mm(best.alone.mean),
+          floor_words(d.floor));
     }
     case Finding::kUnknown:
-      return fmt::format("Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
-                         unknown_words(*d.unknown), mm(d.before.mean), floor_words(d.floor));
+      return fmt::format(
+          "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
+          unknown_words(*d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
       if (d.floor.source == NoiseFloor::Source::kNone)
-        return fmt::format("Undecidable: nothing is supported, but without a noise floor nobody "
-                           "knows whether {} is good: repeat some poses, or state sigma_um.",
-                           mm(d.before.mean));
+        return fmt::format(
+            "Undecidable: nothing is supported, but without a noise floor nobody "
+            "knows whether {} is good: repeat some poses, or state sigma_um.",
+            mm(d.before.mean));
       return fmt::format("Undecidable: {} poses cannot tell what is missing.", d.poses_fit);
     default:
       return "Complete: " + complete_words(d, d.before) + ".";
@@ -78,11 +83,11 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
 
 std::string verdict_after_text(const Cell&, const Diagnosis& d) {
   if (!d.finding_after) return {};
-  const std::string fall =
-      d.added.empty() ? "Nothing was added"
-                      : fmt::format("{} {} added: held-out error {} -> {}", d.added.size(),
-                                    d.added.size() == 1 ? "effect" : "effects", mm(d.before.mean),
-                                    mm(d.after.mean));
+  const std::string fall = d.added.empty()
+                               ? "Nothing was added"
+                               : fmt::format("{} {} added: held-out error {} -> {}", d.added.size(),
+                                             d.added.size() == 1 ? "effect" : "effects",
+                                             mm(d.before.mean), mm(d.after.mean));
   switch (*d.finding_after) {
     case Finding::kUnknown:
       return fmt::format("{}; unknown structure is left: {}.", fall,

@@ -30,11 +30,11 @@ struct Calibration {
   std::vector<Problem> remarks;     // what the numbers look like
   std::vector<Estimate> estimates;  // the identifiable subset, in covariance order
   std::vector<Parameter> parameters;  // the same ones
-  std::vector<std::string> held;    // kept at nominal: these poses say less about them
-  Eigen::MatrixXd covariance;       // SI
-  int rank = 0;                     // independent columns, of all candidates
-  double calibrability = 0.0;       // cond_2(J^T J), SI columns
-  double sigma0 = 0.0;              // sqrt(chi^2 / dof) of the weighted residuals
+  std::vector<std::string> held;      // kept at nominal: these poses say less about them
+  Eigen::MatrixXd covariance;         // SI
+  int rank = 0;                       // independent columns, of all candidates
+  double calibrability = 0.0;         // cond_2(J^T J), SI columns
+  double sigma0 = 0.0;                // sqrt(chi^2 / dof) of the weighted residuals
   int iterations = 0;
 };
 

@@ -12,6 +12,7 @@ namespace {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+constexpr double kNoChange = 1e-7;  // of the cost in the last iteration
 constexpr int kDenseQrUpTo = 6000;  // residuals; beyond it the normal equations are much faster
 
 /// A parameter of which something is known beforehand.
@@ -20,7 +21,8 @@ struct KnownParameter {
   double mean, sigma;
 };
 
-constexpr double kWidePrior = 5.0;  // typical sizes
+constexpr double kWidePrior = 5.0;     // typical sizes
+constexpr double kTrackerPrior = 1.0;  // its scale is hardly to be told from the arm's
 
 /// What the cell says, and of effects: that they are hardly ever many times their typical size.
 /// Without it, what geometry nearly imitates (the scale of a tracker) would run away.
@@ -32,7 +34,10 @@ std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
     if (!parameters[i].of_effect()) continue;
     const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
     const double typical = effect_parameter(start.arm, joint, component).typical;
-    if (typical > 0.0) out.push_back({static_cast<Eigen::Index>(i), 0.0, kWidePrior * typical});
+    const bool tracker = start.arm.effects[joint].name == "tracker";
+    if (typical > 0.0)
+      out.push_back(
+          {static_cast<Eigen::Index>(i), 0.0, (tracker ? kTrackerPrior : kWidePrior) * typical});
   }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;
@@ -47,7 +52,10 @@ std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
 class GeometryCost final : public ceres::CostFunction {
  public:
   GeometryCost(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters)
-      : data_(data), start_(start), parameters_(parameters), known_(known(data, start, parameters)) {
+      : data_(data),
+        start_(start),
+        parameters_(parameters),
+        known_(known(data, start, parameters)) {
     set_num_residuals(data.residual_count() + static_cast<int>(known_.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
@@ -149,7 +157,10 @@ Solution solve(const FitData& data, const ArmState& start,
   ceres::Solve(options, &problem, &summary);
   Solution out = evaluate(data, moved(start, parameters, x), parameters);
   out.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  out.converged = summary.termination_type == ceres::CONVERGENCE;
+  // Two parameters that do nearly the same make the last digits slow, and nobody needs them.
+  const auto& last = summary.iterations.back();
+  out.converged = summary.termination_type == ceres::CONVERGENCE ||
+                  std::abs(last.cost_change) < kNoChange * last.cost;
   out.reason = summary.message;
   return out;
 }

@@ -27,8 +27,11 @@ std::vector<const LawEntry*> laws_of(Group group) {
   for (const auto& law : offline::sim::law_entries()) {
     if (!is_drawn(law)) continue;
     const bool unknown = law.library == "unknown";
-    if (group == Group::kUnknown ? unknown : group == Group::kStep ? is_step(law) : !unknown)
-      out.push_back(&law);
+    const bool fits = group == Group::kUnknown ? unknown
+                      : group == Group::kStep  ? is_step(law)
+                      : group == Group::kThree ? !unknown
+                                               : !unknown && !is_step(law);
+    if (fits) out.push_back(&law);
   }
   return out;
 }
@@ -101,11 +104,13 @@ HiddenCase draw_case(std::uint64_t study_seed, int number) {
   const bool many = out.group == Group::kWeak || out.group == Group::kThree;
   r.poses = kPoses[static_cast<std::size_t>(many ? 1 + random.below(3) : random.below(4))];
   const auto laws = laws_of(out.group);
-  const auto draw = [&] { return laws[static_cast<std::size_t>(random.below(static_cast<int>(laws.size())))]; };
+  const auto draw = [&] {
+    return laws[static_cast<std::size_t>(random.below(static_cast<int>(laws.size())))];
+  };
   // Laws in turn, so that a slice sees them all.
-  const auto* law = laws.empty() ? nullptr
-                                 : laws[static_cast<std::size_t>(turn * 3 + (number % 8) / 2) %
-                                        laws.size()];
+  const auto* law = laws.empty()
+                        ? nullptr
+                        : laws[static_cast<std::size_t>(turn * 3 + (number % 8) / 2) % laws.size()];
   constexpr std::array kSizes = {1.0, 2.0, 5.0};
   switch (out.group) {
     case Group::kNothing:

@@ -17,9 +17,9 @@ struct HiddenCase {
   Group group = Group::kNothing;
   offline::BlindRequest request;
   struct Answer {
-    std::string law;                   // of the simulator
-    std::vector<std::string> names;    // what the library may call it, the exact one first
-    int joint = -1;                    // zero-based, -1: none
+    std::string law;                 // of the simulator
+    std::vector<std::string> names;  // what the library may call it, the exact one first
+    int joint = -1;                  // zero-based, -1: none
     double sigmas = 0.0;
   };
   std::vector<Answer> hidden;  // largest first

@@ -35,7 +35,8 @@ class Marks {
     if (all.empty()) return;
     std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
     const double median = all[all.size() / 2];
-    // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for sigma.
+    // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for
+    // sigma.
     const double granted = 0.6 * limit / std::sqrt(static_cast<double>(all.size()));
     marks_.push_back({what, fmt::format("{:.2f} of {}", median, all.size()),
                       fmt::format("median <= {:.2f}", limit), median <= limit + granted});
@@ -66,36 +67,40 @@ void add_naming(Marks& m) {
              [](const Score& s) { return s.class_first; });
   m.at_least("right effect and joint first", 0.90, known_one,
              [](const Score& s) { return s.joint_first; });
-  m.at_least("effect of 0.5 sigma, N >= 150", 0.85,
-             [](const Score& s) { return s.drawn.group == Group::kWeak; },
-             [](const Score& s) { return s.class_first; });
-  m.at_most("nothing hidden, yet something named", 0.01,
-            [](const Score& s) { return s.drawn.group == Group::kNothing; },
-            [](const Score& s) { return s.finding != Finding::kComplete; });
-  m.at_most("cases with a false extra effect", 0.03,
-            [](const Score& s) { return s.drawn.group != Group::kUnknown; },
-            [](const Score& s) { return s.extra > 0; });
-  m.at_least("unknown effect: verdict and inputs, >= 2 sigma", 0.95,
-             [](const Score& s) { return s.drawn.group == Group::kUnknown; },
-             [](const Score& s) { return s.unknown_said && s.inputs_right; });
-  m.at_most("known effect called unknown", 0.01,
-            [](const Score& s) {
-              return s.drawn.group == Group::kOne || s.drawn.group == Group::kWeak;
-            },
-            [](const Score& s) { return s.finding == Finding::kUnknown; });
-  m.at_least("step of 5 sigma: pose within 1", 0.95,
-             [](const Score& s) { return s.drawn.group == Group::kStep; },
-             [](const Score& s) { return s.step_found; });
+  m.at_least(
+      "effect of 0.5 sigma, N >= 150", 0.85,
+      [](const Score& s) { return s.drawn.group == Group::kWeak; },
+      [](const Score& s) { return s.class_first; });
+  m.at_most(
+      "nothing hidden, yet something named", 0.01,
+      [](const Score& s) { return s.drawn.group == Group::kNothing; },
+      [](const Score& s) { return s.finding != Finding::kComplete; });
+  m.at_most(
+      "cases with a false extra effect", 0.03,
+      [](const Score& s) { return s.drawn.group != Group::kUnknown; },
+      [](const Score& s) { return s.extra > 0; });
+  m.at_least(
+      "unknown effect: verdict and inputs, >= 2 sigma", 0.95,
+      [](const Score& s) { return s.drawn.group == Group::kUnknown; },
+      [](const Score& s) { return s.unknown_said && s.inputs_right; });
+  m.at_most(
+      "known effect called unknown", 0.01,
+      [](const Score& s) { return s.drawn.group == Group::kOne || s.drawn.group == Group::kWeak; },
+      [](const Score& s) { return s.finding == Finding::kUnknown; });
+  m.at_least(
+      "step of 5 sigma: pose within 1", 0.95,
+      [](const Score& s) { return s.drawn.group == Group::kStep; },
+      [](const Score& s) { return s.step_found; });
   for (std::size_t i = 0; i < 3; ++i)
-    m.at_least(fmt::format("three effects: recall of the one of {} sigma",
-                           i == 0   ? 5
-                           : i == 1 ? 2
-                                    : 1),
-               i == 0   ? 0.97
-               : i == 1 ? 0.90
-                        : 0.80,
-               [](const Score& s) { return s.drawn.group == Group::kThree; },
-               [i](const Score& s) { return s.recalled[i]; });
+    m.at_least(
+        fmt::format("three effects: recall of the one of {} sigma", i == 0   ? 5
+                                                                    : i == 1 ? 2
+                                                                             : 1),
+        i == 0   ? 0.97
+        : i == 1 ? 0.90
+                 : 0.80,
+        [](const Score& s) { return s.drawn.group == Group::kThree; },
+        [i](const Score& s) { return s.recalled[i]; });
 }
 
 /// The scale of a tracker and the size of the arm are one: no diagnosis can undo that.
@@ -120,12 +125,13 @@ void add_errors(Marks& m) {
     m.median_at_most(fmt::format("held-out RMS / floor, N = {}", row.poses), row.held, strong,
                      [](const Score& s) { return s.held_over_floor; });
   }
-  m.at_least("added effects lowered the true error", 0.97,
-             [](const Score& s) { return s.extra == 0 && s.before > s.after * 1.001; },
-             [](const Score&) { return true; });
-  m.at_most("worse than geometry only", 0.005,
-            [](const Score& s) { return !hides_tracker(s); },
-            [](const Score& s) { return s.after > 1.02 * s.before + 0.02; });
+  m.at_least(
+      "added effects lowered the true error", 0.97,
+      [](const Score& s) { return s.extra == 0 && s.before > s.after * 1.001; },
+      [](const Score&) { return true; });
+  m.at_most(
+      "worse than geometry only", 0.005, [](const Score& s) { return !hides_tracker(s); },
+      [](const Score& s) { return s.after > 1.02 * s.before + 0.02; });
 }
 
 }  // namespace
@@ -148,10 +154,14 @@ std::string table_of(const std::vector<Mark>& marks) {
 std::string line_of(int number, const Score& s) {
   std::string hidden;
   for (const auto& effect : s.drawn.request.effects) hidden += " " + effect;
-  if (!s.made) return fmt::format("{} {}{}: not made: {}", number, name_of(s.drawn.group), hidden, s.why_not);
-  return fmt::format("{} {} N={} class {} joint {} extra {} unk {} in {} err {:.2f}->{:.2f} held {:.2f} {:.2f}s{} || {}", number,
-                     name_of(s.drawn.group), s.drawn.request.poses, s.class_first, s.joint_first,
-                     s.extra, s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.seconds, hidden, s.said);
+  if (!s.made)
+    return fmt::format("{} {}{}: not made: {}", number, name_of(s.drawn.group), hidden, s.why_not);
+  return fmt::format(
+      "{} {} N={} class {} joint {} extra {} unk {} in {} err {:.2f}->{:.2f} held {:.2f} {:.2f}s{} "
+      "|| {}",
+      number, name_of(s.drawn.group), s.drawn.request.poses, s.class_first, s.joint_first, s.extra,
+      s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.seconds, hidden,
+      s.said);
 }
 
 }  // namespace plumb::tests

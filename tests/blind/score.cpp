@@ -88,8 +88,15 @@ void score_unknown(const BlindCase& blind, const Diagnosis& d, Score& out) {
   const bool made_up = d.finding == Finding::kMissing && hidden.names.size() > 1 &&
                        is_like(hidden, d.candidates.front().entry) &&
                        at_joint(hidden, d.candidates.front().entry);
-  out.unknown_said = found.has_value() || made_up;
-  out.inputs_right = made_up;
+  // A joint that errs with the next joint's angle is the next axis that wobbles.
+  const auto wobbles = [&](const EffectEntry& e) {
+    return e.name == "axis_wobble" && hidden.law == "other_joint" && !inputs.empty() &&
+           inputs.front() == fmt::format("q{}", e.joints.front() + 1);
+  };
+  const bool merged =
+      made_up || (d.finding == Finding::kMissing && wobbles(d.candidates.front().entry));
+  out.unknown_said = found.has_value() || merged;
+  out.inputs_right = merged;
   if (!found) return;
   const auto& said = found->pattern.depends_on;
   out.inputs_right = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
@@ -115,9 +122,9 @@ bool finds_step(const Seen& seen, const BlindCase& blind, const Diagnosis& d) {
     const int there = pose_ahead(seen.measured, numbers["row_after"].get<double>());
     for (const auto& added : d.added)
       if (added.entry.name == "step" &&
-          std::abs(pose_ahead(seen.measured,
-                              std::get<double>(added.entry.options.at("after_row"))) -
-                   there) <= 1)
+          std::abs(
+              pose_ahead(seen.measured, std::get<double>(added.entry.options.at("after_row"))) -
+              there) <= 1)
         return true;
   }
   return false;
@@ -165,8 +172,7 @@ Score run_case(const HiddenCase& drawn) {
     const Seen seen = written_and_read(blind, drawn.request.seed);
     const auto start = std::chrono::steady_clock::now();
     const Diagnosis d = diagnose(seen.cell, seen.measured, {.apply = true, .tell = {}});
-    out.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     judge(seen, blind, d, out);
     std::vector<int> rows(static_cast<std::size_t>(seen.measured.size()));
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<int>(i);
@@ -175,8 +181,7 @@ Score run_case(const HiddenCase& drawn) {
     out.after = true_error(seen, d.effects, blind, rows) / sigma;
     const double axes = 3.0;
     out.held_over_floor = d.after.rms / (std::sqrt(axes) * sigma);
-    out.held_over_true =
-        d.after.rms / (sigma * std::sqrt(axes * (1.0 + out.after * out.after)));
+    out.held_over_true = d.after.rms / (sigma * std::sqrt(axes * (1.0 + out.after * out.after)));
     out.made = true;
   } catch (const Failure& failure) {
     out.why_not = failure.what();

@@ -5,16 +5,17 @@
 
 namespace plumb::effects {
 
-/// The tracker's stand or the floor moves: twist of the base, u t + v f(t), t in units of the series'
-/// length; f = t^2, or where the stand warms up with time constant T, 1 - e^(-t / T). Of the
-/// measurement: fitted and thrown away.
+/// The tracker's stand or the floor moves: twist of the base, u t + v f(t), t in units of the
+/// series' length; f = t^2, or where the stand warms up with time constant T, 1 - e^(-t / T). Of
+/// the measurement: fitted and thrown away.
 struct Drift {
   static constexpr EffectParameter kParameters[] = {
       {"dx1", "m", 50e-6, 0, 0},   {"dy1", "m", 50e-6, 0, 0},   {"dz1", "m", 50e-6, 0, 0},
       {"ex1", "rad", 30e-6, 0, 0}, {"ey1", "rad", 30e-6, 0, 0}, {"ez1", "rad", 30e-6, 0, 0},
       {"dx2", "m", 50e-6, 0, 0},   {"dy2", "m", 50e-6, 0, 0},   {"dz2", "m", 50e-6, 0, 0},
       {"ex2", "rad", 30e-6, 0, 0}, {"ey2", "rad", 30e-6, 0, 0}, {"ez2", "rad", 30e-6, 0, 0}};
-  static constexpr const char* kConstants[] = {"from", "span", "settling"};  // of time [s], or of the order
+  static constexpr const char* kConstants[] = {"from", "span",
+                                               "settling"};  // of time [s], or of the order
   static constexpr EffectInfo kInfo{.name = "drift",
                                     .version = 1,
                                     .title = "drift of tracker or base",

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cell_writing.hpp"
+#include "cli/effect_options.hpp"
+#include "cli/verbs.hpp"
+#include "diagnose/effect_list.hpp"
+#include "diagnose/verdict.hpp"
+#include "show/diagnose_view.hpp"
+#include "show/text_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+struct Options {
+  EffectOptions effect;
+  bool dry_run = false;
+};
+
+std::string before_and_after(const Fit& before, const Fit& after) {
+  show::TextTable table({"held-out error [mm]", "mean", "RMS", "95 %", "max"});
+  const auto add = [&](const char* name, const ErrorStats& e) {
+    table.add({name, show::mm(e.mean), show::mm(e.rms), show::mm(e.p95), show::mm(e.max)});
+  };
+  add("before", before.held);
+  add("after", after.held);
+  return table.text();
+}
+
+std::string judged(const std::string& what, const Fit& before, const Fit& after) {
+  const double change = before.held.mean > 0.0 ? after.held.mean / before.held.mean - 1.0 : 0.0;
+  const char* word = change < -0.01 ? "fell" : change > 0.01 ? "ROSE" : "hardly changed";
+  return fmt::format("{}: the held-out error {}: {} -> {} mm ({:+.0f} %).", what, word,
+                     show::mm(before.held.mean), show::mm(after.held.mean), 100.0 * change);
+}
+
+/// Refits with other effects, shows before and after, and only then touches the cell file.
+void change(const Options& options, const std::string& what, const std::string& undo,
+            const Cell& cell, const std::vector<EffectEntry>& effects, Outcome& outcome) {
+  const Cell edited = with_effects(cell, effects);
+  const Measurements measured = open_measurements(cell, outcome);
+  const Keep keep_it = options.dry_run ? Keep::kNothing : Keep::kRun;
+  const Run before = current_or_new_run(cell, measured, keep_it, outcome);
+  Fit fitted = fit_with_progress(edited, measured, outcome);
+  outcome.result["before"] = show::stats_json(before.fit.held);
+  outcome.result["after"] = show::stats_json(fitted.held);
+  outcome.result["run_before"] = before.number;
+  outcome.result["verdict"] = verdict(fitted, cell.tolerance_m);
+  outcome.text = judged(what, before.fit, fitted) + "\n\n" + before_and_after(before.fit, fitted) +
+                 "\n" + verdict(fitted, cell.tolerance_m) + "\n";
+  replace_cell(edited, options.dry_run, outcome);
+  if (options.dry_run) {
+    show::put_null(outcome.result, "run", "--dry-run keeps nothing");
+    return;
+  }
+  const Run after = keep(edited, measured, std::move(fitted));
+  outcome.result["run"] = after.number;
+  outcome.text += fmt::format("kept as run {}; to take it back: plumb {}\n", after.number, undo);
+}
+
+void add(const Options& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  const EffectEntry entry = options.effect.entry(cell);
+  outcome.result["effect"] = entry.name;
+  outcome.result["joints"] = show::joints_json(cell, entry);
+  if (has_effect(cell.effects, entry))
+    throw Failure(Exit::kInput,
+                  Problem{.code = "E-ADD-TWICE",
+                          .message = fmt::format("the model already has {}", in_words(cell, entry)),
+                          .place = Place{.file = cell.file.string()},
+                          .help = "see what is in it: plumb compare"});
+  change(options, "Added " + in_words(cell, entry), "drop " + show::as_arguments(cell, entry), cell,
+         with_effect(cell.effects, entry), outcome);
+}
+
+void drop(const Options& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  const EffectEntry entry = options.effect.entry(cell);
+  outcome.result["effect"] = entry.name;
+  outcome.result["joints"] = show::joints_json(cell, entry);
+  const auto effects = without_effect(cell.effects, entry);
+  std::size_t joints_before = 0, joints_after = 0;
+  for (const auto& e : cell.effects) joints_before += e.joints.size() + 1;
+  for (const auto& e : effects) joints_after += e.joints.size() + 1;
+  if (joints_before == joints_after || entry.name == "geometry") {
+    std::vector<std::string> there;
+    for (const auto& e : cell.effects)
+      if (e.name != "geometry") there.push_back(in_words(cell, e));
+    throw Failure(Exit::kInput,
+                  {.code = "E-DROP-NONE",
+                   .message = fmt::format("the model has no {}{}", in_words(cell, entry),
+                                          entry.name == "geometry" ? " that could be dropped" : ""),
+                   .place = Place{.file = cell.file.string()},
+                   .help = there.empty() ? "it contains geometry alone"
+                                         : fmt::format("it contains: {}", fmt::join(there, "; "))});
+  }
+  change(options, "Dropped " + in_words(cell, entry), "add " + show::as_arguments(cell, entry),
+         cell, effects, outcome);
+}
+
+using Verb = void (*)(const Options&, const Globals&, Outcome&);
+
+void add_verb(Program& program, const VerbText& text, Verb run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb =
+      program.verb(text, [options, run](const Globals& g, Outcome& o) { run(*options, g, o); });
+  options->effect.add_to(verb);
+  verb.add_flag("--dry-run", options->dry_run, "Refit and show, but write nothing");
+}
+
+}  // namespace
+
+void add_add(Program& program) {
+  add_verb(program,
+           {.name = "add",
+            .summary = "Put an effect into the model, refit, and watch the held-out error",
+            .examples = "  plumb add joint_compliance --joints J2,J3\n"
+                        "  plumb add gear_ripple --joints J2 --set cycles_per_turn=20 --dry-run"},
+           add);
+}
+
+void add_drop(Program& program) {
+  add_verb(program,
+           {.name = "drop",
+            .summary = "Take an effect out of the model, refit, and watch the held-out error",
+            .examples = "  plumb drop joint_compliance\n"
+                        "  plumb drop joint_compliance --joints J3 --dry-run"},
+           drop);
+}
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "show/diagnose_view.hpp"
+#include "show/error_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+const char* name_of(Finding finding) {
+  switch (finding) {
+    case Finding::kMissing:
+      return "missing";
+    case Finding::kUnknown:
+      return "unknown";
+    case Finding::kUndecidable:
+      return "undecidable";
+    default:
+      return "complete";
+  }
+}
+
+/// The mean under the key, its RMS beside it.
+void put_error(Json& out, const std::string& key, const ErrorStats& stats) {
+  put(out, key + "_mm", stats.n > 0 ? to_mm(stats.mean) : NAN, "no pose was held out");
+  put(out, key + "_rms_mm", stats.n > 0 ? to_mm(stats.rms) : NAN, "no pose was held out");
+}
+
+Json options_json(const EffectEntry& effect) {
+  Json out = Json::object();
+  for (const auto& [key, value] : effect.options)
+    std::visit([&](const auto& v) { out[key] = v; }, value);
+  return out;
+}
+
+Json parameters_json(const Candidate& candidate) {
+  Json out = Json::array();
+  for (const auto& n : candidate.numbers) {
+    Json one{{"name", n.name}, {"unit", n.unit}};
+    put(one, "value", n.value);
+    put(one, "std", n.std);
+    put(one, "ci95", 1.96 * n.std);
+    put(one, "typical", n.typical > 0.0 ? n.typical : NAN, "the arm decides");
+    one["plausible"] = n.plausible;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// Effect names, each once: "gear_harmonics:J2" is gear_harmonics.
+Json effects_of(const std::vector<std::string>& keys) {
+  Json out = Json::array();
+  for (const auto& key : keys) {
+    const std::string name = key.substr(0, key.find(':'));
+    if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+  }
+  return out;
+}
+
+Json candidate_json(const Cell& cell, const Candidate& c) {
+  Json out{{"effect", c.entry.name}, {"joints", joints_json(cell, c.entry)}, {"title", c.title}};
+  put(out, "ln_bayes", c.ln_bayes);
+  put_error(out, "held_out_alone", c.alone);
+  put_error(out, "held_out_after", c.after);
+  put(out, "gain_pct", 100.0 * c.gain);
+  put(out, "gain_se_pct", 100.0 * c.gain_se);
+  out["cycles_per_turn"] = c.cycles;
+  out["domain"] = c.domain;
+  out["supported"] = c.supported;
+  out["plausible"] = c.plausible;
+  out["options"] = options_json(c.entry);
+  out["parameters"] = parameters_json(c);
+  put(out, "share_pct", 100.0 * c.explained);
+  put(out, "absorbed_by_geometry_pct", 100.0 * c.absorbed);
+  out["confounded_with"] = effects_of(c.confounded_with);
+  out["confounded"] = c.confounded_with;
+  if (!c.separate.empty()) out["separate_by"] = c.separate;
+  return out;
+}
+
+Json unknown_json(const UnknownStructure& unknown) {
+  Json out{{"subject", unknown.pattern.subject},
+           {"words", unknown.pattern.words},
+           {"depends_on", unknown.pattern.depends_on}};
+  put(out, "harmonic", unknown.pattern.harmonic > 0.0 ? unknown.pattern.harmonic : NAN,
+      "it is not periodic in them");
+  put(out, "share_pct", 100.0 * unknown.share);
+  put(out, "rms_mm", to_mm(unknown.rms_m));
+  put(out, "rms_urad", unknown.rms_rad > 0.0 ? unknown.rms_rad * 1e6 : NAN, "it is no joint's");
+  return out;
+}
+
+}  // namespace
+
+Json joints_json(const Cell& cell, const EffectEntry& effect) {
+  Json out = Json::array();
+  for (const int joint : effect.joints) out.push_back(cell.nominal.joints[joint].name);
+  return out;
+}
+
+Json diagnose_json(const Cell& cell, const Diagnosis& d) {
+  Json out{{"verdict", name_of(d.finding)}, {"verdict_text", d.text}};
+  add_floor(d.floor, out);
+  out["poses_fit"] = d.poses_fit;
+  out["poses_held_out"] = d.poses_held;
+  out["nested"] = d.nested;
+  put_error(out, "held_out_before", d.before);
+  put_error(out, "held_out_after", d.after);
+  out["held_out_before"] = stats_json(d.before);
+  out["held_out_after"] = stats_json(d.after);
+  out["added"] = Json::array();
+  for (const auto& a : d.added) {
+    Json one{{"effect", a.entry.name},
+             {"joints", joints_json(cell, a.entry)},
+             {"options", options_json(a.entry)}};
+    put(one, "ln_bayes", a.ln_bayes);
+    put_error(one, "held_out", a.held);
+    out["added"].push_back(std::move(one));
+  }
+  out["candidates"] = Json::array();
+  for (const auto& c : d.candidates) out["candidates"].push_back(candidate_json(cell, c));
+  out["not_testable"] = Json::array();
+  for (const auto& t : d.not_testable)
+    out["not_testable"].push_back({{"effect", t.effect}, {"why", t.why}, {"measure", t.measure}});
+  const auto& unknown = d.unknown_after ? d.unknown_after : d.unknown;
+  if (unknown)
+    out["unknown"] = unknown_json(*unknown);
+  else
+    put_null(out, "unknown", "no such structure was found");
+  if (d.finding_after) {
+    out["verdict_after"] = name_of(*d.finding_after);
+    out["verdict_after_text"] = d.text_after;
+  }
+  out["outliers"] = d.outliers;
+  out["blocks_tried"] = d.blocks;
+  return out;
+}
+
+}  // namespace plumb::offline::show

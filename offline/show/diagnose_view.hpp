@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "diagnose/diagnosis.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// `result` of `plumb diagnose`.
+Json diagnose_json(const Cell& cell, const Diagnosis& diagnosis);
+
+/// Verdict, errors before and after, ranked candidates, what cannot be told apart, what these data
+/// cannot show.
+std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis);
+
+/// ["J2", "J3"]
+Json joints_json(const Cell& cell, const EffectEntry& effect);
+
+/// gear_ripple --joints J2 --cycles-per-turn 20: what `plumb add` takes.
+std::string as_arguments(const Cell& cell, const EffectEntry& effect);
+
+}  // namespace plumb::offline::show
