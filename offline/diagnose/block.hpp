@@ -46,6 +46,12 @@ void visit_library(const Stage& stage, const std::vector<std::string>& not_testa
 /// One block of the library again, with other constants.
 Block library_block(const Stage& stage, const EffectEntry& entry);
 
+/// Waves of one joint at these cycles a turn, together.
+Block ripple_block(const Stage& stage, int joint, const std::vector<double>& cycles);
+
+/// What a scan of waves tries: k of every joint, in steps its range can tell apart.
+std::vector<double> ripple_grid(const Stage& stage, int joint);
+
 /// Largest load of a joint at the poses [N m].
 double largest_torque(const Stage& stage, int joint);
 

@@ -38,7 +38,7 @@ bool plausible(double value, const EffectParameter& info) {
 }
 
 std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, const Block& block,
-                                        const Trial& trial) {
+                                        const Trial& trial, const std::vector<double>& cycles) {
   format::Model model;
   model.calibrated = s.cell->nominal;
   model.effects = {bind_effect(*s.cell, *s.measured, block.entry)};
@@ -57,6 +57,7 @@ std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, cons
   std::vector<CandidateNumber> out;
   for (Eigen::Index c = 0; c < trial.theta.size(); ++c) {
     const int member = block.members[c];
+    if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
     const EffectParameter& info = effect_parameter(model, 0, member);
     const double value = trial.theta(c) * block.typical(c);
     out.push_back({effect_parameter_name(model, 0, member), info.unit, value,
@@ -68,7 +69,7 @@ std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, cons
 
 Candidate candidate(const Stage& s, const Judge& judge, const Found& found) {
   const EffectInfo& info = effect_info(find_effect_law(found.entry.name));
-  const Block block = library_block(s, found.entry);
+  const Block block = block_of(s, found);
   Candidate out;
   out.entry = found.entry;
   out.title = info.title;
@@ -83,7 +84,7 @@ Candidate candidate(const Stage& s, const Judge& judge, const Found& found) {
         it != found.entry.options.end())
       out.cycles = {std::get<double>(it->second)};
   out.supported = found.score > kSupported && gain.clear;
-  out.numbers = numbers_of(s, judge, block, found.trial);
+  out.numbers = numbers_of(s, judge, block, found.trial, found.cycles);
   out.plausible = std::all_of(out.numbers.begin(), out.numbers.end(),
                               [](const CandidateNumber& n) { return n.plausible; });
   out.explained = found.trial.explained;
@@ -112,11 +113,11 @@ void name_confounded(const Stage& s, const std::vector<const Found*>& found,
 /// Held-out error of each with the best one already in.
 void add_after(const Stage& s, const std::vector<const Found*>& found,
                std::vector<Candidate>& out) {
-  const Stage next = extended(s, library_block(s, found.front()->entry));
+  const Stage next = extended(s, block_of(s, *found.front()));
   const Judge judge(next);
   out.front().after = out.front().alone;
   for (std::size_t i = 1; i < found.size(); ++i) {
-    const Block block = library_block(next, found[i]->entry);
+    const Block block = block_of(next, *found[i]);
     out[i].after = held_out_error(judge, block, judge.judge(block));
   }
 }

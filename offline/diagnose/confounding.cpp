@@ -19,7 +19,7 @@ struct Seen {
 
 Seen seen_of(const Stage& s, const Found& found) {
   Seen out;
-  out.X = motions(s, library_block(s, found.entry)).topRows(s.fit_lines);
+  out.X = motions(s, block_of(s, found)).topRows(s.fit_lines);
   const auto U = s.U.topRows(s.fit_lines);
   out.X -= U * (U.transpose() * out.X).eval();
   out.motion = out.X * found.trial.theta;

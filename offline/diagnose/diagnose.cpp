@@ -100,7 +100,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, 
   const Forward found = forward(w.start(w.fit, false), base, stage, first);
   for (const auto& step : found.steps)
     out.added.push_back(
-        {step.entry, step.ln_bayes, held_out_of(w, step.effects, step.calibration)});
+        {step.entry, step.cycles, step.ln_bayes, held_out_of(w, step.effects, step.calibration)});
   if (!found.steps.empty()) out.effects = found.steps.back().effects;
   if (w.split.folds > 0) {
     out.nested = true;

@@ -59,6 +59,7 @@ struct UnknownStructure {
 
 struct Addition {
   EffectEntry entry;
+  std::vector<double> cycles;  // of a ripple: all its waves
   double ln_bayes = 0.0;
   ErrorStats held;
 };

@@ -85,13 +85,26 @@ double motion_of(const Part& part, const Stage& stage, const Calibration& calibr
   return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
 }
 
+/// Whether one effect is a finer law of the same cause: a spring that is not linear, a gear whose
+/// error is not a pure wave.
+bool refines(const EffectEntry& a, const EffectEntry& b) {
+  const auto kind = [](const std::string& name) {
+    if (name == "joint_compliance" || name == "joint_compliance_soft" || name == "gravity_free")
+      return 1;
+    if (name == "gear_ripple" || name == "gear_harmonics" || name == "joint_table") return 2;
+    return 0;
+  };
+  return kind(a.name) != 0 && kind(a.name) == kind(b.name) && a.joints == b.joints;
+}
+
 /// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
 /// no law is right to more than some percent. Waves of other lengths are other causes.
 bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
                   const Found& found) {
   double largest = 0.0;
   for (const auto& part : parts_of(cell, calibration))
-    if (part.entry.name != "gear_ripple" || found.entry.name != "gear_ripple")
+    if ((part.entry.name != "gear_ripple" || found.entry.name != "gear_ripple") &&
+        !refines(part.entry, found.entry))
       largest = std::max(largest, motion_of(part, stage, calibration));
   return std::sqrt(std::max(0.0, found.trial.explained) * stage.Q) < kRemainder * largest;
 }
@@ -167,12 +180,14 @@ class Selection {
   void add(const Found& best) {
     if (start_.tell) start_.tell(key_of(now_.cell, best.entry));
     try {
-      Model next = fitted(with_effect(now_.cell.effects, best.entry));
+      Model next = fitted(with_all(now_.cell.effects, best));
       const Stage stage = stage_of(next);
-      added_.push_back({best.entry, best.ln_bayes()});
+      added_.push_back(best);
       if (const auto weak =
               lost(next.cell, stage, next.calibration, start_.cell.effects, best.entry)) {
-        banned_.push_back(key_of(next.cell, *weak));
+        // One wave of many may come and go; what does so again stays away.
+        const std::string key = key_of(next.cell, *weak);
+        if (weak->name != "gear_ripple" || ++dropped_[key] > 2) banned_.push_back(key);
         forget(*weak);
         next = fitted(without_effect(next.cell.effects, *weak));
       }
@@ -188,7 +203,8 @@ class Selection {
   /// out once and looked for again; true if another one does its work better.
   bool exchange() {
     if (added_.size() < 2) return false;
-    for (const auto& [entry, ln] : added_) {
+    for (const auto& found : added_) {
+      const EffectEntry entry = found.entry;
       const std::string key = key_of(now_.cell, entry);
       if (entry.name == "gear_ripple" || tried_.contains(key) || tried_.size() >= kMostExchanges)
         continue;
@@ -204,10 +220,9 @@ class Selection {
                          [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
         if (own != look.library.end() && other->ln_bayes() < own->ln_bayes() + kSupported) continue;
         const Found chosen = *other;
-        look_at(fitted(with_effect(without.cell.effects, chosen.entry)));
-        const EffectEntry gone = entry;
-        forget(gone);
-        added_.push_back({chosen.entry, chosen.ln_bayes()});
+        look_at(fitted(with_all(without.cell.effects, chosen)));
+        forget(entry);
+        added_.push_back(chosen);
         return true;
       } catch (const Failure&) {
         continue;
@@ -216,26 +231,41 @@ class Selection {
     return false;
   }
 
+  /// A wave of a ripple may go alone; its fellows stay.
   void forget(const EffectEntry& entry) {
-    std::erase_if(added_, [&](const auto& a) {
-      return a.first.name == entry.name && a.first.joints == entry.joints &&
-             a.first.options == entry.options;
-    });
+    for (auto& found : added_) {
+      if (found.entry.name != entry.name || found.entry.joints != entry.joints) continue;
+      if (entry.name == "gear_ripple")
+        std::erase(found.cycles, std::get<double>(entry.options.at("cycles_per_turn")));
+      else if (found.entry.options == entry.options)
+        found.entry.name.clear();
+      if (found.entry.name == "gear_ripple" && found.cycles.empty()) found.entry.name.clear();
+    }
+    std::erase_if(added_, [](const auto& a) { return a.entry.name.empty(); });
   }
 
-  /// The effects one by one, strongest first, each with the model as it was then.
+  /// The effects one by one, each with the model as it was then.
   std::vector<ForwardStep> steps() {
-    std::stable_sort(added_.begin(), added_.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
     std::vector<ForwardStep> out;
     auto effects = start_.cell.effects;
-    for (const auto& [entry, ln] : added_) {
-      effects = with_effect(effects, entry);
+    for (const auto& found : added_) {
+      effects = with_all(effects, found);
       const bool last = out.size() + 1 == added_.size();
-      out.push_back({entry, ln, last ? now_.cell.effects : effects,
-                     last ? now_.calibration : fitted(effects).calibration});
+      EffectEntry entry = found.entry;
+      if (!found.cycles.empty()) entry.options["cycles_per_turn"] = found.cycles.front();
+      out.push_back(
+          {entry, found.cycles, found.ln_bayes(), last ? now_.cell.effects : effects, {}});
     }
+    // The models on the way are only looked at once all is chosen.
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i].calibration =
+          i + 1 == out.size() ? now_.calibration : fitted(out[i].effects).calibration;
     return out;
+  }
+
+  static std::vector<EffectEntry> with_all(std::vector<EffectEntry> effects, const Found& found) {
+    for (const auto& entry : found.entries()) effects = with_effect(std::move(effects), entry);
+    return effects;
   }
 
   const ForwardStart& start_;
@@ -243,9 +273,19 @@ class Selection {
   Stage stage_;
   Scan look_;
   std::vector<std::string> banned_;
-  std::vector<std::pair<EffectEntry, double>> added_;
+  std::vector<Found> added_;
+  std::map<std::string, int> dropped_;
   std::set<std::string> tried_;
 };
+
+/// Numbers that the new list of effects shares with the old one stay: a better start.
+void keep_values(const ArmState& old, ArmState& fresh) {
+  std::map<std::string, double> values;
+  for (const auto& p : effect_parameters(old.arm)) values[p.name] = value_of(old, p);
+  for (const auto& p : effect_parameters(fresh.arm))
+    if (const auto it = values.find(p.name); it != values.end())
+      fresh.arm.effects[p.joint].parameters[p.component] = it->second;
+}
 
 }  // namespace
 
@@ -260,6 +300,7 @@ Calibration refitted(const Cell& cell, const Measurements& measured, const std::
   with.effects = effects;
   ArmState start = from.state;
   start.arm.effects = bind_effects(with, measured);
+  keep_values(from.state, start);
   return calibrate_from(with, measured, fit, start);
 }
 

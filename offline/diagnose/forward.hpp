@@ -14,6 +14,7 @@ namespace plumb::offline {
 /// An effect that was added, and the model with it.
 struct ForwardStep {
   EffectEntry entry;
+  std::vector<double> cycles;  // of a ripple: all its waves
   double ln_bayes = 0.0;
   std::vector<EffectEntry> effects;  // the whole list
   Calibration calibration;

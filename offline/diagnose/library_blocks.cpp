@@ -17,8 +17,7 @@ constexpr std::array kTorqueShares = {0.03, 0.1, 0.3};
 constexpr std::array kTransitions_deg = {0.05, 0.2, 0.6, 2.0};
 constexpr std::array kSpringRatios = {0.25, 0.5, 0.8};
 constexpr std::array kSettlingShares = {0.1, 0.3};  // of the session
-constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
-constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
+constexpr double kNoMotion_m = 1e-12;               // per unit of a parameter, in SI
 
 /// Laws that only turn the joint they are listed for.
 const std::set<std::string, std::less<>> kJointLaws = {
@@ -27,9 +26,9 @@ const std::set<std::string, std::less<>> kJointLaws = {
     "backlash_load",     "settling_lag",          "cross_compliance",     "payload_compliance",
     "wrench_compliance", "gravity_compensator"};
 
-/// Another law in disguise, a net too wide, or found by its own scan.
+/// Another law in disguise, a net too wide, or found by a scan of their own.
 const std::set<std::string, std::less<>> kNotSearched = {"encoder_eccentricity", "joint_table",
-                                                         "step"};
+                                                         "step", "gear_ripple"};
 
 struct Bound {
   const Stage& stage;
@@ -157,15 +156,6 @@ std::vector<int> turning(const Stage& s) {
   return out;
 }
 
-double range_of(const Stage& s, int joint) {
-  double low = 1e300, high = -1e300;
-  for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
-    low = std::min(low, s.q(i)[joint]);
-    high = std::max(high, s.q(i)[joint]);
-  }
-  return high - low;
-}
-
 double session_of(const Stage& s) {
   double low = 1e300, high = -1e300;
   for (const auto& c : s.context) {
@@ -174,44 +164,6 @@ double session_of(const Stage& s) {
     high = std::max(high, now);
   }
   return high - low;
-}
-
-/// Slower waves over the joint's range are its first two harmonics, or a straight line.
-double first_ripple(double range) { return 2.0 + 2.0 * M_PI / range; }
-
-/// sin and cos of k q_j for k in equal steps, by turning a vector on: two products a step.
-void visit_ripples(const Stage& s, int joint, const BlockVisitor& visit) {
-  const double range = range_of(s, joint);
-  if (range < 0.2) return;
-  const double step = std::min(kRippleStep, M_PI / range);
-  const auto first = static_cast<int>(std::ceil(first_ripple(range) / step));
-  const auto last = static_cast<int>(std::floor(kLastRipple / step));
-  const Eigen::Index n = s.poses();
-  Eigen::ArrayXd turn_sin(n), turn_cos(n), sin(n), cos(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double q = s.q(i)[joint];
-    turn_sin(i) = std::sin(step * q);
-    turn_cos(i) = std::cos(step * q);
-    sin(i) = std::sin(first * step * q);
-    cos(i) = std::cos(first * step * q);
-  }
-  const int law = find_effect_law("gear_ripple");
-  const double typical = effect_info(law).parameters[0].typical;
-  Block block;
-  block.joint = joint;
-  block.entry = entry_of("gear_ripple", {joint});
-  block.typical = Eigen::Vector2d::Constant(typical);
-  block.members = {0, 1};
-  block.columns.resize(n, 2);
-  for (int k = first; k <= last; ++k) {
-    block.entry.options["cycles_per_turn"] = k * step;
-    block.columns.col(0) = sin * typical;
-    block.columns.col(1) = cos * typical;
-    visit(block);
-    const Eigen::ArrayXd next = sin * turn_cos + cos * turn_sin;
-    cos = cos * turn_cos - sin * turn_sin;
-    sin = next;
-  }
 }
 
 /// The non-linear numbers of a law that are tried.
@@ -291,10 +243,6 @@ void visit_library(const Stage& stage, const std::vector<std::string>& not_testa
   for (int law = 0; law < kEffectLaws; ++law) {
     const EffectInfo& info = effect_info(law);
     if (kNotSearched.contains(info.name) || listed(not_testable, info.name)) continue;
-    if (info.name == "gear_ripple") {
-      for (int j : turning(stage)) visit_ripples(stage, j, visit);
-      continue;
-    }
     for (const auto& entry : entries_of(stage, law))
       for (const auto& tried : on_grid(stage, entry)) {
         const Block block = library_block(stage, tried);

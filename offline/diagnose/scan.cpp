@@ -8,20 +8,30 @@
 #include <map>
 
 #include "diagnose/change_points.hpp"
+#include "diagnose/ripple_scan.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr double kAhead_nats = 10.0;   // a pattern over the library's best
 constexpr double kAhead_share = 0.05;  // and of what is left
-constexpr std::size_t kPeaks = 8;
 constexpr int kRefinements = 12;
 constexpr double kLongestTransition_deg = 3.0;  // beyond it is no friction
 constexpr double kWidestTransition = 0.35;      // of the largest torque: beyond it is a spring
 
-double number(const EffectEntry& entry, const char* key) {
-  const auto it = entry.options.find(key);
-  return it == entry.options.end() ? 0.0 : std::get<double>(it->second);
+bool contains(const std::vector<std::string>& all, const std::string& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+/// Waves of one joint as one candidate. Each of them was searched for, so each pays.
+std::optional<Found> found_ripples(const Judge& judge, const Ripples& waves, double paid) {
+  if (waves.cycles.empty()) return std::nullopt;
+  const Block block = ripple_block(judge.stage(), waves.joint, waves.cycles);
+  Found out{block.entry, {}, judge.judge(block), {}, 0.0, waves.cycles, 0.0};
+  const auto count = static_cast<double>(waves.cycles.size());
+  out.score =
+      waves.cycles.size() == 1 ? waves.strongest_ln_bayes - paid : out.ln_bayes() - count * paid;
+  return out;
 }
 
 /// Collects the best of every effect and joint.
@@ -33,10 +43,8 @@ class Collector {
   void take(const Block& block) {
     ++blocks_;
     const std::string key = key_of(*stage_.cell, block.entry);
-    if (std::find(banned_.begin(), banned_.end(), key) != banned_.end()) return;
+    if (contains(banned_, key)) return;
     Trial trial = judge_.judge(block);
-    if (block.entry.name == "gear_ripple")
-      ripples_[key].push_back({number(block.entry, "cycles_per_turn"), trial.evidence.ln_bayes});
     keep(best_[key], block, std::move(trial));
   }
   void take_pattern(const Block& block) {
@@ -48,7 +56,6 @@ class Collector {
   void count(int more) { blocks_ += more; }
 
   std::map<std::string, std::optional<Found>> best_;
-  std::map<std::string, std::vector<std::pair<double, double>>> ripples_;
   std::optional<Found> pattern_;
   double blocks_ = 0.0;
 
@@ -63,24 +70,6 @@ class Collector {
   const std::vector<std::string>& banned_;
 };
 
-/// Local maxima over k that stand for themselves, highest first.
-std::vector<double> peaks(std::vector<std::pair<double, double>> spectrum, double threshold) {
-  std::sort(spectrum.begin(), spectrum.end());
-  std::vector<std::pair<double, double>> found;
-  for (std::size_t i = 0; i < spectrum.size(); ++i) {
-    const double here = spectrum[i].second;
-    if (here < threshold) continue;
-    if (i > 0 && spectrum[i - 1].second > here) continue;
-    if (i + 1 < spectrum.size() && spectrum[i + 1].second >= here) continue;
-    found.push_back({-here, spectrum[i].first});
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<double> out;
-  for (const auto& [ln, k] : found) out.push_back(k);
-  if (out.size() > kPeaks) out.resize(kPeaks);
-  return out;
-}
-
 /// Non-linear number of an entry and how far its neighbours on the grid are.
 struct Knob {
   const char* key;
@@ -89,7 +78,6 @@ struct Knob {
   double most;
 };
 std::optional<Knob> knob_of(const Stage& stage, const EffectEntry& entry) {
-  if (entry.name == "gear_ripple") return Knob{"cycles_per_turn", 0.25, false, 1e6};
   if (entry.name == "backlash_load" || entry.name == "joint_compliance_soft")
     return Knob{"torque_Nm", 1.7, true,
                 kWidestTransition * largest_torque(stage, entry.joints.front())};
@@ -133,6 +121,22 @@ void round_knob(const Stage& stage, const Judge& judge, Found& found) {
 
 }  // namespace
 
+std::vector<EffectEntry> Found::entries() const {
+  if (entry.name != "gear_ripple") return {entry};
+  std::vector<EffectEntry> out;
+  for (const double k : cycles) {
+    out.push_back(entry);
+    out.back().options["cycles_per_turn"] = k;
+  }
+  return out;
+}
+
+Block block_of(const Stage& stage, const Found& found) {
+  return found.entry.name == "gear_ripple"
+             ? ripple_block(stage, found.entry.joints.front(), found.cycles)
+             : library_block(stage, found.entry);
+}
+
 std::string key_of(const Cell& cell, const EffectEntry& entry) {
   std::string out = entry.name;
   for (std::size_t i = 0; i < entry.joints.size(); ++i)
@@ -160,13 +164,20 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
   const Judge judge(stage);
   Collector all(stage, judge, banned);
   visit_library(stage, not_testable, [&](const Block& b) { all.take(b); });
-  if (std::find(not_testable.begin(), not_testable.end(), "step") == not_testable.end()) {
+  if (!contains(not_testable, "step")) {
     int cuts = 0;
     for (const auto& point : change_points(stage, cuts))
       all.take(library_block(stage, point.entry));
     all.count(cuts);
   }
   visit_patterns(stage, [&](const Block& b) { all.take_pattern(b); });
+  std::vector<Ripples> ripples;
+  for (int j = 0; j < stage.joints(); ++j) {
+    if (!stage.chain.revolute(j) || contains(not_testable, "gear_ripple")) continue;
+    int waves = 0;
+    ripples.push_back(scan_ripples(judge, j, all.blocks_, waves));
+    all.count(waves);
+  }
   Scan out;
   out.blocks = all.blocks_;
   const double paid = std::log(std::max(1.0, all.blocks_));
@@ -177,10 +188,12 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
       refine(stage, judge, *found);
       round_knob(stage, judge, *found);
     }
-    if (const auto it = all.ripples_.find(key); it != all.ripples_.end())
-      found->cycles = peaks(it->second, paid + kSupported);
     out.library.push_back(std::move(*found));
   }
+  for (const auto& waves : ripples)
+    if (auto found = found_ripples(judge, waves, paid);
+        found && !contains(banned, key_of(*stage.cell, found->entry)))
+      out.library.push_back(std::move(*found));
   std::stable_sort(out.library.begin(), out.library.end(),
                    [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
   for (auto& found : out.library)

@@ -18,10 +18,16 @@ struct Found {
   Trial trial;
   Gain gain;                   // of what could be chosen; else zero
   double score = 0.0;          // ln B less ln of the number of blocks tried
-  std::vector<double> cycles;  // of ripple: the peaks, highest first
+  std::vector<double> cycles;  // of ripple: all its waves, strongest first
   double rms_joint = 0.0;      // of a pattern at a joint: its fitted size [rad]
   double ln_bayes() const { return trial.evidence.ln_bayes; }
+
+  /// As it would stand in the cell: every wave of a ripple is an entry.
+  std::vector<EffectEntry> entries() const;
 };
+
+/// The columns of a candidate of the library.
+Block block_of(const Stage& stage, const Found& found);
 
 /// One look at a stage with the whole library and the generic patterns.
 struct Scan {

@@ -113,11 +113,21 @@ Trial Judge::judge(const Block& block) const {
     }
     out.active.erase(out.active.begin() + worst);
   }
+  // What its sign holds at 0 was tried as well.
+  out.evidence.ln_bayes -=
+      std::log(2.0) *
+      static_cast<double>(all.Xy.size() - static_cast<Eigen::Index>(out.active.size()));
   if (out.active.empty()) out.evidence.ln_bayes = kImpossible;
   const double seen = out.theta.dot(whole * out.theta), moved = out.theta.dot(all.XX * out.theta);
   out.explained = stage_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / stage_.Q : 0.0;
   out.absorbed = moved > 0.0 ? std::clamp(1.0 - seen / moved, 0.0, 1.0) : 0.0;
   return out;
+}
+
+Products Judge::products(const Block& block) const {
+  const Segment all{0, stage_.fit_poses()};
+  return block.joint >= 0 ? products_of_joint(stage_, block, all)
+                          : products_of_motions(stage_, block, all);
 }
 
 Judge::Without Judge::without(std::size_t f) const {

@@ -41,6 +41,9 @@ class Judge {
 
   Trial judge(const Block& block) const;
 
+  /// Over all fit poses.
+  Products products(const Block& block) const;
+
   /// K-fold gain: model and block refitted without each fold, all from products.
   Gain gain(const Trial& trial) const;
 

@@ -8,6 +8,8 @@
 namespace plumb::offline {
 namespace {
 
+constexpr std::size_t kWavesShown = 4;
+
 std::string mm(double metres) { return fmt::format("{:.3f} mm", metres * 1e3); }
 
 std::string floor_words(const NoiseFloor& floor) {
@@ -55,6 +57,23 @@ std::string in_words(const Cell& cell, const EffectEntry& entry) {
   return out;
 }
 
+std::string in_words(const Cell& cell, const EffectEntry& entry,
+                     const std::vector<double>& cycles) {
+  if (cycles.size() < 2) return in_words(cell, entry);
+  EffectEntry plain = entry;
+  plain.options.erase("cycles_per_turn");
+  std::string out = in_words(cell, plain) + ",";
+  const std::size_t shown = std::min(cycles.size(), kWavesShown);
+  for (std::size_t i = 0; i < shown; ++i)
+    out += fmt::format("{} {:g}",
+                       i == 0                                     ? ""
+                       : i + 1 == shown && shown == cycles.size() ? " and"
+                                                                  : ",",
+                       cycles[i]);
+  if (shown < cycles.size()) out += fmt::format(" and {} more", cycles.size() - shown);
+  return out + " cycles a turn";
+}
+
 std::string verdict_text(const Cell& cell, const Diagnosis& d) {
   switch (d.finding) {
     case Finding::kMissing: {
@@ -62,8 +81,8 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
       return fmt::format(
           "Missing: {} (ln Bayes {:.0f}); with it the held-out error falls from {} "
           "to {}, {}.",
-          in_words(cell, best.entry), best.ln_bayes, mm(d.before.mean), mm(best.alone.mean),
-          floor_words(d.floor));
+          in_words(cell, best.entry, best.cycles), best.ln_bayes, mm(d.before.mean),
+          mm(best.alone.mean), floor_words(d.floor));
     }
     case Finding::kUnknown:
       return fmt::format(

@@ -114,7 +114,8 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   for (const auto& a : d.added) {
     Json one{{"effect", a.entry.name},
              {"joints", joints_json(cell, a.entry)},
-             {"options", options_json(a.entry)}};
+             {"options", options_json(a.entry)},
+             {"cycles_per_turn", a.cycles}};
     put(one, "ln_bayes", a.ln_bayes);
     put_error(one, "held_out", a.held);
     out["added"].push_back(std::move(one));

@@ -27,7 +27,7 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
     table.add({name, mm(e.mean), mm(e.rms), mm(e.p95), mm(e.max)});
   };
   add("now", d.before);
-  for (const auto& a : d.added) add("+ " + in_words(cell, a.entry), a.held);
+  for (const auto& a : d.added) add("+ " + in_words(cell, a.entry, a.cycles), a.held);
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
   std::string out = table.text();
   if (d.floor.source != NoiseFloor::Source::kNone)
@@ -42,7 +42,7 @@ std::string candidates_text(const Cell& cell, const Diagnosis& d) {
   std::string numbers;
   for (std::size_t i = 0; i < std::min(kShown, d.candidates.size()); ++i) {
     const Candidate& c = d.candidates[i];
-    table.add({fmt::format("{} {}", i + 1, in_words(cell, c.entry)),
+    table.add({fmt::format("{} {}", i + 1, in_words(cell, c.entry, c.cycles)),
                fmt::format("{:.1f}", c.ln_bayes),
                fmt::format("{:.1f} ± {:.1f} %", 100 * c.gain, 100 * c.gain_se), mm(c.alone.mean),
                mm(c.after.mean), fmt::format("{:.0f} %", 100 * c.explained),
@@ -55,16 +55,11 @@ std::string candidates_text(const Cell& cell, const Diagnosis& d) {
       "\nCandidates: held-out error [mm] alone and with the first one\n" + table.text();
   const Candidate& best = d.candidates.front();
   if (!best.supported) return out;
-  out += "\n  " + in_words(cell, best.entry) + ":";
+  out += "\n  " + in_words(cell, best.entry, best.cycles) + ":";
   for (std::size_t i = 0; i < std::min(kNumbersShown, best.numbers.size()); ++i)
     out += fmt::format("{} {}", i == 0 ? "" : ",", in_common_unit(best.numbers[i]));
   if (best.numbers.size() > kNumbersShown)
     out += fmt::format(", {} more", best.numbers.size() - kNumbersShown);
-  if (best.cycles.size() > 1) {
-    out += "\n  peaks at";
-    for (const double k : best.cycles) out += fmt::format(" {:g}", k);
-    out += " cycles a turn";
-  }
   if (!best.confounded_with.empty())
     out += fmt::format("\n  hard to tell from {}{}", fmt::join(best.confounded_with, ", "),
                        best.separate.empty() ? "" : "; measure " + best.separate);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/block.hpp"
+#include "plumb/runtime/effect_library.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
+constexpr double kLeastRange_rad = 0.2;
+
+double range_of(const Stage& s, int joint) {
+  double low = 1e300, high = -1e300;
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
+    low = std::min(low, s.q(i)[joint]);
+    high = std::max(high, s.q(i)[joint]);
+  }
+  return high - low;
+}
+
+/// Slower waves over the joint's range are its first two harmonics, or a straight line.
+double first_ripple(double range) { return 2.0 + 2.0 * M_PI / range; }
+
+}  // namespace
+
+std::vector<double> ripple_grid(const Stage& s, int joint) {
+  std::vector<double> out;
+  const double range = range_of(s, joint);
+  if (range < kLeastRange_rad) return out;
+  const double step = std::min(kRippleStep, M_PI / range);
+  const int last = static_cast<int>(std::floor(kLastRipple / step));
+  for (int k = static_cast<int>(std::ceil(first_ripple(range) / step)); k <= last; ++k)
+    out.push_back(k * step);
+  return out;
+}
+
+Block ripple_block(const Stage& s, int joint, const std::vector<double>& cycles) {
+  const double typical = effect_info(find_effect_law("gear_ripple")).parameters[0].typical;
+  Block out;
+  out.joint = joint;
+  out.entry = {.name = "gear_ripple", .joints = {joint}, .options = {}, .place = {}};
+  const auto count = static_cast<Eigen::Index>(cycles.size());
+  out.columns.resize(s.poses(), 2 * count);
+  out.typical = Eigen::VectorXd::Constant(2 * count, typical);
+  const bool even = count > 2 && std::abs(cycles[2] - 2.0 * cycles[1] + cycles[0]) < 1e-12;
+  if (!cycles.empty()) out.entry.options["cycles_per_turn"] = cycles.front();
+  for (Eigen::Index c = 0; c < 2 * count; ++c) out.members.push_back(static_cast<int>(c % 2));
+  for (Eigen::Index i = 0; i < s.poses(); ++i) {
+    const double q = s.q(i)[joint];
+    // In equal steps one vector turns on: four products instead of two transcendental functions.
+    const double step = even ? cycles[1] - cycles[0] : 0.0;
+    const double turn_sin = std::sin(step * q), turn_cos = std::cos(step * q);
+    double sin = 0.0, cos = 0.0;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      if (k == 0 || !even) {
+        sin = std::sin(cycles[k] * q) * typical;
+        cos = std::cos(cycles[k] * q) * typical;
+      } else {
+        const double next = sin * turn_cos + cos * turn_sin;
+        cos = cos * turn_cos - sin * turn_sin;
+        sin = next;
+      }
+      out.columns(i, 2 * k) = sin;
+      out.columns(i, 2 * k + 1) = cos;
+    }
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnose/trial.hpp"
+
+namespace plumb::offline {
+
+/// The waves of one joint that explain most together.
+struct Ripples {
+  int joint = 0;
+  std::vector<double> cycles;       // a turn, strongest first
+  double strongest_ln_bayes = 0.0;  // of the first alone, on the grid
+};
+
+/// Picks waves of a joint one after the other, each given those before, while each one's own
+/// evidence pays for the search through `blocks` of them; the first is always picked. Frequencies
+/// are then refined. `tried` grows by the waves on the grid. Cost: poses * (waves on the grid)^2.
+Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried);
+
+}  // namespace plumb::offline
