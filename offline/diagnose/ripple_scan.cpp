@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/ripple_scan.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,9 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kMostWaves = 12;
-constexpr double kPays = 3.0;      // nats, after what the search costs
-constexpr double kFinest = 0.004;  // cycles a turn
+constexpr double kPays = 3.0;  // nats, after what the search costs
+constexpr int kIterations = 4;
+constexpr double kLeastShare = 0.2;  // of a step
 
 /// Gram matrix and products of all waves, cleared of the model and of what was picked.
 struct Field {
@@ -38,30 +40,52 @@ struct Field {
   }
 };
 
-double ln_bayes_of(const Judge& judge, int joint, const std::vector<double>& cycles) {
-  return judge.judge(ripple_block(judge.stage(), joint, cycles)).evidence.ln_bayes;
+double rounded(double cycles) { return std::round(100.0 * cycles) / 100.0; }
+
+/// The waves, and behind them how each would change with its frequency.
+Block with_slopes(const Stage& s, const Block& waves, const Eigen::VectorXd& theta) {
+  Block out = waves;
+  const Eigen::Index count = waves.columns.cols() / 2;
+  out.columns.conservativeResize(Eigen::NoChange, 3 * count);
+  for (Eigen::Index i = 0; i < s.poses(); ++i) {
+    const double q = s.q(i)[waves.joint];
+    for (Eigen::Index k = 0; k < count; ++k)
+      out.columns(i, 2 * count + k) = q * (theta(2 * k) * waves.columns(i, 2 * k + 1) -
+                                           theta(2 * k + 1) * waves.columns(i, 2 * k));
+  }
+  return out;
 }
 
-/// Each frequency in turn climbs between its neighbours on the grid.
+/// All frequencies at once by Gauss and Newton, from the grid they were found on.
 void refine(const Judge& judge, Ripples& out, double step) {
-  double best = ln_bayes_of(judge, out.joint, out.cycles);
-  for (double& k : out.cycles)
-    for (double h = 0.5 * step; h > kFinest;) {
-      const double middle = k;
-      bool better = false;
-      for (const double sign : {-1.0, 1.0}) {
-        k = middle + sign * h;
-        const double ln = ln_bayes_of(judge, out.joint, out.cycles);
-        if (ln > best) {
-          best = ln;
-          better = true;
-          break;
-        }
-        k = middle;
-      }
-      if (!better) h *= 0.5;
+  Block waves = ripple_block(judge.stage(), out.joint, out.cycles);
+  Trial now = judge.judge(waves);
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Products all = judge.products(with_slopes(judge.stage(), waves, now.theta));
+    Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
+    gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
+    // Two waves close together leave open which of them moves: none far, then.
+    const auto m = static_cast<Eigen::Index>(out.cycles.size());
+    const double left =
+        judge.stage().Q * (1.0 - now.explained) / judge.scale().lines / std::pow(0.25 * step, 2);
+    gram.diagonal().tail(m).array() += left;
+    const Eigen::VectorXd theta = gram.ldlt().solve(all.Xy);
+    const Eigen::VectorXd change = theta.tail(m).cwiseMax(-0.5 * step).cwiseMin(0.5 * step);
+    bool better = false;
+    for (double share = 1.0; share > kLeastShare && !better; share *= 0.5) {
+      auto moved = out.cycles;
+      for (std::size_t k = 0; k < moved.size(); ++k)
+        moved[k] = rounded(moved[k] + share * change(static_cast<Eigen::Index>(k)));
+      const Block tried = ripple_block(judge.stage(), out.joint, moved);
+      Trial then = judge.judge(tried);
+      if (then.evidence.ln_bayes <= now.evidence.ln_bayes) continue;
+      better = true;
+      out.cycles = moved;
+      waves = tried;
+      now = std::move(then);
     }
-  for (double& k : out.cycles) k = std::round(100.0 * k) / 100.0;
+    if (!better) break;
+  }
 }
 
 }  // namespace
