@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Data that cannot show an effect, or that mislead: a clear answer, never a wrong verdict.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "diagnose/diagnosis.hpp"
+#include "simulate/blind_case.hpp"
+
+namespace plumb::offline {
+namespace {
+
+Diagnosis diagnosed(const BlindRequest& request, bool apply = true) {
+  const BlindCase blind = make_blind_case(request);
+  return diagnose(blind.cell, blind.measured.measured, {.apply = apply, .tell = {}});
+}
+
+bool not_testable(const Diagnosis& d, const std::string& effect) {
+  return std::any_of(d.not_testable.begin(), d.not_testable.end(),
+                     [&](const Testable& t) { return t.effect == effect; });
+}
+
+bool added(const Diagnosis& d, const std::string& effect) {
+  return std::any_of(d.added.begin(), d.added.end(),
+                     [&](const Addition& a) { return a.entry.name == effect; });
+}
+
+TEST(DiagnoseBadData, AConstantTemperatureIsNotTestableAndNeverAbsent) {
+  BlindRequest request;
+  request.climate = SimulationPlan::Climate::kConstant;
+  const Diagnosis d = diagnosed(request);
+  EXPECT_TRUE(not_testable(d, "thermal_growth"));
+  EXPECT_EQ(d.finding, Finding::kComplete);
+}
+
+TEST(DiagnoseBadData, OnePayloadCannotShowWhatOnlyThePayloadDoes) {
+  BlindRequest request;
+  request.payloads = BlindRequest::Payloads::kConstant;
+  request.effects = {"gear_harmonics:J3:4"};
+  const Diagnosis d = diagnosed(request);
+  EXPECT_TRUE(not_testable(d, "payload_compliance"));
+  EXPECT_TRUE(added(d, "gear_harmonics"));
+}
+
+TEST(DiagnoseBadData, WithoutDirectionsReversalIsNotTestableAndNothingElseIsBlamed) {
+  BlindRequest request;
+  request.directions = Recorded::kNever;
+  request.effects = {"reversal:J2:5"};
+  const Diagnosis d = diagnosed(request);
+  EXPECT_TRUE(not_testable(d, "reversal"));
+  for (const auto& a : d.added)
+    EXPECT_TRUE(a.entry.name == "settling_lag") << "blamed: " << a.entry.name;
+}
+
+TEST(DiagnoseBadData, GrossOutliersAreListedAndChangeNoVerdict) {
+  BlindRequest request;
+  request.outlier_share = 0.02;
+  request.poses = 300;
+  request.effects = {"joint_compliance:J2:5"};
+  const BlindCase blind = make_blind_case(request);
+  const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+  EXPECT_EQ(d.finding, Finding::kMissing);
+  EXPECT_EQ(d.candidates.front().entry.joints, std::vector<int>{1});
+  EXPECT_FALSE(d.outliers.empty());
+  EXPECT_LE(d.added.size(), 2U);
+}
+
+TEST(DiagnoseBadData, PosesOnAGridDoNotTurnARippleIntoSomethingElse) {
+  BlindRequest request;
+  request.poses = 500;
+  request.choice.grid_levels = 9;
+  request.effects = {"gear_ripple:J3:5@cycles=12"};
+  const Diagnosis d = diagnosed(request);
+  EXPECT_EQ(d.finding, Finding::kMissing);
+  // On a grid waves alias: the joint is right, whatever the name of the wave.
+  EXPECT_EQ(d.candidates.front().entry.joints, std::vector<int>{2});
+}
+
+TEST(DiagnoseBadData, FortyFivePosesAndHundredsOfCandidatesNameNothingWhereNothingIs) {
+  int named = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    BlindRequest request;
+    request.poses = 45;
+    request.seed = seed;
+    request.arm = seed % 2 == 0 ? BlindArm::kHeavy : BlindArm::kLight;
+    named += diagnosed(request, false).finding != Finding::kComplete;
+  }
+  EXPECT_LE(named, 1);
+}
+
+TEST(DiagnoseBadData, AllRowsRepeatOnePoseIsRefusedInWords) {
+  BlindRequest request;
+  request.poses = 40;
+  BlindCase blind = make_blind_case(request);
+  auto& m = blind.measured.measured;
+  for (int i = 1; i < m.size(); ++i) {
+    m.q.row(i) = m.q.row(0);
+    m.replicate_group[static_cast<std::size_t>(i)] = 0;
+  }
+  m.replicate_group[0] = 0;
+  EXPECT_THROW(diagnose(blind.cell, m, {}), Failure);
+}
+
+TEST(DiagnoseBadData, WithoutANoiseFloorNothingFoundIsUndecidable) {
+  BlindRequest request;
+  request.repeats = 1;
+  BlindCase blind = make_blind_case(request);
+  blind.cell.measurement.sigma_m.reset();
+  const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {});
+  EXPECT_EQ(d.finding, Finding::kUndecidable);
+  EXPECT_NE(d.text.find("noise floor"), std::string::npos);
+}
+
+TEST(DiagnoseBadData, APlanarArmNamesItsBeamsAndWhatIsWrongWithThePublishedOne) {
+  BlindRequest request;
+  request.arm = BlindArm::kPlanarPrinted;
+  request.poses = 400;
+  const Diagnosis printed = diagnosed(request);
+  EXPECT_EQ(printed.candidates.front().entry.name, "link_flexure") << printed.text;
+  EXPECT_TRUE(added(printed, "link_flexure"));
+  request.arm = BlindArm::kPlanarPublished;
+  const Diagnosis published = diagnosed(request);
+  ASSERT_TRUE(published.finding_after.has_value());
+  EXPECT_EQ(*published.finding_after, Finding::kUnknown) << published.text_after;
+  ASSERT_TRUE(published.unknown_after.has_value());
+  const auto& inputs = published.unknown_after->pattern.depends_on;
+  EXPECT_NE(std::find(inputs.begin(), inputs.end(), "q2"), inputs.end());
+}
+
+}  // namespace
+}  // namespace plumb::offline
