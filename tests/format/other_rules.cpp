@@ -17,7 +17,7 @@ std::vector<Rule> effect_rules() {
       {"TooManyParameters", "too many parameters",
        [](Model& m) { m.effects[0].parameters.assign(129, 0.0); }},
       {"ContextInput", "unknown input",
-       [](Model& m) { m.effects[0].context[0].input = ContextInput{4}; }},
+       [](Model& m) { m.effects[0].context[0].input = ContextInput{5}; }},
       {"ContextName", "context holds control",
        [](Model& m) { m.effects[0].context[0].name = "\r"; }},
       {"TooMuchContext", "too much context",
