@@ -41,11 +41,10 @@ void check_enough(const FitData& data, std::size_t parameters) {
 
 void refuse_undefined(const FitData& data, const format::Effect& effect, int row) {
   const format::Formula& f = effect.formula;
-  Problem problem{
-      .code = "E-FIT-FORMULA",
-      .message = fmt::format("formula '{}' has no finite value or slope at pose '{}': {}", f.name,
-                             data.measured->pose[row], f.expression),
-      .help = "keep divisors, sqrt and log off 0, as in log(max(payload, 1 [kg]))"};
+  Problem problem{.code = "E-FIT-FORMULA",
+                  .message = fmt::format("formula '{}' has no value at pose '{}': {}", f.name,
+                                         data.measured->pose[row], f.expression),
+                  .help = "keep divisors, sqrt and log off 0, as in log(max(payload, 1 [kg]))"};
   if (data.cell != nullptr)
     for (const auto& entry : data.cell->effects)
       if (entry.name == effect.name && formula_label(formula_text(entry)) == f.name)

@@ -35,9 +35,9 @@ Dimension operator/(const Dimension& a, const Dimension& b) { return sum(a, b, -
 Dimension raised(const Dimension& a, double power) { return sum({}, a, power); }
 
 std::string text_of(const Dimension& dimension) {
-  // Mass that comes with s^-2 per kg is force.
+  // Mass that comes with s^-2 or more per kg is force.
   const double kg = dimension.power[1];
-  const bool forces = kg != 0.0 && std::abs(dimension.power[2] + 2.0 * kg) < kSame;
+  const bool forces = std::abs(kg) > kSame && -dimension.power[2] / kg > 2.0 - kSame;
   const Dimension rest = forces ? dimension / raised(kForce, kg) : dimension;
   const std::pair<const char*, double> parts[] = {{"N", forces ? kg : 0.0},
                                                   {"kg", rest.power[1]},

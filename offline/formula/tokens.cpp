@@ -13,7 +13,11 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 FormulaProblem trouble(std::size_t at, std::size_t length, std::string message, std::string label) {
-  return {.at = at, .length = length, .message = std::move(message), .label = std::move(label)};
+  return {.at = at,
+          .length = length,
+          .message = std::move(message),
+          .label = std::move(label),
+          .help = "numbers as in 1.5e-6, units as in 50 [N m], signs + - * / ^ ( ) ,"};
 }
 
 /// A number at the front of `text`; length 0 if it is none.

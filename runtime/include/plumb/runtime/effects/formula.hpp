@@ -7,7 +7,8 @@
 namespace plumb::effects {
 
 /// The user's own law: target = expression, run as stack code. Where the expression is no number
-/// (a division by zero, the logarithm of a negative one) it moves nothing and says so.
+/// (a division by zero, the logarithm of a negative one), or one that no arm's error is, it moves
+/// nothing and says so.
 struct Formula {
   static constexpr EffectInfo kInfo{.name = "formula",
                                     .version = 1,
@@ -84,11 +85,13 @@ struct Formula {
   static void apply(std::span<const S> theta, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
     using formula::is_number;
+    using formula::plain;
     if (shape.formula == nullptr) return;
     const format::Formula& f = *shape.formula;
     const S motion = formula::evaluate(
         f, theta, [&](format::FormulaOp op, std::size_t which) { return read(op, which, at); });
-    if (!is_number(motion)) {
+    const double size = plain(motion) < 0.0 ? -plain(motion) : plain(motion);
+    if (!is_number(motion) || size > format::kMaxFormulaMotion) {
       out.undefined = true;
       return;
     }
