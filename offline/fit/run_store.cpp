@@ -51,9 +51,8 @@ Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
   run.cell_sha256 = sha256(cell.text);
   run.inputs = inputs_of(measured);
   for (const auto& effect : cell.effects)
-    run.effects.push_back(effect.name != "formula"
-                              ? effect.name
-                              : "formula." + formula_label(formula_text(effect)));
+    run.effects.push_back(
+        effect.name != "formula" ? effect.name : "formula." + formula_label(formula_text(effect)));
   run.fit = std::move(fit);
   return run;
 }

@@ -35,10 +35,11 @@ std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
     if (!parameters[i].of_effect()) continue;
     const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
     const double typical = effect_parameter(start.arm, joint, component).typical;
-    const bool tracker = start.arm.effects[joint].name == "tracker";
-    if (typical > 0.0)
-      out.push_back(
-          {static_cast<Eigen::Index>(i), 0.0, (tracker ? kTrackerPrior : kWidePrior) * typical});
+    const format::Effect& effect = start.arm.effects[joint];
+    const double width = effect.name == "tracker" ? kTrackerPrior : kWidePrior;
+    const double mean =
+        effect.formula.code.empty() ? 0.0 : effect.formula.parameters[component].start;
+    if (typical > 0.0) out.push_back({static_cast<Eigen::Index>(i), mean, width * typical});
   }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;

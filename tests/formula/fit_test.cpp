@@ -132,7 +132,7 @@ TEST(FormulaFit, EveryTargetIsFittedAndRunsInTheModelFileAsItWasFitted) {
     const std::string text = target;
     const bool length = text.starts_with("tcp") || text.find(".d") != std::string::npos;
     const EffectEntry effect =
-        formula(target, "k * sin(2*q2) * cos(q4)", {length ? "k [um] ~ 50" : "k [urad] ~ 50"});
+        formula(target, "k * sin(2*q2) * cos(q4)", {length ? "k [um] ~ 5000" : "k [urad] ~ 5000"});
     ArmState truth;
     const Measurements m = obeying(blind.cell, blind.measured.measured, effect, {7e-5}, truth);
     offline::Run run;
