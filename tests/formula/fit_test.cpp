@@ -113,7 +113,13 @@ TEST(FormulaFit, FindsNonLinearParametersThatHideBehindOneThatIsZero) {
            {"dq1",
             "A*sin(w*q1 + p)",
             {"A [rad] ~ 2e-4", "w [1] ~ 1 = 7", "p [rad] ~ 1"},
-            {2.5e-4, 7.2, 0.7}}}) {
+            {2.5e-4, 7.2, 0.7}},
+           // It begins at right angles to the truth; begun at size 0 it ends at its twin (-A, p -
+           // pi).
+           {"dq1",
+            "A*sin(3*q1 + p)*cos(w*q2)",
+            {"A [rad] ~ 2e-4", "p [rad] ~ 1", "w [1] ~ 1 = 2.2"},
+            {2.5e-4, 2.5707, 2.0}}}) {
     ArmState truth;
     const EffectEntry effect = formula(row.target, row.expression, row.parameters);
     const Measurements m = obeying(blind.cell, blind.measured.measured, effect, row.truth, truth);
