@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "formula_check.hpp"
 #include "provenance_check.hpp"
 #include "text_check.hpp"
 #include "tree_check.hpp"
@@ -116,11 +117,11 @@ Finding check_effect(const Effect& effect, std::size_t joints) {
     if (!std::isfinite(x)) return what + " has a constant that is not finite";
   if (effect.context.size() > kMaxJoints) return what + " needs too much context";
   for (const auto& need : effect.context) {
-    if (need.input > ContextInput::kTime) return what + " needs an unknown input";
+    if (need.input > ContextInput::kTravel) return what + " needs an unknown input";
     if (!std::isfinite(need.fallback)) return what + " has a fallback that is not finite";
     if (auto f = unprintable(need.name, what + " context")) return f;
   }
-  return std::nullopt;
+  return unsound_formula(effect, joints);
 }
 
 Finding check_mechanics(const Mechanics& m, std::size_t joints) {

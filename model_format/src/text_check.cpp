@@ -6,8 +6,6 @@
 namespace plumb::format::internal {
 namespace {
 
-constexpr std::size_t kMaxText = 256;
-
 /// Bytes of the UTF-8 sequence that `first` begins; 0 if none does.
 std::size_t sequence_length(unsigned char first) {
   if (first < 0x80) return 1;
@@ -36,9 +34,9 @@ std::optional<char32_t> take_code_point(std::string_view& rest) {
 
 }  // namespace
 
-std::optional<std::string> unprintable(const std::string& text, const std::string& what) {
-  if (text.size() > kMaxText)
-    return what + " is longer than " + std::to_string(kMaxText) + " bytes";
+std::optional<std::string> unprintable(const std::string& text, const std::string& what,
+                                       std::size_t most) {
+  if (text.size() > most) return what + " is longer than " + std::to_string(most) + " bytes";
   for (std::string_view rest = text; !rest.empty();) {
     const auto code = take_code_point(rest);
     if (!code) return what + " is not UTF-8";

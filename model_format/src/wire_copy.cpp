@@ -138,6 +138,21 @@ class Copier {
             .tool = pose(w.tool())};
   }
 
+  Formula formula(const wire::Formula* w) {
+    if (w == nullptr) return {};
+    return {.name = text(w->name()),
+            .target = static_cast<FormulaTarget>(w->target()),
+            .joint = w->joint(),
+            .component = w->component(),
+            .domain = w->domain(),
+            .expression = text(w->expression()),
+            .code = numbers(w->code()),
+            .literals = numbers(w->literals()),
+            .parameters = each(w->parameters(), [this](const auto& x) {
+              return FormulaParameter{text(x.name()), text(x.unit()), x.typical(), x.start()};
+            })};
+  }
+
   Effect effect(const wire::Effect& w) {
     return {.name = text(w.name()),
             .version = w.version(),
@@ -148,7 +163,8 @@ class Copier {
                               return ContextNeed{static_cast<ContextInput>(x.input()),
                                                  text(x.name()), x.fallback()};
                             }),
-            .constants = numbers(w.constants())};
+            .constants = numbers(w.constants()),
+            .formula = formula(w.formula())};
   }
 
   Mechanics mechanics(const wire::Mechanics* w) {

@@ -38,6 +38,22 @@ Offset<wire::Chain> add(Builder& b, const Chain& chain) {
                            rows, &tool_twist, &tool);
 }
 
+/// Absent if the effect has none.
+Offset<wire::Formula> add(Builder& b, const Formula& f) {
+  if (f == Formula{}) return {};
+  std::vector<Offset<wire::FormulaParameter>> each;
+  for (const auto& p : f.parameters) {
+    const auto name = b.CreateString(p.name), unit = b.CreateString(p.unit);
+    each.push_back(wire::CreateFormulaParameter(b, name, unit, p.typical, p.start));
+  }
+  const auto name = b.CreateString(f.name);
+  const auto expression = b.CreateString(f.expression);
+  const auto code = b.CreateVector(f.code);
+  const auto literals = b.CreateVector(f.literals);
+  return wire::CreateFormula(b, name, static_cast<std::uint8_t>(f.target), f.joint, f.component,
+                             f.domain, expression, code, literals, b.CreateVector(each));
+}
+
 Offset<wire::Effect> add(Builder& b, const Effect& effect) {
   std::vector<Offset<wire::ContextNeed>> needs;
   for (const auto& need : effect.context)
@@ -49,7 +65,9 @@ Offset<wire::Effect> add(Builder& b, const Effect& effect) {
   const auto context = b.CreateVector(needs);
   Offset<flatbuffers::Vector<double>> constants;
   if (!effect.constants.empty()) constants = b.CreateVector(effect.constants);
-  return wire::CreateEffect(b, name, effect.version, joints, parameters, context, constants);
+  const auto formula = add(b, effect.formula);
+  return wire::CreateEffect(b, name, effect.version, joints, parameters, context, constants,
+                            formula);
 }
 
 /// Absent if nothing is known.

@@ -145,6 +145,11 @@ constexpr Explanation kCodes[] = {
     {"E-FIT-FEW",
      "There are fewer measured coordinates than parameters. Measure more poses, or "
      "hold parameters with [fit] fixed."},
+    {"E-FIT-FORMULA",
+     "A formula divides by zero, takes the root or logarithm of a negative number or is otherwise "
+     "no number at one of the poses, or its value is beyond 1 m or 1 rad or its slope infinite, so "
+     "it cannot be fitted. In the cycle it then moves nothing, "
+     "and the status is context-fallback."},
     {"E-FIT-MISS",
      "The calibration settled, but the points are still missed by more than 1 % of the length of "
      "all links. No error of an arm is that large: a unit, the sign or zero of a joint, the DH "

@@ -87,8 +87,12 @@ constexpr Explanation kEffects[] = {
      "Errors of the instrument: radial offset, scale with range, second harmonic of its angles. "
      "Typical: 30 um, 2e-6/K, 6e-6. Belongs to the measurement. Needs: where the tracker stands."},
     {"formula",
-     "An effect of your own, written as target = expression with parameters, units and typical "
-     "sizes."},
+     "An effect of your own under [[effects.formula]]: target = \"dq2\", expression = \"k * "
+     "tau2\", "
+     "parameters = [\"k [rad/(N m)] ~ 1e-6\"]. Targets dq1, pre1.rx, post1.dz, base.dx, tool.rz, "
+     "tcp.x and the like; it reads q1 tau1 dir1 travel1 u1 and so on, t, payload, temp_NAME, x y "
+     "z, "
+     "row. Units are checked. Needs: the columns of what it reads."},
 };
 
 }  // namespace

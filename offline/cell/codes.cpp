@@ -108,6 +108,35 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "time, status, fold, joint, type, quaternions and dir_jN have none."},
     {"E-CSV-UTF8", "The file is not UTF-8. The help line converts it; the encoding is a guess."},
     {"E-EXISTS", "Nothing is overwritten unless asked for. Choose another name or add --force."},
+    {"E-FORMULA-DOMAIN",
+     "A formula of the robot or its environment runs in the cycle, where only joint positions, "
+     "loads, directions, travel, payload, temperatures, time and the tip are known. One that reads "
+     "uN or row cleans the fit and is then thrown away: domain = \"procedure\" or "
+     "\"measurement\"."},
+    {"E-FORMULA-LONG",
+     "A formula runs in every cycle, so its length is bounded. Split it into several formulas with "
+     "the same target: they add up."},
+    {"E-FORMULA-NAME",
+     "Formulas are told apart by their names, or by their targets if they have none. A name is of "
+     "letters, digits and _."},
+    {"E-FORMULA-NUMBER",
+     "A part of the formula divides by zero or is infinite or undefined at every pose."},
+    {"E-FORMULA-PARAMETER",
+     "A parameter is declared as \"k [rad/(N m)] ~ 1e-6 = 2e-6\": its name, its unit ([1] if "
+     "it has none), its typical size and, if wanted, where the fit begins. Every one must be "
+     "used."},
+    {"E-FORMULA-SYNTAX",
+     "The expression cannot be read. It is made of numbers, variables, parameters, + - * / ^ ( ) "
+     "and sin cos exp log sqrt abs tanh sign min max clamp step."},
+    {"E-FORMULA-TARGET",
+     "A formula moves a joint (dq2), a frame (pre2.rx, post2.dz, base.dx, tool.rz) or the tip "
+     "(tcp.x), all in m or rad."},
+    {"E-FORMULA-UNIT",
+     "Sums, comparisons and the result must have matching units; sin, exp, log and the like want "
+     "plain numbers, and rad is one. A number may carry a unit: 50 [N m]; 0 has every unit."},
+    {"E-FORMULA-VARIABLE",
+     "A formula reads q1 tau1 dir1 travel1 u1 and so on, t, payload, temp_NAME, x y z (the tip in "
+     "the base), row, pi and its own parameters. Joints count from 1."},
     {"E-READ",
      "The file cannot be read; the system's reason is given. Check the path and the "
      "permissions."},

@@ -14,7 +14,7 @@ const std::vector<std::string>& known_effects() {
 }
 
 const std::vector<std::string>& planned_effects() {
-  static const std::vector<std::string> names{"formula"};
+  static const std::vector<std::string> names;
   return names;
 }
 

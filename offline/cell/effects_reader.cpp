@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cell/cell_sections.hpp"
+#include "cell/formula_reader.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -78,6 +79,12 @@ void read_options(const std::string& name, TomlTable& t, EffectEntry& entry) {
 
 void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
   EffectEntry entry{.name = name, .joints = {}, .options = {}, .place = t.place("")};
+  if (name == "formula") {
+    read_formula(t, draft, entry);
+    t.done();
+    draft.cell.effects.push_back(std::move(entry));
+    return;
+  }
   for (const auto& [joint, node] : t.texts("joints")) {
     const int index = draft.joint_index(joint);
     if (index < 0)
@@ -95,7 +102,7 @@ void read_entries(const std::string& name, TomlTable& t, CellDraft& draft) {
   const toml::node& node = *t.node(name);
   if (node.is_array()) {
     for (auto& entry : t.tables(name)) read_effect(name, entry, draft);
-  } else if (node.is_boolean()) {
+  } else if (node.is_boolean() && name != "formula") {
     if (*node.value<bool>())
       draft.cell.effects.push_back({.name = name,
                                     .joints = {},

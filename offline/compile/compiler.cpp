@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "fit/effect_binding.hpp"
 #include "fit/geometry.hpp"
-#include "plumb/runtime/effect_library.hpp"
-
 #include "plumb/format/version.hpp"
 
 namespace plumb::offline {
@@ -26,21 +26,26 @@ format::HeldOut held_out(const ErrorStats& s) {
 }
 
 /// Of the robot, or of its surroundings with a sensor to read in the cycle.
-bool runs_online(const std::string& effect) {
-  const EffectDomain domain = effect_info(find_effect_law(effect)).domain;
+bool runs_online(const format::Effect& effect) {
+  const EffectDomain domain = domain_of(effect);
   return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
 }
 
-bool runs_online(const Estimate& e) {
-  if (!e.of_robot) return false;
-  return e.unit.empty() || runs_online(e.name.substr(0, e.name.find('.')));
+/// Names of the parameters of effects that only clean the fit.
+std::set<std::string> left_behind(const format::Model& fitted) {
+  std::set<std::string> out;
+  for (const auto& p : effect_parameters(fitted))
+    if (!runs_online(fitted.effects[static_cast<std::size_t>(p.joint)])) out.insert(p.name);
+  return out;
 }
 
 /// Robot parameters with their covariance; what belongs to the measurement is left behind.
 void add_covariance(const Calibration& calibration, format::Provenance& out) {
+  const auto behind = left_behind(calibration.state.arm);
   std::vector<Eigen::Index> robot;
   for (std::size_t i = 0; i < calibration.estimates.size(); ++i) {
-    if (!runs_online(calibration.estimates[i])) continue;
+    const Estimate& e = calibration.estimates[i];
+    if (!e.of_robot || behind.contains(e.name)) continue;
     robot.push_back(static_cast<Eigen::Index>(i));
     out.parameter_names.push_back(calibration.estimates[i].name);
   }
@@ -90,7 +95,7 @@ format::Model compile(const Cell& cell, const Run& run) {
   const format::Model& fitted = run.fit.calibration.state.arm;
   out.calibrated = fitted.calibrated;
   for (const auto& effect : fitted.effects)
-    if (runs_online(effect.name)) out.effects.push_back(effect);
+    if (runs_online(effect)) out.effects.push_back(effect);
   out.mechanics = fitted.mechanics;
   out.trees = fitted.trees;
   out.domain = fitted.domain;

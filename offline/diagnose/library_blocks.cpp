@@ -28,7 +28,7 @@ const std::set<std::string, std::less<>> kJointLaws = {
 
 /// Another law in disguise, a net too wide, or found by a scan of their own.
 const std::set<std::string, std::less<>> kNotSearched = {"encoder_eccentricity", "joint_table",
-                                                         "step", "gear_ripple"};
+                                                         "step", "gear_ripple", "formula"};
 
 struct Bound {
   const Stage& stage;
@@ -41,7 +41,8 @@ struct Bound {
       : stage(s),
         effect(bind_effect(*s.cell, *s.measured, entry)),
         law(find_effect_law(entry.name)) {
-    shape = {s.joints(), effect.joints, effect.constants};
+    shape = {s.joints(), effect.joints, effect.constants,
+             effect.formula.code.empty() ? nullptr : &effect.formula};
     for (const auto& need : effect.context)
       if (need.input == format::ContextInput::kTemperature)
         sensor = static_cast<int>(std::find(s.sensors.begin(), s.sensors.end(), need.name) -

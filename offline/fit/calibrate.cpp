@@ -8,6 +8,7 @@
 
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
+#include "fit/formula_binding.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/weights.hpp"
@@ -165,9 +166,9 @@ Coarse coarse_from(const FitData& data, const ArmState& start,
   ArmState placed = nominal;
   placed.X_MB = start.X_MB;
   placed.X_TG = start.X_TG;
-  out.subset = identifiable_parameters(data, placed, candidates, kCoarse);
+  out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse);
   check_enough(data, out.subset.kept.size());
-  out.solution.state = with_held_at_nominal(start, nominal, candidates, out.subset.held);
+  out.solution.state = with_held_at_nominal(unhidden(start), nominal, candidates, out.subset.held);
   out.outliers = solve_without_outliers(out.data, out.subset.kept, out.solution);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/formula_binding.hpp"
 #include "plumb/runtime/effect_library.hpp"
 #include "plumb/runtime/effect_set.hpp"
 
@@ -153,6 +154,7 @@ std::string tail(const format::Effect& effect, const EffectInfo& info, int index
 
 format::Effect bind_effect(const Cell& cell, const Measurements& measured,
                            const EffectEntry& entry) {
+  if (entry.name == "formula") return bind_formula(cell, measured, entry);
   const int law = find_effect_law(entry.name);
   const EffectInfo& info = effect_info(law);
   format::Effect out;
@@ -186,6 +188,8 @@ std::string unusable_effects(const format::Model& model) {
       return what + fmt::format("is of version {}, newer than this library", effect.version);
     case EffectFault::Kind::kConstants:
       return what + fmt::format("has {} constants, not {}", effect.constants.size(), fault.count);
+    case EffectFault::Kind::kFormula:
+      return what + "holds code that cannot be run";
     default:
       return what + fmt::format("has {} parameters, not {}", effect.parameters.size(), fault.count);
   }
@@ -212,8 +216,17 @@ format::Mechanics mechanics_of(const Cell& cell) {
   return out;
 }
 
-const EffectParameter& effect_parameter(const format::Model& model, int effect, int parameter) {
+EffectDomain domain_of(const format::Effect& effect) {
+  if (!effect.formula.code.empty()) return static_cast<EffectDomain>(effect.formula.domain);
+  return effect_info(find_effect_law(effect.name)).domain;
+}
+
+EffectParameter effect_parameter(const format::Model& model, int effect, int parameter) {
   const format::Effect& e = model.effects[static_cast<std::size_t>(effect)];
+  if (!e.formula.code.empty()) {
+    const auto& p = e.formula.parameters[static_cast<std::size_t>(parameter)];
+    return {p.name.c_str(), p.unit.c_str(), p.typical, 0.0, 0.0};
+  }
   const EffectInfo& info = effect_info(find_effect_law(e.name));
   if (e.name == "thermal_growth" && parameter >= static_cast<int>(e.joints.size())) {
     static constexpr EffectParameter kLean{"lean", "rad/K", 5e-6, -1e-3, 1e-3};
@@ -224,6 +237,9 @@ const EffectParameter& effect_parameter(const format::Model& model, int effect, 
 
 std::string effect_parameter_name(const format::Model& model, int effect, int parameter) {
   const format::Effect& e = model.effects[static_cast<std::size_t>(effect)];
+  if (!e.formula.code.empty())
+    return fmt::format("formula.{}.{}", e.formula.name,
+                       e.formula.parameters[static_cast<std::size_t>(parameter)].name);
   const EffectInfo& info = effect_info(find_effect_law(e.name));
   std::string out = e.name;
   const auto joint = [&](std::size_t i) { return model.calibrated.joints[e.joints[i]].name; };

@@ -32,7 +32,10 @@ std::vector<std::string> temperature_names(const format::Model& model);
 /// "gear_ripple.J2.k20.sin": the effect, its joint, what tells it from its like, the parameter.
 std::string effect_parameter_name(const format::Model& model, int effect, int parameter);
 
-/// The catalogue's line for that parameter.
-const EffectParameter& effect_parameter(const format::Model& model, int effect, int parameter);
+/// Whom an effect belongs to: as its law says, or the formula.
+EffectDomain domain_of(const format::Effect& effect);
+
+/// The catalogue's line for that parameter, or the formula's. Its texts are the model's.
+EffectParameter effect_parameter(const format::Model& model, int effect, int parameter);
 
 }  // namespace plumb::offline

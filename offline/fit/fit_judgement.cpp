@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cell/formula_reader.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -35,6 +37,19 @@ void check_enough(const FitData& data, std::size_t parameters) {
                  .message = fmt::format("{} poses give {} coordinates, too few for {} parameters",
                                         data.rows.size(), data.residual_count(), parameters),
                  .help = "measure more poses, or hold parameters with [fit] fixed = [\"J6.a\"]"});
+}
+
+void refuse_undefined(const FitData& data, const format::Effect& effect, int row) {
+  const format::Formula& f = effect.formula;
+  Problem problem{.code = "E-FIT-FORMULA",
+                  .message = fmt::format("formula '{}' has no value at pose '{}': {}", f.name,
+                                         data.measured->pose[row], f.expression),
+                  .help = "keep divisors, sqrt and log off 0, as in log(max(payload, 1 [kg]))"};
+  if (data.cell != nullptr)
+    for (const auto& entry : data.cell->effects)
+      if (entry.name == effect.name && formula_label(formula_text(entry)) == f.name)
+        problem.place = entry.place;
+  throw Failure(Exit::kNumbersSayNo, std::move(problem));
 }
 
 void check_converged(const Solution& solution) {

@@ -14,6 +14,9 @@ namespace plumb::offline {
 /// E-FIT-FEW: no more coordinates than parameters.
 void check_enough(const FitData& data, std::size_t parameters);
 
+/// E-FIT-FORMULA: a formula has no value, or no slope, at a row of the data.
+[[noreturn]] void refuse_undefined(const FitData& data, const format::Effect& effect, int row);
+
 /// E-FIT-CONVERGE: the solver gave up.
 void check_converged(const Solution& solution);
 

@@ -331,6 +331,7 @@ struct GeometryDerivative::Bent {
   EffectSet::Surroundings around;
   Motion<double> motion;
   Matrix3 turn = Matrix3::Identity();  // of the tip, by the twists
+  int undefined = -1;                  // the first effect without a value
 };
 
 void GeometryDerivative::bend(std::span<const double> q, const Context& context, Bent& out) const {
@@ -340,9 +341,11 @@ void GeometryDerivative::bend(std::span<const double> q, const Context& context,
     return;
   }
   effects_.survey(chain_, out.rigid, context, out.around);
-  for (int i = 0; i < effects_.size(); ++i)
+  for (int i = 0; i < effects_.size(); ++i) {
     effects_.apply_one<double>(i, state_.arm.effects[i].parameters, q, chain_, out.rigid,
                                out.around, out.motion);
+    if (out.motion.undefined && out.undefined < 0) out.undefined = i;
+  }
   std::array<double, kMaxJoints> there{};
   for (std::size_t j = 0; j < q.size(); ++j) there[j] = q[j] + out.motion.dq[j];
   chain_.frames(std::span<const double>(there).first(q.size()), out.frames);
@@ -368,6 +371,7 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
       theta[effect_columns_[i].parameter].d(static_cast<Eigen::Index>(i - first)) = 1.0;
     Motion<Dual> motion;
     effects_.apply_one<Dual>(effect, theta, q, chain_, bent.rigid, bent.around, motion);
+    if (motion.undefined) out.undefined = effect;
     for (std::size_t i = first; i < last; ++i) {
       const auto lane = static_cast<Eigen::Index>(i - first);
       Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
@@ -396,6 +400,7 @@ void GeometryDerivative::evaluate(std::span<const double> q, const Context& cont
                                   Point& out) const {
   Bent bent;
   bend(q, context, bent);
+  out.undefined = bent.undefined;
   const ChainFrames<double>& frames = bent.frames;
   const Matrix3& R_MB = X_MB_.R;
   const Vector3 arm_B = frames.tip.R * X_TG_.p;  // before the twists turn it

@@ -74,6 +74,7 @@ class GeometryDerivative {
     Vector3 p_M;                                       // predicted point, measurement frame [m]
     Matrix3 R_MG;                                      // predicted orientation of the reflector
     Eigen::Matrix<double, 6, Eigen::Dynamic> columns;  // rows 0-2 of p_M [m], 3-5 rotation [rad]
+    int undefined = -1;  // an effect that has no value here, or no slope, and was left out
   };
   /// q: shape (joints,). `out.columns` is resized once and reused. Columns of geometry leave out
   /// that it changes the loads of the effects a little; those of effects are exact.

@@ -97,10 +97,44 @@ void from_json(const Json& j, ContextNeed& need) {
   j.at("fallback").get_to(need.fallback);
 }
 
+void to_json(Json& j, const FormulaParameter& p) {
+  j = {{"name", p.name}, {"unit", p.unit}, {"typical", p.typical}, {"start", p.start}};
+}
+void from_json(const Json& j, FormulaParameter& p) {
+  j.at("name").get_to(p.name);
+  j.at("unit").get_to(p.unit);
+  j.at("typical").get_to(p.typical);
+  j.at("start").get_to(p.start);
+}
+
+void to_json(Json& j, const Formula& f) {
+  j = {{"name", f.name},
+       {"target", static_cast<int>(f.target)},
+       {"joint", f.joint},
+       {"component", f.component},
+       {"domain", f.domain},
+       {"expression", f.expression},
+       {"code", f.code},
+       {"literals", f.literals},
+       {"parameters", f.parameters}};
+}
+void from_json(const Json& j, Formula& f) {
+  j.at("name").get_to(f.name);
+  f.target = static_cast<FormulaTarget>(j.at("target").get<int>());
+  j.at("joint").get_to(f.joint);
+  j.at("component").get_to(f.component);
+  j.at("domain").get_to(f.domain);
+  j.at("expression").get_to(f.expression);
+  j.at("code").get_to(f.code);
+  j.at("literals").get_to(f.literals);
+  j.at("parameters").get_to(f.parameters);
+}
+
 void to_json(Json& j, const Effect& effect) {
   j = {{"name", effect.name},           {"version", effect.version},
        {"joints", effect.joints},       {"parameters", effect.parameters},
        {"constants", effect.constants}, {"context", effect.context}};
+  if (effect.formula != Formula{}) j["formula"] = effect.formula;
 }
 void from_json(const Json& j, Effect& effect) {
   j.at("name").get_to(effect.name);
@@ -109,6 +143,7 @@ void from_json(const Json& j, Effect& effect) {
   j.at("parameters").get_to(effect.parameters);
   j.at("constants").get_to(effect.constants);
   j.at("context").get_to(effect.context);
+  if (j.contains("formula")) j.at("formula").get_to(effect.formula);
 }
 
 void to_json(Json& j, const LinkMass& link) { j = {{"kg", link.mass_kg}, {"com_m", link.com_m}}; }

@@ -10,6 +10,7 @@
 #include <chrono>
 
 #include "cell/file.hpp"
+#include "cell/formula_reader.hpp"
 #include "fit/run_json.hpp"
 
 namespace plumb::offline {
@@ -49,7 +50,9 @@ Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
   run.created = now_utc();
   run.cell_sha256 = sha256(cell.text);
   run.inputs = inputs_of(measured);
-  for (const auto& effect : cell.effects) run.effects.push_back(effect.name);
+  for (const auto& effect : cell.effects)
+    run.effects.push_back(
+        effect.name != "formula" ? effect.name : "formula." + formula_label(formula_text(effect)));
   run.fit = std::move(fit);
   return run;
 }

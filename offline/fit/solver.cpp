@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "fit/effect_binding.hpp"
+#include "fit/fit_judgement.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -34,10 +35,11 @@ std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
     if (!parameters[i].of_effect()) continue;
     const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
     const double typical = effect_parameter(start.arm, joint, component).typical;
-    const bool tracker = start.arm.effects[joint].name == "tracker";
-    if (typical > 0.0)
-      out.push_back(
-          {static_cast<Eigen::Index>(i), 0.0, (tracker ? kTrackerPrior : kWidePrior) * typical});
+    const format::Effect& effect = start.arm.effects[joint];
+    const double width = effect.name == "tracker" ? kTrackerPrior : kWidePrior;
+    const double mean =
+        effect.formula.code.empty() ? 0.0 : effect.formula.parameters[component].start;
+    if (typical > 0.0) out.push_back({static_cast<Eigen::Index>(i), mean, width * typical});
   }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;
@@ -81,6 +83,10 @@ class GeometryCost final : public ceres::CostFunction {
       geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
                         has_effects ? context_of(m, i, geometry.sensors(), X_MB) : Context{},
                         point);
+      if (point.undefined >= 0) {
+        undefined_ = {i, point.undefined};
+        return false;
+      }
       for (int k = 0; k < 3; ++k)
         if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
       if (data_.sigma_rad <= 0.0) continue;
@@ -101,11 +107,18 @@ class GeometryCost final : public ceres::CostFunction {
     return std::all_of(residual, residual + row, [](double r) { return std::isfinite(r); });
   }
 
+  /// The row and the effect that had no value when last evaluated; -1 if all had.
+  struct Undefined {
+    int row = -1, effect = -1;
+  };
+  const Undefined& undefined() const { return undefined_; }
+
  private:
   const FitData& data_;
   const ArmState& start_;
   const std::vector<Parameter>& parameters_;
   std::vector<KnownParameter> known_;
+  mutable Undefined undefined_;
 };
 
 }  // namespace
@@ -130,6 +143,8 @@ Solution evaluate(const FitData& data, const ArmState& start,
   const double* x = zero.data();
   double* j = jacobian.data();
   cost.Evaluate(&x, out.residual.data(), count > 0 ? &j : nullptr);
+  if (const auto& [row, effect] = cost.undefined(); row >= 0)
+    refuse_undefined(data, start.arm.effects[static_cast<std::size_t>(effect)], row);
   out.jacobian = -jacobian;
   out.cost = 0.5 * out.residual.squaredNorm();
   out.converged = true;

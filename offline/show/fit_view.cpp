@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "cell/formula_reader.hpp"
 #include "show/error_table.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
@@ -54,6 +55,7 @@ Json effects_json(const Cell& cell) {
     Json joints = Json::array();
     for (int j : effect.joints) joints.push_back(cell.nominal.joints[j].name);
     out.push_back({{"effect", effect.name}, {"joints", joints}});
+    if (effect.name == "formula") out.back()["name"] = formula_label(formula_text(effect));
   }
   return out;
 }

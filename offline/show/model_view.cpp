@@ -140,7 +140,8 @@ std::string domain_text(const format::Model& model) {
 
 std::string effects_text(const format::Model& model) {
   std::string out = "geometry";
-  for (const auto& effect : model.effects) out += ", " + effect.name;
+  for (const auto& effect : model.effects)
+    out += ", " + (effect.formula.code.empty() ? effect.name : effect.formula.expression);
   return out;
 }
 
@@ -148,9 +149,11 @@ std::string effects_text(const format::Model& model) {
 
 Json model_json(const format::Model& model) {
   Json effects = Json::array();
-  for (const auto& e : model.effects)
+  for (const auto& e : model.effects) {
     effects.push_back(
         {{"effect", e.name}, {"version", e.version}, {"parameters_si", e.parameters}});
+    if (!e.formula.code.empty()) effects.back()["formula"] = e.formula.expression;
+  }
   return {{"cell", model.cell_name},
           {"robot", model.robot_name},
           {"serial", model.serial},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/effect_set.hpp"
 
+#include "plumb/format/formula.hpp"
 #include "plumb/runtime/effect_library.hpp"
 
 namespace plumb {
@@ -25,7 +26,8 @@ bool substitute(double& value, double fallback) noexcept {
 EffectShape shape_of(const format::Model& model, const format::Effect& effect) noexcept {
   return {.arm_joints = static_cast<int>(model.calibrated.joints.size()),
           .joints = effect.joints,
-          .constants = effect.constants};
+          .constants = effect.constants,
+          .formula = effect.formula.code.empty() ? nullptr : &effect.formula};
 }
 
 }  // namespace
@@ -44,6 +46,9 @@ EffectFault find_effect_fault(const format::Model& model) noexcept {
     const auto count =
         static_cast<std::size_t>(effect_parameter_count(law, shape_of(model, effect)));
     if (effect.parameters.size() != count) return {Kind::kParameters, i, count};
+    if (format::find_formula_fault(effect, model.calibrated.joints.size()) !=
+        format::FormulaFault::kNone)
+      return {Kind::kFormula, i, 0};
   }
   if (temperature_name(model, format::kMaxTemperatures) != nullptr) return {Kind::kSensors, 0, 0};
   return {};
@@ -73,35 +78,48 @@ EffectSet::EffectSet(const format::Model& model) noexcept
     bound.shape = shape_of(model, effect);
     bound.theta = effect.parameters;
     bound.needs = effect.context;
-    for (const auto& need : effect.context)
-      if (need.input == format::ContextInput::kTemperature)
-        bound.temperature = sensor_of(model, need.name);
+    for (const auto& need : effect.context) {
+      if (need.input != format::ContextInput::kTemperature) continue;
+      bound.temperature = sensor_of(model, need.name);
+      if (bound.temperature >= 0 && bound.sensor_count < bound.sensors.size())
+        bound.sensors[bound.sensor_count++] = static_cast<std::uint8_t>(bound.temperature);
+    }
   }
+}
+
+bool EffectSet::fill_in(const Bound& bound, Context& context) noexcept {
+  bool any = false;
+  const auto fill = [&any](double& value, double fallback) {
+    any = substitute(value, fallback) || any;
+  };
+  std::size_t sensor = 0;
+  for (const auto& need : bound.needs) switch (need.input) {
+      case format::ContextInput::kDirection:
+        for (int j : bound.shape.joints)
+          fill(context.direction[static_cast<std::size_t>(j)], need.fallback);
+        break;
+      case format::ContextInput::kTravel:
+        for (int j : bound.shape.joints)
+          fill(context.travel[static_cast<std::size_t>(j)], need.fallback);
+        break;
+      case format::ContextInput::kPayload:
+        fill(context.payload_kg, need.fallback);
+        break;
+      case format::ContextInput::kTemperature:
+        if (sensor < bound.sensor_count)
+          fill(context.temperature_degC[bound.sensors[sensor++]], need.fallback);
+        break;
+      case format::ContextInput::kTime:
+        fill(context.time_s, need.fallback);
+        break;
+    }
+  return any;
 }
 
 bool EffectSet::fill_in(Context& context) const noexcept {
   bool any = false;
-  for (int i = 0; i < count_; ++i) {
-    const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    for (const auto& need : bound.needs) switch (need.input) {
-        case format::ContextInput::kDirection:
-          for (int j : bound.shape.joints)
-            any = substitute(context.direction[static_cast<std::size_t>(j)], need.fallback) || any;
-          break;
-        case format::ContextInput::kPayload:
-          any = substitute(context.payload_kg, need.fallback) || any;
-          break;
-        case format::ContextInput::kTemperature:
-          if (bound.temperature >= 0)
-            any = substitute(context.temperature_degC[static_cast<std::size_t>(bound.temperature)],
-                             need.fallback) ||
-                  any;
-          break;
-        case format::ContextInput::kTime:
-          any = substitute(context.time_s, need.fallback) || any;
-          break;
-      }
-  }
+  for (int i = 0; i < count_; ++i)
+    any = fill_in(effects_[static_cast<std::size_t>(i)], context) || any;
   return any;
 }
 
@@ -120,7 +138,7 @@ bool EffectSet::apply(std::span<const double> q, const Chain& chain,
   for (int i = 0; i < count_; ++i)
     apply_one<double>(i, effects_[static_cast<std::size_t>(i)].theta, q, chain, frames, around,
                       out);
-  return around.stood_in;
+  return around.stood_in || out.undefined;
 }
 
 }  // namespace plumb

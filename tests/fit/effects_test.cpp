@@ -64,6 +64,13 @@ EffectEntry entry_of(const std::string& name) {
   if (name == "step") out.options["after_row"] = 3.0;
   if (name == "step") out.options["of"] = std::string("base");
   if (name == "thermal_growth") out.options["sensor"] = std::string("temp_arm");
+  if (name == "formula")
+    out.options = {
+        {"target", std::string("pre3.rx")},
+        {"expression", std::string("k * tau2 * (1 + c*abs(tau2)) + w * dir3 * sin(2*q1)"
+                                   " + e * (temp_arm - temp_base) * payload / 1 [kg]")},
+        {"parameters", std::vector<std::string>{"k [rad/(N m)] ~ 1e-7", "c [1/(N m)] ~ 1e-3",
+                                                "w [rad] ~ 1e-4", "e [urad/K] ~ 5"}}};
   return out;
 }
 

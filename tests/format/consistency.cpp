@@ -48,6 +48,33 @@ std::string of_tree(const Tree& tree, std::size_t joints) {
   return {};
 }
 
+/// Walks the code with the count of numbers alone; operations by their codes in the file.
+std::string of_formula(const Effect& effect, std::size_t joints) {
+  const Formula& f = effect.formula;
+  if ((effect.name == "formula") == f.code.empty()) return "formula: whose";
+  std::size_t sensors = 0;
+  for (const auto& need : effect.context) sensors += need.input == ContextInput::kTemperature;
+  int numbers = 0, most = 0;
+  for (const unsigned code : f.code) {
+    const unsigned op = code % 256, which = code / 256;
+    const std::size_t there = op == 0              ? f.literals.size()
+                              : op == 1            ? effect.parameters.size()
+                              : op >= 2 && op <= 6 ? joints
+                              : op == 8            ? sensors
+                              : op == 10           ? 3
+                                                   : 1;
+    if (op > 29 || which >= there) return "formula: operation";
+    const int needed = op == 29 ? 3 : op >= 22 ? 2 : op >= 12 ? 1 : 0;
+    if (numbers < needed) return "formula: stack";
+    numbers += 1 - needed;
+    most = std::max(most, numbers);
+  }
+  if (!f.code.empty() && (numbers != 1 || most > 24 || f.joint >= joints)) return "formula: result";
+  for (double x : f.literals)
+    if (!std::isfinite(x)) return "formula: literal";
+  return {};
+}
+
 std::string of_chain(const Chain& chain) {
   double sum = 0.0;  // finite only if every part is
   for (const auto& j : chain.joints) {
@@ -77,8 +104,9 @@ std::string of_effects(const Model& m) {
     for (double x : effect.parameters)
       if (!std::isfinite(x)) return "effect: parameter";
     for (const auto& need : effect.context)
-      if (!std::isfinite(need.fallback) || static_cast<int>(need.input) > 3)
+      if (!std::isfinite(need.fallback) || static_cast<int>(need.input) > 4)
         return "effect: context";
+    if (auto what = of_formula(effect, m.nominal.joints.size()); !what.empty()) return what;
   }
   return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden_models.hpp"
 
+#include "plumb/format/formula.hpp"
+
 namespace plumb::format {
 namespace {
 
@@ -104,9 +106,41 @@ Model planar_2r_model() {
   return m;
 }
 
+Model formula_model() {
+  Model m = planar_2r_model();
+  m.trees = {};
+  Effect own{.name = "formula",
+             .version = 1,
+             .joints = {0},
+             .parameters = {2e-6, 1e-3},
+             .context = {{ContextInput::kDirection, "", 0.0},
+                         {ContextInput::kTravel, "", 0.0},
+                         {ContextInput::kTemperature, "temp_arm", 21.5}}};
+  own.formula = {
+      .name = "heat",
+      .target = FormulaTarget::kPost,
+      .joint = 1,
+      .component = 5,
+      .domain = 1,
+      .expression = "post2.rz = k * dir1 * travel1 * (1 + c * (temp_arm - 20 [degC]))",
+      .code = {instruction(FormulaOp::kParameter, 0), instruction(FormulaOp::kDirection, 0),
+               instruction(FormulaOp::kMultiply), instruction(FormulaOp::kTravel, 0),
+               instruction(FormulaOp::kMultiply), instruction(FormulaOp::kLiteral, 0),
+               instruction(FormulaOp::kParameter, 1), instruction(FormulaOp::kTemperature, 0),
+               instruction(FormulaOp::kLiteral, 1), instruction(FormulaOp::kSubtract),
+               instruction(FormulaOp::kMultiply), instruction(FormulaOp::kAdd),
+               instruction(FormulaOp::kMultiply)},
+      .literals = {1.0, 20.0},
+      .parameters = {{"k", "1", 1e-6, 0.0}, {"c", "1/K", 1e-3, 1e-3}}};
+  m.effects = {std::move(own)};
+  return m;
+}
+
 std::vector<std::pair<std::string, Model>> golden_models() {
-  return {
-      {"six_axis", six_axis_model()}, {"planar", planar_model()}, {"planar_2r", planar_2r_model()}};
+  return {{"six_axis", six_axis_model()},
+          {"planar", planar_model()},
+          {"planar_2r", planar_2r_model()},
+          {"formula", formula_model()}};
 }
 
 }  // namespace plumb::format

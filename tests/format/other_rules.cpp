@@ -17,12 +17,15 @@ std::vector<Rule> effect_rules() {
       {"TooManyParameters", "too many parameters",
        [](Model& m) { m.effects[0].parameters.assign(129, 0.0); }},
       {"ContextInput", "unknown input",
-       [](Model& m) { m.effects[0].context[0].input = ContextInput{4}; }},
+       [](Model& m) { m.effects[0].context[0].input = ContextInput{5}; }},
       {"ContextName", "context holds control",
        [](Model& m) { m.effects[0].context[0].name = "\r"; }},
       {"TooMuchContext", "too much context",
        [](Model& m) { m.effects[0].context.assign(10, ContextNeed{}); }},
       {"Fallback", "fallback", [](Model& m) { m.effects[0].context[0].fallback = kInf; }},
+      {"FormulaOfAnother", "is no formula and has one",
+       [](Model& m) { m.effects[0].formula.code = {0}; }},
+      {"FormulaMissing", "or is one and has none", [](Model& m) { m.effects[0].name = "formula"; }},
       {"TooMany", "too many effects", [](Model& m) { m.effects.resize(65, m.effects[0]); }},
   };
 }

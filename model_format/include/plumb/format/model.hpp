@@ -70,7 +70,8 @@ enum class ContextInput : std::uint8_t {
   kDirection = 0,
   kPayload = 1,
   kTemperature = 2,
-  kTime = 3
+  kTime = 3,
+  kTravel = 4
 };
 
 struct ContextNeed {
@@ -78,6 +79,70 @@ struct ContextNeed {
   std::string name;       // which temperature; empty otherwise
   double fallback = 0.0;  // used when the input is missing or stale, SI
   bool operator==(const ContextNeed&) const = default;
+};
+
+/// Operations of a formula's stack code. An instruction is one of them + 256 x operand.
+/// Pushing: a literal or parameter of the formula; a joint's position [rad] or [m], torque [N m] or
+/// force [N], sign and size of its last move, its move as a share of the largest joint's; time [s],
+/// the effect's k-th temperature [degC], payload [kg], the tip in the base [m], the row from 1.
+/// Then operations on one number, on two, and clamp(x, low, high) on three.
+enum class FormulaOp : std::uint8_t {
+  kLiteral,
+  kParameter,
+  kPosition,
+  kTorque,
+  kDirection,
+  kTravel,
+  kMove,
+  kTime,
+  kTemperature,
+  kPayload,
+  kTip,
+  kRow,
+  kNegate,
+  kSin,
+  kCos,
+  kExp,
+  kLog,
+  kSqrt,
+  kAbs,
+  kTanh,
+  kSign,
+  kStep,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kPower,
+  kMin,
+  kMax,
+  kClamp
+};
+
+/// What a formula moves: a joint, the frame ahead of or behind its motion, the base, the tool
+/// frame, or the tip along the axes of the base.
+enum class FormulaTarget : std::uint8_t { kJoint, kPre, kPost, kBase, kTool, kTip };
+
+struct FormulaParameter {
+  std::string name;
+  std::string unit;      // SI
+  double typical = 0.0;  // 1 sigma of its prior
+  double start = 0.0;
+  bool operator==(const FormulaParameter&) const = default;
+};
+
+/// A law of the user's own. Empty for every effect but 'formula'.
+struct Formula {
+  std::string name;
+  FormulaTarget target = FormulaTarget::kJoint;
+  std::uint8_t joint = 0;      // zero-based
+  std::uint8_t component = 0;  // dx dy dz rx ry rz
+  std::uint8_t domain = 0;     // robot, environment, procedure, measurement
+  std::string expression;      // as written
+  std::vector<std::uint16_t> code;
+  std::vector<double> literals;
+  std::vector<FormulaParameter> parameters;
+  bool operator==(const Formula&) const = default;
 };
 
 /// A physical effect: a name of the catalogue, its version, and numbers.
@@ -88,6 +153,7 @@ struct Effect {
   std::vector<double> parameters;    // SI, in the catalogue's order
   std::vector<ContextNeed> context;
   std::vector<double> constants = {};  // given, not fitted; SI, in the law's order
+  Formula formula = {};
   bool operator==(const Effect&) const = default;
 };
 

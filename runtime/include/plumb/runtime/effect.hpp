@@ -60,6 +60,7 @@ struct EffectShape {
   int arm_joints = 0;
   std::span<const std::uint8_t> joints;
   std::span<const double> constants;
+  const format::Formula* formula = nullptr;  // of the effect 'formula'
 };
 
 /// One pose as a law sees it: positions, frames of the calibrated arm before any effect, loads.
@@ -69,7 +70,8 @@ struct Situation {
   const ChainFrames<double>& frames;
   const Loads& loads;
   const Context& context;
-  double temperature_degC = kUnknown;  // of the sensor this effect reads
+  double temperature_degC = kUnknown;          // of the sensor this effect reads
+  std::span<const std::uint8_t> sensors = {};  // of several: which temperatures of the context
 };
 
 /// Motion caused by effects, gathered over all of them.
@@ -78,6 +80,7 @@ struct Motion {
   std::array<S, kMaxJoints> dq{};           // joint positions [rad] or [m]
   Vec3<S> shift_B{S(0.0), S(0.0), S(0.0)};  // of the tip [m]
   Vec3<S> turn_B{S(0.0), S(0.0), S(0.0)};   // of the tip [rad]
+  bool undefined = false;                   // a law has no value here, and moved nothing
 
   /// Twist (d, e) [m, rad] in a frame (R, o): moves the tip at p by R d + (R e) x (p - o).
   void twist(const Transformd& X_BO, const Vector3& tip_B, const Vec3<S>& d, const Vec3<S>& e) {

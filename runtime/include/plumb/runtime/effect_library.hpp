@@ -12,6 +12,7 @@
 #include "plumb/runtime/effects/drift.hpp"
 #include "plumb/runtime/effects/encoder_eccentricity.hpp"
 #include "plumb/runtime/effects/encoder_scale.hpp"
+#include "plumb/runtime/effects/formula.hpp"
 #include "plumb/runtime/effects/gear_harmonics.hpp"
 #include "plumb/runtime/effects/gear_ripple.hpp"
 #include "plumb/runtime/effects/gravity_compensator.hpp"
@@ -41,7 +42,7 @@ using EffectLaws =
                effects::WristCoupling, effects::CrossCompliance, effects::ThermalGrowth,
                effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
                effects::PayloadCompliance, effects::WrenchCompliance, effects::Drift, effects::Step,
-               effects::Tracker>;
+               effects::Tracker, effects::Formula>;
 
 inline constexpr int kEffectLaws = static_cast<int>(std::tuple_size_v<EffectLaws>);
 

@@ -18,7 +18,8 @@ struct EffectFault {
     kNewer,       // a newer version of it
     kConstants,   // another count of constants
     kParameters,  // or of parameters
-    kSensors      // more temperatures than a context holds
+    kSensors,     // more temperatures than a context holds
+    kFormula      // code that cannot be run
   };
   Kind kind = Kind::kNone;
   std::size_t effect = 0;  // which
@@ -38,7 +39,9 @@ class EffectSet {
     EffectShape shape;
     std::span<const double> theta;
     std::span<const format::ContextNeed> needs;
-    int temperature = -1;  // sensor
+    int temperature = -1;                                          // sensor
+    std::array<std::uint8_t, format::kMaxTemperatures> sensors{};  // of all its temperatures
+    std::size_t sensor_count = 0;
   };
 
  public:
@@ -69,17 +72,20 @@ class EffectSet {
                      .frames = frames,
                      .loads = around.loads,
                      .context = around.context,
-                     .temperature_degC = temperature(bound, around.context)},
+                     .temperature_degC = temperature(bound, around.context),
+                     .sensors = std::span(bound.sensors).first(bound.sensor_count)},
                     out);
   }
 
   /// Motion of the arm at one pose. `chain` is the calibrated one, `frames` its frames at q without
-  /// any effect. True if a fallback stood in for an input that was unknown.
+  /// any effect. True if a fallback stood in for an input that was unknown, or if a formula has no
+  /// value here and moved nothing.
   /// Cost: fixed for a given model. Wait-free, any thread.
   bool apply(std::span<const double> q, const Chain& chain, const ChainFrames<double>& frames,
              const Context& context, Motion<double>& out) const noexcept;
 
  private:
+  static bool fill_in(const Bound& bound, Context& context) noexcept;
   bool fill_in(Context& context) const noexcept;
   static double temperature(const Bound& bound, const Context& context) noexcept {
     return bound.temperature < 0

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "formula/dimension.hpp"
+
+namespace plumb::offline {
+
+/// A unit as people write it: "rad/(N m)", "urad/K", "1/s^2", "1".
+struct WrittenUnit {
+  Dimension dimension;
+  double factor = 1.0;  // SI value = written value * factor
+  std::string si;       // the same unit in SI: "rad/K"
+};
+
+/// Where a text stops being a unit.
+struct UnitError {
+  std::size_t at = 0, length = 1;
+  std::string message;
+  std::string word = {};  // the name that is no unit
+};
+
+/// A blank multiplies, '/' divides by the next factor alone, '^' takes a whole number.
+std::variant<WrittenUnit, UnitError> parse_unit(std::string_view text);
+
+std::vector<std::string> formula_units();
+
+}  // namespace plumb::offline

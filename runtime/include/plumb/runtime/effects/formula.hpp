@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/runtime/effect.hpp"
+#include "plumb/runtime/formula_code.hpp"
+
+namespace plumb::effects {
+
+/// The user's own law: target = expression, run as stack code. Where the expression is no number
+/// (a division by zero, the logarithm of a negative one), or one that no arm's error is, it moves
+/// nothing and says so.
+struct Formula {
+  static constexpr EffectInfo kInfo{.name = "formula",
+                                    .version = 1,
+                                    .title = "own formula",
+                                    .domain = EffectDomain::kRobot,  // unless it says otherwise
+                                    .needs = 0,
+                                    .per_joint = false,
+                                    .repeats = true,
+                                    .parameters = {}};
+  static int count(const EffectShape& shape) {
+    return shape.formula == nullptr ? 0 : static_cast<int>(shape.formula->parameters.size());
+  }
+
+  /// What an instruction reads; NaN if it is not known.
+  static double read(format::FormulaOp op, std::size_t which, const Situation& at) noexcept {
+    using format::FormulaOp;
+    switch (op) {
+      case FormulaOp::kPosition:
+        return at.q[which];
+      case FormulaOp::kTorque:
+        return at.loads.joint[which].torque;
+      case FormulaOp::kDirection:
+        return at.context.direction[which];
+      case FormulaOp::kTravel:
+        return at.context.travel[which];
+      case FormulaOp::kMove:
+        return at.context.step[which];
+      case FormulaOp::kTime:
+        return at.context.time_s;
+      case FormulaOp::kTemperature:
+        return which < at.sensors.size() ? at.context.temperature_degC[at.sensors[which]]
+                                         : kUnknown;
+      case FormulaOp::kPayload:
+        return at.context.payload_kg;
+      case FormulaOp::kTip:
+        return at.frames.tip.p(static_cast<Eigen::Index>(which));
+      default:  // kRow
+        return at.context.order + 1.0;
+    }
+  }
+
+  /// The frame ahead of a joint's motion: the one behind it, turned or slid back.
+  static Transformd ahead(const Situation& at, int j) noexcept {
+    Transformd out = at.frames.joint[j];
+    const double moved = at.q[j] * at.chain.scale(j);
+    if (!at.chain.revolute(j)) {
+      out.p -= out.R.col(2) * moved;
+      return out;
+    }
+    const auto t = portable::sin_cos(moved);
+    const Vector3 x = out.R.col(0), y = out.R.col(1);
+    out.R.col(0) = x * t.cos - y * t.sin;
+    out.R.col(1) = x * t.sin + y * t.cos;
+    return out;
+  }
+
+  static Transformd frame(const format::Formula& f, const Situation& at) noexcept {
+    using format::FormulaTarget;
+    switch (f.target) {
+      case FormulaTarget::kPre:
+        return ahead(at, f.joint);
+      case FormulaTarget::kPost:
+        return at.frames.joint[f.joint];
+      case FormulaTarget::kTool:
+        return at.frames.tip;
+      case FormulaTarget::kTip:
+        return {Matrix3::Identity(), at.frames.tip.p};
+      default:
+        return Transformd{};
+    }
+  }
+
+  template <class S>
+  static void apply(std::span<const S> theta, const EffectShape& shape, const Situation& at,
+                    Motion<S>& out) {
+    using formula::is_number;
+    using formula::plain;
+    if (shape.formula == nullptr) return;
+    const format::Formula& f = *shape.formula;
+    const S motion = formula::evaluate(
+        f, theta, [&](format::FormulaOp op, std::size_t which) { return read(op, which, at); });
+    const double size = plain(motion) < 0.0 ? -plain(motion) : plain(motion);
+    if (!is_number(motion) || size > format::kMaxFormulaMotion) {
+      out.undefined = true;
+      return;
+    }
+    if (f.target == format::FormulaTarget::kJoint) {
+      out.dq[f.joint] += motion;
+      return;
+    }
+    Vec3<S> twist[2] = {{S(0.0), S(0.0), S(0.0)}, {S(0.0), S(0.0), S(0.0)}};
+    twist[f.component / 3](f.component % 3) = motion;
+    out.twist(frame(f, at), at.frames.tip.p, twist[0], twist[1]);
+  }
+};
+
+}  // namespace plumb::effects
