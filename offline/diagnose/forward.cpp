@@ -172,6 +172,7 @@ class Selection {
   }
 
   void look_at(Model model) {
+    seen_.push_back(model);
     now_ = std::move(model);
     stage_ = stage_of(now_);
     look_ = scan(stage_, start_.not_testable, banned_);
@@ -257,10 +258,23 @@ class Selection {
           {entry, found.cycles, found.ln_bayes(), last ? now_.cell.effects : effects, {}});
     }
     // The models on the way are only looked at once all is chosen.
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i].calibration =
-          i + 1 == out.size() ? now_.calibration : fitted(out[i].effects).calibration;
+    for (auto& step : out) step.calibration = calibration_of(step.effects);
     return out;
+  }
+
+  /// A model on the way: most were fitted when they were the present one.
+  Calibration calibration_of(const std::vector<EffectEntry>& effects) const {
+    if (same(effects, now_.cell.effects)) return now_.calibration;
+    for (const auto& model : seen_)
+      if (same(effects, model.cell.effects)) return model.calibration;
+    return fitted(effects).calibration;
+  }
+
+  static bool same(const std::vector<EffectEntry>& a, const std::vector<EffectEntry>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const EffectEntry& x, const EffectEntry& y) {
+                        return x.name == y.name && x.joints == y.joints && x.options == y.options;
+                      });
   }
 
   static std::vector<EffectEntry> with_all(std::vector<EffectEntry> effects, const Found& found) {
@@ -270,6 +284,7 @@ class Selection {
 
   const ForwardStart& start_;
   Model now_;
+  std::vector<Model> seen_;
   Stage stage_;
   Scan look_;
   std::vector<std::string> banned_;

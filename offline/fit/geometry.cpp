@@ -358,20 +358,20 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
   const Matrix3 turn_rate = left_jacobian(bent.motion.turn_B);
   const Vector3 turned_arm = bent.turn * arm_B;
   std::vector<Dual> theta;
+  // Eight parameters at a time, of as many effects as they belong to: motions add up, and so do
+  // their derivatives.
   for (std::size_t first = 0; first < effect_columns_.size();) {
-    // Up to eight parameters of one effect at a time.
-    const int effect = effect_columns_[first].effect;
-    std::size_t last = first;
-    while (last < effect_columns_.size() && effect_columns_[last].effect == effect &&
-           last - first < Dual::kLanes)
-      ++last;
-    const auto& values = state_.arm.effects[effect].parameters;
-    theta.assign(values.begin(), values.end());
-    for (std::size_t i = first; i < last; ++i)
-      theta[effect_columns_[i].parameter].d(static_cast<Eigen::Index>(i - first)) = 1.0;
+    const std::size_t last = std::min(first + Dual::kLanes, effect_columns_.size());
     Motion<Dual> motion;
-    effects_.apply_one<Dual>(effect, theta, q, chain_, bent.rigid, bent.around, motion);
-    if (motion.undefined) out.undefined = effect;
+    for (std::size_t i = first; i < last;) {
+      const int effect = effect_columns_[i].effect;
+      const auto& values = state_.arm.effects[effect].parameters;
+      theta.assign(values.begin(), values.end());
+      for (; i < last && effect_columns_[i].effect == effect; ++i)
+        theta[effect_columns_[i].parameter].d(static_cast<Eigen::Index>(i - first)) = 1.0;
+      effects_.apply_one<Dual>(effect, theta, q, chain_, bent.rigid, bent.around, motion);
+      if (motion.undefined && out.undefined < 0) out.undefined = effect;
+    }
     for (std::size_t i = first; i < last; ++i) {
       const auto lane = static_cast<Eigen::Index>(i - first);
       Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));

@@ -14,7 +14,7 @@ namespace {
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double kNoChange = 1e-7;  // of the cost in the last iteration
-constexpr int kDenseQrUpTo = 6000;  // residuals; beyond it the normal equations are much faster
+constexpr double kDenseQrUpTo = 2e5;  // numbers; beyond it the normal equations are much faster
 
 /// A parameter of which something is known beforehand.
 struct KnownParameter {
@@ -161,8 +161,9 @@ Solution solve(const FitData& data, const ArmState& start,
   ceres::Problem problem(ownership);
   problem.AddResidualBlock(&cost, nullptr, x.data());
   ceres::Solver::Options options;
+  const double size = static_cast<double>(data.residual_count()) * static_cast<double>(x.size());
   options.linear_solver_type =
-      data.residual_count() > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+      size > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
   options.max_num_iterations = 100;
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-14;
