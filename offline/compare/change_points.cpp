@@ -1,38 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/change_points.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "compare/f_tail.hpp"
-#include "compare/mover_sums.hpp"
+#include "compare/explained.hpp"
 
 namespace plumb::offline::compare {
 namespace {
 
 constexpr double kChance = 0.01;
 constexpr double kChi95 = 3.84;
-constexpr int kFewestInSegment = 5;
 constexpr int kFewestVisits = 16;
 constexpr std::size_t kMostSteps = 12;
-
-struct Segment {
-  int first, last;  // visits [first, last)
-  int size() const { return last - first; }
-};
-
-/// What one mover explains of a segment, by a jump or by a drift.
-struct Explained {
-  const MoverSums* sums = nullptr;
-  int cut = 0;
-  double gain = 0.0, left = 0.0;  // sums of squares
-  double inflation = 1.0;         // of F, see inflation()
-  double free = 1.0;              // degrees of freedom left
-  double ln_p = 0.0;
-  Eigen::Matrix3Xd fitted;  // shape (3, segment)
-};
 
 class Scanner {
  public:
@@ -70,122 +51,8 @@ class Scanner {
     if (sums.rank() > 0) movers_.push_back(std::move(sums));
   }
 
-  int fewest(const MoverSums& sums) const { return std::max(kFewestInSegment, sums.rank() + 2); }
-
-  double squares(const Segment& s) const {
-    return error_.middleCols(s.first, s.size()).squaredNorm();
-  }
-
-  /// Variance of what is fitted over that which independent residuals of one size would give it:
-  /// a law that the model lacks shakes some directions more than others, and neighbours alike. By
-  /// the scores of each visit, X_i^T r_i on their average or along the jump found, and their
-  /// autocorrelation; at least 1. [White 1980; Newey & West 1987]
-  double inflation(const Segment& s, const Explained& e, const Eigen::Matrix3Xd& rest) const {
-    const MoverSums& sums = *e.sums;
-    Eigen::MatrixXd scores(sums.rank(), s.size());
-    double motion = 0.0;
-    for (int i = 0; i < s.size(); ++i) {
-      scores.col(i) = sums.at(s.first + i).transpose() * rest.col(i);
-      motion += sums.at(s.first + i).squaredNorm();
-    }
-    const double variance = rest.squaredNorm() / std::max(1.0, e.free);
-    if (!(variance > 0.0) || !(motion > 0.0)) return 1.0;
-    double out = scores.squaredNorm() / (variance * motion) * memory(scores);
-    if (e.cut == 0) return std::max(out, memory(rest));
-    const MoverSums::Numbers jump = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
-    const Eigen::RowVectorXd along = jump.transpose() * scores;
-    const int left = e.cut - s.first, right = s.last - e.cut;
-    double weighted = 0.0, weights = 0.0, whole = 0.0;
-    for (int i = 0; i < s.size(); ++i) {
-      const double n = i < left ? left : right;
-      const double size = (sums.at(s.first + i) * jump).squaredNorm();
-      weighted += along(i) * along(i) / (n * n);
-      weights += size / (n * n);
-      whole += size;
-    }
-    const double pooled = along.squaredNorm() / whole;
-    out = std::max(out, std::max(pooled, weighted / weights) / variance * memory(along));
-    return std::max(out, memory(rest));
-  }
-
-  /// What the memory of a series adds to the variance of its mean: the sum of its autocorrelations
-  /// with Bartlett weights, or as if it were autoregressive; at least 1.
-  static double memory(const Eigen::MatrixXd& series) {
-    const auto n = static_cast<int>(series.cols());
-    const double whole = series.squaredNorm();
-    if (!(whole > 0.0)) return 1.0;
-    const int lags = std::min(n / 4, static_cast<int>(2.0 * std::cbrt(n)));
-    double sum = 1.0, first = 0.0;
-    for (int lag = 1; lag <= lags; ++lag) {
-      const int rest = n - lag;
-      const double r = series.leftCols(rest).cwiseProduct(series.rightCols(rest)).sum() / whole;
-      if (lag == 1) first = std::clamp(r, 0.0, 0.95);
-      sum += 2.0 * (1.0 - lag / (lags + 1.0)) * r;
-    }
-    return std::max({1.0, sum, (1.0 + first) / (1.0 - first)});
-  }
-
-  /// F with its chance, given what is fitted.
-  void judge(const Segment& s, int numbers, double tries, Explained& out) const {
-    const Eigen::Matrix3Xd rest = error_.middleCols(s.first, s.size()) - out.fitted;
-    out.inflation = std::max(1.0, inflation(s, out, rest));
-    out.left = rest.squaredNorm();
-    if (out.free < 1.0 || !(out.left > 0.0)) return;
-    const double f = out.gain / numbers / (out.left / out.free) / out.inflation;
-    out.ln_p = std::min(0.0, ln_f_tail(f, numbers, out.free) + std::log(tries));
-  }
-
-  std::optional<Explained> jump(const MoverSums& sums, const Segment& s) const {
-    const int edge = fewest(sums);
-    if (s.size() < 2 * edge) return std::nullopt;
-    const double whole = sums.explained(s.first, s.last);
-    Explained out;
-    out.sums = &sums;
-    for (int c = s.first + edge; c <= s.last - edge; ++c) {
-      const double gain = sums.explained(s.first, c) + sums.explained(c, s.last) - whole;
-      if (gain > out.gain) out.gain = gain, out.cut = c;
-    }
-    if (out.cut == 0) return std::nullopt;
-    out.fitted.resize(3, s.size());
-    fill(sums, {s.first, out.cut}, s.first, out.fitted);
-    fill(sums, {out.cut, s.last}, s.first, out.fitted);
-    out.free = motions_.axes() * s.size() - 2.0 * sums.rank();
-    judge(s, sums.rank(), (s.size() - 2.0 * edge + 1.0) * static_cast<double>(movers_.size()), out);
-    return out;
-  }
-
-  static void fill(const MoverSums& sums, const Segment& part, int offset, Eigen::Matrix3Xd& out) {
-    const auto numbers = sums.solve(part.first, part.last);
-    for (int i = part.first; i < part.last; ++i) out.col(i - offset) = sums.at(i) * numbers;
-  }
-
-  /// Motion constant, linear and quadratic in order.
-  std::optional<Explained> drift(const MoverSums& sums, const Segment& s) const {
-    const int k = sums.rank();
-    if (motions_.axes() * s.size() < 6 * k) return std::nullopt;
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(3 * k, 3 * k);
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(3 * k);
-    const auto wide = [&](int i) {
-      const double t = 2.0 * (i - s.first) / (s.size() - 1.0) - 1.0;
-      Eigen::MatrixXd x(3, 3 * k);
-      x << sums.at(i), sums.at(i) * t, sums.at(i) * (t * t);
-      return x;
-    };
-    for (int i = s.first; i < s.last; ++i) {
-      const Eigen::MatrixXd x = wide(i);
-      gram += x.transpose() * x;
-      along += x.transpose() * error_.col(i);
-    }
-    gram.diagonal().array() += 1e-9 * s.size();
-    const Eigen::VectorXd numbers = gram.llt().solve(along);
-    Explained out;
-    out.sums = &sums;
-    out.gain = numbers.dot(along) - sums.explained(s.first, s.last);
-    out.fitted.resize(3, s.size());
-    for (int i = s.first; i < s.last; ++i) out.fitted.col(i - s.first) = wide(i) * numbers;
-    out.free = motions_.axes() * s.size() - 3.0 * k;
-    judge(s, 2 * k, static_cast<double>(movers_.size()), out);
-    return out;
+  Unexplained task() const {
+    return {error_, motions_.axes(), static_cast<double>(movers_.size())};
   }
 
   void look(const Segment& s, Changes& out) {
@@ -196,10 +63,10 @@ class Scanner {
     };
     for (auto& sums : movers_) {
       sums.sum(error_);
-      better(jump(sums, s), best);
+      better(jump_of(sums, s, task()), best);
     }
     if (!best || best->ln_p > std::log(kChance)) return;
-    for (const auto& sums : movers_) better(drift(sums, s), smooth);
+    for (const auto& sums : movers_) better(drift_of(sums, s, task()), smooth);
     const bool drifts = smooth && smooth->ln_p < best->ln_p;
     error_.middleCols(s.first, s.size()) -= drifts ? smooth->fitted : best->fitted;
     if (drifts) {
@@ -232,7 +99,7 @@ class Scanner {
     }
     MoverSums& sums = movers_[one.mover];
     sums.sum(error_);
-    const auto again = jump(sums, {0, motions_.size()});
+    const auto again = jump_of(sums, {0, motions_.size()}, task());
     if (!again || again->cut <= first || again->cut >= last) return;
     const double ln_p = one.step.ln_p;
     one = jumped(*again, {0, motions_.size()});
@@ -279,7 +146,7 @@ class Scanner {
     const double whole = sums.explained(s.first, s.last);
     const double enough = e.gain - kChi95 * e.inflation * e.left / e.free;
     int low = e.cut, high = e.cut;
-    for (int c = s.first + fewest(sums); c <= s.last - fewest(sums); ++c) {
+    for (int c = s.first + fewest_visits(sums); c <= s.last - fewest_visits(sums); ++c) {
       if (sums.explained(s.first, c) + sums.explained(c, s.last) - whole < enough) continue;
       low = std::min(low, c);
       high = std::max(high, c);
