@@ -18,7 +18,7 @@ namespace plumb::offline {
 struct PlanRequest {
   int n = 30;  // measurements
   PoseRules rules;
-  std::vector<EffectEntry> separate;  // two, or none
+  std::vector<EffectEntry> separate = {};  // two, or none
 };
 
 /// 1 sigma of a predicted reflector position, three axes together [m].
@@ -27,9 +27,16 @@ struct PredictionSigma {
 };
 
 /// How far two effects can stand in for each other, geometry being free: share of the motion of the
-/// one that the other reproduces, 0 .. 1.
+/// one that the other reproduces, 0 .. 1; nothing if the poses hardly show the effect at all.
 struct Reproduction {
-  double a_by_b = 0.0, b_by_a = 0.0;
+  std::optional<double> a_by_b, b_by_a;
+};
+
+/// 1 sigma of a number of one of the effects to be told apart, SI; both effects and geometry free.
+struct EffectSigma {
+  std::string name, unit;
+  std::optional<double> before;  // nothing if the poses measured do not show it
+  double after = 0.0;
 };
 
 struct PlannedPose {
@@ -46,13 +53,14 @@ struct PosePlan {
   int parameters = 0;  // of geometry, frame, target and effects
   int pool = 0;        // poses looked at
   double sigma_m = 0.0;
-  PredictionSigma before, after;  // over poses within the same rules
+  PredictionSigma before, after;  // over poses within the same rules; not of a separation
   double ln_det = 0.0;            // of the information gained
   double drive = 0.0;             // in ranges of the slowest joint
   Contrast contrast = Contrast::kNone;
   std::vector<Contrast> others;  // that would separate too
   ContrastSizes sizes;
-  std::optional<Reproduction> apart_before, apart_after;  // before: nothing if nothing is measured
+  Reproduction apart_before, apart_after;
+  std::vector<EffectSigma> numbers;  // of both effects
   std::vector<Problem> remarks;
 };
 

@@ -15,8 +15,8 @@ struct PoseRules {
   struct Box {
     std::array<double, 3> low{}, high{};  // of the reflector, base frame [m]
   };
-  std::vector<Box> boxes;    // inside any of them; empty: everywhere
-  double joint_share = 1.0;  // of each joint's range, around its middle
+  std::vector<Box> boxes = {};  // inside any of them; empty: everywhere
+  double joint_share = 1.0;     // of each joint's range, around its middle
   int pool = 5000;
   std::uint64_t seed = 1;
 };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "fit/effect_binding.hpp"
 #include "plan/plan_steps.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kUsualLoad_kg = 5.0;
 constexpr double kRidge = 1e-9;
+constexpr double kShown = 0.2;  // of what counts as 1: a larger 1 sigma shows nothing
 
 /// The two effects among the parameters.
 struct Pair {
@@ -78,7 +80,8 @@ Reproduction reproduction(const Eigen::MatrixXd& lines, const Pair& pair) {
   const auto na = static_cast<Eigen::Index>(pair.a.size());
   const auto nb = static_cast<Eigen::Index>(pair.b.size());
   const auto share = [](const Eigen::MatrixXd& own, Eigen::MatrixXd other,
-                        const Eigen::MatrixXd& between) {
+                        const Eigen::MatrixXd& between) -> std::optional<double> {
+    if (own.trace() < static_cast<double>(own.rows()) / (kShown * kShown)) return std::nullopt;
     other.diagonal().array() += kRidge * other.diagonal().maxCoeff();
     return std::clamp((between * other.ldlt().solve(between.transpose())).trace() / own.trace(),
                       0.0, 1.0);
@@ -138,6 +141,20 @@ double promise(const Candidates& candidates, const Eigen::MatrixXd& known, const
   return out;
 }
 
+void tell_numbers(const DesignSpace& space, const Pair& pair, const Eigen::MatrixXd& before,
+                  const Eigen::MatrixXd& after, PosePlan& out) {
+  for (const auto* effect : {&pair.a, &pair.b})
+    for (const Eigen::Index i : *effect) {
+      const Parameter& p = space.parameters[static_cast<std::size_t>(i)];
+      EffectSigma sigma{p.name,
+                        effect_parameter(space.state.arm, p.joint, p.component).unit,
+                        {},
+                        std::sqrt(after(i, i)) * space.width(i)};
+      if (std::sqrt(before(i, i)) < kShown) sigma.before = std::sqrt(before(i, i)) * space.width(i);
+      out.numbers.push_back(std::move(sigma));
+    }
+}
+
 void write_down(const Measurements& pool, const std::vector<int>& order, PosePlan& out) {
   const auto add = [&](int number, bool second) {
     const auto name = fmt::format("N{:03}", number + 1);
@@ -190,7 +207,7 @@ void plan_separation(const Cell& cell, const PlanStart& start, const PlanRequest
   Information information(space.prior());
   information.add(known);
   out.parameters = static_cast<int>(space.size());
-  out.before = prediction_sigma(space, start.check, information.covariance());
+  const Eigen::MatrixXd before = information.covariance();
   Eigen::MatrixXd all = known;
   for (const int i : design.chosen) {
     const auto& block = best.blocks[static_cast<std::size_t>(i)];
@@ -198,9 +215,9 @@ void plan_separation(const Cell& cell, const PlanStart& start, const PlanRequest
     all.conservativeResize(all.rows() + block.rows(), Eigen::NoChange);
     all.bottomRows(block.rows()) = block;
   }
-  out.after = prediction_sigma(space, start.check, information.covariance());
+  tell_numbers(space, pair, before, information.covariance(), out);
   out.ln_det = design.value;
-  if (start.used.size() > 0) out.apart_before = reproduction(known, pair);
+  out.apart_before = reproduction(known, pair);
   out.apart_after = reproduction(all, pair);
   write_down(start.pool, driven(cell, start, design.chosen, out.drive), out);
 }

@@ -12,6 +12,7 @@
 namespace plumb::offline::show {
 namespace {
 
+constexpr std::size_t kNumbersShown = 12;
 constexpr double kConfounded = 0.8;  // mutual reproduction above it leaves the choice open
 
 Vector3 nominal_point(const Cell& cell, const Eigen::VectorXd& q) {
@@ -44,7 +45,30 @@ Json sigma_json(const PredictionSigma& s) {
 }
 
 Json reproduction_json(const Reproduction& r) {
-  return {{"a_by_b_pct", 100.0 * r.a_by_b}, {"b_by_a_pct", 100.0 * r.b_by_a}};
+  Json out;
+  const auto add = [&](const char* key, const std::optional<double>& share) {
+    if (share)
+      out[key] = 100.0 * *share;
+    else
+      put_null(out, key, "these poses do not show the effect");
+  };
+  add("a_by_b_pct", r.a_by_b);
+  add("b_by_a_pct", r.b_by_a);
+  return out;
+}
+
+Json numbers_json(const PosePlan& plan) {
+  Json out = Json::array();
+  for (const auto& number : plan.numbers) {
+    Json row{{"name", number.name}, {"unit", number.unit}};
+    if (number.before)
+      row["std_before"] = *number.before;
+    else
+      put_null(row, "std_before", "the poses measured do not show it");
+    row["std_after"] = number.after;
+    out.push_back(std::move(row));
+  }
+  return out;
 }
 
 std::string prediction_text(const PosePlan& plan) {
@@ -73,19 +97,34 @@ std::string contrast_text(const PosePlan& plan) {
   return out;
 }
 
+std::string numbers_text(const PosePlan& plan) {
+  TextTable table({"1 sigma of its numbers", "before", "after", ""});
+  table.left_from(3);
+  for (std::size_t i = 0; i < std::min(kNumbersShown, plan.numbers.size()); ++i) {
+    const auto& n = plan.numbers[i];
+    table.add({n.name, n.before ? fmt::format("{:.3g}", *n.before) : "unknown",
+               fmt::format("{:.3g}", n.after), n.unit});
+  }
+  std::string out = table.text();
+  if (plan.numbers.size() > kNumbersShown)
+    out += fmt::format("  and {} more\n", plan.numbers.size() - kNumbersShown);
+  return out;
+}
+
 std::string apart_text(const PlanRequest& request, const PosePlan& plan) {
   TextTable table({"share of its motion that the other imitates", request.separate[0].name,
                    request.separate[1].name});
-  const auto row = [&](const std::string& name, const Reproduction& r) {
-    table.add({name, fmt::format("{:.0f} %", 100.0 * r.a_by_b),
-               fmt::format("{:.0f} %", 100.0 * r.b_by_a)});
+  const auto share = [](const std::optional<double>& s) {
+    return s ? fmt::format("{:.0f} %", 100.0 * *s) : std::string("not shown");
   };
-  if (plan.apart_before)
-    row(fmt::format("with the {} measured", plan.measured), *plan.apart_before);
-  if (plan.apart_after) row("and these", *plan.apart_after);
-  std::string out = table.text();
-  if (plan.apart_after &&
-      std::min(plan.apart_after->a_by_b, plan.apart_after->b_by_a) > kConfounded)
+  const auto row = [&](const std::string& name, const Reproduction& r) {
+    table.add({name, share(r.a_by_b), share(r.b_by_a)});
+  };
+  if (plan.measured > 0) row(fmt::format("with the {} measured", plan.measured), plan.apart_before);
+  row(plan.measured > 0 ? "and these" : "with these", plan.apart_after);
+  std::string out = table.text() + "\n" + numbers_text(plan);
+  const auto& after = plan.apart_after;
+  if (std::min(after.a_by_b.value_or(0.0), after.b_by_a.value_or(0.0)) > kConfounded)
     out += "\nThey stay confounded: no poses of this arm tell them apart.\n";
   return out;
 }
@@ -118,21 +157,20 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
            {"pool", plan.pool},
            {"parameters", plan.parameters},
            {"sigma_um", plan.sigma_m * 1e6}};
-  if (plan.measured > 0)
-    out["before"] = sigma_json(plan.before);
-  else
-    put_null(out, "before", "nothing is measured yet");
-  out["after"] = sigma_json(plan.after);
   out["ln_det_gain"] = plan.ln_det;
-  if (!request.separate.empty()) {
+  if (request.separate.empty()) {
+    if (plan.measured > 0)
+      out["before"] = sigma_json(plan.before);
+    else
+      put_null(out, "before", "nothing is measured yet");
+    out["after"] = sigma_json(plan.after);
+  } else {
     out["separate"] = Json::array({request.separate[0].name, request.separate[1].name});
     out["contrast"] = contrast_name(plan.contrast);
     out["contrast_text"] = contrast_words(plan.contrast);
-    if (plan.apart_before)
-      out["reproduction_before"] = reproduction_json(*plan.apart_before);
-    else
-      put_null(out, "reproduction_before", "nothing is measured yet");
-    if (plan.apart_after) out["reproduction_after"] = reproduction_json(*plan.apart_after);
+    out["reproduction_before"] = reproduction_json(plan.apart_before);
+    out["reproduction_after"] = reproduction_json(plan.apart_after);
+    out["numbers"] = numbers_json(plan);
   }
   out["poses"] = Json::array();
   for (const auto& pose : plan.poses) {
@@ -155,7 +193,8 @@ std::string plan_text(const PlanRequest& request, const PosePlan& plan) {
   } else {
     out = fmt::format("Planned {} measurements to tell {} apart.\n", plan.poses.size(),
                       pair_words(request)) +
-          contrast_text(plan) + "\n" + apart_text(request, plan) + "\n";
+          contrast_text(plan) + "\n" + apart_text(request, plan);
+    return out;
   }
   return out + prediction_text(plan);
 }
