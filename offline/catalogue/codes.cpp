@@ -24,6 +24,17 @@ constexpr Explanation kCodes[] = {
     {"W-RUN-NODATA",
      "The history was read, but not the cell's measurements; so it is not known which run is the "
      "current one."},
+    {"E-PLAN-BOX",
+     "plan draws random poses within the joint limits and keeps those whose reflector lies in the "
+     "box. None did: the box is out of reach, in another frame than the base, or in another unit "
+     "than mm."},
+    {"E-PLAN-EFFECT",
+     "plan --separate takes two effects of the library by name, each with its joints joined by '+' "
+     "and its numbers: gear_ripple:J2@cycles_per_turn=20,gear_harmonics:J2."},
+    {"N-PLAN-NOMINAL",
+     "There are no measurements yet, or too few for a fit, so the poses were chosen for the "
+     "nominal "
+     "arm. That makes little difference: derivatives hardly depend on errors of a millimetre."},
     {"E-CHECK-CONVENTION",
      "The files are not meant as they are labelled: another DH convention, unit, joint direction "
      "or "

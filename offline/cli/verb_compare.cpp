@@ -4,8 +4,8 @@
 #include "cli/cell_data.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "compare/comparison.hpp"
 #include "show/compare_view.hpp"
-#include "show/comparison.hpp"
 #include "show/runs_view.hpp"
 
 namespace plumb::offline::cli {
@@ -28,14 +28,14 @@ std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
   return out;
 }
 
-void compare(const Runs& names, const Globals& globals, Outcome& outcome) {
+void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const Measurements measured = open_measurements(cell, outcome);
   const auto runs = wanted(names, cell, measured, outcome);
   const Run& last = runs.back().run;
-  const auto comparison = show::compare(cell, measured, last.fit);
-  outcome.result = show::compare_json(comparison, last, cell.tolerance_m);
-  outcome.text = show::compare_text(comparison, last, cell.tolerance_m);
+  const auto comparison = compare::comparison(cell, measured, last.fit);
+  outcome.result = show::compare_json(cell, measured, comparison, last);
+  outcome.text = show::compare_text(cell, measured, comparison, last);
   if (runs.size() == 1) return;
   outcome.result.update(show::runs_json(runs));
   outcome.text =
@@ -51,7 +51,7 @@ void add_compare(Program& program) {
        .summary = "Model against measurements: error table, worst poses, where it fails",
        .examples = "  plumb compare                     # the run of the present cell and data\n"
                    "  plumb compare 1 2                 # side by side, then run 2 in full"},
-      [runs](const Globals& g, Outcome& o) { compare(*runs, g, o); });
+      [runs](const Globals& g, Outcome& o) { compare_runs(*runs, g, o); });
   verb.add_option("RUN", *runs, "Runs to compare; the last one in full");
 }
 

@@ -6,67 +6,41 @@
 #include <algorithm>
 #include <cmath>
 
-#include "show/error_table.hpp"
+#include "show/compare_words.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
 namespace {
 
+using compare::Comparison;
+using compare::ErrorProfile;
+
 constexpr std::size_t kWorst = 10;
 constexpr std::size_t kProfilesShown = 4;
 constexpr int kBarWidth = 24;
 
-using Unit = ErrorProfile::Unit;
-using Kind = ErrorProfile::Kind;
-
-const char* set_name(Comparison::Set set) {
-  return set == Comparison::Set::kHeldOut ? "held_out" : "fit";
+std::vector<std::string> stats_row(const std::string& name, const ErrorStats& s,
+                                   const std::string& within) {
+  if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
+  return {name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max), within};
 }
 
-double in_unit(double value, Unit unit) {
-  if (unit == Unit::kRow) return std::round(value);
-  return shown(value, unit == Unit::kLength);
-}
-
-Json worst_json(const Comparison& comparison) {
-  Json out = Json::array();
-  for (std::size_t i = 0; i < std::min(kWorst, comparison.poses.size()); ++i) {
-    const auto& pose = comparison.poses[i];
-    out.push_back({{"pose", pose.pose},
-                   {"row", pose.row + 1},
-                   {"error_mm", to_mm(pose.error_M.norm())},
-                   {"dx_mm", to_mm(pose.error_M(0))},
-                   {"dy_mm", to_mm(pose.error_M(1))},
-                   {"dz_mm", to_mm(pose.error_M(2))},
-                   {"set", pose.held ? "held" : "fit"}});
-  }
-  return out;
-}
-
-void add_bins(const ErrorProfile& profile, const char* key, Json& out) {
-  const char* suffix = profile.unit == Unit::kRow      ? "_row"
-                       : profile.unit == Unit::kLength ? "_mm"
-                                                       : "_deg";
-  for (const auto& bin : profile.bins) {
-    Json row;
-    if (profile.kind != Kind::kOrder) row[key] = profile.name;
-    row[std::string("from") + suffix] = in_unit(bin.from, profile.unit);
-    row[std::string("to") + suffix] = in_unit(bin.to, profile.unit);
-    row["n"] = bin.n;
-    put(row, "mean_mm", bin.n > 0 ? to_mm(bin.mean_m) : NAN, "no pose lies here");
-    out.push_back(std::move(row));
-  }
-}
-
-Json profiles_json(const Comparison& comparison) {
-  Json out{{"joint", Json::array()}, {"region", Json::array()}, {"order", Json::array()}};
-  for (const auto& profile : comparison.profiles) {
-    if (profile.kind == Kind::kJoint) add_bins(profile, "joint", out["joint"]);
-    if (profile.kind == Kind::kRegion) add_bins(profile, "quantity", out["region"]);
-    if (profile.kind == Kind::kOrder) add_bins(profile, "", out["order"]);
-  }
-  return out;
+std::string errors_text(const Comparison& comparison, const Fit& fit, double tolerance_m) {
+  const auto percent = [](double share) { return fmt::format("{:.1f} %", 100.0 * share); };
+  TextTable table({"position error [mm]", "poses", "mean", "RMS", "95 %", "max",
+                   fmt::format("within {}", mm(tolerance_m))});
+  table.add(stats_row("held-out, nominal arm", fit.nominal_held, ""));
+  if (fit.tree) table.add(stats_row("held-out, without the tree", fit.geometry_held, ""));
+  table.add(stats_row("held-out, calibrated", fit.held, percent(comparison.within_tolerance)));
+  if (!fit.held_outliers.empty())
+    table.add(stats_row("  without its outliers", fit.held_without_outliers, ""));
+  table.add(stats_row("fit (never accuracy)", fit.fit, percent(comparison.fit_within_tolerance)));
+  if (fit.floor.source == NoiseFloor::Source::kNone)
+    table.add({"noise floor: unknown"});
+  else
+    table.add({"noise floor", "", mm(fit.floor.mean_m), mm(fit.floor.rms_m)});
+  return table.text();
 }
 
 std::string worst_text(const Comparison& comparison) {
@@ -81,72 +55,75 @@ std::string worst_text(const Comparison& comparison) {
 }
 
 std::string title(const ErrorProfile& profile) {
-  switch (profile.kind) {
-    case Kind::kJoint:
-      return fmt::format("joint {} [{}]", profile.name, unit(profile.unit == Unit::kLength));
-    case Kind::kRegion:
-      return fmt::format("{} in the base frame [{}]", profile.name,
-                         unit(profile.unit == Unit::kLength));
-    case Kind::kOrder:
-      return "order of measurement [row]";
-  }
-  return profile.name;
+  const std::string unit = unit_name(profile.unit);
+  return quantity_words(profile) + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-std::string profile_text(const ErrorProfile& profile) {
+/// As many decimals as tell one bin from the next.
+std::string range_text(const ErrorProfile& profile, const compare::ErrorBin& bin) {
+  if (profile.unit == ErrorProfile::Unit::kSign) return fmt::format("{:+.0f}", bin.from);
+  const double step = std::abs(in_unit(bin.to, profile.unit) - in_unit(bin.from, profile.unit));
+  const int digits = step >= 2.0 || step == 0.0 ? 0 : step >= 0.2 ? 1 : 2;
+  return fmt::format("{:9.{}f} .. {:.{}f}", in_unit(bin.from, profile.unit), digits,
+                     in_unit(bin.to, profile.unit), digits);
+}
+
+std::string profile_text(const ErrorProfile& profile, Comparison::Set set) {
   double most = 0.0;
   for (const auto& bin : profile.bins) most = std::max(most, bin.mean_m);
-  TextTable table({title(profile), "poses", "mean", ""});
-  table.left_from(3);
+  const bool held = set == Comparison::Set::kHeldOut;
+  std::vector<std::string> header{title(profile), held ? "held-out" : "fit", "mean", ""};
+  if (held) header.insert(header.end() - 1, {"fit", "mean"});
+  TextTable table(header);
+  table.left_from(header.size() - 1);
+  const auto mean = [](int n, double value) { return n > 0 ? mm(value) : "-"; };
   for (const auto& bin : profile.bins) {
     const int bar = most > 0 ? static_cast<int>(std::lround(bin.mean_m / most * kBarWidth)) : 0;
-    table.add({fmt::format("{:9.0f} .. {:.0f}", in_unit(bin.from, profile.unit),
-                           in_unit(bin.to, profile.unit)),
-               fmt::format("{}", bin.n), bin.n > 0 ? mm(bin.mean_m) : "-", std::string(bar, '#')});
+    std::vector<std::string> row{range_text(profile, bin), fmt::format("{}", bin.n),
+                                 mean(bin.n, bin.mean_m)};
+    if (held) {
+      row.push_back(fmt::format("{}", bin.fit_n));
+      row.push_back(mean(bin.fit_n, bin.fit_mean_m));
+    }
+    row.emplace_back(static_cast<std::size_t>(bar), '#');
+    table.add(std::move(row));
   }
   return table.text();
 }
 
-/// The profiles along which the error changes most, in their usual order.
+/// The profiles that matter, the strongest first.
 std::string where_text(const Comparison& comparison) {
-  std::vector<const ErrorProfile*> shown_ones;
+  std::vector<const ErrorProfile*> chosen;
   for (const auto& profile : comparison.profiles)
-    if (profile.bins.size() > 1) shown_ones.push_back(&profile);
-  std::stable_sort(shown_ones.begin(), shown_ones.end(),
-                   [](auto* a, auto* b) { return a->contrast() > b->contrast(); });
-  if (shown_ones.size() > kProfilesShown) shown_ones.resize(kProfilesShown);
-  if (shown_ones.empty()) return "";
-  std::string out = "\nWhere it fails most: mean error [mm]\n";
-  for (const auto* profile : shown_ones) out += profile_text(*profile);
+    if (profile.matters) chosen.push_back(&profile);
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [](auto* a, auto* b) { return a->ln_p < b->ln_p; });
+  if (chosen.size() > kProfilesShown) chosen.resize(kProfilesShown);
+  std::string out = "\n" + where_words(comparison) + "\n";
+  for (const auto* profile : chosen) out += profile_text(*profile, comparison.set);
+  return out;
+}
+
+std::string findings_text(const Cell& cell, const Measurements& measured,
+                          const Comparison& comparison) {
+  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit) + "\n" +
+                    joint_words(cell, comparison) + "\n" + order_words(comparison.order) + "\n" +
+                    changes_words(comparison.changes) + "\n";
+  for (const auto& step : comparison.changes.steps)
+    out += "  " + step_words(cell, measured, step) + "\n";
+  for (const auto& drift : comparison.changes.drifts)
+    out += "  " + drift_words(cell, measured, drift) + "\n";
   return out;
 }
 
 }  // namespace
 
-Json compare_json(const Comparison& comparison, const Run& run, double tolerance_m) {
-  const Fit& fit = run.fit;
-  Json out = stats_json(comparison.stats);
-  out["set"] = set_name(comparison.set);
-  out["frame"] = "measurement";
-  out["run"] = run.number;
-  out["fit"] = stats_json(fit.fit);
-  out["nominal"] = stats_json(fit.nominal_held);
-  add_floor(fit.floor, out);
-  out["tolerance_mm"] = to_mm(tolerance_m);
-  out["within_tolerance_pct"] = 100.0 * comparison.within_tolerance;
-  out["verdict"] = verdict(fit, tolerance_m);
-  out["worst"] = worst_json(comparison);
-  out["by"] = profiles_json(comparison);
-  return out;
-}
-
-std::string compare_text(const Comparison& comparison, const Run& run, double tolerance_m) {
-  std::string out = verdict(run.fit, tolerance_m) + "\n\n" + error_table(run.fit);
-  out += fmt::format("\n{:.1f} % of the {} poses are within the tolerance of {} mm\n",
-                     100.0 * comparison.within_tolerance,
-                     comparison.set == Comparison::Set::kHeldOut ? "held-out" : "fit",
-                     mm(tolerance_m));
-  return out + worst_text(comparison) + where_text(comparison);
+std::string compare_text(const Cell& cell, const Measurements& measured,
+                         const Comparison& comparison, const Run& run) {
+  const double tolerance_m = cell.tolerance_m;
+  return verdict(run.fit, tolerance_m) + "\n\n" + errors_text(comparison, run.fit, tolerance_m) +
+         findings_text(cell, measured, comparison) + worst_text(comparison) +
+         where_text(comparison);
 }
 
 }  // namespace plumb::offline::show

@@ -3,16 +3,18 @@
 
 #include <string>
 
+#include "compare/comparison.hpp"
 #include "fit/run_store.hpp"
-#include "show/comparison.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {
 
 /// `result` of `plumb compare`; errors are measured - predicted in the measurement frame.
-Json compare_json(const Comparison& comparison, const Run& run, double tolerance_m);
+Json compare_json(const Cell& cell, const Measurements& measured,
+                  const compare::Comparison& comparison, const Run& run);
 
 /// Verdict, error table, worst poses, and where the error is large.
-std::string compare_text(const Comparison& comparison, const Run& run, double tolerance_m);
+std::string compare_text(const Cell& cell, const Measurements& measured,
+                         const compare::Comparison& comparison, const Run& run);
 
 }  // namespace plumb::offline::show

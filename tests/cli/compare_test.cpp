@@ -112,4 +112,30 @@ TEST_F(CompareVerb, ARunThatIsNotThereOrDamagedIsExitThree) {
   std::filesystem::remove_all(box->path() / "cell/runs/0077");
 }
 
+TEST_F(CompareVerb, TheBumpedReflectorIsFoundBetweenTheRightPosesAndTheCleanArmIsLeftAlone) {
+  ASSERT_EQ(box->plumb({"demo", "bumped", "bumped"}).exit, 0);
+  ASSERT_EQ(box->plumb({"demo", "clean", "clean"}).exit, 0);
+  const auto of = [](const std::string& cell) {
+    return box->plumb({"-C", cell, "--json", "compare"}).json().at("result");
+  };
+  const Json bumped = of("bumped"), clean = of("clean");
+  ASSERT_EQ(bumped.at("change_points").size(), 1U);
+  EXPECT_EQ(bumped.at("change_points")[0].at("of"), "tool");
+  // The truth stands apart, in a file that only this test reads.
+  const Json truth = Json::parse(box->read("bumped/truth.json"));
+  const Json hidden = truth.at("effects")[0].at("numbers");
+  EXPECT_EQ(bumped.at("change_points")[0].at("after_pose"), hidden.at("pose_before"));
+  EXPECT_EQ(bumped.at("change_points")[0].at("before_pose"), hidden.at("pose_after"));
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(bumped.at("change_points")[0].at("shift_mm")[k].get<double>(),
+                hidden.at("shift_mm")[k].get<double>(), 0.015);
+  EXPECT_TRUE(clean.at("change_points").empty());
+  EXPECT_TRUE(clean.at("drifts").empty());
+  EXPECT_EQ(clean.at("lack_of_fit").at("significant"), false);
+  EXPECT_EQ(bumped.at("lack_of_fit").at("significant"), true);
+  for (const auto* key : {"joint", "region", "load", "context", "order"})
+    EXPECT_TRUE(bumped.at("by").contains(key)) << key;
+  for (const auto& line : clean.at("matters")) EXPECT_EQ(line.at("matters"), false) << line.dump();
+}
+
 }  // namespace

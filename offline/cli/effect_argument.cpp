@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/effect_argument.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "plumb/runtime/effect_library.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+constexpr const char* kExample = "plumb plan --separate reversal:J2,settling_lag:J2";
+
+[[noreturn]] void refuse(const std::string& message, const std::string& help = kExample) {
+  throw Failure(Exit::kUsage, {.code = "E-PLAN-EFFECT", .message = message, .help = help});
+}
+
+std::vector<std::string> parts(const std::string& text, char separator) {
+  std::vector<std::string> out(1);
+  for (const char c : text)
+    if (c == separator)
+      out.emplace_back();
+    else
+      out.back() += c;
+  return out;
+}
+
+void check_name(const std::string& name) {
+  if (find_effect_law(name) >= 0) return;
+  std::vector<std::string> names;
+  for (int law = 0; law < kEffectLaws; ++law) names.emplace_back(effect_info(law).name);
+  const auto guess = did_you_mean(name, names);
+  refuse(fmt::format("there is no effect '{}'{}", name,
+                     guess ? fmt::format("; did you mean '{}'?", *guess) : ""),
+         guess ? fmt::format("plumb explain {}", *guess) : kExample);
+}
+
+int joint_of(const Cell& cell, const std::string& name) {
+  for (int j = 0; j < cell.joints(); ++j)
+    if (cell.nominal.joints[static_cast<std::size_t>(j)].name == name) return j;
+  refuse(fmt::format("there is no joint '{}'", name));
+}
+
+void read_number(const std::string& text, EffectEntry& out) {
+  const auto equals = text.find('=');
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  if (equals == std::string::npos ||
+      std::from_chars(text.data() + equals + 1, end, number).ptr != end)
+    refuse(fmt::format("'@{}' is no KEY=NUMBER", text),
+           "plumb plan --separate gear_ripple:J2@cycles_per_turn=20,gear_harmonics:J2");
+  out.options[text.substr(0, equals)] = number;
+}
+
+EffectEntry one_effect(const Cell& cell, const std::string& text) {
+  const auto numbers = parts(text, '@');
+  const auto colon = numbers[0].find(':');
+  EffectEntry out;
+  out.name = numbers[0].substr(0, colon);
+  check_name(out.name);
+  if (colon != std::string::npos)
+    for (const auto& joint : parts(numbers[0].substr(colon + 1), '+'))
+      out.joints.push_back(joint_of(cell, joint));
+  for (const auto& listed : cell.effects)
+    if (listed.name == out.name && (out.joints.empty() || listed.joints == out.joints)) {
+      out.joints = listed.joints;
+      out.options = listed.options;
+      break;
+    }
+  for (std::size_t k = 1; k < numbers.size(); ++k) read_number(numbers[k], out);
+  if (out.name == "gear_ripple" && !out.options.contains("cycles_per_turn"))
+    refuse("gear_ripple needs its cycles a turn",
+           "plumb plan --separate gear_ripple:J2@cycles_per_turn=20,gear_harmonics:J2");
+  return out;
+}
+
+}  // namespace
+
+std::vector<EffectEntry> two_effects(const Cell& cell, const std::string& text) {
+  std::vector<EffectEntry> out;
+  for (const auto& part : parts(text, ',')) out.push_back(one_effect(cell, part));
+  if (out.size() != 2)
+    refuse(fmt::format("--separate takes two effects, not {}; join joints by '+'", out.size()));
+  if (out[0].name == out[1].name && out[0].joints == out[1].joints &&
+      out[0].options == out[1].options)
+    refuse("--separate takes two different effects");
+  return out;
+}
+
+}  // namespace plumb::offline::cli

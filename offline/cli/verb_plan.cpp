@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+#include "cli/cell_data.hpp"
+#include "cli/effect_argument.hpp"
+#include "cli/output_files.hpp"
+#include "cli/progress.hpp"
+#include "cli/verbs.hpp"
+#include "plan/pose_plan.hpp"
+#include "show/plan_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  int n = 30, pool = 5000;
+  std::uint64_t seed = 1;
+  std::string limits, separate, output = "plan.csv";
+  std::vector<std::string> boxes;
+  WriteOptions write;
+};
+
+[[noreturn]] void usage(const std::string& message, const std::string& help) {
+  throw Failure(Exit::kUsage, {.code = "E-USAGE", .message = message, .help = help});
+}
+
+PoseRules::Box box_of(const std::string& text) {
+  std::array<double, 6> mm{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  for (std::size_t k = 0; k < 6 && good; ++k) {
+    const auto [stop, error] = std::from_chars(at, end, mm[k]);
+    good = error == std::errc{} && (k == 5 ? stop == end : stop != end && *stop == ',');
+    at = stop + 1;
+  }
+  for (std::size_t k = 0; k < 3; ++k) good = good && mm[2 * k] < mm[2 * k + 1];
+  if (!good)
+    usage(fmt::format("'{}' is no box", text),
+          "--box xmin,xmax,ymin,ymax,zmin,zmax in mm: --box -1000,1000,-1000,1000,0,1500");
+  PoseRules::Box out;
+  for (std::size_t k = 0; k < 3; ++k)
+    out.low[k] = mm[2 * k] * 1e-3, out.high[k] = mm[2 * k + 1] * 1e-3;
+  return out;
+}
+
+double share_of(const std::string& text) {
+  if (text.empty()) return 1.0;
+  double share = parse_percent(text).value_or(-1.0);
+  const char* end = text.data() + text.size();
+  double number = 0.0;
+  if (share < 0.0 && std::from_chars(text.data(), end, number).ptr == end) share = number;
+  if (!(share > 0.0 && share <= 1.0))
+    usage(fmt::format("'{}' is no share of the joint limits", text), "--joint-limits 90%");
+  return share;
+}
+
+PlanRequest request_of(const Options& options, const Cell& cell) {
+  PlanRequest out;
+  out.n = options.n;
+  out.rules.pool = std::max(options.pool, options.n);
+  out.rules.seed = options.seed;
+  out.rules.joint_share = share_of(options.limits);
+  for (const auto& box : options.boxes) out.rules.boxes.push_back(box_of(box));
+  if (!options.separate.empty()) out.separate = two_effects(cell, options.separate);
+  return out;
+}
+
+bool measured_already(const Cell& cell) {
+  for (const auto& file : cell.measurement.files)
+    if (fs::exists(file)) return true;
+  return false;
+}
+
+void plan(const Options& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  const PlanRequest request = request_of(options, cell);
+  const Measurements measured =
+      measured_already(cell) ? open_measurements(cell, outcome) : nothing_measured(cell);
+  const Progress progress(fmt::format("choosing among {} poses", request.rules.pool));
+  const PosePlan found = plan_poses(cell, measured, request);
+  outcome.remark(found.remarks);
+  outcome.result = show::plan_json(cell, request, found);
+  OutputFiles files;
+  files.add(options.output, show::plan_csv(cell, request, found));
+  files.commit(options.write, outcome);
+  outcome.text =
+      show::plan_text(request, found) + "\n" + wrote(options.output, options.write) + "\n";
+}
+
+}  // namespace
+
+void add_plan(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb = program.verb(
+      {.name = "plan",
+       .summary = "The next poses to measure: for the arm, or to tell two effects apart",
+       .examples = "  plumb plan --n 30 -o plan.csv     # what these poses leave uncertain\n"
+                   "  plumb plan --separate reversal:J2,settling_lag:J2 --n 40"},
+      [options](const Globals& g, Outcome& o) { plan(*options, g, o); });
+  verb.add_option("--n", options->n, "Measurements (30)")->check(CLI::Range(1, 1000));
+  verb.add_option("--separate", options->separate,
+                  "Two effects, as NAME[:JOINT+JOINT...][@KEY=NUMBER],NAME...")
+      ->type_name("A,B");
+  verb.add_option("--box", options->boxes,
+                  "Where the reflector may go, base frame [mm]; may be given again")
+      ->type_name("XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX");
+  verb.add_option("--joint-limits", options->limits,
+                  "Share of each joint's range to use, around its middle (100%)")
+      ->type_name("SHARE");
+  verb.add_option("--pool", options->pool, "Random poses to choose from (5000)")
+      ->check(CLI::Range(10, 100000));
+  verb.add_option("--seed", options->seed, "Of the random poses (1)");
+  verb.add_option("-o,--output", options->output, "CSV file to write (plan.csv)")
+      ->type_name("FILE");
+  options->write.add_to(verb);
+}
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "compare/series.hpp"
+
+namespace plumb::offline::compare {
+
+/// Whether a residual resembles the one measured just before.
+struct Autocorrelation {
+  int n = 0;           // visits
+  double lag1 = 0.0;   // sum e_t . e_{t+1} / sum |e_t|^2, mean removed
+  double low95 = 0.0;  // where lag1 of independent residuals lies with 95 %
+  double high95 = 0.0;
+  double closeness = 1.0;  // distance in joint space of successive poses / of any two; below 1/2
+                           // neighbours in order are neighbours in space, and lag1 may be the pose
+  bool beyond() const { return n > 0 && (lag1 < low95 || lag1 > high95); }
+};
+
+/// n is 0 below 8 visits. With covariance S of the residuals, lag1 of independent ones has mean
+/// -1 / n and variance tr(S^2) / tr(S)^2 / n: three equal axes count thrice [Box & Jenkins 1976].
+Autocorrelation autocorrelation(const Series& series, const RowsN& q);
+
+/// lag1 alone, no mean removed. e: shape (n, 3).
+double lag_one(const Rows3& e);
+
+}  // namespace plumb::offline::compare

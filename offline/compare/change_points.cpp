@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/change_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "compare/explained.hpp"
+
+namespace plumb::offline::compare {
+namespace {
+
+constexpr double kChance = 0.01;
+constexpr double kChi95 = 3.84;
+constexpr int kFewestVisits = 16;
+constexpr std::size_t kMostSteps = 12;
+
+class Scanner {
+ public:
+  explicit Scanner(const StepMotions& motions) : motions_(motions), error_(3, motions.size()) {
+    for (int i = 0; i < motions.size(); ++i) error_.col(i) = motions.error(i);
+    take(Mover::kTool, -1);
+    take(Mover::kBase, -1);
+    for (int j = 0; j < motions.joints(); ++j) take(Mover::kJoint, j);
+  }
+
+  Changes scan() {
+    Changes out;
+    if (motions_.size() < kFewestVisits || movers_.empty()) return out;
+    out.visits = motions_.size();
+    without_steps_ = error_;
+    look(Segment{0, motions_.size()}, out);
+    for (int pass = 0; pass < 2 && found_.size() > 1; ++pass)
+      for (auto& jumped : found_) refine(jumped);
+    std::sort(found_.begin(), found_.end(),
+              [](const auto& a, const auto& b) { return a.cut < b.cut; });
+    for (auto& jumped : found_) out.steps.push_back(std::move(jumped.step));
+    return out;
+  }
+
+ private:
+  struct Jumped {
+    std::size_t mover;
+    int cut;
+    MoverSums::Numbers jump;
+    StepFound step;
+  };
+
+  void take(Mover mover, int joint) {
+    MoverSums sums(motions_, mover, joint);
+    if (sums.rank() > 0) movers_.push_back(std::move(sums));
+  }
+
+  Unexplained task() const {
+    return {error_, motions_.axes(), static_cast<double>(movers_.size())};
+  }
+
+  void look(const Segment& s, Changes& out) {
+    if (found_.size() >= kMostSteps) return;
+    std::optional<Explained> best, smooth;
+    const auto better = [](const std::optional<Explained>& a, std::optional<Explained>& b) {
+      if (a && (!b || a->ln_p < b->ln_p)) b = a;
+    };
+    for (auto& sums : movers_) {
+      sums.sum(error_);
+      better(jump_of(sums, s, task()), best);
+    }
+    if (!best || best->ln_p > std::log(kChance)) return;
+    for (const auto& sums : movers_) better(drift_of(sums, s, task()), smooth);
+    const bool drifts = smooth && smooth->ln_p < best->ln_p;
+    error_.middleCols(s.first, s.size()) -= drifts ? smooth->fitted : best->fitted;
+    if (drifts) {
+      without_steps_.middleCols(s.first, s.size()) -= smooth->fitted;
+      if (out.drifts.size() >= kMostSteps) return;
+      out.drifts.push_back(described(*smooth, s));
+      return look(s, out);
+    }
+    found_.push_back(jumped(*best, s));
+    look({s.first, best->cut}, out);
+    look({best->cut, s.last}, out);
+  }
+
+  Jumped jumped(const Explained& e, const Segment& s) const {
+    return {static_cast<std::size_t>(e.sums - movers_.data()), e.cut,
+            e.sums->solve(e.cut, s.last) - e.sums->solve(s.first, e.cut), step(e, s)};
+  }
+
+  /// The cut of one step again, the others taken away: where it was found they were still there,
+  /// or had been taken away together with a part of it.
+  void refine(Jumped& one) {
+    error_ = without_steps_;
+    int first = 0, last = motions_.size();
+    for (const auto& other : found_) {
+      if (&other == &one) continue;
+      for (int i = other.cut; i < motions_.size(); ++i)
+        error_.col(i) -= movers_[other.mover].at(i) * other.jump;
+      (other.cut < one.cut ? first : last) =
+          other.cut < one.cut ? std::max(first, other.cut) : std::min(last, other.cut);
+    }
+    MoverSums& sums = movers_[one.mover];
+    sums.sum(error_);
+    const auto again = jump_of(sums, {0, motions_.size()}, task());
+    if (!again || again->cut <= first || again->cut >= last) return;
+    const double ln_p = one.step.ln_p;
+    one = jumped(*again, {0, motions_.size()});
+    one.step.ln_p = ln_p;
+  }
+
+  DriftFound described(const Explained& e, const Segment& s) const {
+    const auto n = e.fitted.cols();
+    const Eigen::Index tenth = std::max<Eigen::Index>(1, n / 10);
+    DriftFound out{.mover = e.sums->mover(), .joint = e.sums->joint(), .ln_p = e.ln_p};
+    out.from = motions_.rows()[static_cast<std::size_t>(s.first)];
+    out.to = motions_.rows()[static_cast<std::size_t>(s.last - 1)];
+    // The pose changes the direction in which a drift shows, so its numbers are compared, not it.
+    Segment head{s.first, s.first + static_cast<int>(tenth)};
+    Segment tail{s.last - static_cast<int>(tenth), s.last};
+    MoverSums again = *e.sums;
+    Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, motions_.size());
+    all.middleCols(s.first, s.size()) = e.fitted;
+    again.sum(all);
+    const MoverSums::Numbers moved =
+        again.solve(tail.first, tail.last) - again.solve(head.first, head.last);
+    out.size_m = rms(*e.sums, s, moved);
+    return out;
+  }
+
+  static double rms(const MoverSums& sums, const Segment& s, const MoverSums::Numbers& numbers) {
+    double squares = 0.0;
+    for (int i = s.first; i < s.last; ++i) squares += (sums.at(i) * numbers).squaredNorm();
+    return std::sqrt(squares / s.size());
+  }
+
+  /// Must be called with the sums of the residual in which it was found.
+  StepFound step(const Explained& e, const Segment& s) const {
+    const MoverSums& sums = *e.sums;
+    const MoverSums::Numbers moved = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
+    StepFound out;
+    out.mover = sums.mover();
+    out.joint = sums.joint();
+    out.ln_p = e.ln_p;
+    out.shift = sums.physical(moved);
+    out.size_m = rms(sums, s, moved);
+    out.before = motions_.last_rows()[static_cast<std::size_t>(e.cut - 1)];
+    out.after = motions_.rows()[static_cast<std::size_t>(e.cut)];
+    const double whole = sums.explained(s.first, s.last);
+    const double enough = e.gain - kChi95 * e.inflation * e.left / e.free;
+    int low = e.cut, high = e.cut;
+    for (int c = s.first + fewest_visits(sums); c <= s.last - fewest_visits(sums); ++c) {
+      if (sums.explained(s.first, c) + sums.explained(c, s.last) - whole < enough) continue;
+      low = std::min(low, c);
+      high = std::max(high, c);
+    }
+    out.earliest = motions_.last_rows()[static_cast<std::size_t>(low - 1)];
+    out.latest = motions_.last_rows()[static_cast<std::size_t>(high - 1)];
+    return out;
+  }
+
+  const StepMotions& motions_;
+  Eigen::Matrix3Xd error_;          // less what was found so far
+  Eigen::Matrix3Xd without_steps_;  // the residuals less drifts
+  std::vector<MoverSums> movers_;
+  std::vector<Jumped> found_;
+};
+
+}  // namespace
+
+Changes change_points(const StepMotions& motions) { return Scanner(motions).scan(); }
+
+}  // namespace plumb::offline::compare

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/comparison.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "compare/profiles.hpp"
+#include "compare/step_motions.hpp"
+
+namespace plumb::offline::compare {
+namespace {
+
+/// Errors of the final model everywhere, and of what held-out poses are judged by.
+struct Errors {
+  Rows3 judged_M;  // out of fold where held out
+  Rows3 final_M;
+  std::vector<int> held, fit, used;
+};
+
+Errors errors_of(const Measurements& measured, const Fit& fit) {
+  Errors out;
+  out.judged_M = residuals(measured, fit.predicted_M);
+  out.final_M = residuals(measured, predict_points(fit.calibration.state, measured));
+  out.held = held_rows(fit.split);
+  out.fit = fit_rows(fit.split);
+  for (int i = 0; i < measured.size(); ++i)
+    if (fit.split.used[i]) out.used.push_back(i);
+  return out;
+}
+
+double share_within(const Rows3& error, const std::vector<int>& rows, double tolerance_m) {
+  if (rows.empty()) return 0.0;
+  const auto within = std::count_if(rows.begin(), rows.end(),
+                                    [&](int i) { return error.row(i).norm() <= tolerance_m; });
+  return static_cast<double>(within) / static_cast<double>(rows.size());
+}
+
+SamplesOf samples_of(const Measurements& measured, const Errors& errors, Comparison::Set set) {
+  using Which = Sample::Set;
+  std::vector<bool> fitted(static_cast<std::size_t>(errors.judged_M.rows()), false),
+      judged = fitted;
+  for (const int i : errors.fit) fitted[static_cast<std::size_t>(i)] = true;
+  for (const int i : set == Comparison::Set::kHeldOut ? errors.held : errors.fit)
+    judged[static_cast<std::size_t>(i)] = true;
+  return [&measured, &errors, fitted, judged](const std::function<double(int)>& value) {
+    std::vector<Sample> out;
+    std::set<int> seen;
+    for (const int i : errors.used) {
+      const auto k = static_cast<std::size_t>(i);
+      out.push_back({.value = value(i),
+                     .error_m = errors.judged_M.row(i).norm(),
+                     .set = !judged[k]  ? Which::kFitted
+                            : fitted[k] ? Which::kBoth
+                                        : Which::kJudged,
+                     .fit_error_m = errors.final_M.row(i).norm(),
+                     .repeat = !seen.insert(measured.replicate_group[i]).second});
+    }
+    return out;
+  };
+}
+
+/// Rows that look like the rest: a gross outlier would pass for a change.
+std::vector<int> without_outliers(std::vector<int> rows, const Fit& fit) {
+  for (const auto* list : {&fit.calibration.outliers, &fit.held_outliers})
+    for (const auto& outlier : *list) std::erase(rows, outlier.row);
+  return rows;
+}
+
+int fitted_numbers(const Fit& fit) {
+  auto out = static_cast<int>(fit.calibration.estimates.size());
+  for (const auto& tree : fit.calibration.state.arm.trees)
+    out += static_cast<int>(tree.coefficients.size());
+  return out;
+}
+
+}  // namespace
+
+Comparison comparison(const Cell& cell, const Measurements& measured, const Fit& fit) {
+  const Errors errors = errors_of(measured, fit);
+  Comparison out;
+  out.set = fit.held.n > 0 ? Comparison::Set::kHeldOut : Comparison::Set::kFit;
+  const bool held = out.set == Comparison::Set::kHeldOut;
+  const auto& rows = held ? errors.held : errors.fit;
+  std::vector<double> norms;
+  for (const int i : rows) {
+    out.poses.push_back(
+        {.row = i, .pose = measured.pose[i], .error_M = errors.judged_M.row(i), .held = held});
+    norms.push_back(errors.judged_M.row(i).norm());
+  }
+  out.stats = summarise(std::move(norms));
+  out.within_tolerance = share_within(errors.judged_M, rows, cell.tolerance_m);
+  out.fit_within_tolerance = share_within(errors.final_M, errors.fit, cell.tolerance_m);
+  std::stable_sort(out.poses.begin(), out.poses.end(), [](const auto& a, const auto& b) {
+    return a.error_M.norm() > b.error_M.norm();
+  });
+  const ArmState& state = fit.calibration.state;
+  out.profiles = profiles(cell, measured, state, samples_of(measured, errors, out.set));
+  out.lack_of_fit = lack_of_fit(measured, errors.final_M, without_outliers(errors.fit, fit),
+                                fitted_numbers(fit), fit.floor);
+  const Series in_order = series(measured, errors.judged_M, without_outliers(errors.used, fit));
+  out.order = autocorrelation(in_order, measured.q);
+  const StepMotions motions(state, measured, in_order);
+  out.joints = joint_shares(motions, measured.q);
+  out.changes = change_points(motions);
+  return out;
+}
+
+}  // namespace plumb::offline::compare

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/explained.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "compare/f_tail.hpp"
+
+namespace plumb::offline::compare {
+namespace {
+
+constexpr int kFewestVisits = 5;
+
+/// What the memory of a series adds to the variance of its mean: the sum of its autocorrelations
+/// with Bartlett weights, or as if it were autoregressive; at least 1.
+double memory(const Eigen::MatrixXd& series) {
+  const auto n = static_cast<int>(series.cols());
+  const double whole = series.squaredNorm();
+  if (!(whole > 0.0)) return 1.0;
+  const int lags = std::min(n / 4, static_cast<int>(2.0 * std::cbrt(n)));
+  double sum = 1.0, first = 0.0;
+  for (int lag = 1; lag <= lags; ++lag) {
+    const int rest = n - lag;
+    const double r = series.leftCols(rest).cwiseProduct(series.rightCols(rest)).sum() / whole;
+    if (lag == 1) first = std::clamp(r, 0.0, 0.95);
+    sum += 2.0 * (1.0 - lag / (lags + 1.0)) * r;
+  }
+  return std::max({1.0, sum, (1.0 + first) / (1.0 - first)});
+}
+
+/// Variance of what is fitted over that which independent residuals of one size would give it:
+/// a law that the model lacks shakes some directions more than others, and neighbours alike. By
+/// the scores of each visit, X_i^T r_i on their average or along the jump found, and their
+/// autocorrelation; at least 1. [White 1980; Newey & West 1987]
+double inflation(const Segment& s, const Explained& e, const Eigen::Matrix3Xd& rest) {
+  const MoverSums& sums = *e.sums;
+  Eigen::MatrixXd scores(sums.rank(), s.size());
+  double motion = 0.0;
+  for (int i = 0; i < s.size(); ++i) {
+    scores.col(i) = sums.at(s.first + i).transpose() * rest.col(i);
+    motion += sums.at(s.first + i).squaredNorm();
+  }
+  const double variance = rest.squaredNorm() / std::max(1.0, e.free);
+  if (!(variance > 0.0) || !(motion > 0.0)) return 1.0;
+  double out = scores.squaredNorm() / (variance * motion) * memory(scores);
+  if (e.cut == 0) return std::max(out, memory(rest));
+  const MoverSums::Numbers jump = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
+  const Eigen::RowVectorXd along = jump.transpose() * scores;
+  const int left = e.cut - s.first, right = s.last - e.cut;
+  double weighted = 0.0, weights = 0.0, whole = 0.0;
+  for (int i = 0; i < s.size(); ++i) {
+    const double n = i < left ? left : right;
+    const double size = (sums.at(s.first + i) * jump).squaredNorm();
+    weighted += along(i) * along(i) / (n * n);
+    weights += size / (n * n);
+    whole += size;
+  }
+  const double pooled = along.squaredNorm() / whole;
+  out = std::max(out, std::max(pooled, weighted / weights) / variance * memory(along));
+  return std::max(out, memory(rest));
+}
+
+/// F with its chance, given what is fitted.
+void judge(const Segment& s, int numbers, double tries, const Unexplained& what, Explained& out) {
+  const Eigen::Matrix3Xd rest = what.error.middleCols(s.first, s.size()) - out.fitted;
+  out.inflation = std::max(1.0, inflation(s, out, rest));
+  out.left = rest.squaredNorm();
+  if (out.free < 1.0 || !(out.left > 0.0)) return;
+  const double f = out.gain / numbers / (out.left / out.free) / out.inflation;
+  out.ln_p = std::min(0.0, ln_f_tail(f, numbers, out.free) + std::log(tries));
+}
+
+void fill(const MoverSums& sums, const Segment& part, int offset, Eigen::Matrix3Xd& out) {
+  const auto numbers = sums.solve(part.first, part.last);
+  for (int i = part.first; i < part.last; ++i) out.col(i - offset) = sums.at(i) * numbers;
+}
+
+}  // namespace
+
+int fewest_visits(const MoverSums& sums) { return std::max(kFewestVisits, sums.rank() + 2); }
+
+std::optional<Explained> jump_of(const MoverSums& sums, const Segment& s, const Unexplained& what) {
+  const int edge = fewest_visits(sums);
+  if (s.size() < 2 * edge) return std::nullopt;
+  const double whole = sums.explained(s.first, s.last);
+  Explained out;
+  out.sums = &sums;
+  for (int c = s.first + edge; c <= s.last - edge; ++c) {
+    const double gain = sums.explained(s.first, c) + sums.explained(c, s.last) - whole;
+    if (gain > out.gain) out.gain = gain, out.cut = c;
+  }
+  if (out.cut == 0) return std::nullopt;
+  out.fitted.resize(3, s.size());
+  fill(sums, {s.first, out.cut}, s.first, out.fitted);
+  fill(sums, {out.cut, s.last}, s.first, out.fitted);
+  out.free = what.axes * s.size() - 2.0 * sums.rank();
+  judge(s, sums.rank(), (s.size() - 2.0 * edge + 1.0) * what.movers, what, out);
+  return out;
+}
+
+std::optional<Explained> drift_of(const MoverSums& sums, const Segment& s,
+                                  const Unexplained& what) {
+  const int k = sums.rank();
+  if (what.axes * s.size() < 6 * k) return std::nullopt;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(3 * k, 3 * k);
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(3 * k);
+  const auto wide = [&](int i) {
+    const double t = 2.0 * (i - s.first) / (s.size() - 1.0) - 1.0;
+    Eigen::MatrixXd x(3, 3 * k);
+    x << sums.at(i), sums.at(i) * t, sums.at(i) * (t * t);
+    return x;
+  };
+  for (int i = s.first; i < s.last; ++i) {
+    const Eigen::MatrixXd x = wide(i);
+    gram += x.transpose() * x;
+    along += x.transpose() * what.error.col(i);
+  }
+  gram.diagonal().array() += 1e-9 * s.size();
+  const Eigen::VectorXd numbers = gram.llt().solve(along);
+  Explained out;
+  out.sums = &sums;
+  out.gain = numbers.dot(along) - sums.explained(s.first, s.last);
+  out.fitted.resize(3, s.size());
+  for (int i = s.first; i < s.last; ++i) out.fitted.col(i - s.first) = wide(i) * numbers;
+  out.free = what.axes * s.size() - 3.0 * k;
+  judge(s, 2 * k, what.movers, what, out);
+  return out;
+}
+
+}  // namespace plumb::offline::compare

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/lack_of_fit.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "compare/f_tail.hpp"
+
+namespace plumb::offline::compare {
+namespace {
+
+constexpr int kEnoughRepeats = 5;      // as the noise floor asks for
+constexpr double kKnownExactly = 1e7;  // degrees of freedom of a stated sigma
+
+struct Squares {
+  double model = 0.0, pure = 0.0;
+  int groups = 0, repeats = 0;  // poses, and readings beyond the first
+};
+
+Squares squares_of(const Measurements& measured, const Rows3& error, const std::vector<int>& rows) {
+  std::map<int, std::vector<int>> groups;
+  for (const int i : rows) groups[measured.replicate_group[i]].push_back(i);
+  Squares out;
+  for (const auto& [group, members] : groups) {
+    Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
+    const auto n = static_cast<double>(members.size());
+    for (const int i : members) mean += error.row(i) / n;
+    for (const int i : members) out.pure += (error.row(i) - mean).squaredNorm();
+    out.model += n * mean.squaredNorm();
+    ++out.groups;
+    out.repeats += static_cast<int>(members.size()) - 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+LackOfFit lack_of_fit(const Measurements& measured, const Rows3& fit_error_M,
+                      const std::vector<int>& rows, int parameters, const NoiseFloor& floor) {
+  using Basis = LackOfFit::Basis;
+  LackOfFit out;
+  const auto axes =
+      static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
+  const Squares s = squares_of(measured, fit_error_M, rows);
+  const bool repeated = s.repeats >= kEnoughRepeats && s.pure > 0.0;
+  if (!repeated && !(floor.sigma_m > 0.0)) return out;
+  out.dof_model = axes * (repeated ? s.groups : s.groups + s.repeats) - parameters;
+  if (out.dof_model <= 0) return out;
+  out.dof_noise = repeated ? axes * s.repeats : 0;
+  const double squares = repeated ? s.model : s.model + s.pure;
+  const double noise = repeated ? s.pure / out.dof_noise : floor.sigma_m * floor.sigma_m;
+  out.basis = repeated ? Basis::kRepeats : Basis::kSigma;
+  out.ratio = squares / out.dof_model / noise;
+  out.ln_p = ln_f_tail(out.ratio, out.dof_model, repeated ? out.dof_noise : kKnownExactly);
+  const double all = (s.model + s.pure) / (axes * (s.groups + s.repeats) - parameters);
+  out.systematic = std::max(0.0, 1.0 - noise / all);
+  return out;
+}
+
+}  // namespace plumb::offline::compare

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumb::offline::compare {
+
+/// Errors of the poses between `from` and `to` of some quantity. Fit poses count apart: their
+/// mean is never accuracy.
+struct ErrorBin {
+  double from = 0.0, to = 0.0;  // SI, [degC], or rows of the file
+  int n = 0;                    // poses of the set that is judged
+  double mean_m = 0.0;          // their mean error; 0 if n == 0
+  int fit_n = 0;                // the fitted ones
+  double fit_mean_m = 0.0;
+};
+
+/// How the error depends on one quantity.
+struct ErrorProfile {
+  enum class Kind { kJoint, kRegion, kLoad, kContext, kOrder } kind = Kind::kJoint;
+  std::string name;  // "J2", "reach", "payload", "J2 torque", "J2 direction", "temp", "order"
+  enum class Unit {
+    kLength,
+    kAngle,
+    kMass,
+    kTorque,
+    kTemperature,
+    kTime,
+    kSign,
+    kRow
+  } unit = Unit::kAngle;
+  std::vector<ErrorBin> bins;
+  double explained = 0.0;  // share of the variance of the error's size that the bins explain
+  double ln_p = 0.0;       // ln of the chance of so much if the quantity did not matter
+  bool matters = false;    // beyond chance, all profiles counted
+
+  /// Highest over lowest bin mean; 1 if fewer than two bins are filled.
+  double contrast() const;
+};
+
+/// A pose and the size of its error [m].
+struct Sample {
+  double value = 0.0;  // of the quantity
+  double error_m = 0.0;
+  enum class Set { kJudged, kFitted, kBoth } set = Set::kJudged;
+  double fit_error_m = 0.0;  // of kFitted and kBoth: in-sample
+  bool repeat = false;       // of a pose that another sample stands for: no evidence of its own
+};
+
+/// Equal steps between the extremes of the quantity, at most 6, with 8 poses each on average;
+/// `labels`: one bin each of these values instead. Samples without a value (NaN) are left out.
+/// explained and ln_p are the analysis of variance over all samples but repeats, error_m each.
+ErrorProfile profile(ErrorProfile empty, const std::vector<Sample>& samples,
+                     const std::vector<double>& labels = {});
+
+/// Sets `matters` where the chance is below 1 %, shared among all profiles [Bonferroni].
+void judge(std::vector<ErrorProfile>& profiles);
+
+}  // namespace plumb::offline::compare

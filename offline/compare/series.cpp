@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/series.hpp"
+
+#include <algorithm>
+
+namespace plumb::offline::compare {
+
+Series series(const Measurements& measured, const Rows3& error_M, std::vector<int> rows) {
+  const Eigen::VectorXd& time = measured.context.time_s;
+  const bool timed = time.size() == measured.size() && time.allFinite();
+  std::sort(rows.begin(), rows.end());
+  if (timed)
+    std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return time(a) < time(b); });
+  Series out;
+  out.has_axis = measured.has_axis;
+  out.error_M.resize(static_cast<Eigen::Index>(rows.size()), 3);
+  Eigen::Index visits = 0;
+  for (std::size_t i = 0; i < rows.size();) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    std::size_t k = i;
+    for (;
+         k < rows.size() && measured.replicate_group[rows[k]] == measured.replicate_group[rows[i]];
+         ++k)
+      sum += error_M.row(rows[k]);
+    out.first_row.push_back(rows[i]);
+    out.last_row.push_back(rows[k - 1]);
+    out.error_M.row(visits++) = sum / static_cast<double>(k - i);
+    i = k;
+  }
+  out.error_M.conservativeResize(visits, 3);
+  return out;
+}
+
+}  // namespace plumb::offline::compare

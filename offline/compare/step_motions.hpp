@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "compare/series.hpp"
+#include "fit/arm_state.hpp"
+
+namespace plumb::offline::compare {
+
+/// What may shift once while measuring.
+enum class Mover { kTool, kBase, kJoint };
+
+/// How the measured point of each visit moves when something of the cell moves by a unit, in the
+/// measurement frame, missing axes 0; and the residual beside it.
+class StepMotions {
+ public:
+  /// Chain frames at the visits; effects and trees move them too little to matter.
+  StepMotions(const ArmState& state, const Measurements& measured, const Series& series);
+
+  int size() const { return static_cast<int>(rows_.size()); }
+  int joints() const { return static_cast<int>(turns_.size()); }
+  int axes() const { return axes_; }
+  bool turns(int joint) const { return turns_[static_cast<std::size_t>(joint)]; }
+  const std::vector<int>& rows() const { return rows_; }  // first of each visit
+  const std::vector<int>& last_rows() const { return last_rows_; }
+
+  Eigen::Vector3d error(int visit) const { return error_.col(visit); }
+  double squares() const { return error_.squaredNorm(); }
+
+  /// By a turn [m/rad] or shift [m/m] of the joint.
+  Eigen::Vector3d joint(int visit, int j) const { return joint_[j].col(visit); }
+
+  /// 3 columns: shift of the reflector along the tool's axes. 6: shift of the base along the axes
+  /// of the measurement frame, turn about its axes through the middle of the points. 1: joint.
+  Eigen::MatrixXd columns(int visit, Mover mover, int j) const;
+
+  static int count(Mover mover) {
+    return mover == Mover::kBase ? 6 : mover == Mover::kTool ? 3 : 1;
+  }
+
+ private:
+  std::vector<int> rows_, last_rows_;
+  std::vector<bool> turns_;
+  int axes_ = 3;
+  Eigen::Matrix3Xd error_, from_middle_;
+  std::vector<Eigen::Matrix3d> R_MT_;
+  std::vector<Eigen::Matrix3Xd> joint_;
+  Eigen::Vector3d mask_;
+};
+
+}  // namespace plumb::offline::compare

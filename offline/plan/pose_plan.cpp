@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/pose_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fit/calibrate.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/noise_floor.hpp"
+#include "plan/driving_order.hpp"
+#include "plan/plan_steps.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kChecked = 500;
+constexpr double kUsualSigma_m = 10e-6;
+constexpr std::array<double, 3> kUsualTarget_m{0.05, 0.0, 0.1};
+
+std::vector<int> used_rows(const Measurements& measured) {
+  std::vector<int> out;
+  for (int i = 0; i < measured.size(); ++i)
+    if (measured.set[static_cast<std::size_t>(i)] != SetMark::kIgnore) out.push_back(i);
+  return out;
+}
+
+ArmState nominal_arm(const Cell& cell) {
+  ArmState out;
+  out.arm.calibrated = cell.nominal;
+  out.arm.gravity = cell.gravity;
+  out.arm.mechanics = mechanics_of(cell);
+  out.X_MB = cell.measurement.X_MB;
+  out.X_TG.p = cell.measurement.fit_target ? kUsualTarget_m : cell.measurement.target_T;
+  return out;
+}
+
+/// The fitted arm, or the nominal one with a note why.
+ArmState arm_to_plan_for(const Cell& cell, const Measurements& used, PosePlan& out) {
+  std::vector<int> rows(static_cast<std::size_t>(used.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::string why = "nothing is measured yet";
+  try {
+    if (!rows.empty()) return calibrate(cell, used, rows).state;
+  } catch (const Failure& failure) {
+    why = failure.problems().front().message;
+  }
+  out.remarks.push_back({.severity = Severity::kNote,
+                         .code = "N-PLAN-NOMINAL",
+                         .message = fmt::format("planned for the nominal arm: {}", why),
+                         .help = "measure these poses, then: plumb fit"});
+  return nominal_arm(cell);
+}
+
+double sigma_of(const Cell& cell, const Measurements& used) {
+  const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
+  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUsualSigma_m);
+}
+
+PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
+                   PosePlan& out) {
+  PlanStart start;
+  start.used = measured.size() > 0 ? pick(measured, used_rows(measured)) : measured;
+  start.state = arm_to_plan_for(cell, start.used, out);
+  start.sigma_m = sigma_of(cell, start.used);
+  if (measured.has_orientation() || measured.size() == 0)
+    start.sigma_rad = cell.measurement.sigma_rad.value_or(0.0);
+  PoseRules other = request.rules;
+  other.seed = request.rules.seed ^ 0x9e3779b9U;
+  other.pool = kChecked;
+  start.pool =
+      imagined(cell, start.used, pose_pool(cell, start.state, request.rules), request.rules.seed);
+  start.check = imagined(cell, start.used, pose_pool(cell, start.state, other), other.seed);
+  if (start.state.arm.effects.empty()) start.state.arm.effects = bind_effects(cell, start.pool);
+  out.measured = start.used.size();
+  out.pool = start.pool.size();
+  out.sigma_m = start.sigma_m;
+  return start;
+}
+
+void plan_d_optimal(const Cell& cell, const PlanStart& start, const PlanRequest& request,
+                    PosePlan& out) {
+  const DesignSpace space =
+      design_space(cell, start.state, start.pool, start.sigma_m, start.sigma_rad);
+  const Eigen::MatrixXd known = space.lines(start.used);
+  const auto candidates = blocks(space.lines(start.pool), space.per_pose());
+  const Design design =
+      d_optimal(candidates, known, space.prior(), request.n, DesignCriterion::all(space.size()));
+  Information information(space.prior());
+  information.add(known);
+  out.parameters = static_cast<int>(space.size());
+  out.before = prediction_sigma(space, start.check, information.covariance());
+  for (const int i : design.chosen) information.add(candidates[static_cast<std::size_t>(i)]);
+  out.after = prediction_sigma(space, start.check, information.covariance());
+  out.ln_det = design.value;
+  for (const int i : driven(cell, start, design.chosen, out.drive))
+    out.poses.push_back({.name = fmt::format("N{:03}", out.poses.size() + 1),
+                         .q = start.pool.q.row(i).transpose(),
+                         .note = ""});
+}
+
+}  // namespace
+
+std::vector<Eigen::MatrixXd> blocks(const Eigen::MatrixXd& lines, int rows_each) {
+  std::vector<Eigen::MatrixXd> out;
+  for (Eigen::Index first = 0; first + rows_each <= lines.rows(); first += rows_each)
+    out.emplace_back(lines.middleRows(first, rows_each));
+  return out;
+}
+
+PredictionSigma prediction_sigma(const DesignSpace& space, const Measurements& check,
+                                 const Eigen::MatrixXd& covariance) {
+  DesignSpace bare = space;
+  bare.sigma_m = 1.0;
+  bare.sigma_rad = 0.0;
+  Measurements points = check;
+  points.quat_M.resize(0, 4);
+  PredictionSigma out;
+  const auto each = blocks(bare.lines(points), bare.per_pose());
+  for (const auto& A : each) {
+    const double sigma = std::sqrt((A * covariance * A.transpose()).trace());
+    out.mean += sigma / static_cast<double>(each.size());
+    out.worst = std::max(out.worst, sigma);
+  }
+  return out;
+}
+
+std::vector<int> driven(const Cell& cell, const PlanStart& start, std::vector<int> chosen,
+                        double& drive) {
+  Eigen::VectorXd range(cell.joints()), from(cell.joints());
+  for (int j = 0; j < cell.joints(); ++j) {
+    const auto& row = cell.nominal.joints[static_cast<std::size_t>(j)];
+    range(j) = std::max(1e-6, row.q_max - row.q_min);
+    from(j) = 0.5 * (row.q_min + row.q_max);
+  }
+  if (start.used.size() > 0) from = start.used.q.row(start.used.size() - 1).transpose();
+  const RowsN q = start.pool.q(chosen, Eigen::all);
+  const auto order = driving_order(q, range, from);
+  drive = driving_length(q, order, range, from);
+  std::vector<int> out;
+  for (const int i : order) out.push_back(chosen[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+PosePlan plan_poses(const Cell& cell, const Measurements& measured, const PlanRequest& request) {
+  PosePlan out;
+  const PlanStart start = start_of(cell, measured, request, out);
+  if (request.separate.empty())
+    plan_d_optimal(cell, start, request, out);
+  else
+    plan_separation(cell, start, request, out);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "plan/contrasts.hpp"
+#include "plan/d_optimal.hpp"
+#include "plan/design_space.hpp"
+#include "plan/pose_pool.hpp"
+
+namespace plumb::offline {
+
+/// What is asked for.
+struct PlanRequest {
+  int n = 30;  // measurements
+  PoseRules rules;
+  std::vector<EffectEntry> separate = {};  // two, or none
+};
+
+/// 1 sigma of a predicted reflector position, three axes together [m].
+struct PredictionSigma {
+  double mean = 0.0, worst = 0.0;
+};
+
+/// How far two effects can stand in for each other, geometry being free: share of the motion of the
+/// one that the other reproduces, 0 .. 1; nothing if the poses hardly show the effect at all.
+struct Reproduction {
+  std::optional<double> a_by_b, b_by_a;
+};
+
+/// 1 sigma of a number of one of the effects to be told apart, SI; both effects and geometry free.
+struct EffectSigma {
+  std::string name, unit;
+  std::optional<double> before;  // nothing if the poses measured do not show it
+  double after = 0.0;
+};
+
+struct PlannedPose {
+  std::string name;
+  Eigen::VectorXd q;    // [rad] or [m]
+  bool second = false;  // of a contrast
+  std::string note;
+};
+
+/// The poses to measure next, in the order of driving, and what they will bring.
+struct PosePlan {
+  std::vector<PlannedPose> poses;
+  int measured = 0;    // poses that count already
+  int parameters = 0;  // of geometry, frame, target and effects
+  int pool = 0;        // poses looked at
+  double sigma_m = 0.0;
+  PredictionSigma before, after;  // over poses within the same rules; not of a separation
+  double ln_det = 0.0;            // of the information gained
+  double drive = 0.0;             // in ranges of the slowest joint
+  Contrast contrast = Contrast::kNone;
+  std::vector<Contrast> others;  // that would separate too
+  ContrastSizes sizes;
+  Reproduction apart_before, apart_after;
+  std::vector<EffectSigma> numbers;  // of both effects
+  std::vector<Problem> remarks;
+};
+
+/// D-optimal poses [Fedorov 1972] for geometry and the effects of the cell, given those measured;
+/// or those that tell two effects apart: the contrast that does it best, at the poses where the
+/// effects differ most beyond geometry. Linearised at the fitted arm, or at the nominal one if
+/// there is no fit yet. Throws Failure: E-PLAN-BOX.
+PosePlan plan_poses(const Cell& cell, const Measurements& measured, const PlanRequest& request);
+
+}  // namespace plumb::offline

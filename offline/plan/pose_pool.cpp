@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/pose_pool.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fit/random.hpp"
+#include "plumb/runtime/chain.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kTries = 200;  // times the pool
+
+bool inside(const Vector3& p, const std::vector<PoseRules::Box>& boxes) {
+  return boxes.empty() || std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) {
+           for (int k = 0; k < 3; ++k)
+             if (p(k) < box.low[static_cast<std::size_t>(k)] ||
+                 p(k) > box.high[static_cast<std::size_t>(k)])
+               return false;
+           return true;
+         });
+}
+
+Vector3 reflector(const Chain& chain, const ArmState& state, const Eigen::VectorXd& q,
+                  ChainFrames<double>& frames) {
+  chain.frames<double>({q.data(), static_cast<std::size_t>(q.size())}, frames);
+  return frames.tip * Vector3(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
+}
+
+}  // namespace
+
+Vector3 reflector_B(const ArmState& state, const Eigen::VectorXd& q) {
+  ChainFrames<double> frames;
+  return reflector(Chain(state.arm.calibrated), state, q, frames);
+}
+
+RowsN pose_pool(const Cell& cell, const ArmState& state, const PoseRules& rules) {
+  const Chain chain(state.arm.calibrated);
+  ChainFrames<double> frames;
+  Random random(rules.seed);
+  RowsN out(rules.pool, cell.joints());
+  Eigen::VectorXd q(cell.joints());
+  int found = 0;
+  for (long tries = 0; tries < static_cast<long>(kTries) * rules.pool && found < rules.pool;
+       ++tries) {
+    for (int j = 0; j < cell.joints(); ++j) {
+      const auto& row = cell.nominal.joints[static_cast<std::size_t>(j)];
+      const double margin = 0.5 * (1.0 - rules.joint_share) * (row.q_max - row.q_min);
+      q(j) = row.q_min + margin + random.unit() * (row.q_max - row.q_min - 2.0 * margin);
+    }
+    if (inside(reflector(chain, state, q, frames), rules.boxes)) out.row(found++) = q.transpose();
+  }
+  if (found == 0)
+    throw Failure(Exit::kNumbersSayNo,
+                  {.code = "E-PLAN-BOX",
+                   .message = fmt::format("none of {} random poses reaches the box",
+                                          static_cast<long>(kTries) * rules.pool),
+                   .help = "coordinates are of the reflector in the base frame: --box "
+                           "-1000,1000,-1000,1000,0,1500"});
+  out.conservativeResize(found, Eigen::NoChange);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "fit/arm_state.hpp"
+
+namespace plumb::offline {
+
+/// Where poses may lie. SI.
+struct PoseRules {
+  struct Box {
+    std::array<double, 3> low{}, high{};  // of the reflector, base frame [m]
+  };
+  std::vector<Box> boxes = {};  // inside any of them; empty: everywhere
+  double joint_share = 1.0;     // of each joint's range, around its middle
+  int pool = 5000;
+  std::uint64_t seed = 1;
+};
+
+/// Random poses within the joint limits whose reflector lies in a box, shape (up to pool, joints).
+/// Fewer than asked for if hardly any pose fits; throws Failure (kNumbersSayNo, E-PLAN-BOX) if none
+/// of 200 times the pool does.
+RowsN pose_pool(const Cell& cell, const ArmState& state, const PoseRules& rules);
+
+/// The reflector in the base frame at joint positions q.
+Vector3 reflector_B(const ArmState& state, const Eigen::VectorXd& q);
+
+}  // namespace plumb::offline

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "show/compare_view.hpp"
+#include "show/compare_words.hpp"
+#include "show/error_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+using compare::Comparison;
+using compare::ErrorProfile;
+using Kind = ErrorProfile::Kind;
+
+constexpr std::size_t kWorst = 10;
+
+Json worst_json(const Comparison& comparison) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < std::min(kWorst, comparison.poses.size()); ++i) {
+    const auto& pose = comparison.poses[i];
+    out.push_back({{"pose", pose.pose},
+                   {"row", pose.row + 1},
+                   {"error_mm", to_mm(pose.error_M.norm())},
+                   {"dx_mm", to_mm(pose.error_M(0))},
+                   {"dy_mm", to_mm(pose.error_M(1))},
+                   {"dz_mm", to_mm(pose.error_M(2))},
+                   {"set", pose.held ? "held" : "fit"}});
+  }
+  return out;
+}
+
+const char* key_of(Kind kind) {
+  switch (kind) {
+    case Kind::kJoint:
+      return "joint";
+    case Kind::kOrder:
+      return "order";
+    case Kind::kRegion:
+      return "region";
+    case Kind::kLoad:
+      return "load";
+    case Kind::kContext:
+      return "context";
+  }
+  return "";
+}
+
+void add_bins(const ErrorProfile& profile, Json& out) {
+  std::string suffix = unit_name(profile.unit);
+  if (!suffix.empty()) suffix = "_" + suffix;
+  for (const auto& bin : profile.bins) {
+    Json row;
+    if (profile.kind == Kind::kJoint)
+      row["joint"] = profile.name;
+    else if (profile.kind != Kind::kOrder)
+      row["quantity"] = profile.name;
+    row["from" + suffix] = in_unit(bin.from, profile.unit);
+    row["to" + suffix] = in_unit(bin.to, profile.unit);
+    row["n"] = bin.n;
+    put(row, "mean_mm", bin.n > 0 ? to_mm(bin.mean_m) : NAN, "no pose lies here");
+    row["n_fit"] = bin.fit_n;
+    put(row, "mean_fit_mm", bin.fit_n > 0 ? to_mm(bin.fit_mean_m) : NAN, "no fit pose lies here");
+    out.push_back(std::move(row));
+  }
+}
+
+Json profiles_json(const Comparison& comparison) {
+  Json out;
+  for (const auto kind : {Kind::kJoint, Kind::kRegion, Kind::kLoad, Kind::kContext, Kind::kOrder})
+    out[key_of(kind)] = Json::array();
+  for (const auto& profile : comparison.profiles) add_bins(profile, out[key_of(profile.kind)]);
+  return out;
+}
+
+Json matters_json(const Comparison& comparison) {
+  Json out = Json::array();
+  for (const auto& profile : comparison.profiles)
+    if (profile.bins.size() > 1)
+      out.push_back({{"by", key_of(profile.kind)},
+                     {"quantity", profile.name},
+                     {"explained_pct", 100.0 * profile.explained},
+                     {"ln_p", profile.ln_p},
+                     {"matters", profile.matters}});
+  return out;
+}
+
+Json joints_json(const Cell& cell, const Comparison& comparison) {
+  Json out = Json::array();
+  for (const auto& share : comparison.joints)
+    out.push_back({{"joint", cell.nominal.joints[share.joint].name},
+                   {"share_pct", 100.0 * share.share},
+                   {"rms_urad", share.rms_rad * 1e6},
+                   {"bins", share.bins},
+                   {"ln_p", share.ln_p},
+                   {"matters", share.matters}});
+  return out;
+}
+
+Json lack_of_fit_json(const compare::LackOfFit& found) {
+  using Basis = compare::LackOfFit::Basis;
+  Json out{{"text", lack_of_fit_words(found)}};
+  if (found.basis == Basis::kNone) {
+    put_null(out, "ratio", "neither repeats of a pose nor sigma_um are given");
+    return out;
+  }
+  out["basis"] = found.basis == Basis::kRepeats ? "repeats" : "sigma";
+  put(out, "ratio", found.ratio);
+  out["dof_model"] = found.dof_model;
+  out["dof_noise"] = found.dof_noise;
+  out["ln_p"] = found.ln_p;
+  out["significant"] = found.significant();
+  out["systematic_pct"] = 100.0 * found.systematic;
+  return out;
+}
+
+Json order_json(const compare::Autocorrelation& found) {
+  Json out{{"text", order_words(found)}, {"n", found.n}};
+  if (found.n == 0) {
+    put_null(out, "lag1", "too few poses");
+    return out;
+  }
+  out["lag1"] = found.lag1;
+  out["low95"] = found.low95;
+  out["high95"] = found.high95;
+  out["beyond"] = found.beyond();
+  out["closeness"] = found.closeness;
+  return out;
+}
+
+void add_shift(const compare::StepFound& step, bool slides, Json& out) {
+  const auto three = [&](Eigen::Index first, double scale) {
+    return Json{step.shift(first) * scale, step.shift(first + 1) * scale,
+                step.shift(first + 2) * scale};
+  };
+  if (step.mover == compare::Mover::kJoint)
+    out[slides ? "shift_um" : "turn_urad"] = step.shift(0) * 1e6;
+  else
+    out["shift_mm"] = three(0, 1e3);
+  if (step.mover == compare::Mover::kBase) out["turn_urad"] = three(3, 1e6);
+}
+
+Json steps_json(const Cell& cell, const Measurements& measured, const compare::Changes& found) {
+  Json out = Json::array();
+  for (const auto& step : found.steps) {
+    Json row{{"text", step_words(cell, measured, step)},
+             {"after_row", step.before + 1},
+             {"after_pose", measured.pose[step.before]},
+             {"before_pose", measured.pose[step.after]},
+             {"earliest_row", step.earliest + 1},
+             {"latest_row", step.latest + 1},
+             {"of", mover_name(step.mover)},
+             {"size_mm", to_mm(step.size_m)},
+             {"ln_p", step.ln_p}};
+    const bool joint = step.mover == compare::Mover::kJoint;
+    if (joint) row["joint"] = cell.nominal.joints[step.joint].name;
+    add_shift(step, joint && slides(cell.nominal.joints[step.joint]), row);
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+Json drifts_json(const Cell& cell, const Measurements& measured, const compare::Changes& found) {
+  Json out = Json::array();
+  for (const auto& drift : found.drifts) {
+    Json row{{"text", drift_words(cell, measured, drift)},
+             {"from_row", drift.from + 1},
+             {"to_row", drift.to + 1},
+             {"of", mover_name(drift.mover)},
+             {"size_mm", to_mm(drift.size_m)},
+             {"ln_p", drift.ln_p}};
+    if (drift.joint >= 0) row["joint"] = cell.nominal.joints[drift.joint].name;
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+}  // namespace
+
+Json compare_json(const Cell& cell, const Measurements& measured, const Comparison& comparison,
+                  const Run& run) {
+  const Fit& fit = run.fit;
+  Json out = stats_json(comparison.stats);
+  out["set"] = comparison.set == Comparison::Set::kHeldOut ? "held_out" : "fit";
+  out["frame"] = "measurement";
+  out["run"] = run.number;
+  out["fit"] = stats_json(fit.fit);
+  out["fit_within_tolerance_pct"] = 100.0 * comparison.fit_within_tolerance;
+  out["nominal"] = stats_json(fit.nominal_held);
+  add_floor(fit.floor, out);
+  out["tolerance_mm"] = to_mm(cell.tolerance_m);
+  out["within_tolerance_pct"] = 100.0 * comparison.within_tolerance;
+  out["verdict"] = verdict(fit, cell.tolerance_m);
+  out["worst"] = worst_json(comparison);
+  out["where"] = where_words(comparison);
+  out["by"] = profiles_json(comparison);
+  out["matters"] = matters_json(comparison);
+  out["joints"] = joints_json(cell, comparison);
+  out["joints_text"] = joint_words(cell, comparison);
+  out["lack_of_fit"] = lack_of_fit_json(comparison.lack_of_fit);
+  out["autocorrelation"] = order_json(comparison.order);
+  out["change_points"] = steps_json(cell, measured, comparison.changes);
+  out["drifts"] = drifts_json(cell, measured, comparison.changes);
+  return out;
+}
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sandbox.hpp"
+
+namespace {
+
+class PlanVerb : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    box = new Sandbox;
+    ASSERT_EQ(box->plumb({"demo", "compliance", "cell"}).exit, 0);
+  }
+  static void TearDownTestSuite() { delete box; }
+  static Ran plan(std::vector<std::string> more) {
+    std::vector<std::string> words{"-C", "cell", "plan", "--pool", "300"};
+    words.insert(words.end(), more.begin(), more.end());
+    return box->plumb(words);
+  }
+  static Sandbox* box;
+};
+Sandbox* PlanVerb::box = nullptr;
+
+TEST_F(PlanVerb, WritesPosesThatOtherVerbsRead) {
+  ASSERT_EQ(plan({"--n", "12", "-o", "next.csv"}).exit, 0);
+  const Csv csv = box->csv("next.csv");
+  EXPECT_EQ(csv.rows(), 12U);
+  ASSERT_EQ(box->plumb({"-C", "cell", "compile"}).exit, 0);
+  const Ran predicted =
+      box->plumb({"predict", "cell/robot.plumb", "--data", "next.csv", "-o", "p.csv"});
+  EXPECT_EQ(predicted.exit, 0) << predicted.err;
+  const auto nominal = csv.numbers("nx_mm"), real = box->csv("p.csv").numbers("px_mm");
+  for (std::size_t i = 0; i < nominal.size(); ++i) EXPECT_NEAR(nominal[i], real[i], 10.0);
+}
+
+TEST_F(PlanVerb, GivesOneObjectThatPromisesLessUncertainty) {
+  const Ran ran = plan({"--n", "10", "--json", "--dry-run", "-o", "none.csv"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const auto result = ran.json().at("result");
+  EXPECT_EQ(result.at("poses").size(), 10U);
+  EXPECT_LT(result.at("after").at("worst_mm"), result.at("before").at("worst_mm"));
+  EXPECT_LT(result.at("after").at("mean_mm"), result.at("before").at("mean_mm"));
+  EXPECT_FALSE(std::filesystem::exists(box->path() / "none.csv"));
+}
+
+TEST_F(PlanVerb, ReplacesNothingWithoutForce) {
+  ASSERT_EQ(plan({"--n", "4", "-o", "once.csv"}).exit, 0);
+  const std::string before = box->read("once.csv");
+  EXPECT_EQ(plan({"--n", "5", "-o", "once.csv"}).exit, 2);
+  EXPECT_EQ(box->read("once.csv"), before);
+  EXPECT_EQ(plan({"--n", "5", "-o", "once.csv", "--force"}).exit, 0);
+  EXPECT_EQ(box->csv("once.csv").rows(), 5U);
+}
+
+TEST_F(PlanVerb, SeparatesByTheContrastAndSaysWhatToDo) {
+  const Ran ran = plan({"--n", "8", "--separate", "joint_compliance:J2,gear_harmonics:J2", "-o",
+                        "apart.csv", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json().at("result").at("contrast"), "two_payloads");
+  const Csv csv = box->csv("apart.csv");
+  const auto payload = csv.numbers("payload_kg");
+  EXPECT_EQ(std::count(payload.begin(), payload.end(), 0.0), 4);
+  EXPECT_EQ(csv.columns.at("note").front(), "without payload");
+  const Ran sides =
+      plan({"--n", "8", "--separate", "reversal:J2,gear_harmonics:J2", "-o", "sides.csv"});
+  ASSERT_EQ(sides.exit, 0) << sides.err;
+  const auto direction = box->csv("sides.csv").numbers("dir_j2");
+  EXPECT_EQ(std::count(direction.begin(), direction.end(), -1.0), 4);
+}
+
+TEST_F(PlanVerb, WorksBeforeAnythingIsMeasured) {
+  std::filesystem::create_directories(box->path() / "bare");
+  box->write("bare/cell.toml", box->read("cell/cell.toml"));
+  const Ran ran =
+      box->plumb({"-C", "bare", "plan", "--n", "12", "--pool", "200", "-o", "bare.csv", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json().at("warnings").at(0).at("code"), "N-PLAN-NOMINAL");
+  EXPECT_TRUE(ran.json().at("result").at("before").is_null());
+}
+
+TEST_F(PlanVerb, RefusesWhatMakesNoSenseWithAMessageThatHelps) {
+  const auto refused = [&](std::vector<std::string> words, int exit, const std::string& says) {
+    words.insert(words.end(), {"-o", "never.csv"});
+    const Ran ran = plan(words);
+    EXPECT_EQ(ran.exit, exit) << ran.err;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(box->path() / "never.csv"));
+  };
+  refused({"--separate", "reversl:J2,gear_harmonics:J2"}, 2, "did you mean 'reversal'");
+  refused({"--separate", "reversal:J9,gear_harmonics:J2"}, 2, "no joint 'J9'");
+  refused({"--separate", "reversal:J2"}, 2, "two effects, not 1");
+  refused({"--separate", "reversal:J2,reversal:J2"}, 2, "two different effects");
+  refused({"--separate", "gear_ripple:J2,reversal:J2"}, 2, "cycles");
+  refused({"--box", "1,2,3"}, 2, "is no box");
+  refused({"--box", "90000,90001,0,1,0,1"}, 4, "E-PLAN-BOX");
+  refused({"--joint-limits", "150%"}, 2, "no share");
+  refused({"--n", "0"}, 2, "--n");
+}
+
+}  // namespace
