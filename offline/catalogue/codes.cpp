@@ -24,6 +24,13 @@ constexpr Explanation kCodes[] = {
     {"W-RUN-NODATA",
      "The history was read, but not the cell's measurements; so it is not known which run is the "
      "current one."},
+    {"E-ADD-TWICE",
+     "The model already has that effect at these joints, with the same settings; nothing was "
+     "changed. [effects] in cell.toml lists what it has. An effect may stand there a second time at "
+     "other joints or with other settings."},
+    {"E-DROP-NONE",
+     "The model does not have that effect, or not at these joints or with these settings; nothing "
+     "was changed. Geometry cannot be dropped: hold its parameters with [fit] fixed instead."},
     {"E-PLAN-BOX",
      "plan draws random poses within the joint limits and keeps those whose reflector lies in the "
      "box. None did: the box is out of reach, in another frame than the base, or in another unit "

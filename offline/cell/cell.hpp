@@ -24,6 +24,7 @@ struct JointMechanics {
   std::optional<std::array<double, 3>> link_com_m;
   std::optional<double> length_m, EI_Nm2, GJ_Nm2, kg_per_m;
   bool parallel_next = false;  // its axis is nominally parallel to the next one
+  bool has_mass() const { return link_mass_kg || kg_per_m; }
 };
 
 struct Payload {
@@ -111,9 +112,8 @@ std::filesystem::path find_cell(const std::filesystem::path& start);
 /// A commented cell.toml for `cell`; read_cell of it gives the same cell.
 std::string write_cell(const Cell& cell);
 
-/// Names that [effects] may hold, and names that a later version will know.
+/// Names that [effects] may hold.
 const std::vector<std::string>& known_effects();
-const std::vector<std::string>& planned_effects();
 
 /// "auto", "20%", "kfold:5", "column:set", "file:verify.csv"; nothing if it is none of them.
 std::optional<HeldOutRule> parse_held_out(std::string_view text,

@@ -12,9 +12,14 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "Something that cannot happen did. Please report it with the command line and, if you "
      "may, the files."},
     {"E-CELL-EFFECT",
-     "[effects] names something this version cannot fit. Its names are those of the catalogue; a "
-     "name of the catalogue that is not built in yet is refused rather than ignored, so that a "
-     "model never lacks what its cell file promises. Correct the name or delete the table."},
+     "[effects] names something that is not in the catalogue; plumb explain lists what is. It is "
+     "refused rather than ignored, so that a model never lacks what its cell file promises. Correct "
+     "the name or delete the table."},
+    {"E-CELL-EFFECTS-LAYOUT",
+     "add, drop and diagnose --apply change [effects] where it stands and keep the rest of the "
+     "file, but this one is laid out in a way they do not follow, effects as inline tables over "
+     "several lines for example. Nothing was written. Give each effect a table of its own: "
+     "[effects.joint_compliance]."},
     {"E-CELL-HELD",
      "[measurement] held_out says which poses are kept away from the fit. It is one of \"auto\" "
      "(five folds below 60 poses, else 20 %), \"20%\", \"kfold:5\", \"column:set\" (the column "

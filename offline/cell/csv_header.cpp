@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cell/column_names.hpp"
+#include "cell/shell_word.hpp"
 #include "cell/units.hpp"
 #include "cell/utf8.hpp"
 
@@ -19,14 +20,6 @@ std::string listed(const std::vector<Quantity>& kinds) {
   for (const Quantity kind : kinds)
     out += (out.empty() ? "" : " or ") + std::string(kind_name(kind));
   return out;
-}
-
-/// As a shell takes it: quoted where it must be.
-std::string shell_word(const std::string& text) {
-  if (text.find_first_of(" ()[]*?$&;|<>\"'`\\") == std::string::npos) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 class HeaderReader {

@@ -13,9 +13,4 @@ const std::vector<std::string>& known_effects() {
   return names;
 }
 
-const std::vector<std::string>& planned_effects() {
-  static const std::vector<std::string> names;
-  return names;
-}
-
 }  // namespace plumb::offline

@@ -17,14 +17,7 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 bool is_known(TomlTable& t, const std::string& name) {
   if (holds(known_effects(), name)) return true;
   const toml::node& node = *t.node(name);
-  if (holds(planned_effects(), name)) {
-    t.error("E-CELL-EFFECT", fmt::format("effect '{}' is not in this version", name), node,
-            "cannot be fitted yet", fmt::format("delete [effects.{}]", name));
-    return false;
-  }
-  auto all = known_effects();
-  all.insert(all.end(), planned_effects().begin(), planned_effects().end());
-  const auto guess = did_you_mean(name, all);
+  const auto guess = did_you_mean(name, known_effects());
   t.error("E-CELL-EFFECT", fmt::format("unknown effect '{}'", name), node,
           guess ? fmt::format("did you mean '{}'?", *guess) : "not in the catalogue",
           guess ? fmt::format("rename it to [effects.{}]", *guess)

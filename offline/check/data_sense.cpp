@@ -136,7 +136,7 @@ DataSense data_sense(const Cell& cell, const Measurements& measured, const std::
     out.has_travel.push_back(has_column(measured, fmt::format("travel_j{}", j + 1)));
     const bool known = j < static_cast<int>(cell.mechanics.size());
     out.has_gear_ratio.push_back(known && cell.mechanics[j].gear_ratio.has_value());
-    out.has_masses = out.has_masses || (known && cell.mechanics[j].link_mass_kg.has_value());
+    out.has_masses = out.has_masses || (known && cell.mechanics[j].has_mass());
     out.ordered = out.ordered || out.both_ways.back() >= 0.0;
   }
   sense_levers(cell, measured, rows, out);

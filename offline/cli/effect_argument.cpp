@@ -3,18 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 
-#include "plumb/runtime/effect_library.hpp"
+#include "cli/effect_naming.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
+constexpr const char* kCode = "E-PLAN-EFFECT";
 constexpr const char* kExample = "plumb plan --separate reversal:J2,settling_lag:J2";
 
 [[noreturn]] void refuse(const std::string& message, const std::string& help = kExample) {
-  throw Failure(Exit::kUsage, {.code = "E-PLAN-EFFECT", .message = message, .help = help});
+  throw Failure(Exit::kUsage, {.code = kCode, .message = message, .help = help});
 }
 
 std::vector<std::string> parts(const std::string& text, char separator) {
@@ -25,22 +25,6 @@ std::vector<std::string> parts(const std::string& text, char separator) {
     else
       out.back() += c;
   return out;
-}
-
-void check_name(const std::string& name) {
-  if (find_effect_law(name) >= 0) return;
-  std::vector<std::string> names;
-  for (int law = 0; law < kEffectLaws; ++law) names.emplace_back(effect_info(law).name);
-  const auto guess = did_you_mean(name, names);
-  refuse(fmt::format("there is no effect '{}'{}", name,
-                     guess ? fmt::format("; did you mean '{}'?", *guess) : ""),
-         guess ? fmt::format("plumb explain {}", *guess) : kExample);
-}
-
-int joint_of(const Cell& cell, const std::string& name) {
-  for (int j = 0; j < cell.joints(); ++j)
-    if (cell.nominal.joints[static_cast<std::size_t>(j)].name == name) return j;
-  refuse(fmt::format("there is no joint '{}'", name));
 }
 
 void read_number(const std::string& text, EffectEntry& out) {
@@ -59,10 +43,10 @@ EffectEntry one_effect(const Cell& cell, const std::string& text) {
   const auto colon = numbers[0].find(':');
   EffectEntry out;
   out.name = numbers[0].substr(0, colon);
-  check_name(out.name);
+  require_effect(out.name, kCode);
   if (colon != std::string::npos)
     for (const auto& joint : parts(numbers[0].substr(colon + 1), '+'))
-      out.joints.push_back(joint_of(cell, joint));
+      out.joints.push_back(joint_named(cell, joint, kCode));
   for (const auto& listed : cell.effects)
     if (listed.name == out.name && (out.joints.empty() || listed.joints == out.joints)) {
       out.joints = listed.joints;

@@ -9,13 +9,19 @@
 
 namespace plumb::offline::cli {
 
-/// An effect on the command line: NAME [--joints J2,J3] [--set KEY=VALUE ...].
+/// An effect on the command line: NAME [--joints J2,J3] [--set KEY=VALUE ...], and for the user's
+/// own formula --formula "dq2 = k * tau2" --parameter "k [rad/(N m)] ~ 1e-6" --name N --domain D.
 struct EffectOptions {
   std::string name;
   std::vector<std::string> joints;
   std::vector<std::string> set;
+  std::string formula;
+  std::vector<std::string> parameters;
+  std::string formula_name;
+  std::string domain;
 
-  void add_to(CLI::App& verb);
+  /// The options that name an effect; `law_too` adds those that define a formula.
+  void add_to(CLI::App& verb, bool law_too);
 
   /// As it would stand in the cell file. Throws Failure (kUsage) with "did you mean".
   EffectEntry entry(const Cell& cell) const;

@@ -9,6 +9,7 @@
 #include "diagnose/effect_list.hpp"
 #include "diagnose/verdict.hpp"
 #include "show/diagnose_view.hpp"
+#include "show/effect_arguments.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -66,13 +67,18 @@ void add(const Options& options, const Globals& globals, Outcome& outcome) {
   const EffectEntry entry = options.effect.entry(cell);
   outcome.result["effect"] = entry.name;
   outcome.result["joints"] = show::joints_json(cell, entry);
+  if (entry.name == "formula" && !entry.options.contains("target"))
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = "formula needs a law",
+                                 .help = "plumb add formula --formula \"dq2 = k * tau2\" "
+                                         "--parameter \"k [rad/(N m)] ~ 1e-6\""});
   if (has_effect(cell.effects, entry))
     throw Failure(Exit::kInput,
                   Problem{.code = "E-ADD-TWICE",
                           .message = fmt::format("the model already has {}", in_words(cell, entry)),
                           .place = Place{.file = cell.file.string()},
                           .help = "see what is in it: plumb compare"});
-  change(options, "Added " + in_words(cell, entry), "drop " + show::as_arguments(cell, entry), cell,
+  change(options, "Added " + in_words(cell, entry), "drop " + show::dropping_arguments(cell, entry), cell,
          with_effect(cell.effects, entry), outcome);
 }
 
@@ -82,10 +88,8 @@ void drop(const Options& options, const Globals& globals, Outcome& outcome) {
   outcome.result["effect"] = entry.name;
   outcome.result["joints"] = show::joints_json(cell, entry);
   const auto effects = without_effect(cell.effects, entry);
-  std::size_t joints_before = 0, joints_after = 0;
-  for (const auto& e : cell.effects) joints_before += e.joints.size() + 1;
-  for (const auto& e : effects) joints_after += e.joints.size() + 1;
-  if (joints_before == joints_after || entry.name == "geometry") {
+  const auto gone = taken_out(cell.effects, effects);
+  if (gone.empty() || entry.name == "geometry") {
     std::vector<std::string> there;
     for (const auto& e : cell.effects)
       if (e.name != "geometry") there.push_back(in_words(cell, e));
@@ -97,17 +101,19 @@ void drop(const Options& options, const Globals& globals, Outcome& outcome) {
                    .help = there.empty() ? "it contains geometry alone"
                                          : fmt::format("it contains: {}", fmt::join(there, "; "))});
   }
-  change(options, "Dropped " + in_words(cell, entry), "add " + show::as_arguments(cell, entry),
-         cell, effects, outcome);
+  std::vector<std::string> undo;
+  for (const auto& e : gone) undo.push_back("add " + show::adding_arguments(cell, e));
+  change(options, "Dropped " + in_words(cell, entry),
+         fmt::format("{}", fmt::join(undo, " && plumb ")), cell, effects, outcome);
 }
 
 using Verb = void (*)(const Options&, const Globals&, Outcome&);
 
-void add_verb(Program& program, const VerbText& text, Verb run) {
+void add_verb(Program& program, const VerbText& text, bool law_too, Verb run) {
   const auto options = std::make_shared<Options>();
   CLI::App& verb =
       program.verb(text, [options, run](const Globals& g, Outcome& o) { run(*options, g, o); });
-  options->effect.add_to(verb);
+  options->effect.add_to(verb, law_too);
   verb.add_flag("--dry-run", options->dry_run, "Refit and show, but write nothing");
 }
 
@@ -118,8 +124,10 @@ void add_add(Program& program) {
            {.name = "add",
             .summary = "Put an effect into the model, refit, and watch the held-out error",
             .examples = "  plumb add joint_compliance --joints J2,J3\n"
-                        "  plumb add gear_ripple --joints J2 --set cycles_per_turn=20 --dry-run"},
-           add);
+                        "  plumb add gear_ripple --joints J2 --set cycles_per_turn=20 --dry-run\n"
+                        "  plumb add formula --formula \"dq2 = k*tau2\" "
+                        "--parameter \"k [rad/(N m)] ~ 1e-6\""},
+           true, add);
 }
 
 void add_drop(Program& program) {
@@ -128,7 +136,7 @@ void add_drop(Program& program) {
             .summary = "Take an effect out of the model, refit, and watch the held-out error",
             .examples = "  plumb drop joint_compliance\n"
                         "  plumb drop joint_compliance --joints J3 --dry-run"},
-           drop);
+           false, drop);
 }
 
 }  // namespace plumb::offline::cli

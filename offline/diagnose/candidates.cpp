@@ -8,6 +8,7 @@
 #include "diagnose/confounding.hpp"
 #include "diagnose/extension.hpp"
 #include "diagnose/held_out.hpp"
+#include "diagnose/plausible.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/effect_library.hpp"
 
@@ -15,9 +16,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kListed = 12;
-constexpr std::size_t kCompared = 8;      // for confounding
-constexpr double kConfounded = 0.8;       // mutual reproduction
-constexpr double kPlausibleTimes = 20.0;  // the typical size
+constexpr std::size_t kCompared = 8;  // for confounding
+constexpr double kConfounded = 0.8;   // mutual reproduction
 
 const char* word(EffectDomain domain) {
   switch (domain) {
@@ -30,11 +30,6 @@ const char* word(EffectDomain domain) {
     default:
       return "measurement";
   }
-}
-
-bool plausible(double value, const EffectParameter& info) {
-  if (info.low != info.high && (value < info.low || value > info.high)) return false;
-  return info.typical == 0.0 || std::abs(value) <= kPlausibleTimes * info.typical;
 }
 
 std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, const Block& block,
@@ -60,9 +55,9 @@ std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, cons
     if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
     const EffectParameter& info = effect_parameter(model, 0, member);
     const double value = trial.theta(c) * block.typical(c);
-    out.push_back({effect_parameter_name(model, 0, member), info.unit, value,
-                   std::sqrt(std::max(0.0, C(c, c))) * block.typical(c), info.typical,
-                   plausible(value, info)});
+    const double std = std::sqrt(std::max(0.0, C(c, c))) * block.typical(c);
+    out.push_back({effect_parameter_name(model, 0, member), info.unit, value, std, info.typical,
+                   plausible(value, std, info)});
   }
   return out;
 }
@@ -93,6 +88,13 @@ Candidate candidate(const Stage& s, const Judge& judge, const Found& found) {
   return out;
 }
 
+/// Whether one lists a joint of the other.
+bool overlap(const EffectEntry& a, const EffectEntry& b) {
+  return std::any_of(a.joints.begin(), a.joints.end(), [&](int joint) {
+    return std::find(b.joints.begin(), b.joints.end(), joint) != b.joints.end();
+  });
+}
+
 void name_confounded(const Stage& s, const std::vector<const Found*>& found,
                      std::vector<Candidate>& out) {
   const std::vector<const Found*> some(found.begin(),
@@ -102,6 +104,8 @@ void name_confounded(const Stage& s, const std::vector<const Found*>& found,
     for (std::size_t k = 0; k < some.size(); ++k) {
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
       if (i == k || std::min(share(a, b), share(b, a)) < kConfounded) continue;
+      if (some[i]->entry.name == some[k]->entry.name && overlap(some[i]->entry, some[k]->entry))
+        continue;
       out[i].confounded_with.push_back(key_of(*s.cell, some[k]->entry));
       if (out[i].separate.empty())
         out[i].separate = separating_measurement(some[i]->entry, some[k]->entry);

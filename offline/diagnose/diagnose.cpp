@@ -5,6 +5,7 @@
 #include "diagnose/candidates.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/forward.hpp"
+#include "diagnose/model_parts.hpp"
 #include "diagnose/verdict.hpp"
 #include "fit/split.hpp"
 
@@ -88,10 +89,13 @@ bool judgeable(const Stage& stage) {
   return static_cast<double>(stage.fit_lines - stage.rank) >= kFewestFreeLines;
 }
 
-Finding finding_of(const Scan& look, const Stage& stage) {
+Finding finding_of(const Scan& look, const Stage& stage, const Calibration& calibration) {
   if (!judgeable(stage)) return Finding::kUndecidable;
-  if (look.unknown()) return Finding::kUnknown;
-  if (look.supported() != nullptr) return Finding::kMissing;
+  const auto is_one = [&](const Found& f) {
+    return !is_remainder(*stage.cell, stage, calibration, f);
+  };
+  if (look.unknown() && is_one(*look.pattern)) return Finding::kUnknown;
+  if (look.supported(is_one) != nullptr) return Finding::kMissing;
   return stage.noise.known ? Finding::kComplete : Finding::kUndecidable;
 }
 
@@ -147,7 +151,7 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
   out.poses_held = static_cast<int>(held_rows(w.split).size());
   out.blocks = first.blocks;
   for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
-  out.finding = finding_of(first, stage);
+  out.finding = finding_of(first, stage, base);
   out.candidates = candidates_of(stage, first);
   if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(stage, *first.pattern);
   out.before = out.after = held_out_of(w, w.cell.effects, base);

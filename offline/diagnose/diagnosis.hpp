@@ -55,6 +55,9 @@ struct UnknownStructure {
   double share = 0.0;    // of what the model leaves
   double rms_m = 0.0;    // motion of the measured point
   double rms_rad = 0.0;  // of the joint; 0: no joint
+  /// The effect of the library that would explain it, were it not that many times too large.
+  std::optional<EffectEntry> instead;
+  double times = 0.0;
 };
 
 struct Addition {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cell/formula_reader.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -14,6 +16,8 @@ bool joints_add_up(const EffectEntry& entry) {
 
 bool like(const EffectEntry& a, const EffectEntry& b) {
   if (a.name != b.name) return false;
+  if (const auto name = b.options.find("name"); b.name == "formula" && name != b.options.end())
+    return name->second == EffectEntry::Value(formula_label(formula_text(a)));
   return std::all_of(b.options.begin(), b.options.end(), [&](const auto& option) {
     const auto it = a.options.find(option.first);
     return it != a.options.end() && it->second == option.second;
@@ -54,6 +58,24 @@ std::vector<EffectEntry> without_effect(std::vector<EffectEntry> effects,
     }
     std::erase_if(old.joints, [&](int joint) { return contains(entry.joints, joint); });
     if (!old.joints.empty()) out.push_back(std::move(old));
+  }
+  return out;
+}
+
+std::vector<EffectEntry> taken_out(const std::vector<EffectEntry>& before,
+                                   const std::vector<EffectEntry>& after) {
+  std::vector<EffectEntry> out;
+  for (const auto& old : before) {
+    const auto left = std::find_if(after.begin(), after.end(), [&](const EffectEntry& e) {
+      return e.name == old.name && e.options == old.options &&
+             std::all_of(e.joints.begin(), e.joints.end(),
+                         [&](int joint) { return contains(old.joints, joint); }) &&
+             e.joints.empty() == old.joints.empty();
+    });
+    EffectEntry gone = old;
+    if (left != after.end())
+      std::erase_if(gone.joints, [&](int joint) { return contains(left->joints, joint); });
+    if (left == after.end() || !gone.joints.empty()) out.push_back(std::move(gone));
   }
   return out;
 }

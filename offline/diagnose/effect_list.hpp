@@ -12,6 +12,10 @@ std::vector<EffectEntry> with_effect(std::vector<EffectEntry> effects, const Eff
 /// Without it, or without these joints of it; the options must agree where `entry` has some.
 std::vector<EffectEntry> without_effect(std::vector<EffectEntry> effects, const EffectEntry& entry);
 
+/// What `before` has and `after` lacks: whole entries, or some of their joints.
+std::vector<EffectEntry> taken_out(const std::vector<EffectEntry>& before,
+                                   const std::vector<EffectEntry>& after);
+
 /// Whether the list already has that effect at all these joints, options alike.
 bool has_effect(const std::vector<EffectEntry>& effects, const EffectEntry& entry);
 

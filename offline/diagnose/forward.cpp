@@ -1,130 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/forward.hpp"
 
-#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "diagnose/candidates.hpp"
 #include "diagnose/effect_list.hpp"
+#include "diagnose/model_parts.hpp"
+#include "diagnose/rivals.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr int kMostSteps = 60;
 constexpr std::size_t kMostExchanges = 4;
-constexpr double kRemainder = 0.15;  // of the motion of the strongest effect in the model
-
-/// Columns of one effect at one joint among the fitted parameters.
-struct Part {
-  EffectEntry entry;
-  std::vector<Eigen::Index> index;
-};
-
-/// The parts of the effects that were added, each as it was added.
-std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
-  std::map<std::pair<int, int>, Part> found;
-  const auto& effects = calibration.state.arm.effects;
-  std::vector<const EffectEntry*> entries;
-  for (const auto& entry : cell.effects)
-    if (find_effect_law(entry.name) >= 0) entries.push_back(&entry);
-  for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
-    const Parameter& p = calibration.parameters[i];
-    if (!p.of_effect()) continue;
-    const auto& effect = effects[p.joint];
-    const EffectInfo& info = effect_info(find_effect_law(effect.name));
-    const bool apart = info.per_joint && effect.name != "thermal_growth" && !effect.joints.empty();
-    const int each =
-        static_cast<int>(effect.parameters.size() / std::max<std::size_t>(1, effect.joints.size()));
-    const int at = apart && effect.name != "gravity_free" ? p.component / std::max(1, each) : -1;
-    Part& part = found[{p.joint, at}];
-    part.entry = *entries[p.joint];
-    if (at >= 0) part.entry.joints = {effect.joints[at]};
-    part.index.push_back(static_cast<Eigen::Index>(i));
-  }
-  std::vector<Part> out;
-  for (auto& [key, part] : found) out.push_back(std::move(part));
-  return out;
-}
-
-/// Evidence of a part over all else in the model, from the joint fit alone.
-double evidence_of(const Part& part, const Stage& stage, const Calibration& calibration) {
-  const auto b = static_cast<Eigen::Index>(part.index.size());
-  Eigen::VectorXd theta(b);
-  for (Eigen::Index i = 0; i < b; ++i) {
-    const Parameter& p = calibration.parameters[part.index[i]];
-    double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
-    const double value = value_of(calibration.state, p);
-    if (typical == 0.0) typical = std::max(std::abs(value), 1e-300);
-    theta(i) = value / typical;
-  }
-  Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
-  for (Eigen::Index i = 0; i < b; ++i) {
-    const Parameter& p = calibration.parameters[part.index[i]];
-    double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
-    if (typical == 0.0) typical = std::max(std::abs(value_of(calibration.state, p)), 1e-300);
-    C.row(i) /= typical;
-    C.col(i) /= typical;
-  }
-  const Eigen::MatrixXd gram = C.ldlt().solve(Eigen::MatrixXd::Identity(b, b));
-  const Eigen::VectorXd v = gram * theta;
-  EvidenceScale scale = Judge(stage).scale();
-  scale.lines += static_cast<double>(b);
-  return evidence(gram, v, stage.Q + theta.dot(v), scale).ln_bayes;
-}
-
-/// RMS motion of a part that nothing else in the model could make, whitened.
-double motion_of(const Part& part, const Stage& stage, const Calibration& calibration) {
-  Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));
-  for (Eigen::Index i = 0; i < theta.size(); ++i)
-    theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
-  const Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
-  return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
-}
-
-/// Whether one effect is a finer law of the same cause: a spring that is not linear, a gear whose
-/// error is not a pure wave.
-bool refines(const EffectEntry& a, const EffectEntry& b) {
-  const auto kind = [](const std::string& name) {
-    if (name == "joint_compliance" || name == "joint_compliance_soft" || name == "gravity_free")
-      return 1;
-    if (name == "gear_ripple" || name == "gear_harmonics" || name == "joint_table") return 2;
-    return 0;
-  };
-  return kind(a.name) != 0 && kind(a.name) == kind(b.name) && a.joints == b.joints;
-}
-
-/// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
-/// no law is right to more than some percent. Waves of other lengths are other causes.
-bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
-                  const Found& found) {
-  double largest = 0.0;
-  for (const auto& part : parts_of(cell, calibration))
-    if ((part.entry.name != "gear_ripple" || found.entry.name != "gear_ripple") &&
-        !refines(part.entry, found.entry))
-      largest = std::max(largest, motion_of(part, stage, calibration));
-  return std::sqrt(std::max(0.0, found.trial.explained) * stage.Q) < kRemainder * largest;
-}
-
-/// The part that lost its evidence, if one did; what was just added stays.
-std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
-                                const Calibration& calibration,
-                                const std::vector<EffectEntry>& given, const EffectEntry& fresh) {
-  std::optional<EffectEntry> out;
-  double least = kSupported;
-  for (const auto& part : parts_of(cell, calibration)) {
-    if (has_effect(given, part.entry)) continue;  // the user's own
-    if (part.entry.name == fresh.name && part.entry.joints == fresh.joints) continue;
-    const double ln = evidence_of(part, stage, calibration);
-    if (ln >= least) continue;
-    least = ln;
-    out = part.entry;
-  }
-  return out;
-}
 
 /// One selection under way.
 class Selection {
@@ -140,15 +33,18 @@ class Selection {
   Forward run() {
     Forward out;
     for (int step = 0; step < kMostSteps; ++step) {
-      if (look_.unknown()) {
+      if (look_.unknown() && !is_remainder(now_.cell, stage_, now_.calibration, *look_.pattern)) {
         out.unknown = unknown_structure(stage_, *look_.pattern);
         break;
       }
       const Found* best = look_.supported(
           [&](const Found& f) { return !is_remainder(now_.cell, stage_, now_.calibration, f); });
-      if (best == nullptr && !exchange()) break;
-      if (best != nullptr) add(Found(*best));
+      if (best != nullptr)
+        add(Found(*best));
+      else if (!exchange() && !explain_better())
+        break;
     }
+    if (!out.unknown) out.unknown = behind_oversized();
     out.steps = steps();
     return out;
   }
@@ -232,15 +128,78 @@ class Selection {
     return false;
   }
 
-  /// A wave of a ripple may go alone; its fellows stay.
+  /// What is too small to be an effect beside the strongest one may be the trace of two others
+  /// that the strongest one stands for; true if those explain more.
+  bool explain_better() {
+    if (look_.supported() == nullptr) return false;
+    const auto strongest = std::max_element(
+        added_.begin(), added_.end(),
+        [](const Found& a, const Found& b) { return a.ln_bayes() < b.ln_bayes(); });
+    if (strongest == added_.end() || strongest->entry.name == "gear_ripple") return false;
+    const EffectEntry entry = strongest->entry;
+    const std::string key = key_of(now_.cell, entry);
+    if (!doubted_.insert(key).second) return false;
+    try {
+      const Model without = fitted(without_effect(now_.cell.effects, entry));
+      const Stage stage = stage_of(without);
+      const auto better = better_explanation(stage, scan(stage, start_.not_testable, banned_), key,
+                                             start_.not_testable, banned_);
+      if (!better) return false;
+      auto effects = without.cell.effects;
+      for (const auto& found : better->effects) effects = with_all(effects, found);
+      look_at(fitted(effects));
+      forget(entry);
+      added_.insert(added_.end(), better->effects.begin(), better->effects.end());
+      drop_weak(better->effects.back().entry);
+      return true;
+    } catch (const Failure&) {
+      return false;
+    }
+  }
+
+  /// Takes out what lost its evidence to `fresh`.
+  void drop_weak(const EffectEntry& fresh) {
+    while (const auto weak =
+               lost(now_.cell, stage_, now_.calibration, start_.cell.effects, fresh)) {
+      forget(*weak);
+      look_at(fitted(without_effect(now_.cell.effects, *weak)));
+    }
+  }
+
+  /// An effect of a size that no arm has describes something else.
+  std::optional<UnknownStructure> behind_oversized() {
+    const auto too_large = oversized(now_.cell, stage_, now_.calibration, start_.cell.effects);
+    if (!too_large) return std::nullopt;
+    const Model without = fitted(without_effect(now_.cell.effects, too_large->entry));
+    const Stage stage = stage_of(without);
+    const Scan look = scan(stage, start_.not_testable, {});
+    if (!look.pattern) return std::nullopt;
+    UnknownStructure out = unknown_structure(stage, *look.pattern);
+    out.instead = too_large->entry;
+    out.times = too_large->times;
+    for (const int joint : too_large->entry.joints) {
+      const std::string q = fmt::format("q{}", joint + 1);
+      auto& inputs = out.pattern.depends_on;
+      if (std::find(inputs.begin(), inputs.end(), q) == inputs.end()) inputs.push_back(q);
+    }
+    return out;
+  }
+
+  /// A wave of a ripple may go alone, and a joint of several; their fellows stay.
   void forget(const EffectEntry& entry) {
     for (auto& found : added_) {
-      if (found.entry.name != entry.name || found.entry.joints != entry.joints) continue;
-      if (entry.name == "gear_ripple")
+      if (found.entry.name != entry.name) continue;
+      if (entry.name == "gear_ripple") {
+        if (found.entry.joints != entry.joints) continue;
         std::erase(found.cycles, std::get<double>(entry.options.at("cycles_per_turn")));
-      else if (found.entry.options == entry.options)
+        if (found.cycles.empty()) found.entry.name.clear();
+        continue;
+      }
+      const auto rest = without_effect({found.entry}, entry);
+      if (rest.empty())
         found.entry.name.clear();
-      if (found.entry.name == "gear_ripple" && found.cycles.empty()) found.entry.name.clear();
+      else
+        found.entry = rest.front();
     }
     std::erase_if(added_, [](const auto& a) { return a.entry.name.empty(); });
   }
@@ -290,7 +249,7 @@ class Selection {
   std::vector<std::string> banned_;
   std::vector<Found> added_;
   std::map<std::string, int> dropped_;
-  std::set<std::string> tried_;
+  std::set<std::string> tried_, doubted_;
 };
 
 /// Numbers that the new list of effects shares with the old one stay: a better start.

@@ -24,7 +24,8 @@ struct ForwardStep {
 /// jointly, what lost its evidence is dropped, until nothing more is supported.
 struct Forward {
   std::vector<ForwardStep> steps;
-  std::optional<UnknownStructure> unknown;  // left at the end
+  std::optional<UnknownStructure>
+      unknown;  // left at the end, or what an oversized effect stands for
 };
 
 /// What a selection works on; the cell's own effects are the start.

@@ -111,11 +111,19 @@ double motion_of(const Stage& s, const Block& block, Eigen::Index c) {
   return std::sqrt(sum / static_cast<double>(std::max<Eigen::Index>(1, s.poses()))) * s.sigma_m;
 }
 
-double stated_typical(const Stage& s, const Bound& bound, const EffectParameter& info) {
+double stated_typical(const Stage& s, const Bound& bound, const EffectParameter& info,
+                      Eigen::Index c) {
   const auto& name = bound.effect.name;
   if (name == "joint_compliance" || name == "joint_compliance_soft") {
-    const auto& stiffness = s.cell->mechanics[bound.effect.joints.front()].stiffness_Nm_per_rad;
+    const auto joints = static_cast<Eigen::Index>(bound.effect.joints.size());
+    const int joint = bound.effect.joints[c * joints / bound.count()];
+    const auto& stiffness = s.cell->mechanics[joint].stiffness_Nm_per_rad;
     if (stiffness && info.typical == 0.0) return 1.0 / *stiffness;
+  }
+  if (name == "link_flexure") {
+    const auto& link = s.cell->mechanics[bound.effect.joints[c / 2]];
+    const auto& yields = c % 2 == 0 ? link.EI_Nm2 : link.GJ_Nm2;
+    if (yields) return 1.0 / *yields;
   }
   return info.typical;
 }
@@ -131,7 +139,7 @@ void scale(const Bound& bound, Block& out) {
     const double motion = motion_of(s, out, c);
     if (!(motion > kNoMotion_m)) continue;
     const EffectParameter& info = effect_parameter(model, 0, static_cast<int>(c));
-    double size = stated_typical(s, bound, info);
+    double size = stated_typical(s, bound, info, c);
     if (size == 0.0) size = kTypicalMotion_m / motion;
     moving.push_back(c);
     typical.push_back(size);
@@ -231,7 +239,8 @@ Block library_block(const Stage& stage, const EffectEntry& entry) {
   const Bound bound(stage, entry);
   Block out;
   out.entry = entry;
-  if (kJointLaws.contains(entry.name))
+  const bool one_joint = entry.joints.size() < 2 || entry.name == "cross_compliance";
+  if (kJointLaws.contains(entry.name) && one_joint)
     joint_columns(bound, out);
   else
     motion_columns(bound, out);

@@ -8,6 +8,8 @@
 #include <map>
 
 #include "diagnose/change_points.hpp"
+#include "diagnose/effect_list.hpp"
+#include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
 
 namespace plumb::offline {
@@ -43,7 +45,7 @@ class Collector {
   void take(const Block& block) {
     ++blocks_;
     const std::string key = key_of(*stage_.cell, block.entry);
-    if (contains(banned_, key)) return;
+    if (contains(banned_, key) || has_effect(stage_.cell->effects, block.entry)) return;
     Trial trial = judge_.judge(block);
     keep(best_[key], block, std::move(trial));
   }
@@ -194,8 +196,15 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
     if (auto found = found_ripples(judge, waves, paid);
         found && !contains(banned, key_of(*stage.cell, found->entry)))
       out.library.push_back(std::move(*found));
-  std::stable_sort(out.library.begin(), out.library.end(),
-                   [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
+  const auto by_evidence = [](const Found& a, const Found& b) {
+    return a.ln_bayes() > b.ln_bayes();
+  };
+  std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
+  for (auto& group : joint_groups(judge, out.library))
+    if (!contains(banned, key_of(*stage.cell, group.entry)) &&
+        !has_effect(stage.cell->effects, group.entry))
+      out.library.push_back(std::move(group));
+  std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
   for (auto& found : out.library)
     if (found.score > kSupported) found.gain = judge.gain(found.trial);
   out.pattern = std::move(all.pattern_);

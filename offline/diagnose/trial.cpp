@@ -9,6 +9,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kClearShare = 0.01;
+constexpr double kAboveNoise = 2.25;  // mean square, of the noise's
+constexpr double kAtNoise = 1.15;
 constexpr double kImpossible = -1e6;  // ln B of what only the wrong sign would explain
 constexpr double kRidge = 1e-9;       // a fold may be all that says something about a parameter
 
@@ -55,6 +57,13 @@ Eigen::MatrixXd motions(const Stage& s, const Block& block) {
   for (Eigen::Index i = 0; i < out.rows(); ++i)
     out.row(i) = block.columns.row(i / s.axes) * s.joint[block.joint](i);
   return out;
+}
+
+bool reaches_noise(const Stage& stage, const Trial& trial) {
+  if (!stage.noise.known) return false;
+  const auto free = static_cast<double>(std::max<Eigen::Index>(1, stage.fit_lines - stage.rank));
+  const double before = stage.Q / free / stage.noise.variance;
+  return before > kAboveNoise && before * (1.0 - trial.explained) < kAtNoise;
 }
 
 Judge::Judge(const Stage& stage) : stage_(stage) {

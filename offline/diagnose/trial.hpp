@@ -33,6 +33,10 @@ struct Trial {
   std::vector<Eigen::Index> active;  // columns that are not held at 0 by their sign
 };
 
+/// Whether a block takes residuals that are clearly above the noise down to it. What does that is
+/// an effect, however small beside others.
+bool reaches_noise(const Stage& stage, const Trial& trial);
+
 /// Judges blocks at one stage. Cost of a block: its columns times (rank + columns) a pose; a
 /// held-out gain costs no pass over the poses.
 class Judge {

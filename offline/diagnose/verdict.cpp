@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/formula_reader.hpp"
 #include "plumb/runtime/effect_library.hpp"
 
 namespace plumb::offline {
@@ -17,11 +18,16 @@ std::string floor_words(const NoiseFloor& floor) {
   return "noise floor " + mm(floor.mean_m);
 }
 
-std::string unknown_words(const UnknownStructure& unknown) {
+std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
   std::string size = mm(unknown.rms_m);
   if (unknown.rms_rad > 0.0) size = fmt::format("{:.0f} µrad, {}", unknown.rms_rad * 1e6, size);
-  return fmt::format("{} {} ({:.0f} % of what the model leaves, {} RMS)", unknown.pattern.subject,
-                     unknown.pattern.words, 100.0 * unknown.share, size);
+  std::string out =
+      fmt::format("{} {} ({:.0f} % of what the model leaves, {} RMS)", unknown.pattern.subject,
+                  unknown.pattern.words, 100.0 * unknown.share, size);
+  if (unknown.instead)
+    out += fmt::format("; the {} that imitates it would be {:.0f} times its usual size",
+                       in_words(cell, *unknown.instead), unknown.times);
+  return out;
 }
 
 std::string complete_words(const Diagnosis& d, const ErrorStats& held) {
@@ -41,6 +47,8 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held) {
 }  // namespace
 
 std::string in_words(const Cell& cell, const EffectEntry& entry) {
+  if (entry.name == "formula" && entry.options.contains("target"))
+    return fmt::format("formula {}", formula_label(formula_text(entry)));
   const int law = find_effect_law(entry.name);
   std::string out = law >= 0 ? effect_info(law).title : entry.name;
   for (std::size_t i = 0; i < entry.joints.size(); ++i)
@@ -87,7 +95,7 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
     case Finding::kUnknown:
       return fmt::format(
           "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
-          unknown_words(*d.unknown), mm(d.before.mean), floor_words(d.floor));
+          unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
       if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format(
@@ -100,7 +108,7 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
   }
 }
 
-std::string verdict_after_text(const Cell&, const Diagnosis& d) {
+std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
   if (!d.finding_after) return {};
   const std::string fall = d.added.empty()
                                ? "Nothing was added"
@@ -109,8 +117,10 @@ std::string verdict_after_text(const Cell&, const Diagnosis& d) {
                                              mm(d.before.mean), mm(d.after.mean));
   switch (*d.finding_after) {
     case Finding::kUnknown:
-      return fmt::format("{}; unknown structure is left: {}.", fall,
-                         unknown_words(*d.unknown_after));
+      return fmt::format("{}; {}: {}.", fall,
+                         d.unknown_after->instead ? "but something unknown is behind it"
+                                                  : "unknown structure is left",
+                         unknown_words(cell, *d.unknown_after));
     case Finding::kUndecidable:
       return fall + "; what is left cannot be judged without a noise floor.";
     default:

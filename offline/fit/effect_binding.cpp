@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "fit/formula_binding.hpp"
 #include "plumb/runtime/effect_library.hpp"
@@ -202,17 +203,47 @@ std::vector<std::string> temperature_names(const format::Model& model) {
   return out;
 }
 
+namespace {
+
+/// Of every link, from its joint to the next one or to the tip, in the frame behind its joint.
+std::vector<Vector3> link_vectors(const Cell& cell) {
+  const Chain chain(cell.nominal);
+  const std::vector<double> zero(static_cast<std::size_t>(chain.joints()), 0.0);
+  ChainFrames<double> frames;
+  chain.frames<double>(zero, frames);
+  std::vector<Vector3> out;
+  for (int j = 0; j < chain.joints(); ++j) {
+    const Vector3 end = j + 1 == chain.joints() ? frames.tip.p : frames.joint[j + 1].p;
+    out.push_back(frames.joint[j].inverse() * end);
+  }
+  return out;
+}
+
+/// A mass of its own, or that of an even bar.
+format::LinkMass mass_of(const JointMechanics& m, const Vector3& along) {
+  format::LinkMass out;
+  if (m.link_com_m) out.com_m = *m.link_com_m;
+  if (m.link_mass_kg) {
+    out.mass_kg = *m.link_mass_kg;
+  } else if (m.kg_per_m) {
+    out.mass_kg = *m.kg_per_m * m.length_m.value_or(std::sqrt(dot(along, along)));
+    if (!m.link_com_m) out.com_m = {along(0) / 2, along(1) / 2, along(2) / 2};
+  }
+  return out;
+}
+
+}  // namespace
+
 format::Mechanics mechanics_of(const Cell& cell) {
   format::Mechanics out;
   out.payload_kg = cell.payload.mass_kg;
   out.payload_com_m = cell.payload.com_m;
   const auto& mechanics = cell.mechanics;
-  if (std::none_of(mechanics.begin(), mechanics.end(),
-                   [](const JointMechanics& m) { return m.link_mass_kg.has_value(); }))
+  if (std::none_of(mechanics.begin(), mechanics.end(), std::mem_fn(&JointMechanics::has_mass)))
     return out;
-  for (const auto& m : mechanics)
-    out.links.push_back({m.link_mass_kg.value_or(0.0),
-                         m.link_com_m.value_or(std::array<double, 3>{0.0, 0.0, 0.0})});
+  const auto along = link_vectors(cell);
+  for (std::size_t j = 0; j < mechanics.size(); ++j)
+    out.links.push_back(mass_of(mechanics[j], along[j]));
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "diagnose/verdict.hpp"
+#include "show/effect_arguments.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -78,22 +79,10 @@ std::string next_text(const Cell& cell, const Diagnosis& d) {
   if (d.finding_after || d.finding != Finding::kMissing) return {};
   return fmt::format(
       "\nAdd it:            plumb add {}\nOr go all the way: plumb diagnose --apply\n",
-      as_arguments(cell, d.candidates.front().entry));
+      adding_arguments(cell, d.candidates.front().entry));
 }
 
 }  // namespace
-
-std::string as_arguments(const Cell& cell, const EffectEntry& effect) {
-  std::string out = effect.name;
-  for (std::size_t i = 0; i < effect.joints.size(); ++i)
-    out += (i == 0 ? " --joints " : ",") + cell.nominal.joints[effect.joints[i]].name;
-  for (const auto& [key, value] : effect.options) {
-    out += fmt::format(" --set {}=", key);
-    if (const auto* number = std::get_if<double>(&value)) out += fmt::format("{:g}", *number);
-    if (const auto* text = std::get_if<std::string>(&value)) out += *text;
-  }
-  return out;
-}
 
 std::string diagnose_text(const Cell& cell, const Diagnosis& d) {
   std::string out = d.text + "\n";

@@ -18,7 +18,4 @@ std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis);
 /// ["J2", "J3"]
 Json joints_json(const Cell& cell, const EffectEntry& effect);
 
-/// gear_ripple --joints J2 --cycles-per-turn 20: what `plumb add` takes.
-std::string as_arguments(const Cell& cell, const EffectEntry& effect);
-
 }  // namespace plumb::offline::show

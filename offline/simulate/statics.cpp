@@ -35,8 +35,14 @@ MassModel guess_masses(const Cell& cell, const Arm& arm, double share, Random ra
   for (int i = 0; i < n; ++i) {
     const auto& known = cell.mechanics[i];
     const Vector3d guess = guessed_com(arm, i, random);
-    out.mass.push_back(known.link_mass_kg.value_or(first * std::pow(kMassRatio, i)));
-    out.com.push_back(known.link_com_m ? Vector3d(known.link_com_m->data()) : guess);
+    const Vector3d along = arm.link_vector(i, VectorXd::Zero(n));
+    const double bar = known.kg_per_m.value_or(0.0) * known.length_m.value_or(along.norm());
+    const double otherwise = known.kg_per_m ? bar : first * std::pow(kMassRatio, i);
+    out.mass.push_back(known.link_mass_kg.value_or(otherwise));
+    const bool is_bar = known.kg_per_m && !known.link_mass_kg;
+    out.com.push_back(known.link_com_m ? Vector3d(known.link_com_m->data())
+                      : is_bar         ? Vector3d(0.5 * along)
+                                       : guess);
     if (share == 0.0) continue;
     out.mass[i] *= std::max(1.0 + share * random.normal(), kLeastMass);
     for (int k = 0; k < 3; ++k) out.com[i](k) += share * kComError_m * random.normal();

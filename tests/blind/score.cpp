@@ -139,6 +139,21 @@ std::string words_of(const Cell& cell, const Diagnosis& d) {
   return out;
 }
 
+/// What was added at several joints, joint by joint.
+std::vector<EffectEntry> one_by_one(const std::vector<Addition>& added) {
+  std::vector<EffectEntry> out;
+  for (const auto& a : added) {
+    out.push_back(a.entry);
+    if (a.entry.name == "cross_compliance" || a.entry.joints.size() < 2) continue;
+    out.pop_back();
+    for (const int joint : a.entry.joints) {
+      out.push_back(a.entry);
+      out.back().joints = {joint};
+    }
+  }
+  return out;
+}
+
 void judge(const Seen& seen, const BlindCase& blind, const Diagnosis& d, Score& out) {
   out.finding = d.finding;
   out.finding_after = d.finding_after.value_or(d.finding);
@@ -153,10 +168,9 @@ void judge(const Seen& seen, const BlindCase& blind, const Diagnosis& d, Score& 
     out.recalled.push_back(std::any_of(d.added.begin(), d.added.end(), [&](const Addition& a) {
       return is_like(one, a.entry) && at_joint(one, a.entry);
     }));
-  for (const auto& added : d.added)
+  for (const auto& added : one_by_one(d.added))
     out.extra += std::none_of(hidden.begin(), hidden.end(), [&](const auto& one) {
-      return (is_like(one, added.entry) || is_third_harmonic(one, added.entry)) &&
-             at_joint(one, added.entry);
+      return (is_like(one, added) || is_third_harmonic(one, added)) && at_joint(one, added);
     });
   if (out.drawn.group == Group::kUnknown) score_unknown(blind, d, out);
   if (out.drawn.group == Group::kStep) out.step_found = finds_step(seen, blind, d);

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace plumb::offline {
+
+/// As a shell takes it: quoted where it must be.
+std::string shell_word(const std::string& text);
+
+}  // namespace plumb::offline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cell/cell.hpp"
+
+namespace plumb::offline::cli {
+
+/// Throws Failure (kUsage, `code`) with "did you mean" if there is no such effect.
+void require_effect(const std::string& name, const char* code);
+
+/// The joint of that name, zero-based. Throws likewise.
+int joint_named(const Cell& cell, const std::string& name, const char* code);
+
+}  // namespace plumb::offline::cli

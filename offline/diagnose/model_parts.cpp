@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/model_parts.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnose/effect_list.hpp"
+#include "diagnose/plausible.hpp"
+#include "fit/effect_binding.hpp"
+#include "plumb/runtime/effect_library.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kRemainder = 0.15;  // of the motion of the strongest effect in the model
+
+/// Columns of one effect at one joint among the fitted parameters.
+struct Part {
+  EffectEntry entry;
+  std::vector<Eigen::Index> index;
+};
+
+/// The parts of the effects that were added, each as it was added.
+std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
+  std::map<std::pair<int, int>, Part> found;
+  const auto& effects = calibration.state.arm.effects;
+  std::vector<const EffectEntry*> entries;
+  for (const auto& entry : cell.effects)
+    if (find_effect_law(entry.name) >= 0) entries.push_back(&entry);
+  for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
+    const Parameter& p = calibration.parameters[i];
+    if (!p.of_effect()) continue;
+    const auto& effect = effects[p.joint];
+    const EffectInfo& info = effect_info(find_effect_law(effect.name));
+    const bool apart = info.per_joint && effect.name != "thermal_growth" && !effect.joints.empty();
+    const int each =
+        static_cast<int>(effect.parameters.size() / std::max<std::size_t>(1, effect.joints.size()));
+    const int at = apart && effect.name != "gravity_free" ? p.component / std::max(1, each) : -1;
+    Part& part = found[{p.joint, at}];
+    part.entry = *entries[p.joint];
+    if (at >= 0) part.entry.joints = {effect.joints[at]};
+    part.index.push_back(static_cast<Eigen::Index>(i));
+  }
+  std::vector<Part> out;
+  for (auto& [key, part] : found) out.push_back(std::move(part));
+  return out;
+}
+
+/// Evidence of a part over all else in the model, from the joint fit alone.
+double evidence_of(const Part& part, const Stage& stage, const Calibration& calibration) {
+  const auto b = static_cast<Eigen::Index>(part.index.size());
+  Eigen::VectorXd theta(b);
+  for (Eigen::Index i = 0; i < b; ++i) {
+    const Parameter& p = calibration.parameters[part.index[i]];
+    double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
+    const double value = value_of(calibration.state, p);
+    if (typical == 0.0) typical = std::max(std::abs(value), 1e-300);
+    theta(i) = value / typical;
+  }
+  Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
+  for (Eigen::Index i = 0; i < b; ++i) {
+    const Parameter& p = calibration.parameters[part.index[i]];
+    double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
+    if (typical == 0.0) typical = std::max(std::abs(value_of(calibration.state, p)), 1e-300);
+    C.row(i) /= typical;
+    C.col(i) /= typical;
+  }
+  const Eigen::MatrixXd gram = C.ldlt().solve(Eigen::MatrixXd::Identity(b, b));
+  const Eigen::VectorXd v = gram * theta;
+  EvidenceScale scale = Judge(stage).scale();
+  scale.lines += static_cast<double>(b);
+  return evidence(gram, v, stage.Q + theta.dot(v), scale).ln_bayes;
+}
+
+/// RMS motion of a part that nothing else in the model could make, whitened.
+double motion_of(const Part& part, const Stage& stage, const Calibration& calibration) {
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));
+  for (Eigen::Index i = 0; i < theta.size(); ++i)
+    theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
+  const Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
+  return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
+}
+
+/// Whether one effect is a finer law of the same cause: a spring that is not linear, a gear whose
+/// error is not a pure wave.
+bool refines(const EffectEntry& a, const EffectEntry& b) {
+  const auto kind = [](const std::string& name) {
+    if (name == "joint_compliance" || name == "joint_compliance_soft" || name == "gravity_free")
+      return 1;
+    if (name == "gear_ripple" || name == "gear_harmonics" || name == "joint_table") return 2;
+    return 0;
+  };
+  return kind(a.name) != 0 && kind(a.name) == kind(b.name) && a.joints == b.joints;
+}
+
+}  // namespace
+
+bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
+                  const Found& found) {
+  if (reaches_noise(stage, found.trial)) return false;
+  double largest = 0.0;
+  for (const auto& part : parts_of(cell, calibration))
+    if ((part.entry.name != "gear_ripple" || found.entry.name != "gear_ripple") &&
+        !refines(part.entry, found.entry))
+      largest = std::max(largest, motion_of(part, stage, calibration));
+  return std::sqrt(std::max(0.0, found.trial.explained) * stage.Q) < kRemainder * largest;
+}
+
+std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
+                                const Calibration& calibration,
+                                const std::vector<EffectEntry>& given, const EffectEntry& fresh) {
+  std::optional<EffectEntry> out;
+  double least = kSupported;
+  for (const auto& part : parts_of(cell, calibration)) {
+    if (has_effect(given, part.entry)) continue;  // the user's own
+    if (part.entry.name == fresh.name && part.entry.joints == fresh.joints) continue;
+    const double ln = evidence_of(part, stage, calibration);
+    if (ln >= least) continue;
+    least = ln;
+    out = part.entry;
+  }
+  return out;
+}
+
+std::optional<Oversized> oversized(const Cell& cell, const Stage& stage,
+                                   const Calibration& calibration,
+                                   const std::vector<EffectEntry>& given) {
+  std::optional<Oversized> out;
+  const double s = std::sqrt(stage.noise.variance);
+  for (const auto& part : parts_of(cell, calibration)) {
+    if (has_effect(given, part.entry)) continue;
+    for (const Eigen::Index i : part.index) {
+      const Parameter& p = calibration.parameters[static_cast<std::size_t>(i)];
+      const auto info = effect_parameter(calibration.state.arm, p.joint, p.component);
+      const double value = value_of(calibration.state, p);
+      const double std = s * std::sqrt(std::max(0.0, stage.inverse_information(i, i)));
+      if (plausible(value, std, info)) continue;
+      const double times = times_usual(value, std, info);
+      if (!out || times > out->times) out = Oversized{part.entry, times};
+    }
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "diagnose/scan.hpp"
+#include "fit/calibrate.hpp"
+
+namespace plumb::offline {
+
+/// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
+/// no law is right to more than some percent. Waves of other lengths are other causes.
+bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
+                  const Found& found);
+
+/// The added effect, at one joint, that lost its evidence to the rest of the model, if one did.
+/// Those in `given` and the one just added (`fresh`) stay.
+std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
+                                const Calibration& calibration,
+                                const std::vector<EffectEntry>& given, const EffectEntry& fresh);
+
+/// An added effect, at one joint, whose size no arm has, and how many times the usual one that is.
+struct Oversized {
+  EffectEntry entry;
+  double times = 0.0;
+};
+std::optional<Oversized> oversized(const Cell& cell, const Stage& stage,
+                                   const Calibration& calibration,
+                                   const std::vector<EffectEntry>& given);
+
+}  // namespace plumb::offline

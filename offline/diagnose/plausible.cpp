@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/plausible.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kMostTimes = 20.0;  // the usual size
+constexpr double kSure = 3.0;        // sigma
+
+}  // namespace
+
+double times_usual(double value, double std, const EffectParameter& info) {
+  if (info.typical == 0.0) return 0.0;
+  return std::max(0.0, std::abs(value) - kSure * std) / info.typical;
+}
+
+bool plausible(double value, double std, const EffectParameter& info) {
+  const double margin = kSure * std;
+  if (info.low != info.high && (value < info.low - margin || value > info.high + margin))
+    return false;
+  return times_usual(value, std, info) <= kMostTimes;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/scan.hpp"
+
+namespace plumb::offline {
+
+/// Effects chosen one after another, each on what those before it leave, without a refit.
+struct Explanation {
+  std::vector<Found> effects;
+  double score = 0.0;  // sum of theirs
+};
+
+/// The first choice of a forward selection may be one wrong effect in the place of two right ones.
+/// At the stage without `chosen` (a key), effects that explain nearly as much are followed further,
+/// and so is the chosen one; returns the best explanation if it is another one by a clear margin.
+/// Cost: some ten scans.
+std::optional<Explanation> better_explanation(const Stage& stage, const Scan& look,
+                                              const std::string& chosen,
+                                              const std::vector<std::string>& not_testable,
+                                              const std::vector<std::string>& banned);
+
+}  // namespace plumb::offline

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// diagnose, add and drop as a person and as a program see them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "sandbox.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class DiagnoseVerb : public testing::Test {
+ protected:
+  DiagnoseVerb() { EXPECT_EQ(box.plumb({"demo", "compliance", "cell"}).exit, 0); }
+
+  Ran plumb(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"-C", "cell"});
+    return box.plumb(words);
+  }
+  /// The verb refuses, says so, and the cell file stays as it is.
+  void refused(const std::vector<std::string>& words, int exit, const std::string& says) const {
+    const std::string before = cell();
+    const Ran ran = plumb(words);
+    EXPECT_EQ(ran.exit, exit) << ran.err;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+    EXPECT_EQ(cell(), before);
+  }
+  std::string cell() const { return box.read("cell/cell.toml"); }
+  bool has(const std::string& text) const { return cell().find(text) != std::string::npos; }
+
+  Sandbox box;
+};
+
+/// No NaN, no infinity; a null has its reason beside it.
+void expect_sound(const Json& json, const std::string& where) {
+  if (json.is_number_float()) {
+    EXPECT_TRUE(std::isfinite(json.get<double>())) << where;
+  }
+  if (json.is_structured())
+    for (const auto& [key, value] : json.items()) expect_sound(value, where + "/" + key);
+}
+
+TEST_F(DiagnoseVerb, GivesTheObjectOfTheContract) {
+  const Ran ran = plumb({"diagnose", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json result = ran.json().at("result");
+  expect_sound(result, "result");
+  EXPECT_EQ(result.at("verdict"), "missing");
+  EXPECT_TRUE(result.at("added").empty());
+  for (const char* key : {"noise_floor_mm", "held_out_before_mm", "noise_floor_rms_mm",
+                          "held_out_before_rms_mm", "verdict_text", "not_testable", "unknown"})
+    EXPECT_TRUE(result.contains(key)) << key;
+  const Json& candidates = result.at("candidates");
+  ASSERT_FALSE(candidates.empty());
+  double before = INFINITY;
+  for (const auto& c : candidates) {
+    for (const char* key :
+         {"effect", "joints", "ln_bayes", "held_out_alone_mm", "held_out_after_mm", "gain_pct",
+          "gain_se_pct", "cycles_per_turn", "domain", "supported", "plausible", "parameters",
+          "confounded_with", "held_out_alone_rms_mm", "held_out_after_rms_mm"})
+      EXPECT_TRUE(c.contains(key)) << key;
+    EXPECT_LE(c.at("ln_bayes").get<double>(), before) << "not ranked";
+    before = c.at("ln_bayes");
+  }
+  for (const auto& t : result.at("not_testable")) {
+    EXPECT_FALSE(t.at("effect").get<std::string>().empty());
+    EXPECT_FALSE(t.at("why").get<std::string>().empty());
+  }
+}
+
+TEST_F(DiagnoseVerb, ApplyAddsRefitsAndKeepsARun) {
+  const std::string before = cell();
+  const Ran dry = plumb({"diagnose", "--apply", "--dry-run", "--json"});
+  ASSERT_EQ(dry.exit, 0) << dry.err;
+  EXPECT_EQ(cell(), before);
+  EXPECT_FALSE(std::filesystem::exists(box.path() / "cell/runs"));
+  const Ran ran = plumb({"diagnose", "--apply", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json result = ran.json().at("result");
+  EXPECT_EQ(result.at("added"), dry.json().at("result").at("added"));
+  ASSERT_FALSE(result.at("added").empty());
+  EXPECT_EQ(result.at("verdict_after"), "complete");
+  EXPECT_LT(result.at("held_out_after_mm").get<double>(),
+            0.3 * result.at("held_out_before_mm").get<double>());
+  for (const auto& step : result.at("added"))
+    EXPECT_TRUE(has("effects." + step.at("effect").get<std::string>())) << cell();
+  // Everything of the file that is not an effect is still there.
+  EXPECT_TRUE(cell().starts_with(before.substr(0, before.find("[effects]")))) << cell();
+  const Ran again = plumb({"diagnose", "--json"});
+  EXPECT_EQ(again.json().at("result").at("verdict"), "complete") << again.out;
+  // The joint refit, not the step on the way, is what the last line promises.
+  EXPECT_NEAR(again.json().at("result").at("held_out_before_mm").get<double>(),
+              result.at("held_out_after_mm").get<double>(), 1e-6);
+  EXPECT_EQ(plumb({"compile"}).exit, 0);
+}
+
+TEST_F(DiagnoseVerb, AddMakesTheErrorFallAndDropTakesItBack) {
+  const std::string before = cell();
+  const Ran dry = plumb({"add", "gravity_free", "--joints", "J2,J3", "--dry-run", "--json"});
+  ASSERT_EQ(dry.exit, 0) << dry.err;
+  EXPECT_EQ(cell(), before);
+  const Ran added = plumb({"add", "gravity_free", "--joints", "J2,J3", "--json"});
+  ASSERT_EQ(added.exit, 0) << added.err;
+  const Json result = added.json().at("result");
+  EXPECT_EQ(result.at("after"), dry.json().at("result").at("after"));
+  EXPECT_LT(result.at("after").at("mean_mm").get<double>(),
+            0.3 * result.at("before").at("mean_mm").get<double>());
+  EXPECT_EQ(result.at("run"), 2);
+  EXPECT_TRUE(has("[effects.gravity_free]\njoints = [\"J2\", \"J3\"]")) << cell();
+  refused({"add", "gravity_free", "--joints", "J3"}, 3, "E-ADD-TWICE");
+  const Ran less = plumb({"drop", "gravity_free", "--joints", "J3"});
+  EXPECT_EQ(less.exit, 0) << less.err;
+  EXPECT_NE(less.out.find("plumb add gravity_free --joints J3"), std::string::npos) << less.out;
+  EXPECT_TRUE(has("joints = [\"J2\"]")) << cell();
+  const Ran gone = plumb({"drop", "gravity_free", "--json"});
+  ASSERT_EQ(gone.exit, 0) << gone.err;
+  EXPECT_NEAR(gone.json().at("result").at("after").at("mean_mm").get<double>(),
+              result.at("before").at("mean_mm").get<double>(), 1e-9);
+  EXPECT_FALSE(has("gravity_free"));
+}
+
+TEST_F(DiagnoseVerb, AFormulaOfTheUsersOwnIsAddedFittedAndDropped) {
+  const Ran added =
+      plumb({"add", "formula", "--formula", "dq2 = k * cos(q2)", "--parameter", "k [rad] ~ 1e-4",
+             "--name", "weight", "--json"});
+  ASSERT_EQ(added.exit, 0) << added.err;
+  const Json result = added.json().at("result");
+  EXPECT_LT(result.at("after").at("mean_mm").get<double>(),
+            result.at("before").at("mean_mm").get<double>());
+  EXPECT_TRUE(has("expression = \"k * cos(q2)\"")) << cell();
+  refused({"add", "formula", "--formula", "dq3 = k * q3", "--parameter", "k [1] ~ 1e-4", "--name",
+           "weight"},
+          3, "E-FORMULA-NAME");
+  refused({"drop", "formula", "--name", "wight"}, 3, "E-DROP-NONE");
+  const Ran gone = plumb({"drop", "formula", "--name", "weight"});
+  EXPECT_EQ(gone.exit, 0) << gone.err;
+  EXPECT_NE(gone.out.find("--formula 'dq2 = k * cos(q2)' --parameter 'k [rad] ~ 1e-4'"),
+            std::string::npos)
+      << gone.out;
+  EXPECT_FALSE(has("formula"));
+}
+
+TEST_F(DiagnoseVerb, RefusesWhatMakesNoSenseAndChangesNothing) {
+  refused({"add", "joint_complianc"}, 2, "did you mean 'joint_compliance'?");
+  refused({"add", "joint_compliance", "--joints", "J22"}, 2, "did you mean 'J2'?");
+  refused({"add", "gear_ripple", "--joints", "J2"}, 3, "cycles_per_turn");
+  refused({"add", "reversal", "--set", "transition"}, 2, "KEY=VALUE");
+  refused({"add", "reversal", "--set", "no_such=1"}, 3, "no_such");
+  refused({"add", "geometry"}, 3, "E-ADD-TWICE");
+  refused({"add", "formula"}, 2, "needs a law");
+  refused({"add", "reversal", "--formula", "dq2 = 1"}, 2, "belong to 'formula'");
+  refused({"add", "formula", "--formula", "k * tau2"}, 2, "TARGET = EXPRESSION");
+  refused({"add", "formula", "--formula", "dq2 = k * tau2", "--parameter", "k [mm] ~ 1"}, 3,
+          "E-FORMULA-UNIT");
+  refused({"add", "formula", "--formula", "dq2 = tau9"}, 3, "E-FORMULA-VARIABLE");
+  refused({"add", "formula", "--formula", "dq2 = q2 / 0"}, 3, "E-FORMULA-NUMBER");
+  refused({"drop", "geometry"}, 3, "E-DROP-NONE");
+  refused({"drop", "joint_compliance"}, 3, "E-DROP-NONE");
+  refused({"drop", "joint_compliance", "--joints", "J2"}, 3, "it contains geometry alone");
+}
+
+TEST_F(DiagnoseVerb, OfACellWhoseEffectIsUnknownSaysSo) {
+  box.write("cell/cell.toml", cell() + "\n[effects.joint_complience]\n");
+  refused({"diagnose"}, 3, "did you mean 'joint_compliance'?");
+}
+
+}  // namespace
