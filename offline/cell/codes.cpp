@@ -13,7 +13,8 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "may, the files."},
     {"E-CELL-EFFECT",
      "[effects] names something that is not in the catalogue; plumb explain lists what is. It is "
-     "refused rather than ignored, so that a model never lacks what its cell file promises. Correct "
+     "refused rather than ignored, so that a model never lacks what its cell file promises. "
+     "Correct "
      "the name or delete the table."},
     {"E-CELL-EFFECTS-LAYOUT",
      "add, drop and diagnose --apply change [effects] where it stands and keep the rest of the "

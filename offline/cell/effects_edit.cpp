@@ -142,8 +142,10 @@ class Editor {
         lines_[i] = "[[" + key + "]]" + std::string(rest.substr(rest.find(']') + 1));
     }
     while (last > 0 && last <= lines_.size() && is_blank(lines_[last - 1])) --last;
-    if (last == lines_.size() && !has_section()) lines_.insert(lines_.end(), {"\n", "[effects]\n"});
-    if (last > lines_.size() || !has_section()) last = lines_.size();
+    if (!has_section()) {
+      lines_.insert(lines_.end(), {"\n", "[effects]\n"});
+      last = lines_.size();
+    }
     lines_.insert(lines_.begin() + static_cast<long>(last), effect_text(cell_, fresh, company));
     lines_ = split_lines(fmt::format("{}", fmt::join(lines_, "")));
   }
@@ -184,9 +186,21 @@ std::string effect_text(const Cell& cell, const EffectEntry& effect, bool severa
   return out;
 }
 
+/// Whether `text` is a cell with these effects. What is wrong with the effects themselves is
+/// thrown.
+static bool reads_as(const std::string& text, const Cell& cell,
+                     const std::vector<EffectEntry>& effects) {
+  try {
+    return same_effects(parse_cell(text, cell.file).effects, effects);
+  } catch (const Failure& failure) {
+    if (failure.problems().front().code != "E-TOML") throw;
+    return false;
+  }
+}
+
 std::string edited_effects(const Cell& cell, const std::vector<EffectEntry>& effects) {
   std::string out = Editor(cell, effects).edit();
-  if (same_effects(parse_cell(out, cell.file).effects, effects)) return out;
+  if (reads_as(out, cell, effects)) return out;
   Problem problem{.code = "E-CELL-EFFECTS-LAYOUT",
                   .message = "[effects] is laid out in a way that cannot be edited in place",
                   .help = "write each effect as a table of its own: [effects.NAME]"};

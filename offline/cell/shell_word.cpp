@@ -4,7 +4,8 @@
 namespace plumb::offline {
 
 std::string shell_word(const std::string& text) {
-  if (!text.empty() && text.find_first_of(" ()[]*?$&;|<>\"'`\\#~") == std::string::npos) return text;
+  if (!text.empty() && text.find_first_of(" ()[]*?$&;|<>\"'`\\#~") == std::string::npos)
+    return text;
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";

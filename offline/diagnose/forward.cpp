@@ -128,10 +128,10 @@ class Selection {
     return false;
   }
 
-  /// What is too small to be an effect beside the strongest one may be the trace of two others
-  /// that the strongest one stands for; true if those explain more.
+  /// What is clearly wrong, but too small to be an effect beside the strongest one, may be the
+  /// trace of two others that the strongest one stands for; true if those leave only noise.
   bool explain_better() {
-    if (look_.supported() == nullptr) return false;
+    if (look_.supported() == nullptr || times_noise(stage_) < kAboveNoise) return false;
     const auto strongest = std::max_element(
         added_.begin(), added_.end(),
         [](const Found& a, const Found& b) { return a.ln_bayes() < b.ln_bayes(); });

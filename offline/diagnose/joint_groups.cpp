@@ -12,8 +12,8 @@ namespace {
 constexpr std::array<std::string_view, 6> kAtSeveralJoints = {"joint_compliance", "gravity_free",
                                                               "link_flexure",     "reversal",
                                                               "encoder_scale",    "gear_harmonics"};
-// No law is right to more than some percent: what a joint adds must be more than that.
-constexpr double kLeastMotion = 0.15;  // of the best joint's
+// What adds less is left to the next look: it may be something else.
+constexpr double kLeastMotion = 0.3;  // of the best joint's
 
 /// The group with one more joint, if the evidence supports any.
 std::optional<Found> with_one_more(const Judge& judge, const Found& group,

@@ -30,9 +30,15 @@ Explanation followed(const Stage& from, const Found& first,
     if (next == nullptr) break;
     out.effects.push_back(*next);
     out.score += next->score;
-    if (out.effects.size() < kLongest) stage = extended(stage, block_of(stage, *next));
+    stage = extended(stage, block_of(stage, *next));
   }
+  out.times_noise = times_noise(stage);
   return out;
+}
+
+bool names(const Cell& cell, const Explanation& explanation, const std::string& key) {
+  return std::any_of(explanation.effects.begin(), explanation.effects.end(),
+                     [&](const Found& f) { return key_of(cell, f.entry) == key; });
 }
 
 }  // namespace
@@ -55,6 +61,7 @@ std::optional<Explanation> better_explanation(const Stage& stage, const Scan& lo
       continue;
     ++tried;
     Explanation explanation = followed(stage, rival, not_testable, banned);
+    if (explanation.times_noise > kAtNoise || names(*stage.cell, explanation, chosen)) continue;
     if (explanation.score > (best ? best->score : to_beat)) best = std::move(explanation);
   }
   return best;

@@ -12,12 +12,14 @@ namespace plumb::offline {
 /// Effects chosen one after another, each on what those before it leave, without a refit.
 struct Explanation {
   std::vector<Found> effects;
-  double score = 0.0;  // sum of theirs
+  double score = 0.0;        // sum of theirs
+  double times_noise = 1.0;  // what they leave
 };
 
 /// The first choice of a forward selection may be one wrong effect in the place of two right ones.
 /// At the stage without `chosen` (a key), effects that explain nearly as much are followed further,
-/// and so is the chosen one; returns the best explanation if it is another one by a clear margin.
+/// and so is the chosen one; returns the best explanation without it that leaves only noise, if it
+/// is better by a clear margin.
 /// Cost: some ten scans.
 std::optional<Explanation> better_explanation(const Stage& stage, const Scan& look,
                                               const std::string& chosen,

@@ -9,8 +9,6 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kClearShare = 0.01;
-constexpr double kAboveNoise = 2.25;  // mean square, of the noise's
-constexpr double kAtNoise = 1.15;
 constexpr double kImpossible = -1e6;  // ln B of what only the wrong sign would explain
 constexpr double kRidge = 1e-9;       // a fold may be all that says something about a parameter
 
@@ -59,10 +57,14 @@ Eigen::MatrixXd motions(const Stage& s, const Block& block) {
   return out;
 }
 
-bool reaches_noise(const Stage& stage, const Trial& trial) {
-  if (!stage.noise.known) return false;
+double times_noise(const Stage& stage) {
+  if (!stage.noise.known) return 1.0;
   const auto free = static_cast<double>(std::max<Eigen::Index>(1, stage.fit_lines - stage.rank));
-  const double before = stage.Q / free / stage.noise.variance;
+  return stage.Q / free / stage.noise.variance;
+}
+
+bool reaches_noise(const Stage& stage, const Trial& trial) {
+  const double before = times_noise(stage);
   return before > kAboveNoise && before * (1.0 - trial.explained) < kAtNoise;
 }
 

@@ -8,17 +8,22 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "cell/file.hpp"
 #include "diagnose/scan.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/fit.hpp"
 #include "simulate/law.hpp"
 
 namespace plumb::tests {
 namespace {
 
 using namespace offline;
+constexpr std::uint64_t kTreeEvery = 5;  // cases
+constexpr double kShiftWithin = 0.10;
 namespace fs = std::filesystem;
 
 /// What a diagnosis may see: the two files, read back.
@@ -59,12 +64,7 @@ bool at_joint(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
 
 /// Per-axis RMS from the noise-free truth on fresh poses, in sigma. Effects of the measurement act
 /// on fresh poses too unless they happened once.
-double true_error(const Seen& seen, const std::vector<EffectEntry>& effects, const BlindCase& blind,
-                  const std::vector<int>& rows) {
-  Cell cell = seen.cell;
-  cell.effects = effects;
-  const Calibration c = calibrate(cell, seen.measured, rows);
-  ArmState arm = c.state;
+double true_error(ArmState arm, const BlindCase& blind) {
   // Thrown away before the arm works: steps, drift, lag, the tracker.
   for (auto& effect : arm.arm.effects) {
     const EffectInfo& info = effect_info(find_effect_law(effect.name));
@@ -74,6 +74,22 @@ double true_error(const Seen& seen, const std::vector<EffectEntry>& effects, con
   const auto& fresh = blind.fresh_robot;
   const Rows3 error = fresh.true_p_M - predict_points(arm, fresh.measured);
   return std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
+}
+
+ArmState fitted(const Seen& seen, const std::vector<EffectEntry>& effects) {
+  Cell cell = seen.cell;
+  cell.effects = effects;
+  std::vector<int> rows(static_cast<std::size_t>(seen.measured.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  return calibrate(cell, seen.measured, rows).state;
+}
+
+/// The same with a tree that learns what the effects leave.
+ArmState fitted_with_tree(const Seen& seen, std::vector<EffectEntry> effects) {
+  Cell cell = seen.cell;
+  effects.push_back({.name = "local_tree", .joints = {}, .options = {}, .place = {}});
+  cell.effects = std::move(effects);
+  return fit_all(cell, seen.measured).calibration.state;
 }
 
 void score_unknown(const BlindCase& blind, const Diagnosis& d, Score& out) {
@@ -114,18 +130,33 @@ int pose_ahead(const Measurements& measured, double rows) {
   return pose;
 }
 
-bool finds_step(const Seen& seen, const BlindCase& blind, const Diagnosis& d) {
+/// Size of the fitted step of that entry [m].
+double shift_of(const EffectEntry& entry, const ArmState& arm) {
+  for (const auto& effect : arm.arm.effects)
+    if (effect.name == "step" &&
+        effect.constants.front() == std::get<double>(entry.options.at("after_row")))
+      return Eigen::Map<const Eigen::Vector3d>(effect.parameters.data()).norm();
+  return 0.0;
+}
+
+/// A bumped reflector also by how far it went; the others only by when.
+bool finds_step(const Seen& seen, const BlindCase& blind, const Diagnosis& d,
+                const ArmState& diagnosed) {
   const auto truth = nlohmann::json::parse(blind.truth_json);
   for (const auto& effect : truth["effects"]) {
     const auto& numbers = effect["numbers"].is_array() ? effect["numbers"][0] : effect["numbers"];
     if (!numbers.contains("row_after")) continue;
     const int there = pose_ahead(seen.measured, numbers["row_after"].get<double>());
-    for (const auto& added : d.added)
-      if (added.entry.name == "step" &&
-          std::abs(
-              pose_ahead(seen.measured, std::get<double>(added.entry.options.at("after_row"))) -
-              there) <= 1)
-        return true;
+    for (const auto& added : d.added) {
+      if (added.entry.name != "step") continue;
+      const double after_row = std::get<double>(added.entry.options.at("after_row"));
+      if (std::abs(pose_ahead(seen.measured, after_row) - there) > 1) continue;
+      if (!numbers.contains("shift_mm") || numbers["of"] != "tool") return true;
+      const auto mm = numbers["shift_mm"].get<std::vector<double>>();
+      const double shift = 1e-3 * Eigen::Map<const Eigen::Vector3d>(mm.data()).norm();
+      return std::get<std::string>(added.entry.options.at("of")) == "tool" &&
+             std::abs(shift_of(added.entry, diagnosed) - shift) <= kShiftWithin * shift;
+    }
   }
   return false;
 }
@@ -164,6 +195,7 @@ void judge(const Seen& seen, const BlindCase& blind, const Diagnosis& d, Score& 
     out.class_first = d.finding == Finding::kMissing && is_like(hidden.front(), first);
     out.joint_first = out.class_first && at_joint(hidden.front(), first);
   }
+  out.added = static_cast<int>(d.added.size());
   for (const auto& one : hidden)
     out.recalled.push_back(std::any_of(d.added.begin(), d.added.end(), [&](const Addition& a) {
       return is_like(one, a.entry) && at_joint(one, a.entry);
@@ -173,7 +205,6 @@ void judge(const Seen& seen, const BlindCase& blind, const Diagnosis& d, Score& 
       return (is_like(one, added) || is_third_harmonic(one, added)) && at_joint(one, added);
     });
   if (out.drawn.group == Group::kUnknown) score_unknown(blind, d, out);
-  if (out.drawn.group == Group::kStep) out.step_found = finds_step(seen, blind, d);
 }
 
 }  // namespace
@@ -188,11 +219,13 @@ Score run_case(const HiddenCase& drawn) {
     const Diagnosis d = diagnose(seen.cell, seen.measured, {.apply = true, .tell = {}});
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     judge(seen, blind, d, out);
-    std::vector<int> rows(static_cast<std::size_t>(seen.measured.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<int>(i);
     const double sigma = drawn.request.sigma_m;
-    out.before = true_error(seen, seen.cell.effects, blind, rows) / sigma;
-    out.after = true_error(seen, d.effects, blind, rows) / sigma;
+    const ArmState diagnosed = fitted(seen, d.effects);
+    out.before = true_error(fitted(seen, seen.cell.effects), blind) / sigma;
+    out.after = true_error(diagnosed, blind) / sigma;
+    if (drawn.request.seed % kTreeEvery == 0)
+      out.with_tree = true_error(fitted_with_tree(seen, d.effects), blind) / sigma;
+    if (drawn.group == Group::kStep) out.step_found = finds_step(seen, blind, d, diagnosed);
     const double axes = 3.0;
     out.held_over_floor = d.after.rms / (std::sqrt(axes) * sigma);
     out.held_over_true = d.after.rms / (sigma * std::sqrt(axes * (1.0 + out.after * out.after)));

@@ -17,11 +17,13 @@ struct Score {
   offline::Finding finding{}, finding_after{};
   bool class_first = false, joint_first = false;  // of the largest hidden effect
   std::vector<bool> recalled;                     // of each hidden effect
+  int added = 0;                                  // effects
   int extra = 0;                                  // added, but nothing like it is hidden
   bool inputs_right = false;                      // of an unknown effect
   bool unknown_said = false;
-  bool step_found = false;
+  bool step_found = false;           // pose within 1, shift within 10 %
   double before = 0.0, after = 0.0;  // true error, per-axis RMS in sigma
+  double with_tree = -1.0;           // the same with a tree on the rest; -1: not tried
   double held_over_floor = 0.0;      // held-out RMS over noise floor
   double held_over_true = 0.0;       // held-out RMS over what fresh noisy poses would show
   double seconds = 0.0;

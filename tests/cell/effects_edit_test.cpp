@@ -87,13 +87,19 @@ TEST(EffectsEdit, WritesAFormulaThatIsReadBack) {
   const Cell back = parse_cell(edited(kRobot, {kGeometry, named}), "/c/cell.toml");
   ASSERT_EQ(back.effects.size(), 2U);
   EXPECT_EQ(back.effects[1].options, named.options);
-  EXPECT_EQ(problems_of([&] { edited(kRobot, {kGeometry, formula}); }).at(0).code,
+  EXPECT_EQ(problems_of([&] {
+              edited(kRobot, {kGeometry, formula});
+            })
+                .at(0)
+                .code,
             "E-FORMULA-NAME");
 }
 
 TEST(EffectsEdit, RefusesALayoutItCannotFollow) {
   const std::string inline_table =
-      "effects = { geometry = true, reversal = { joints = [\"J1\"] } }\n" + kRobot;
+      kRobot.substr(0, kRobot.find("[robot]")) +
+      "effects = { geometry = true, reversal = { joints = [\"J1\"] } }\n" +
+      kRobot.substr(kRobot.find("[robot]"));
   const auto problems = problems_of([&] {
     edited(inline_table, {kGeometry, effect("reversal", {0}), effect("joint_compliance", {1})});
   });

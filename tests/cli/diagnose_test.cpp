@@ -122,21 +122,20 @@ TEST_F(DiagnoseVerb, AddMakesTheErrorFallAndDropTakesItBack) {
 }
 
 TEST_F(DiagnoseVerb, AFormulaOfTheUsersOwnIsAddedFittedAndDropped) {
-  const Ran added =
-      plumb({"add", "formula", "--formula", "dq2 = k * cos(q2)", "--parameter", "k [rad] ~ 1e-4",
-             "--name", "weight", "--json"});
+  const Ran added = plumb({"add", "formula", "--formula", "dq2 = k * tau2", "--parameter",
+                           "k [rad/(N m)] ~ 1e-7", "--name", "weight", "--json"});
   ASSERT_EQ(added.exit, 0) << added.err;
   const Json result = added.json().at("result");
   EXPECT_LT(result.at("after").at("mean_mm").get<double>(),
             result.at("before").at("mean_mm").get<double>());
-  EXPECT_TRUE(has("expression = \"k * cos(q2)\"")) << cell();
+  EXPECT_TRUE(has("expression = \"k * tau2\"")) << cell();
   refused({"add", "formula", "--formula", "dq3 = k * q3", "--parameter", "k [1] ~ 1e-4", "--name",
            "weight"},
           3, "E-FORMULA-NAME");
   refused({"drop", "formula", "--name", "wight"}, 3, "E-DROP-NONE");
   const Ran gone = plumb({"drop", "formula", "--name", "weight"});
   EXPECT_EQ(gone.exit, 0) << gone.err;
-  EXPECT_NE(gone.out.find("--formula 'dq2 = k * cos(q2)' --parameter 'k [rad] ~ 1e-4'"),
+  EXPECT_NE(gone.out.find("--formula 'dq2 = k * tau2' --parameter 'k [rad/(N m)] ~ 1e-7'"),
             std::string::npos)
       << gone.out;
   EXPECT_FALSE(has("formula"));

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slice of the blind study. The whole of it, and what it came to: docs/blind-study.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/blind/marks.hpp"
+#include "tests/blind/study.hpp"
+
+namespace plumb::tests {
+namespace {
+
+// Sanitizers slow a case down twenty times, and find nothing new in the next one.
+constexpr int kCases = PLUMB_BLIND_CASES;
+
+TEST(BlindSlice, PassesTheMarks) {
+  const auto scores = run_study(7, kCases, [](int) {});
+  const auto marks = marks_of(scores);
+  std::printf("%s", table_of(marks).c_str());
+  for (const auto& mark : marks)
+    EXPECT_TRUE(mark.passed) << mark.what << ": " << mark.value << ", asked for " << mark.pass;
+  const auto made =
+      std::count_if(scores.begin(), scores.end(), [](const auto& s) { return s.made; });
+  EXPECT_GE(made, kCases * 98 / 100);
+}
+
+/// A diagnoser that always says the same must not pass.
+TEST(BlindSlice, AGuessThatIsAlwaysTheSameMissesTheMarks) {
+  std::vector<Score> scores;
+  for (int i = 0; i < 200; ++i) {
+    Score s;
+    s.drawn = draw_case(7, i);
+    s.made = true;
+    s.finding = s.finding_after = offline::Finding::kMissing;
+    const auto& hidden = s.drawn.hidden;
+    s.class_first = s.joint_first =
+        !hidden.empty() && hidden.front().law == "joint_compliance" && hidden.front().joint == 1;
+    s.recalled.assign(hidden.size(), s.class_first);
+    s.added = 1;
+    s.extra = s.class_first ? 0 : 1;
+    s.before = s.after = 5.0;
+    scores.push_back(std::move(s));
+  }
+  const auto marks = marks_of(scores);
+  const auto missed =
+      std::count_if(marks.begin(), marks.end(), [](const auto& m) { return !m.passed; });
+  EXPECT_GE(missed, 10) << table_of(marks);
+}
+
+}  // namespace
+}  // namespace plumb::tests
