@@ -35,6 +35,8 @@ std::string next_steps(const std::string& folder) {
       "\nNext, type\n"
       "  plumb -C {0} fit\n"
       "  plumb -C {0} compare\n"
+      "  plumb -C {0} diagnose\n"
+      "  plumb -C {0} diagnose --apply\n"
       "  plumb -C {0} compile\n"
       "  plumb predict {0}/robot.plumb --data {0}/measurements.csv -o {0}/predicted.csv\n"
       "  plumb correct {0}/robot.plumb --data {0}/targets.csv -o {0}/corrected.csv\n",

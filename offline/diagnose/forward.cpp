@@ -40,7 +40,7 @@ class Selection {
       const Found* best = look_.supported(
           [&](const Found& f) { return !is_remainder(now_.cell, stage_, now_.calibration, f); });
       if (best != nullptr)
-        add(Found(*best));
+        add(with_fresh_waves(*best));
       else if (!exchange() && !explain_better())
         break;
     }
@@ -93,6 +93,37 @@ class Selection {
       // An effect that cannot be fitted jointly is none that these poses support.
       banned_.push_back(key_of(now_.cell, best.entry));
       look_ = scan(stage_, start_.not_testable, banned_);
+    }
+  }
+
+  /// Waves of a joint that has some already: those were found while something else was missing. All
+  /// of them are looked for again, together, where the model then stands.
+  Found with_fresh_waves(const Found& best) {
+    const auto& effects = now_.cell.effects;
+    const auto old = std::find_if(effects.begin(), effects.end(), [&](const EffectEntry& e) {
+      return e.name == "gear_ripple" && e.joints == best.entry.joints;
+    });
+    const std::string key = key_of(now_.cell, best.entry);
+    const bool own = has_effect(start_.cell.effects, best.entry);
+    if (best.entry.name != "gear_ripple" || old == effects.end() || own ||
+        !renewed_.insert(key).second)
+      return best;
+    const EffectEntry all{
+        .name = "gear_ripple", .joints = best.entry.joints, .options = {}, .place = {}};
+    try {
+      Model without = fitted(without_effect(effects, all));
+      const Stage stage = stage_of(without);
+      const Scan look = scan(stage, start_.not_testable, banned_);
+      const auto again =
+          std::find_if(look.library.begin(), look.library.end(),
+                       [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
+      if (again == look.library.end() || again->score <= kSupported) return best;
+      const Found fresh = *again;
+      std::erase_if(added_, [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
+      look_at(std::move(without));
+      return fresh;
+    } catch (const Failure&) {
+      return best;
     }
   }
 
@@ -249,7 +280,7 @@ class Selection {
   std::vector<std::string> banned_;
   std::vector<Found> added_;
   std::map<std::string, int> dropped_;
-  std::set<std::string> tried_, doubted_;
+  std::set<std::string> tried_, doubted_, renewed_;
 };
 
 /// Numbers that the new list of effects shares with the old one stay: a better start.

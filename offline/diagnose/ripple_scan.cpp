@@ -13,6 +13,7 @@ constexpr std::size_t kMostWaves = 12;
 constexpr double kPays = 3.0;  // nats, after what the search costs
 constexpr int kIterations = 4;
 constexpr double kLeastShare = 0.2;  // of a step
+constexpr double kLeastSteps = 1.6;  // between two waves; 2 is a whole wave more over the range
 
 /// Gram matrix and products of all waves, cleared of the model and of what was picked.
 struct Field {
@@ -39,6 +40,14 @@ struct Field {
     gram -= across * (inverse * across.transpose());
   }
 };
+
+/// Whether the range of the joint can tell a wave from all the others. Closer ones would be fitted
+/// as huge waves against each other.
+bool apart(double wave, const std::vector<double>& others, double step) {
+  return std::none_of(others.begin(), others.end(), [&](double other) {
+    return other != wave && std::abs(other - wave) < kLeastSteps * step;
+  });
+}
 
 double rounded(double cycles) { return std::round(100.0 * cycles) / 100.0; }
 
@@ -76,6 +85,9 @@ void refine(const Judge& judge, Ripples& out, double step) {
       auto moved = out.cycles;
       for (std::size_t k = 0; k < moved.size(); ++k)
         moved[k] = rounded(moved[k] + share * change(static_cast<Eigen::Index>(k)));
+      if (!std::all_of(moved.begin(), moved.end(),
+                       [&](double wave) { return apart(wave, moved, step); }))
+        continue;
       const Block tried = ripple_block(judge.stage(), out.joint, moved);
       Trial then = judge.judge(tried);
       if (then.evidence.ln_bayes <= now.evidence.ln_bayes) continue;
@@ -98,10 +110,12 @@ Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried) {
   const Products all = judge.products(ripple_block(judge.stage(), joint, grid));
   Field field{all.XX - all.UX.transpose() * all.UX, all.Xy, judge.stage().Q};
   const double price = std::log(std::max(1.0, blocks + static_cast<double>(grid.size()))) + kPays;
+  const double step = grid.size() > 1 ? grid[1] - grid[0] : 0.5;
   while (out.cycles.size() < kMostWaves) {
     std::size_t best = 0;
     double most = -1e6;
     for (std::size_t k = 0; k < grid.size(); ++k) {
+      if (!apart(grid[k], out.cycles, step)) continue;
       const double ln = field.of(k, judge.scale()).ln_bayes;
       if (ln > most) most = ln, best = k;
     }
@@ -111,8 +125,7 @@ Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried) {
     if (most < price) break;
     field.pick(best);
   }
-  if (out.strongest_ln_bayes >= price)
-    refine(judge, out, grid.size() > 1 ? grid[1] - grid[0] : 0.5);
+  if (out.strongest_ln_bayes >= price) refine(judge, out, step);
   return out;
 }
 

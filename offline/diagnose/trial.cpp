@@ -164,6 +164,7 @@ Judge::Without Judge::without(std::size_t f, const Trial& trial) const {
 
 Gain Judge::gain(const Trial& trial) const {
   double before = 0.0, after = 0.0, sum = 0.0, squares = 0.0;
+  double share = 0.0, share_squares = 0.0;  // of the folds' RMS
   for (std::size_t f = 0; f < folds_.size(); ++f) {
     const Fold& fold = folds_[f];
     const Products& held = trial.folds[f];
@@ -176,6 +177,9 @@ Gain Judge::gain(const Trial& trial) const {
     after += error;
     sum += better;
     squares += better * better;
+    const double fall = 1.0 - std::sqrt(std::max(0.0, error) / std::max(fold.error, 1e-300));
+    share += fall;
+    share_squares += fall * fall;
   }
   const auto K = static_cast<double>(folds_.size());
   const double mean = sum / K;
@@ -183,8 +187,8 @@ Gain Judge::gain(const Trial& trial) const {
   Gain out;
   if (before <= 0.0) return out;
   out.share = 1.0 - std::sqrt(std::max(0.0, after) / before);
-  // d(1 - sqrt(1 - x)) = dx / (2 sqrt(1 - x))
-  out.share_se = 0.5 * K * se / before / std::sqrt(std::max(1e-6, after / before));
+  const double spread = std::max(0.0, share_squares / K - share / K * share / K);
+  out.share_se = std::sqrt(spread / std::max(1.0, K - 1.0));
   out.clear = out.share > kClearShare && mean > se;
   return out;
 }
