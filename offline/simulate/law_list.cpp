@@ -20,7 +20,7 @@ void add_gravity_laws(std::vector<LawEntry>& all) {
   all.push_back(like(of_joints("joint_compliance_soft",
                                "joints soft at small torque, stiffer beyond; size: largest angle",
                                make_soft_joint_compliance),
-                     {"joint_compliance", "backlash_load"}));
+                     {"joint_compliance", "backlash_load", "gravity_free"}));
   all.push_back(with_keys(
       of_joints("cross_compliance", "a joint yields to the torque of another one; @from=2",
                 make_cross_compliance),

@@ -111,8 +111,8 @@ bool hides_tracker(const Score& s) {
 
 /// What is hidden acts on fresh poses as it did on the measured ones.
 bool is_steady(const Score& s) {
-  return s.drawn.group == Group::kNothing || s.drawn.group == Group::kOne ||
-         s.drawn.group == Group::kWeak;
+  return !hides_tracker(s) && (s.drawn.group == Group::kNothing || s.drawn.group == Group::kOne ||
+                               s.drawn.group == Group::kWeak);
 }
 
 void add_errors(Marks& m) {

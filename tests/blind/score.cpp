@@ -134,7 +134,7 @@ int pose_ahead(const Measurements& measured, double rows) {
 double shift_of(const EffectEntry& entry, const ArmState& arm) {
   for (const auto& effect : arm.arm.effects)
     if (effect.name == "step" &&
-        effect.constants.front() == std::get<double>(entry.options.at("after_row")))
+        std::abs(effect.constants.front() - std::get<double>(entry.options.at("after_row"))) < 1.0)
       return Eigen::Map<const Eigen::Vector3d>(effect.parameters.data()).norm();
   return 0.0;
 }
