@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kAtSeveralJoints = {"joint_compliance", "gravity_free",
                                                               "link_flexure", "gear_harmonics"};
 // What adds less is left to the next look: it may be something else.
-constexpr double kLeastMotion = 0.45;  // of the best joint's
+constexpr double kLeastMotion = 0.3;  // of the best joint's
 
 /// The group with one more joint, if the evidence supports any.
 std::optional<Found> with_one_more(const Judge& judge, const Found& group,
