@@ -211,6 +211,9 @@ constexpr Explanation kCodes[] = {
      "The file lists a physical effect that this program cannot evaluate: a law it does not know, "
      "a "
      "newer version of one, or numbers of another count."},
+    {"E-EFFECT-MANY",
+     "The cycle reserves room for a fixed number of effects, every wave of a gear being one. Keep "
+     "the strongest, and let a local tree learn the rest: [effects.local_tree]."},
     {"E-EFFECT-DATA",
      "A listed effect needs something that these measurements do not hold: the direction from "
      "which "

@@ -105,6 +105,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, 
   for (const auto& step : found.steps)
     out.added.push_back(
         {step.entry, step.cycles, step.ln_bayes, held_out_of(w, step.effects, step.calibration)});
+  out.full = found.full;
   if (!found.steps.empty()) out.effects = found.steps.back().effects;
   if (w.split.folds > 0) {
     out.nested = true;

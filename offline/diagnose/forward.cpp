@@ -12,12 +12,14 @@
 #include "diagnose/model_parts.hpp"
 #include "diagnose/rivals.hpp"
 #include "fit/effect_binding.hpp"
+#include "plumb/format/limits.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr int kMostSteps = 60;
 constexpr std::size_t kMostExchanges = 4;
+constexpr std::size_t kMostEffects = format::kMaxEffects - 4;  // some are left to the user
 
 /// One selection under way.
 class Selection {
@@ -39,8 +41,10 @@ class Selection {
       }
       const Found* best = look_.supported(
           [&](const Found& f) { return !is_remainder(now_.cell, stage_, now_.calibration, f); });
+      out.full = best != nullptr && now_.cell.effects.size() >= kMostEffects;
+      if (out.full) break;
       if (best != nullptr)
-        add(with_fresh_waves(*best));
+        add(as_many_as_fit(with_fresh_waves(*best)));
       else if (!exchange() && !explain_better())
         break;
     }
@@ -55,9 +59,9 @@ class Selection {
     Calibration calibration;
   };
 
-  Model fitted(const std::vector<EffectEntry>& effects) const {
+  Model fitted(const std::vector<EffectEntry>& effects, Refit how = Refit::kNearby) const {
     Model out{start_.cell,
-              refitted(start_.cell, start_.measured, start_.fit, effects, now_.calibration)};
+              refitted(start_.cell, start_.measured, start_.fit, effects, now_.calibration, how)};
     out.cell.effects = effects;
     return out;
   }
@@ -94,6 +98,13 @@ class Selection {
       banned_.push_back(key_of(now_.cell, best.entry));
       look_ = scan(stage_, start_.not_testable, banned_);
     }
+  }
+
+  /// The strongest waves come first.
+  Found as_many_as_fit(Found found) const {
+    const std::size_t room = kMostEffects - std::min(kMostEffects, now_.cell.effects.size());
+    if (found.cycles.size() > room) found.cycles.resize(room);
+    return found;
   }
 
   /// Waves of a joint that has some already: those were found while something else was missing. All
@@ -247,6 +258,8 @@ class Selection {
       out.push_back(
           {entry, found.cycles, found.ln_bayes(), last ? now_.cell.effects : effects, {}});
     }
+    if (out.empty()) return out;
+    now_ = fitted(now_.cell.effects, Refit::kFully);
     // The models on the way are only looked at once all is chosen.
     for (auto& step : out) step.calibration = calibration_of(step.effects);
     return out;
@@ -300,13 +313,14 @@ std::vector<int> without_outliers(std::vector<int> rows, const Calibration& cali
 }
 
 Calibration refitted(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
-                     const std::vector<EffectEntry>& effects, const Calibration& from) {
+                     const std::vector<EffectEntry>& effects, const Calibration& from, Refit how) {
   Cell with = cell;
   with.effects = effects;
   ArmState start = from.state;
   start.arm.effects = bind_effects(with, measured);
   keep_values(from.state, start);
-  return calibrate_from(with, measured, fit, start);
+  return how == Refit::kFully ? calibrate_from(with, measured, fit, start)
+                              : calibrate_near(with, measured, fit, start, from);
 }
 
 Forward forward(const ForwardStart& start, const Calibration& calibration, Stage stage,

@@ -24,6 +24,7 @@ struct ForwardStep {
 /// jointly, what lost its evidence is dropped, until nothing more is supported.
 struct Forward {
   std::vector<ForwardStep> steps;
+  bool full = false;  // more is supported, but a model holds no more effects
   std::optional<UnknownStructure>
       unknown;  // left at the end, or what an oversized effect stands for
 };
@@ -41,9 +42,12 @@ struct ForwardStart {
 Forward forward(const ForwardStart& start, const Calibration& calibration, Stage stage,
                 const Scan& first);
 
+enum class Refit { kFully, kNearby };  // kNearby: as calibrate_near, for models only looked at
+
 /// The cell with these effects, refitted from a calibration. Throws as `calibrate` does.
 Calibration refitted(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
-                     const std::vector<EffectEntry>& effects, const Calibration& from);
+                     const std::vector<EffectEntry>& effects, const Calibration& from,
+                     Refit how = Refit::kFully);
 
 /// `rows` without the outliers of a calibration.
 std::vector<int> without_outliers(std::vector<int> rows, const Calibration& calibration);

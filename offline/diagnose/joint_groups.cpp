@@ -9,10 +9,15 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::array<std::string_view, 4> kAtSeveralJoints = {"joint_compliance", "gravity_free",
-                                                              "link_flexure", "gear_harmonics"};
-// What adds less is left to the next look: it may be something else.
-constexpr double kLeastMotion = 0.3;  // of the best joint's
+/// An effect, and how far another joint must move the point, as a share of the best one. What adds
+/// less is left to the next look: it may be something else.
+struct Several {
+  std::string_view effect;
+  double least;
+};
+constexpr std::array kAtSeveralJoints = {Several{"joint_compliance", 0.3},
+                                         Several{"gravity_free", 0.3}, Several{"link_flexure", 0.5},
+                                         Several{"gear_harmonics", 0.5}};
 
 /// The group with one more joint, if the evidence supports any.
 std::optional<Found> with_one_more(const Judge& judge, const Found& group,
@@ -43,12 +48,12 @@ std::optional<Found> with_one_more(const Judge& judge, const Found& group,
 
 std::vector<Found> joint_groups(const Judge& judge, const std::vector<Found>& library) {
   std::vector<Found> out;
-  for (const auto& name : kAtSeveralJoints) {
+  for (const auto& [name, share] : kAtSeveralJoints) {
     std::vector<const Found*> single;  // best first
     for (const auto& found : library)
       if (found.entry.name == name) single.push_back(&found);
     if (single.size() < 2 || single.front()->score <= kSupported) continue;
-    const double least = kLeastMotion * kLeastMotion * single.front()->trial.explained;
+    const double least = share * share * single.front()->trial.explained;
     std::optional<Found> group = with_one_more(judge, *single.front(), single, least);
     if (!group) continue;
     while (auto larger = with_one_more(judge, *group, single, least)) group = std::move(larger);

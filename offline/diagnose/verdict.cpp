@@ -35,6 +35,11 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held) {
     return fmt::format("nothing more is supported by these poses; held-out error {}",
                        mm(held.mean));
   const double times = held.mean / d.floor.mean_m;
+  if (d.full)
+    return fmt::format(
+        "more is supported, but a model holds no more effects; held-out error {}, {:.1f} times the "
+        "{}: a local tree may learn the rest",
+        mm(held.mean), times, floor_words(d.floor));
   if (times < 1.3)
     return fmt::format("nothing more is supported by these poses; held-out error {}, {}",
                        mm(held.mean), floor_words(d.floor));

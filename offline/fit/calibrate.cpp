@@ -19,6 +19,7 @@ namespace {
 // Independence asked for before the noise is known, and after.
 constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
+constexpr double kRoughly = 1e-8;      // of the cost, in one iteration
 constexpr double kNearlyAsGood = 1.5;  // times the scatter of the best start
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
@@ -103,15 +104,17 @@ ArmState with_held_at_nominal(ArmState state, const ArmState& nominal,
   return moved(state, back, change);
 }
 
+bool holds(const std::vector<Parameter>& all, const std::string& name) {
+  return std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
+}
+
 /// `first`, then the rest of `all`: what acts strongly is preferred to what acts through another's
 /// small error, as a SCARA's target.z does through a tilt.
 std::vector<Parameter> led_by(const std::vector<Parameter>& first,
                               const std::vector<Parameter>& all) {
   std::vector<Parameter> out = first;
   for (const auto& p : all)
-    if (std::none_of(first.begin(), first.end(),
-                     [&](const Parameter& q) { return q.name == p.name; }))
-      out.push_back(p);
+    if (!holds(first, p.name)) out.push_back(p);
   return out;
 }
 
@@ -120,6 +123,11 @@ double excess_of(const FitData& data, const Solution& solution, std::size_t para
   const Rows3 residual = residuals(some, predict_points(solution.state, some));
   return excess_sigma(residual, picked(data.sigma_m, data.rows), data.measured->has_axis,
                       static_cast<int>(parameters));
+}
+
+std::vector<int> without(std::vector<int> rows, const std::vector<Outlier>& outliers) {
+  for (const auto& outlier : outliers) std::erase(rows, outlier.row);
+  return rows;
 }
 
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
@@ -244,6 +252,30 @@ Calibration calibrate(const Cell& cell, const Measurements& measured,
 Calibration calibrate_from(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start) {
   return calibrated(cell, measured, rows, &start);
+}
+
+Calibration calibrate_near(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& start,
+                           const Calibration& from) {
+  const FitData stated = fit_data(cell, measured, without(rows, from.outliers));
+  std::vector<Parameter> candidates;
+  for (const auto& p : candidates_of(cell, stated))
+    if (p.of_effect() || holds(from.parameters, p.name)) candidates.push_back(p);
+  Solution solution = evaluate(stated, unhidden(start), {});
+  FitData data = stated;
+  widen(data, excess_of(data, solution, candidates.size()));
+  const auto subset = identifiable_parameters(data, solution.state, candidates, kFine);
+  solution = solve(data, solution.state, subset.kept, kRoughly);
+  data = stated;
+  widen(data, excess_of(data, solution, subset.kept.size()));
+  auto outliers = solve_without_outliers(data, subset.kept, solution);
+  check_converged(solution);
+  Calibration out = summary(data, nominal_state(cell, measured), solution, subset);
+  out.outliers = from.outliers;
+  out.outliers.insert(out.outliers.end(), outliers.begin(), outliers.end());
+  out.rank = from.rank;
+  out.iterations = solution.iterations;
+  return out;
 }
 
 ArmState place_nominal(const Cell& cell, const Measurements& measured,

@@ -51,6 +51,13 @@ Calibration calibrate(const Cell& cell, const Measurements& measured, const std:
 Calibration calibrate_from(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start);
 
+/// A neighbour of `from` in a search: other effects, bound in `start`. Takes over which geometry is
+/// fitted and which poses are outliers, and solves from where it stands, some ten times faster.
+/// What is reported at the end comes from `calibrate_from`.
+Calibration calibrate_near(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& start,
+                           const Calibration& from);
+
 /// The nominal arm with only tracker frame and target fitted: what the controller believes today.
 ArmState place_nominal(const Cell& cell, const Measurements& measured,
                        const std::vector<int>& rows);

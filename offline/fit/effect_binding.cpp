@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "fit/formula_binding.hpp"
+#include "plumb/format/limits.hpp"
 #include "plumb/runtime/effect_library.hpp"
 #include "plumb/runtime/effect_set.hpp"
 
@@ -173,6 +174,13 @@ std::vector<format::Effect> bind_effects(const Cell& cell, const Measurements& m
   for (const auto& entry : cell.effects)
     if (find_effect_law(entry.name) >= 0)  // not geometry, local_tree
       out.push_back(bind_effect(cell, measured, entry));
+  if (out.size() > static_cast<std::size_t>(format::kMaxEffects))
+    throw Failure(Exit::kInput,
+                  {.code = "E-EFFECT-MANY",
+                   .message = fmt::format("[effects] lists {} effects; a model holds {}",
+                                          out.size(), format::kMaxEffects),
+                   .place = Place{.file = cell.file.string()},
+                   .help = "drop the weakest: plumb diagnose shows what each explains"});
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kNoChange = 1e-7;  // of the cost in the last iteration
+const std::vector<Parameter> kNone;
+constexpr double kNoChange = 1e-7;    // of the cost in the last iteration
 constexpr double kDenseQrUpTo = 2e5;  // numbers; beyond it the normal equations are much faster
 
 /// A parameter of which something is known beforehand.
@@ -64,8 +65,11 @@ class GeometryCost final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
     const auto count = static_cast<Eigen::Index>(parameters_.size());
-    const GeometryDerivative geometry(start_, parameters_,
-                                      Eigen::Map<const Eigen::VectorXd>(x[0], count));
+    const Eigen::Map<const Eigen::VectorXd> change(x[0], count);
+    const bool slopes_too = jacobians != nullptr && jacobians[0] != nullptr;
+    const auto here = slopes_too ? start_ : moved(start_, parameters_, change);
+    const GeometryDerivative geometry(here, slopes_too ? parameters_ : kNone,
+                                      slopes_too ? Eigen::VectorXd(change) : Eigen::VectorXd());
     double* const jacobian = jacobians == nullptr ? nullptr : jacobians[0];
     GeometryDerivative::Point point;
     Eigen::Index row = 0;
@@ -151,8 +155,8 @@ Solution evaluate(const FitData& data, const ArmState& start,
   return out;
 }
 
-Solution solve(const FitData& data, const ArmState& start,
-               const std::vector<Parameter>& parameters) {
+Solution solve(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters,
+               double tolerance) {
   if (parameters.empty()) return evaluate(data, start, parameters);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
   GeometryCost cost(data, start, parameters);
@@ -162,10 +166,9 @@ Solution solve(const FitData& data, const ArmState& start,
   problem.AddResidualBlock(&cost, nullptr, x.data());
   ceres::Solver::Options options;
   const double size = static_cast<double>(data.residual_count()) * static_cast<double>(x.size());
-  options.linear_solver_type =
-      size > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+  options.linear_solver_type = size > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
   options.max_num_iterations = 100;
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = tolerance;
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;

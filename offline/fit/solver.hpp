@@ -33,9 +33,10 @@ struct Solution {
 };
 
 /// Least squares over `parameters` from `start` with Ceres (Levenberg-Marquardt, exact
-/// derivatives). With `parameters` empty it only evaluates.
-Solution solve(const FitData& data, const ArmState& start,
-               const std::vector<Parameter>& parameters);
+/// derivatives), until an iteration gains less than `tolerance` of the cost. With `parameters`
+/// empty it only evaluates.
+Solution solve(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters,
+               double tolerance = 1e-12);
 
 /// Whitened residuals and derivatives at `start`, without solving.
 Solution evaluate(const FitData& data, const ArmState& start,

@@ -44,6 +44,9 @@ Seen written_and_read(const BlindCase& blind, std::uint64_t seed) {
 }
 
 bool is_like(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
+  // The last link under the payload is the tool that hangs.
+  if (hidden.law == "tool_sag" && entry.name == "link_flexure")
+    return entry.joints == std::vector<int>{5};
   return std::find(hidden.names.begin(), hidden.names.end(), entry.name) != hidden.names.end();
 }
 
