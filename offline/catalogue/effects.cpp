@@ -78,8 +78,8 @@ constexpr Explanation kEffects[] = {
     {"wrench_compliance",
      "Joints yield under a force at the tool: dq = c J^T W. Needs: columns of force and torque."},
     {"drift",
-     "Base or tracker moves slowly with time: a small motion times t, t^2 or 1 - exp(-t/T). "
-     "Typical: 50 um/h. Belongs to the measurement, not compiled. Needs: time."},
+     "Base or tracker moves slowly with time: a small motion times t, t^2 or, with settling_s = T, "
+     "1 - exp(-t/T). Typical: 50 um/h. Belongs to the measurement, not compiled. Needs: time."},
     {"step",
      "From some pose on all is shifted: a reflector re-seated, a tracker bumped, an encoder "
      "slipped. Belongs to the measurement. Needs: order of poses. Looked for before drift."},

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   });
   for (std::size_t i = 0; list && i < scores.size(); ++i)
     std::printf("%s\n", plumb::tests::line_of(static_cast<int>(i), scores[i]).c_str());
-  const auto marks = plumb::tests::marks_of(scores);
+  const auto marks = plumb::tests::marks_of(scores, 2.0);
   std::printf("%s", plumb::tests::table_of(marks).c_str());
   return std::all_of(marks.begin(), marks.end(), [](const auto& m) { return m.passed; }) ? 0 : 1;
 }

@@ -13,13 +13,9 @@ namespace {
 using offline::Finding;
 using Which = std::function<bool(const Score&)>;
 
-/// Marks are those of a study of thousands; a slice may miss by chance. Two standard errors of the
-/// share are granted, which vanish as the study grows.
-double slack(double share, int n) { return 2.0 * std::sqrt(share * (1.0 - share) / n); }
-
 class Marks {
  public:
-  explicit Marks(const std::vector<Score>& scores) : scores_(scores) {}
+  Marks(const std::vector<Score>& scores, double granted) : scores_(scores), granted_(granted) {}
 
   void at_least(const std::string& what, double share, const Which& of, const Which& holds) {
     add_share(what, share, of, holds, true);
@@ -37,7 +33,7 @@ class Marks {
     const double median = all[all.size() / 2];
     // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for
     // sigma.
-    const double granted = 0.6 * limit / std::sqrt(static_cast<double>(all.size()));
+    const double granted = 0.3 * granted_ * limit / std::sqrt(static_cast<double>(all.size()));
     marks_.push_back({what, fmt::format("{:.2f} of {}", median, all.size()),
                       fmt::format("median <= {:.2f}", limit), median <= limit + granted});
   }
@@ -51,12 +47,13 @@ class Marks {
       if (s.made && of(s)) ++n, k += holds(s);
     if (n == 0) return;
     const double got = static_cast<double>(k) / n;
-    const double granted = slack(share, n) + (least ? 0.0 : 1e-9);
+    const double granted = granted_ * std::sqrt(share * (1.0 - share) / n) + 1e-9;
     marks_.push_back({what, fmt::format("{:.1f} % of {}", 100.0 * got, n),
                       fmt::format("{} {:.1f} %", least ? ">=" : "<=", 100.0 * share),
                       least ? got >= share - granted : got <= share + granted});
   }
   const std::vector<Score>& scores_;
+  double granted_;
   std::vector<Mark> marks_;
 };
 
@@ -152,8 +149,8 @@ void add_errors(Marks& m) {
 
 }  // namespace
 
-std::vector<Mark> marks_of(const std::vector<Score>& scores) {
-  Marks out(scores);
+std::vector<Mark> marks_of(const std::vector<Score>& scores, double granted) {
+  Marks out(scores, granted);
   add_naming(out);
   add_errors(out);
   return out.take();

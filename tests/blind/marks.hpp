@@ -17,7 +17,9 @@ struct Mark {
   bool judged = true;  // false: no case for it
 };
 
-std::vector<Mark> marks_of(const std::vector<Score>& scores);
+/// `granted`: how many standard errors a share may miss its mark by: a slice has few cases, and as
+/// the study grows they vanish.
+std::vector<Mark> marks_of(const std::vector<Score>& scores, double granted);
 
 /// As Markdown.
 std::string table_of(const std::vector<Mark>& marks);
