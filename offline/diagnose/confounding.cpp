@@ -4,12 +4,16 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "plumb/runtime/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
+
+constexpr double kSameEvidence = 0.5;   // nats
+constexpr double kSameMotion = 0.9999;  // share, either way
 
 struct Seen {
   Eigen::MatrixXd X;  // columns cleared of the model, over the fit lines
@@ -57,6 +61,19 @@ std::vector<std::string> disguises(const EffectEntry& entry) {
     out = {"encoder_eccentricity"};
   }
   return out;
+}
+
+const Found* tied_with_first(const Stage& stage, const Scan& scan) {
+  const Found* first = scan.supported();
+  if (first == nullptr) return nullptr;
+  for (const auto& other : scan.library) {
+    if (other.entry.name == first->entry.name ||
+        std::abs(other.ln_bayes() - first->ln_bayes()) > kSameEvidence)
+      continue;
+    const Eigen::MatrixXd share = reproduction(stage, {first, &other});
+    if (std::min(share(0, 1), share(1, 0)) > kSameMotion) return &other;
+  }
+  return nullptr;
 }
 
 std::string separating_measurement(const EffectEntry& a, const EffectEntry& b) {

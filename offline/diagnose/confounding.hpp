@@ -16,6 +16,9 @@ Eigen::MatrixXd reproduction(const Stage& stage, const std::vector<const Found*>
 /// always named.
 std::vector<std::string> disguises(const EffectEntry& entry);
 
+/// Another effect that explains these poses exactly as well as the first supported one, or null.
+const Found* tied_with_first(const Stage& stage, const Scan& scan);
+
 /// The measurement that tells two effects apart, in words.
 std::string separating_measurement(const EffectEntry& a, const EffectEntry& b);
 

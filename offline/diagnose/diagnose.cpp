@@ -3,6 +3,7 @@
 
 #include "check/data_sense.hpp"
 #include "diagnose/candidates.hpp"
+#include "diagnose/confounding.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/forward.hpp"
 #include "diagnose/model_parts.hpp"
@@ -154,6 +155,11 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
   for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, stage, base);
   out.candidates = candidates_of(stage, first);
+  if (const Found* other =
+          out.finding == Finding::kMissing ? tied_with_first(stage, first) : nullptr) {
+    out.finding = Finding::kUndecidable;
+    out.tied = other->entry;
+  }
   if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(stage, *first.pattern);
   out.before = out.after = held_out_of(w, w.cell.effects, base);
   out.effects = w.cell.effects;

@@ -76,6 +76,7 @@ struct Diagnosis {
   bool nested = false;  // held-out figures come from folds around the whole diagnosis
   ErrorStats before, after;
   std::vector<Addition> added;
+  std::optional<EffectEntry> tied;    // explains these poses exactly as well as the first candidate
   bool full = false;                  // more would be supported, but a model holds no more effects
   std::vector<Candidate> candidates;  // by ln B
   std::vector<Testable> not_testable;

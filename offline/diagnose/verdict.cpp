@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/formula_reader.hpp"
+#include "diagnose/confounding.hpp"
 #include "plumb/runtime/effect_library.hpp"
 
 namespace plumb::offline {
@@ -102,6 +103,15 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
           "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
           unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
+      if (d.tied)
+        return fmt::format(
+            "Undecidable: {} and {} explain these poses equally well (ln Bayes {:.0f}); with "
+            "either "
+            "the held-out error falls from {} to {}, {}. To tell them apart: {}.",
+            in_words(cell, d.candidates.front().entry, d.candidates.front().cycles),
+            in_words(cell, *d.tied), d.candidates.front().ln_bayes, mm(d.before.mean),
+            mm(d.candidates.front().alone.mean), floor_words(d.floor),
+            separating_measurement(d.candidates.front().entry, *d.tied));
       if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format(
             "Undecidable: nothing is supported, but without a noise floor nobody "

@@ -7,6 +7,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "simulate/blind_case.hpp"
+#include "simulate/planar.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -126,6 +127,23 @@ TEST(DiagnoseBadData, APlanarArmNamesItsBeamsAndWhatIsWrongWithThePublishedOne) 
   ASSERT_TRUE(published.unknown_after.has_value());
   const auto& inputs = published.unknown_after->pattern.depends_on;
   EXPECT_NE(std::find(inputs.begin(), inputs.end(), "q2"), inputs.end());
+}
+
+TEST(DiagnoseBadData, TwoEffectsThatMoveThePointAlikeAreUndecidable) {
+  // Nothing but the weight of its last link bends the last joint and that link of a planar arm.
+  const Cell cell = planar_cell(PlanarVariant::kPrinted);
+  SimulationPlan plan;
+  plan.poses = 200;
+  plan.axes = {true, true, false};
+  plan.noise_m = 20e-6;
+  plan.repeats = 3;
+  plan.truth.effects = {"joint_compliance:J2=300urad"};
+  const Simulation arm = simulate(cell, plan);
+  const Diagnosis d = diagnose(cell, arm.measured, {.apply = true, .tell = {}});
+  EXPECT_EQ(d.finding, Finding::kUndecidable) << d.text;
+  EXPECT_NE(d.text.find("bending of links of J2"), std::string::npos) << d.text;
+  EXPECT_NE(d.text.find("joint compliance"), std::string::npos) << d.text;
+  EXPECT_LT(d.after.mean, 0.3 * d.before.mean) << "either of them serves";
 }
 
 }  // namespace
