@@ -61,7 +61,8 @@ std::optional<Explanation> better_explanation(const Stage& stage, const Scan& lo
       continue;
     ++tried;
     Explanation explanation = followed(stage, rival, not_testable, banned);
-    if (explanation.times_noise > kAtNoise || names(*stage.cell, explanation, chosen)) continue;
+    if (explanation.times_noise > at_noise(stage) || names(*stage.cell, explanation, chosen))
+      continue;
     if (explanation.score > (best ? best->score : to_beat)) best = std::move(explanation);
   }
   return best;

@@ -9,6 +9,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kClearShare = 0.01;
+constexpr double kAtNoise = 1.15;     // times the noise's mean square
+constexpr double kNearlyAll = 0.75;   // of what is left
 constexpr double kImpossible = -1e6;  // ln B of what only the wrong sign would explain
 constexpr double kRidge = 1e-9;       // a fold may be all that says something about a parameter
 
@@ -63,9 +65,14 @@ double times_noise(const Stage& stage) {
   return stage.Q / free / stage.noise.variance;
 }
 
+double at_noise(const Stage& stage) {
+  return kAtNoise + 2.0 * std::sqrt(2.0 / std::max(1.0, stage.noise.dof));
+}
+
 bool reaches_noise(const Stage& stage, const Trial& trial) {
   const double before = times_noise(stage);
-  return before > kAboveNoise && before * (1.0 - trial.explained) < kAtNoise;
+  return before > kAboveNoise && trial.explained > kNearlyAll &&
+         before * (1.0 - trial.explained) < at_noise(stage);
 }
 
 Judge::Judge(const Stage& stage) : stage_(stage) {

@@ -36,12 +36,14 @@ struct Trial {
 /// Mean square of the residuals over that of the noise; 1 if the noise is unknown.
 double times_noise(const Stage& stage);
 
+/// As good as these poses can tell, in such terms: the noise is known as well as repeats make it.
+double at_noise(const Stage& stage);
+
 /// Whether a block takes residuals that are clearly above the noise down to it. What does that is
 /// an effect, however small beside others.
 bool reaches_noise(const Stage& stage, const Trial& trial);
 
 inline constexpr double kAboveNoise = 2.25;  // times the noise's mean square: clearly wrong
-inline constexpr double kAtNoise = 1.15;     // as good as these poses can tell
 
 /// Judges blocks at one stage. Cost of a block: its columns times (rank + columns) a pose; a
 /// held-out gain costs no pass over the poses.
