@@ -107,8 +107,9 @@ void name_confounded(const Stage& s, const std::vector<const Found*>& found,
       if (some[i]->entry.name == some[k]->entry.name && overlap(some[i]->entry, some[k]->entry))
         continue;
       out[i].confounded_with.push_back(key_of(*s.cell, some[k]->entry));
-      if (out[i].separate.empty())
-        out[i].separate = separating_measurement(some[i]->entry, some[k]->entry);
+      if (out[i].rival) continue;
+      out[i].rival = some[k]->entry;
+      out[i].separate = separating_measurement(some[i]->entry, some[k]->entry);
     }
     for (auto& name : disguises(some[i]->entry)) out[i].confounded_with.push_back(name);
   }

@@ -48,6 +48,7 @@ struct Candidate {
   double absorbed = 0.0;                     // share of its motion that the geometry imitates
   std::vector<std::string> confounded_with;  // "gear_harmonics:J2"
   std::string separate;                      // the measurement that tells them apart
+  std::optional<EffectEntry> rival;          // the first of them
 };
 
 struct UnknownStructure {

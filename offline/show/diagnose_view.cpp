@@ -64,6 +64,9 @@ std::string candidates_text(const Cell& cell, const Diagnosis& d) {
   if (!best.confounded_with.empty())
     out += fmt::format("\n  hard to tell from {}{}", fmt::join(best.confounded_with, ", "),
                        best.separate.empty() ? "" : "; measure " + best.separate);
+  if (best.rival)
+    out += fmt::format("\n  poses for that: plumb plan --separate {},{}",
+                       planning_argument(cell, best.entry), planning_argument(cell, *best.rival));
   return out + "\n";
 }
 

@@ -13,4 +13,7 @@ std::string adding_arguments(const Cell& cell, const EffectEntry& effect);
 /// The same for `plumb drop`: a formula goes by its name.
 std::string dropping_arguments(const Cell& cell, const EffectEntry& effect);
 
+/// gravity_free:J2+J3: what `plumb plan --separate` takes two of.
+std::string planning_argument(const Cell& cell, const EffectEntry& effect);
+
 }  // namespace plumb::offline::show

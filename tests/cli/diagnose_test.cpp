@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include "sandbox.hpp"
 
@@ -67,6 +68,21 @@ TEST_F(DiagnoseVerb, GivesTheObjectOfTheContract) {
   for (const auto& t : result.at("not_testable")) {
     EXPECT_FALSE(t.at("effect").get<std::string>().empty());
     EXPECT_FALSE(t.at("why").get<std::string>().empty());
+  }
+}
+
+TEST_F(DiagnoseVerb, WhatItProposesCanBeTyped) {
+  const Ran ran = plumb({"diagnose"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  for (const std::string proposal : {"plumb add ", "plumb plan --separate "}) {
+    const auto at = ran.out.find(proposal);
+    ASSERT_NE(at, std::string::npos) << ran.out;
+    std::vector<std::string> words;
+    std::istringstream in(ran.out.substr(at + 6, ran.out.find('\n', at) - at - 6));
+    for (std::string word; in >> word;) words.push_back(word);
+    words.push_back("--dry-run");
+    const Ran typed = plumb(words);
+    EXPECT_EQ(typed.exit, 0) << proposal << typed.err;
   }
 }
 
