@@ -45,19 +45,22 @@ class Ur10Diagnosis : public ::testing::Test {
   static long seeds() { return std::min(5L, tests::scaled(1)); }
 };
 
+/// What is left may be learnt, but never to the worse.
+void a_tree_does_no_harm(Cell c, const Diagnosis& d) {
+  c.effects = d.effects;
+  c.effects.push_back({.name = "local_tree", .joints = {}, .options = {}, .place = {}});
+  const Fit fit = fit_cell(c, read_cell_measurements(c));
+  std::printf("  with a tree on the rest %.3f mm\n", 1e3 * fit.held.mean);
+  EXPECT_LE(fit.held.mean, 1.01 * d.after.mean);
+}
+
 TEST_F(Ur10Diagnosis, SeriesBNamesTheGearOfJ2AndFallsBelowTheMark) {
   for (long seed = 1; seed <= seeds(); ++seed) {
     const Diagnosis d = diagnosed("series_B.csv", seed);
     names_a_gear_ripple(d);
     EXPECT_GT(d.before.mean, 0.37e-3);
     EXPECT_LE(d.after.mean, 0.15e-3);
-    // What is left may be learnt, but never to the worse.
-    Cell with_tree = cell("series_B.csv", seed);
-    with_tree.effects = d.effects;
-    with_tree.effects.push_back({.name = "local_tree", .joints = {}, .options = {}, .place = {}});
-    const Fit fit = fit_cell(with_tree, read_cell_measurements(with_tree));
-    std::printf("  with a tree on the rest %.3f mm\n", 1e3 * fit.held.mean);
-    EXPECT_LE(fit.held.mean, 1.01 * d.after.mean);
+    a_tree_does_no_harm(cell("series_B.csv", seed), d);
   }
 }
 
@@ -118,12 +121,8 @@ ArmState fitted(Cell cell, const Measurements& measured, const std::vector<Effec
   return fit_all(cell, measured).calibration.state;
 }
 
-TEST_F(Ur10Diagnosis, WhatSeriesATaughtHoldsForSeriesBMonthsLater) {
-  const Diagnosis d = diagnosed("series_A.csv", 1);
-  names_a_gear_ripple(d);
-  EXPECT_GT(d.before.mean, 0.38e-3);
-  EXPECT_LE(d.after.mean, 0.12e-3);
-  const Cell a = cell("series_A.csv", 1), b = cell("series_B.csv", 1);
+/// Series B, its held-out poses, by what series A taught.
+void carries_to_series_b(const Cell& a, const Cell& b, const Diagnosis& d) {
   const Measurements in_a = read_cell_measurements(a), in_b = read_cell_measurements(b);
   const Split split = split_poses(in_b, b.measurement.held_out, 1);
   const Tips physics = tips_of(fitted(a, in_a, d.effects), in_b);
@@ -156,6 +155,18 @@ TEST_F(Ur10Diagnosis, WhatSeriesATaughtHoldsForSeriesBMonthsLater) {
       outside.n);
   EXPECT_LT(inside.with, 0.8 * inside.without);
   EXPECT_LE(outside.with, outside.without);
+}
+
+TEST_F(Ur10Diagnosis, SeriesANamesTheGearOfJ2AndWhatItTaughtHoldsForSeriesBMonthsLater) {
+  for (long seed = 1; seed <= seeds(); ++seed) {
+    const Diagnosis d = diagnosed("series_A.csv", seed);
+    names_a_gear_ripple(d);
+    EXPECT_GT(d.before.mean, 0.38e-3);
+    EXPECT_LE(d.after.mean, 0.12e-3);
+    if (seed > 1) continue;
+    a_tree_does_no_harm(cell("series_A.csv", seed), d);
+    carries_to_series_b(cell("series_A.csv", seed), cell("series_B.csv", seed), d);
+  }
 }
 
 }  // namespace
