@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -53,6 +54,11 @@ std::vector<Block> blocks_of(const fs::path& readme) {
   return out;
 }
 
+/// What is said of work that takes more than a second: on a slow machine more often.
+bool is_progress(const std::string& line) {
+  return line.ends_with(" ...") && line.find_first_not_of(" ") == 0 && std::islower(line[0]) != 0;
+}
+
 /// stdout and stderr together, as on a screen.
 Lines run(const fs::path& folder, std::string command) {
   for (std::size_t at = 0; (at = command.find("\n", at)) != std::string::npos;) command[at] = ' ';
@@ -66,7 +72,8 @@ Lines run(const fs::path& folder, std::string command) {
   while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) all.append(buffer, n);
   EXPECT_EQ(::pclose(pipe), 0) << command << "\n" << all;
   std::istringstream in(all);
-  for (std::string text; std::getline(in, text);) out.push_back(text);
+  for (std::string text; std::getline(in, text);)
+    if (!is_progress(text)) out.push_back(text);
   return out;
 }
 
