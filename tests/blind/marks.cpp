@@ -13,6 +13,8 @@ namespace {
 using offline::Finding;
 using Which = std::function<bool(const Score&)>;
 
+constexpr std::size_t kFewestForAMedian = 5;
+
 class Marks {
  public:
   Marks(const std::vector<Score>& scores, double granted) : scores_(scores), granted_(granted) {}
@@ -28,7 +30,7 @@ class Marks {
     std::vector<double> all;
     for (const auto& s : scores_)
       if (s.made && of(s)) all.push_back(value(s));
-    if (all.empty()) return;
+    if (all.size() < kFewestForAMedian) return;
     std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
     const double median = all[all.size() / 2];
     // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for

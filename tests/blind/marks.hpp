@@ -14,7 +14,6 @@ struct Mark {
   std::string value;  // "97.6 % of 212"
   std::string pass;   // "at least 95 %"
   bool passed = true;
-  bool judged = true;  // false: no case for it
 };
 
 /// `granted`: how many standard errors a share may miss its mark by: a slice has few cases, and as
