@@ -26,7 +26,8 @@ constexpr Explanation kCodes[] = {
      "current one."},
     {"E-ADD-TWICE",
      "The model already has that effect at these joints, with the same settings; nothing was "
-     "changed. [effects] in cell.toml lists what it has. An effect may stand there a second time at "
+     "changed. [effects] in cell.toml lists what it has. An effect may stand there a second time "
+     "at "
      "other joints or with other settings."},
     {"E-DROP-NONE",
      "The model does not have that effect, or not at these joints or with these settings; nothing "

@@ -52,8 +52,7 @@ void EffectOptions::add_to(CLI::App& verb, bool law_too) {
       ->type_name("KEY=VALUE");
   verb.add_option("--name", formula_name, "Which formula, if there are several")->type_name("NAME");
   if (!law_too) return;
-  verb.add_option("--formula", formula, "A law of your own: \"dq2 = k * tau2\"")
-      ->type_name("LAW");
+  verb.add_option("--formula", formula, "A law of your own: \"dq2 = k * tau2\"")->type_name("LAW");
   verb.add_option("--parameter", parameters,
                   "One of its parameters: name, unit, typical size: \"k [rad/(N m)] ~ 1e-6\"")
       ->type_name("TEXT");

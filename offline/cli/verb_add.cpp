@@ -78,8 +78,8 @@ void add(const Options& options, const Globals& globals, Outcome& outcome) {
                           .message = fmt::format("the model already has {}", in_words(cell, entry)),
                           .place = Place{.file = cell.file.string()},
                           .help = "see what is in it: plumb compare"});
-  change(options, "Added " + in_words(cell, entry), "drop " + show::dropping_arguments(cell, entry), cell,
-         with_effect(cell.effects, entry), outcome);
+  change(options, "Added " + in_words(cell, entry), "drop " + show::dropping_arguments(cell, entry),
+         cell, with_effect(cell.effects, entry), outcome);
 }
 
 void drop(const Options& options, const Globals& globals, Outcome& outcome) {
