@@ -7,6 +7,7 @@
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/forward.hpp"
 #include "diagnose/model_parts.hpp"
+#include "diagnose/refit.hpp"
 #include "diagnose/verdict.hpp"
 #include "fit/split.hpp"
 

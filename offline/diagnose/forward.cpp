@@ -10,8 +10,8 @@
 #include "diagnose/candidates.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/model_parts.hpp"
+#include "diagnose/refit.hpp"
 #include "diagnose/rivals.hpp"
-#include "fit/effect_binding.hpp"
 #include "plumb/format/limits.hpp"
 
 namespace plumb::offline {
@@ -109,14 +109,14 @@ class Selection {
 
   /// Waves of a joint that has some already: those were found while something else was missing. All
   /// of them are looked for again, together, where the model then stands.
-  Found with_fresh_waves(const Found& best) {
+  Found with_fresh_waves(Found best) {
     const auto& effects = now_.cell.effects;
-    const auto old = std::find_if(effects.begin(), effects.end(), [&](const EffectEntry& e) {
+    const auto waves = [&](const EffectEntry& e) {
       return e.name == "gear_ripple" && e.joints == best.entry.joints;
-    });
+    };
     const std::string key = key_of(now_.cell, best.entry);
-    const bool own = has_effect(start_.cell.effects, best.entry);
-    if (best.entry.name != "gear_ripple" || old == effects.end() || own ||
+    if (!waves(best.entry) || std::none_of(effects.begin(), effects.end(), waves) ||
+        std::any_of(start_.cell.effects.begin(), start_.cell.effects.end(), waves) ||
         !renewed_.insert(key).second)
       return best;
     const EffectEntry all{
@@ -296,32 +296,7 @@ class Selection {
   std::set<std::string> tried_, doubted_, renewed_;
 };
 
-/// Numbers that the new list of effects shares with the old one stay: a better start.
-void keep_values(const ArmState& old, ArmState& fresh) {
-  std::map<std::string, double> values;
-  for (const auto& p : effect_parameters(old.arm)) values[p.name] = value_of(old, p);
-  for (const auto& p : effect_parameters(fresh.arm))
-    if (const auto it = values.find(p.name); it != values.end())
-      fresh.arm.effects[p.joint].parameters[p.component] = it->second;
-}
-
 }  // namespace
-
-std::vector<int> without_outliers(std::vector<int> rows, const Calibration& calibration) {
-  for (const auto& outlier : calibration.outliers) std::erase(rows, outlier.row);
-  return rows;
-}
-
-Calibration refitted(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
-                     const std::vector<EffectEntry>& effects, const Calibration& from, Refit how) {
-  Cell with = cell;
-  with.effects = effects;
-  ArmState start = from.state;
-  start.arm.effects = bind_effects(with, measured);
-  keep_values(from.state, start);
-  return how == Refit::kFully ? calibrate_from(with, measured, fit, start)
-                              : calibrate_near(with, measured, fit, start, from);
-}
 
 Forward forward(const ForwardStart& start, const Calibration& calibration, Stage stage,
                 const Scan& first) {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/calibrate.hpp"
+
+namespace plumb::offline {
+
+enum class Refit { kFully, kNearby };  // kNearby: as calibrate_near, for models only looked at
+
+/// The cell with these effects, refitted from a calibration. Throws as `calibrate` does.
+Calibration refitted(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
+                     const std::vector<EffectEntry>& effects, const Calibration& from,
+                     Refit how = Refit::kFully);
+
+/// `rows` without the outliers of a calibration.
+std::vector<int> without_outliers(std::vector<int> rows, const Calibration& calibration);
+
+}  // namespace plumb::offline
