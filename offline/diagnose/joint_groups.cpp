@@ -10,14 +10,15 @@ namespace plumb::offline {
 namespace {
 
 /// An effect, and how far another joint must move the point, as a share of the best one. What adds
-/// less is left to the next look: it may be something else.
+/// less is left to the next look, unless both together leave only noise: it may be something else.
+/// More than 1: only then.
 struct Several {
   std::string_view effect;
   double least;
 };
 constexpr std::array kAtSeveralJoints = {Several{"joint_compliance", 0.3},
-                                         Several{"gravity_free", 0.3}, Several{"link_flexure", 0.5},
-                                         Several{"gear_harmonics", 0.5}};
+                                         Several{"gravity_free", 0.3}, Several{"link_flexure", 1.5},
+                                         Several{"gear_harmonics", 0.7}};
 
 /// The group with one more joint, if the evidence supports any.
 std::optional<Found> with_one_more(const Judge& judge, const Found& group,
