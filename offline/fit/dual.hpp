@@ -43,24 +43,24 @@ struct Dual {
     return {{t.sin, a.times(t.cos)}, {t.cos, a.times(-t.sin)}};
   }
   friend Dual exp(const Dual& a) {
-    const double v = portable::exp(a.v);
-    return {v, a.times(v)};
+    const double value = portable::exp(a.v);
+    return {value, a.times(value)};
   }
   friend Dual log(const Dual& a) { return {portable::log(a.v), a.times(1.0 / a.v)}; }
   friend Dual sqrt(const Dual& a) {
-    const double v = portable::sqrt(a.v);
-    return {v, a.times(0.5 / v)};
+    const double value = portable::sqrt(a.v);
+    return {value, a.times(0.5 / value)};
   }
   friend Dual tanh(const Dual& a) {
-    const double v = portable::tanh(a.v);
-    return {v, a.times(1.0 - v * v)};
+    const double value = portable::tanh(a.v);
+    return {value, a.times(1.0 - value * value)};
   }
   /// a^b = e^(b ln a); a power that does not change needs no logarithm.
   friend Dual pow(const Dual& a, const Dual& b) {
-    const double v = portable::pow(a.v, b.v);
+    const double value = portable::pow(a.v, b.v);
     const double by_a = b.v == 0.0 ? 0.0 : b.v * portable::pow(a.v, b.v - 1.0);
-    const double by_b = v == 0.0 ? 0.0 : v * portable::log(a.v);
-    return {v, a.times(by_a) + b.times(by_b)};
+    const double by_b = value == 0.0 ? 0.0 : value * portable::log(a.v);
+    return {value, a.times(by_a) + b.times(by_b)};
   }
   friend double plain(const Dual& a) { return a.v; }
 
