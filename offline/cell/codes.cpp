@@ -14,8 +14,7 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CELL-EFFECT",
      "[effects] names something that is not in the catalogue; plumb explain lists what is. It is "
      "refused rather than ignored, so that a model never lacks what its cell file promises. "
-     "Correct "
-     "the name or delete the table."},
+     "Correct the name or delete the table."},
     {"E-CELL-EFFECTS-LAYOUT",
      "add, drop and diagnose --apply change [effects] where it stands and keep the rest of the "
      "file, but this one is laid out in a way they do not follow, effects as inline tables over "

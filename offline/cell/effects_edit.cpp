@@ -166,16 +166,29 @@ class Editor {
 bool same_effects(std::vector<EffectEntry> a, const std::vector<EffectEntry>& b) {
   if (a.size() != b.size()) return false;
   for (const auto& wanted : b) {
-    const auto it = std::find_if(a.begin(), a.end(), [&](const EffectEntry& e) {
-      return e.name == wanted.name && e.joints == wanted.joints && e.options == wanted.options;
-    });
+    const auto it = std::find_if(a.begin(), a.end(),
+                                 [&](const EffectEntry& e) { return same_effect(e, wanted); });
     if (it == a.end()) return false;
     a.erase(it);
   }
   return true;
 }
 
+/// Whether `text` is a cell with these effects. What is wrong with them is thrown.
+bool reads_as(const std::string& text, const Cell& cell, const std::vector<EffectEntry>& effects) {
+  try {
+    return same_effects(parse_cell(text, cell.file).effects, effects);
+  } catch (const Failure& failure) {
+    if (failure.problems().front().code != "E-TOML") throw;
+    return false;
+  }
+}
+
 }  // namespace
+
+bool same_effect(const EffectEntry& a, const EffectEntry& b) {
+  return a.name == b.name && a.joints == b.joints && a.options == b.options;
+}
 
 std::string effect_text(const Cell& cell, const EffectEntry& effect, bool several) {
   const std::string table = "effects." + effect.name;
@@ -184,18 +197,6 @@ std::string effect_text(const Cell& cell, const EffectEntry& effect, bool severa
   for (const auto& [key, value] : effect.options)
     out += fmt::format("{} = {}\n", key, toml_value(value));
   return out;
-}
-
-/// Whether `text` is a cell with these effects. What is wrong with the effects themselves is
-/// thrown.
-static bool reads_as(const std::string& text, const Cell& cell,
-                     const std::vector<EffectEntry>& effects) {
-  try {
-    return same_effects(parse_cell(text, cell.file).effects, effects);
-  } catch (const Failure& failure) {
-    if (failure.problems().front().code != "E-TOML") throw;
-    return false;
-  }
 }
 
 std::string edited_effects(const Cell& cell, const std::vector<EffectEntry>& effects) {

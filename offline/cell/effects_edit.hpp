@@ -8,6 +8,9 @@
 
 namespace plumb::offline {
 
+/// Whether two entries say the same, wherever they stand.
+bool same_effect(const EffectEntry& a, const EffectEntry& b);
+
 /// The cell's text with `effects` in place of its own: entries are added, taken out, or get other
 /// joints where they stand; comments, order and layout of the rest survive. Throws Failure (kInput)
 /// if an effect is not one the reader accepts, or if the layout cannot be edited in place.

@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "cell/effects_edit.hpp"
 #include "cli/effect_naming.hpp"
 
 namespace plumb::offline::cli {
@@ -67,9 +68,7 @@ std::vector<EffectEntry> two_effects(const Cell& cell, const std::string& text) 
   for (const auto& part : parts(text, ',')) out.push_back(one_effect(cell, part));
   if (out.size() != 2)
     refuse(fmt::format("--separate takes two effects, not {}; join joints by '+'", out.size()));
-  if (out[0].name == out[1].name && out[0].joints == out[1].joints &&
-      out[0].options == out[1].options)
-    refuse("--separate takes two different effects");
+  if (same_effect(out[0], out[1])) refuse("--separate takes two different effects");
   return out;
 }
 

@@ -11,8 +11,6 @@ namespace plumb::offline::cli {
 namespace {
 
 constexpr const char* kUsageCode = "E-USAGE";
-constexpr const char* kFormulaExample =
-    "plumb add formula --formula \"dq2 = k * tau2\" --parameter \"k [rad/(N m)] ~ 1e-6\"";
 
 [[noreturn]] void refuse(std::string message, std::string help) {
   throw Failure(Exit::kUsage,

@@ -9,6 +9,9 @@
 
 namespace plumb::offline::cli {
 
+inline constexpr const char* kFormulaExample =
+    "plumb add formula --formula \"dq2 = k * tau2\" --parameter \"k [rad/(N m)] ~ 1e-6\"";
+
 /// An effect on the command line: NAME [--joints J2,J3] [--set KEY=VALUE ...], and for the user's
 /// own formula --formula "dq2 = k * tau2" --parameter "k [rad/(N m)] ~ 1e-6" --name N --domain D.
 struct EffectOptions {

@@ -68,10 +68,8 @@ void add(const Options& options, const Globals& globals, Outcome& outcome) {
   outcome.result["effect"] = entry.name;
   outcome.result["joints"] = show::joints_json(cell, entry);
   if (entry.name == "formula" && !entry.options.contains("target"))
-    throw Failure(Exit::kUsage, {.code = "E-USAGE",
-                                 .message = "formula needs a law",
-                                 .help = "plumb add formula --formula \"dq2 = k * tau2\" "
-                                         "--parameter \"k [rad/(N m)] ~ 1e-6\""});
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE", .message = "formula needs a law", .help = kFormulaExample});
   if (has_effect(cell.effects, entry))
     throw Failure(Exit::kInput,
                   Problem{.code = "E-ADD-TWICE",

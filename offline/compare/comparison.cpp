@@ -59,13 +59,6 @@ SamplesOf samples_of(const Measurements& measured, const Errors& errors, Compari
   };
 }
 
-/// Rows that look like the rest: a gross outlier would pass for a change.
-std::vector<int> without_outliers(std::vector<int> rows, const Fit& fit) {
-  for (const auto* list : {&fit.calibration.outliers, &fit.held_outliers})
-    for (const auto& outlier : *list) std::erase(rows, outlier.row);
-  return rows;
-}
-
 int fitted_numbers(const Fit& fit) {
   auto out = static_cast<int>(fit.calibration.estimates.size());
   for (const auto& tree : fit.calibration.state.arm.trees)
@@ -95,9 +88,13 @@ Comparison comparison(const Cell& cell, const Measurements& measured, const Fit&
   });
   const ArmState& state = fit.calibration.state;
   out.profiles = profiles(cell, measured, state, samples_of(measured, errors, out.set));
-  out.lack_of_fit = lack_of_fit(measured, errors.final_M, without_outliers(errors.fit, fit),
-                                fitted_numbers(fit), fit.floor);
-  const Series in_order = series(measured, errors.judged_M, without_outliers(errors.used, fit));
+  // Rows that look like the rest: a gross outlier would pass for a change.
+  const auto alike = [&](const std::vector<int>& all) {
+    return without_outliers(without_outliers(all, fit.calibration.outliers), fit.held_outliers);
+  };
+  out.lack_of_fit =
+      lack_of_fit(measured, errors.final_M, alike(errors.fit), fitted_numbers(fit), fit.floor);
+  const Series in_order = series(measured, errors.judged_M, alike(errors.used));
   out.order = autocorrelation(in_order, measured.q);
   const StepMotions motions(state, measured, in_order);
   out.joints = joint_shares(motions, measured.q);

@@ -79,7 +79,8 @@ ErrorStats nested_held_out(const Work& w) {
   for (int k = 0; k < w.split.folds; ++k) {
     const auto inside = fit_rows(w.split, k);
     const Calibration base = calibrate(w.cell, w.measured, inside);
-    const Stage stage = make_stage(w.cell, w.measured, base, without_outliers(inside, base), {});
+    const Stage stage =
+        make_stage(w.cell, w.measured, base, without_outliers(inside, base.outliers), {});
     const Forward found =
         forward(w.start(inside, true), base, stage, scan(stage, w.not_testable, {}));
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
@@ -146,7 +147,7 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
       w.not_testable.push_back(answer.effect);
     }
   const Calibration base = calibrate(w.cell, measured, w.fit);
-  const auto rows = without_outliers(w.fit, base);
+  const auto rows = without_outliers(w.fit, base.outliers);
   const Stage stage = make_stage(w.cell, measured, base, rows, w.held);
   const Scan first = scan(stage, w.not_testable, {});
   out.floor = noise_floor(w.cell, measured);

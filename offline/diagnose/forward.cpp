@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "cell/effects_edit.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/model_parts.hpp"
@@ -68,7 +69,28 @@ class Selection {
 
   Stage stage_of(const Model& model) const {
     return make_stage(model.cell, start_.measured, model.calibration,
-                      without_outliers(start_.fit, model.calibration), {});
+                      without_outliers(start_.fit, model.calibration.outliers), {});
+  }
+
+  /// The present model less an effect, and what then is missing. The stage refers to the model.
+  struct Without {
+    Model model;
+    Stage stage;
+    Scan look;
+    Without(const Selection& s, const EffectEntry& entry, const std::vector<std::string>& banned)
+        : model(s.fitted(without_effect(s.now_.cell.effects, entry))),
+          stage(s.stage_of(model)),
+          look(scan(stage, s.start_.not_testable, banned)) {}
+    Without(const Without&) = delete;
+    Without& operator=(const Without&) = delete;
+  };
+
+  void go_to(Without& there) {
+    seen_.push_back(there.model);
+    now_ = std::move(there.model);
+    stage_ = std::move(there.stage);
+    stage_.cell = &now_.cell;
+    look_ = std::move(there.look);
   }
 
   void look_at(Model model) {
@@ -82,15 +104,15 @@ class Selection {
     if (start_.tell) start_.tell(key_of(now_.cell, best.entry));
     try {
       Model next = fitted(with_all(now_.cell.effects, best));
-      const Stage stage = stage_of(next);
+      const auto weak =
+          lost(next.cell, stage_of(next), next.calibration, start_.cell.effects, best.entry);
+      if (weak) next = fitted(without_effect(next.cell.effects, *weak));
       added_.push_back(best);
-      if (const auto weak =
-              lost(next.cell, stage, next.calibration, start_.cell.effects, best.entry)) {
+      if (weak) {
         // One wave of many may come and go; what does so again stays away.
         const std::string key = key_of(next.cell, *weak);
         if (weak->name != "gear_ripple" || ++dropped_[key] > 2) banned_.push_back(key);
         forget(*weak);
-        next = fitted(without_effect(next.cell.effects, *weak));
       }
       look_at(std::move(next));
     } catch (const Failure&) {
@@ -122,16 +144,12 @@ class Selection {
     const EffectEntry all{
         .name = "gear_ripple", .joints = best.entry.joints, .options = {}, .place = {}};
     try {
-      Model without = fitted(without_effect(effects, all));
-      const Stage stage = stage_of(without);
-      const Scan look = scan(stage, start_.not_testable, banned_);
-      const auto again =
-          std::find_if(look.library.begin(), look.library.end(),
-                       [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
-      if (again == look.library.end() || again->score <= kSupported) return best;
-      const Found fresh = *again;
+      Without waves_out(*this, all, banned_);
+      const Found* again = waves_out.look.find(now_.cell, key);
+      if (again == nullptr || again->score <= kSupported) return best;
+      Found fresh = *again;
       std::erase_if(added_, [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
-      look_at(std::move(without));
+      go_to(waves_out);
       return fresh;
     } catch (const Failure&) {
       return best;
@@ -149,17 +167,13 @@ class Selection {
         continue;
       tried_.insert(key);
       try {
-        const Model without = fitted(without_effect(now_.cell.effects, entry));
-        const Stage stage = stage_of(without);
-        const Scan look = scan(stage, start_.not_testable, banned_);
-        const Found* other = look.supported();
+        const Without without(*this, entry, banned_);
+        const Found* other = without.look.supported();
         if (other == nullptr || key_of(now_.cell, other->entry) == key) continue;
-        const auto own =
-            std::find_if(look.library.begin(), look.library.end(),
-                         [&](const Found& f) { return key_of(now_.cell, f.entry) == key; });
-        if (own != look.library.end() && other->ln_bayes() < own->ln_bayes() + kSupported) continue;
+        const Found* own = without.look.find(now_.cell, key);
+        if (own != nullptr && other->ln_bayes() < own->ln_bayes() + kSupported) continue;
         const Found chosen = *other;
-        look_at(fitted(with_all(without.cell.effects, chosen)));
+        look_at(fitted(with_all(without.model.cell.effects, chosen)));
         forget(entry);
         added_.push_back(chosen);
         return true;
@@ -182,12 +196,11 @@ class Selection {
     const std::string key = key_of(now_.cell, entry);
     if (!doubted_.insert(key).second) return false;
     try {
-      const Model without = fitted(without_effect(now_.cell.effects, entry));
-      const Stage stage = stage_of(without);
-      const auto better = better_explanation(stage, scan(stage, start_.not_testable, banned_), key,
-                                             start_.not_testable, banned_);
+      const Without without(*this, entry, banned_);
+      const auto better =
+          better_explanation(without.stage, without.look, key, start_.not_testable, banned_);
       if (!better) return false;
-      auto effects = without.cell.effects;
+      auto effects = without.model.cell.effects;
       for (const auto& found : better->effects) effects = with_all(effects, found);
       look_at(fitted(effects));
       forget(entry);
@@ -212,11 +225,9 @@ class Selection {
   std::optional<UnknownStructure> behind_oversized() {
     const auto too_large = oversized(now_.cell, stage_, now_.calibration, start_.cell.effects);
     if (!too_large) return std::nullopt;
-    const Model without = fitted(without_effect(now_.cell.effects, too_large->entry));
-    const Stage stage = stage_of(without);
-    const Scan look = scan(stage, start_.not_testable, {});
-    if (!look.pattern) return std::nullopt;
-    UnknownStructure out = unknown_structure(stage, *look.pattern);
+    const Without without(*this, too_large->entry, {});
+    if (!without.look.pattern) return std::nullopt;
+    UnknownStructure out = unknown_structure(without.stage, *without.look.pattern);
     out.instead = too_large->entry;
     out.times = too_large->times;
     for (const int joint : too_large->entry.joints) {
@@ -274,10 +285,7 @@ class Selection {
   }
 
   static bool same(const std::vector<EffectEntry>& a, const std::vector<EffectEntry>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const EffectEntry& x, const EffectEntry& y) {
-                        return x.name == y.name && x.joints == y.joints && x.options == y.options;
-                      });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_effect);
   }
 
   static std::vector<EffectEntry> with_all(std::vector<EffectEntry> effects, const Found& found) {

@@ -14,8 +14,6 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kRemainder = 0.15;  // of the motion of the strongest effect in the model
-
 /// Columns of one effect at one joint among the fitted parameters.
 struct Part {
   EffectEntry entry;

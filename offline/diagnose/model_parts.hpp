@@ -9,6 +9,8 @@
 
 namespace plumb::offline {
 
+inline constexpr double kRemainder = 0.15;  // of the motion of the strongest effect
+
 /// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
 /// no law is right to more than some percent. Waves of other lengths are other causes.
 bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,

@@ -19,11 +19,6 @@ void keep_values(const ArmState& old, ArmState& fresh) {
 
 }  // namespace
 
-std::vector<int> without_outliers(std::vector<int> rows, const Calibration& calibration) {
-  for (const auto& outlier : calibration.outliers) std::erase(rows, outlier.row);
-  return rows;
-}
-
 Calibration refitted(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
                      const std::vector<EffectEntry>& effects, const Calibration& from, Refit how) {
   Cell with = cell;

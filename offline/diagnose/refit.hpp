@@ -16,7 +16,4 @@ Calibration refitted(const Cell& cell, const Measurements& measured, const std::
                      const std::vector<EffectEntry>& effects, const Calibration& from,
                      Refit how = Refit::kFully);
 
-/// `rows` without the outliers of a calibration.
-std::vector<int> without_outliers(std::vector<int> rows, const Calibration& calibration);
-
 }  // namespace plumb::offline

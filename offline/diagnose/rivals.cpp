@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "diagnose/extension.hpp"
+#include "diagnose/model_parts.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr int kLongest = 3;           // effects of an explanation
 constexpr int kRivals = 5;            // besides the chosen one
-constexpr double kRemainder = 0.15;   // of its motion: the trace of an inexact law
 constexpr double kNearly = 0.5;       // of what the chosen one explains
 constexpr double kAhead_nats = 10.0;  // over the chosen one's explanation
 
@@ -47,10 +47,8 @@ std::optional<Explanation> better_explanation(const Stage& stage, const Scan& lo
                                               const std::string& chosen,
                                               const std::vector<std::string>& not_testable,
                                               const std::vector<std::string>& banned) {
-  const auto own = std::find_if(look.library.begin(), look.library.end(), [&](const Found& f) {
-    return key_of(*stage.cell, f.entry) == chosen;
-  });
-  if (own == look.library.end()) return std::nullopt;
+  const Found* own = look.find(*stage.cell, chosen);
+  if (own == nullptr) return std::nullopt;
   const double to_beat = followed(stage, *own, not_testable, banned).score + kAhead_nats;
   std::optional<Explanation> best;
   int tried = 0;

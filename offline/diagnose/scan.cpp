@@ -25,6 +25,12 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
+/// Whether an entry is not to be tried: it failed before, or the model has it.
+bool is_out(const Stage& stage, const std::vector<std::string>& banned, const std::string& key,
+            const EffectEntry& entry) {
+  return contains(banned, key) || has_effect(stage.cell->effects, entry);
+}
+
 /// Waves of one joint as one candidate. Each of them was searched for, so each pays.
 std::optional<Found> found_ripples(const Judge& judge, const Ripples& waves, double paid) {
   if (waves.cycles.empty()) return std::nullopt;
@@ -45,7 +51,7 @@ class Collector {
   void take(const Block& block) {
     ++blocks_;
     const std::string key = key_of(*stage_.cell, block.entry);
-    if (contains(banned_, key) || has_effect(stage_.cell->effects, block.entry)) return;
+    if (is_out(stage_, banned_, key, block.entry)) return;
     Trial trial = judge_.judge(block);
     keep(best_[key], block, std::move(trial));
   }
@@ -153,6 +159,12 @@ const Found* Scan::supported(const std::function<bool(const Found&)>& also) cons
   return nullptr;
 }
 
+const Found* Scan::find(const Cell& cell, const std::string& key) const {
+  const auto it = std::find_if(library.begin(), library.end(),
+                               [&](const Found& f) { return key_of(cell, f.entry) == key; });
+  return it == library.end() ? nullptr : &*it;
+}
+
 bool Scan::unknown() const {
   if (!pattern || !(pattern->score > kSupported) || !pattern->gain.clear) return false;
   if (library.empty()) return true;
@@ -201,8 +213,7 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
   };
   std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
   for (auto& group : joint_groups(judge, out.library))
-    if (!contains(banned, key_of(*stage.cell, group.entry)) &&
-        !has_effect(stage.cell->effects, group.entry))
+    if (!is_out(stage, banned, key_of(*stage.cell, group.entry), group.entry))
       out.library.push_back(std::move(group));
   std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
   for (auto& found : out.library)

@@ -37,6 +37,8 @@ struct Scan {
 
   /// First of the library that evidence and held-out poses support, and `also` lets pass; or null.
   const Found* supported(const std::function<bool(const Found&)>& also = {}) const;
+  /// The one of that key (see key_of), or null.
+  const Found* find(const Cell& cell, const std::string& key) const;
   /// Whether the best pattern leaves the library's best far behind.
   bool unknown() const;
 };

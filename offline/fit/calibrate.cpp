@@ -125,11 +125,6 @@ double excess_of(const FitData& data, const Solution& solution, std::size_t para
                       static_cast<int>(parameters));
 }
 
-std::vector<int> without(std::vector<int> rows, const std::vector<Outlier>& outliers) {
-  for (const auto& outlier : outliers) std::erase(rows, outlier.row);
-  return rows;
-}
-
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
   const bool turns = data.sigma_rad > 0.0;
   auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
@@ -257,7 +252,7 @@ Calibration calibrate_from(const Cell& cell, const Measurements& measured,
 Calibration calibrate_near(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start,
                            const Calibration& from) {
-  const FitData stated = fit_data(cell, measured, without(rows, from.outliers));
+  const FitData stated = fit_data(cell, measured, without_outliers(rows, from.outliers));
   std::vector<Parameter> candidates;
   for (const auto& p : candidates_of(cell, stated))
     if (p.of_effect() || holds(from.parameters, p.name)) candidates.push_back(p);

@@ -43,16 +43,10 @@ struct Fitted {
   ArmState geometry_only;
 };
 
-/// `rows` without those that the calibration found to contradict the others.
-std::vector<int> agreed(std::vector<int> rows, const std::vector<Outlier>& outliers) {
-  for (const auto& outlier : outliers) std::erase(rows, outlier.row);
-  return rows;
-}
-
 Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
   Fitted out;
   out.calibration = calibrate(cell, measured, rows);
-  const Measurements some = pick(measured, agreed(rows, out.calibration.outliers));
+  const Measurements some = pick(measured, without_outliers(rows, out.calibration.outliers));
   out.calibration.state.arm.domain = trained_box(some.q);
   out.geometry_only = out.calibration.state;
   const EffectEntry* entry = find_effect(cell, "local_tree");

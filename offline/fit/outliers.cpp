@@ -76,6 +76,11 @@ std::vector<Outlier> described(const FitData& data, const std::vector<int>& take
 
 }  // namespace
 
+std::vector<int> without_outliers(std::vector<int> rows, const std::vector<Outlier>& outliers) {
+  for (const auto& outlier : outliers) std::erase(rows, outlier.row);
+  return rows;
+}
+
 Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution) {
   const Eigen::Index k = data.per_pose();
   Eigen::VectorXd out = plain_distances(data, solution);

@@ -15,6 +15,9 @@ struct Outlier {
   double times = 0.0;    // the usual scatter
 };
 
+/// `rows` without these.
+std::vector<int> without_outliers(std::vector<int> rows, const std::vector<Outlier>& outliers);
+
 /// Distance of every pose from what the *other* poses predict, in its own standard deviations:
 /// sqrt(e^T (I - H)^-1 e) with e the whitened residuals of the pose and H its block of the hat
 /// matrix, so a pose cannot hide by pulling the fit. Shape (poses,). Cost: poses * parameters^2.
