@@ -9,17 +9,28 @@ namespace {
 
 using Finding = std::optional<std::string>;
 
-constexpr double kMaxError_m = 1.0;  // no correction of an arm is larger
+constexpr double kMaxError_m = 1.0;     // no correction of an arm is larger
+constexpr double kMinHalfWidth = 1e-9;  // it divides
+constexpr double kUnitSlack = 1e-9;     // of a direction's length
+constexpr float kFarRegion = 4.0F;      // a box is -1 .. 1
 
 Finding check_sizes(const Tree& tree, std::size_t joints) {
-  const std::size_t leaves = tree.bounds.size() / 2;
+  const std::size_t leaves = tree.leaves(), nodes = tree.nodes.size();
   if (tree.bounds.size() % 2 != 0) return "a leaf has only one bound";
   if (leaves > kMaxTreeLeaves) return "it has " + std::to_string(leaves) + " leaves";
-  if (leaves == 0 && (!tree.nodes.empty() || tree.depth != 0)) return "it has nodes but no leaves";
-  if (leaves > 0 && tree.nodes.size() != leaves - 1) return "nodes and leaves do not match";
-  if (tree.coefficients.size() != leaves * (joints + 1))
+  if (leaves == 0 && (nodes > 0 || tree.depth != 0)) return "it has nodes but no leaves";
+  if (leaves > 0 && nodes != leaves - 1) return "nodes and leaves do not match";
+  if (tree.degree != 1 && tree.degree != 2)
+    return "its leaves are of degree " + std::to_string(tree.degree);
+  const auto size_is = [](const auto& x, std::size_t size) {
+    return x.empty() || x.size() == size;
+  };
+  if (tree.coefficients.size() != leaves * leaf_terms(joints, tree.degree))
     return "the number of coefficients is wrong";
-  if (!tree.blend_half_width.empty()) return "blended trees need a newer Plumb";
+  if (!size_is(tree.blend_half_width, nodes)) return "the number of half widths is wrong";
+  if (!size_is(tree.directions, nodes * joints)) return "the number of directions is wrong";
+  if (!size_is(tree.region, leaves * joints * 2)) return "the number of region limits is wrong";
+  if (!size_is(tree.sigma, leaves)) return "the number of sigmas is wrong";
   return std::nullopt;
 }
 
@@ -30,6 +41,26 @@ Finding check_numbers(const Tree& tree) {
     const double low = tree.bounds[i], high = tree.bounds[i + 1];
     if (!(low <= high && low >= -kMaxError_m && high <= kMaxError_m))
       return "the bounds of leaf " + std::to_string(i / 2) + " are no range";
+  }
+  for (double h : tree.blend_half_width)
+    if (!(h >= kMinHalfWidth && h <= 2.0)) return "a half width is out of range";
+  for (std::size_t i = 0; i + 1 < tree.region.size(); i += 2)
+    if (!(tree.region[i] <= tree.region[i + 1] && std::abs(tree.region[i]) <= kFarRegion &&
+          std::abs(tree.region[i + 1]) <= kFarRegion))
+      return "the region of a leaf is no range";
+  for (float sigma : tree.sigma)
+    if (!(sigma >= 0.0F && sigma <= kMaxError_m)) return "a sigma is out of range";
+  return std::nullopt;
+}
+
+Finding check_directions(const Tree& tree, std::size_t joints) {
+  for (std::size_t node = 0; node * joints < tree.directions.size(); ++node) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < joints; ++i) sum += std::abs(tree.directions[node * joints + i]);
+    if (!(std::abs(sum - 1.0) <= kUnitSlack))
+      return "the direction of node " + std::to_string(node) + " is not of length 1";
+    if (tree.nodes[node].input != 0)
+      return "node " + std::to_string(node) + " has an input and a direction";
   }
   return std::nullopt;
 }
@@ -74,6 +105,7 @@ Finding unsound_tree(const Tree& tree, std::size_t joints) {
   if (auto f = check_sizes(tree, joints)) return f;
   if (tree.bounds.empty()) return std::nullopt;
   if (auto f = check_numbers(tree)) return f;
+  if (auto f = check_directions(tree, joints)) return f;
   return check_walk(tree, joints);
 }
 

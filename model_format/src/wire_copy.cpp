@@ -191,7 +191,11 @@ class Copier {
             .nodes = nodes(w.nodes()),
             .coefficients = numbers(w.coefficients()),
             .bounds = numbers(w.bounds()),
-            .blend_half_width = numbers(w.blend_half_width())};
+            .blend_half_width = numbers(w.blend_half_width()),
+            .degree = w.degree(),
+            .directions = numbers(w.directions()),
+            .region = numbers(w.region()),
+            .sigma = numbers(w.sigma())};
   }
 
   Domain domain(const wire::Domain* w) {

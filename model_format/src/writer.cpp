@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/format/writer.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "model_generated.h"
@@ -80,6 +81,16 @@ Offset<wire::Mechanics> add(Builder& b, const Mechanics& m) {
   return wire::CreateMechanics(b, b.CreateVectorOfStructs(links), m.payload_kg, c[0], c[1], c[2]);
 }
 
+/// An older reader must not take such a tree for a crisp affine one.
+bool needs_schema_2(const Tree& tree) {
+  return !tree.blend_half_width.empty() || tree.degree != 1 || !tree.directions.empty() ||
+         !tree.region.empty();
+}
+
+unsigned schema_of(const Model& m) {
+  return std::any_of(m.trees.begin(), m.trees.end(), needs_schema_2) ? 2 : 1;
+}
+
 Offset<wire::Tree> add(Builder& b, const Tree& tree) {
   std::vector<wire::Node> nodes;
   for (const auto& n : tree.nodes)
@@ -87,8 +98,21 @@ Offset<wire::Tree> add(Builder& b, const Tree& tree) {
   const auto inner = b.CreateVectorOfStructs(nodes);
   const auto coefficients = b.CreateVector(tree.coefficients);
   const auto bounds = b.CreateVector(tree.bounds);
-  return wire::CreateTree(b, tree.depth, inner, coefficients, bounds,
-                          b.CreateVector(tree.blend_half_width));
+  const auto half_width = b.CreateVector(tree.blend_half_width);
+  const auto directions = tree.directions.empty() ? 0 : b.CreateVector(tree.directions);
+  const auto region = tree.region.empty() ? 0 : b.CreateVector(tree.region);
+  const auto sigma = tree.sigma.empty() ? 0 : b.CreateVector(tree.sigma);
+  wire::TreeBuilder out(b);
+  if (!sigma.IsNull()) out.add_sigma(sigma);
+  if (!region.IsNull()) out.add_region(region);
+  if (!directions.IsNull()) out.add_directions(directions);
+  out.add_blend_half_width(half_width);
+  out.add_bounds(bounds);
+  out.add_coefficients(coefficients);
+  out.add_nodes(inner);
+  out.add_depth(tree.depth);
+  if (tree.degree != 1) out.add_degree(tree.degree);
+  return out.Finish();
 }
 
 Offset<wire::Guard> add(Builder& b, const GuardLimits& g) {
@@ -129,7 +153,7 @@ Offset<wire::Model> add(Builder& b, const Model& m) {
   const auto serial = b.CreateString(m.serial);
   const auto all_effects = b.CreateVector(effects);
   const auto all_trees = b.CreateVector(trees);
-  return wire::CreateModel(b, kSchemaVersion, cell, robot, serial, m.gravity[0], m.gravity[1],
+  return wire::CreateModel(b, schema_of(m), cell, robot, serial, m.gravity[0], m.gravity[1],
                            m.gravity[2], nominal, calibrated, all_effects, all_trees, domain, guard,
                            provenance, mechanics);
 }

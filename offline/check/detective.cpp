@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "cell/random.hpp"
 #include "cell/units.hpp"
 #include "check/arm_sweep.hpp"
 #include "check/given_frame.hpp"
@@ -15,7 +16,6 @@
 #include "check/soft_fit.hpp"
 #include "check/unit_guess.hpp"
 #include "fit/geometry.hpp"
-#include "fit/random.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "fit/random.hpp"
+#include "cell/random.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <Eigen/SVD>
 
+#include "cell/random.hpp"
 #include "fit/geometry.hpp"
-#include "fit/random.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "show/units.hpp"
 

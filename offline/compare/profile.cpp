@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/f_tail.hpp"
+#include "tree/f_tail.hpp"
 
 namespace plumb::offline::compare {
 namespace {

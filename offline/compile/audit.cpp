@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/random.hpp"
 #include "fit/geometry.hpp"
-#include "fit/random.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/forward_model.hpp"
 

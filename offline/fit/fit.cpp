@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "fit/arm_state.hpp"
-#include "fit/tree_domain.hpp"
+#include "tree/domain.hpp"
 
 namespace plumb::offline {
 namespace {

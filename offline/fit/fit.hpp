@@ -11,7 +11,7 @@
 #include "fit/error_stats.hpp"
 #include "fit/noise_floor.hpp"
 #include "fit/split.hpp"
-#include "fit/tree_trainer.hpp"
+#include "tree/choice.hpp"
 
 namespace plumb::offline {
 

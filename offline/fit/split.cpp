@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "fit/random.hpp"
+#include "cell/random.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "fit/random.hpp"
+#include "cell/random.hpp"
 #include "fit/solver.hpp"
 
 namespace plumb::offline {

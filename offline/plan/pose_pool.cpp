@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fit/random.hpp"
+#include "cell/random.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/forward_model.hpp"
 
+#include <algorithm>
+
 #include "finite.hpp"
 
 namespace plumb {
@@ -18,6 +20,11 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
     trees_[axis] = TreeView(model.trees[axis], chain_.joints());
     has_tree_ = has_tree_ || !trees_[axis].empty();
   }
+  for (const TreeView& tree : trees_)
+    if (!tree.empty() && walked_.empty()) walked_ = tree;
+  one_walk_ = std::all_of(trees_.begin(), trees_.end(), [&](const TreeView& tree) {
+    return tree.empty() || tree.same_leaves(walked_);
+  });
 }
 
 bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
@@ -84,7 +91,12 @@ Vector3 ForwardModel::tree_at(std::span<const double> q) const noexcept {
   std::array<double, kMaxJoints> u{};
   const std::span<double> inputs = std::span(u).first(static_cast<std::size_t>(joints()));
   domain_.normalise(q, inputs);
-  return {trees_[0].evaluate(inputs), trees_[1].evaluate(inputs), trees_[2].evaluate(inputs)};
+  const std::span<const double> at = inputs;
+  if (!one_walk_) return {trees_[0].evaluate(at), trees_[1].evaluate(at), trees_[2].evaluate(at)};
+  ActiveLeaves<double> leaves;
+  walked_.active(at, leaves);
+  return {trees_[0].evaluate(at, leaves), trees_[1].evaluate(at, leaves),
+          trees_[2].evaluate(at, leaves)};
 }
 
 }  // namespace plumb

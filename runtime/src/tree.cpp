@@ -35,32 +35,49 @@ double TrainedDomain::weight(std::span<const double> q) const noexcept {
   return clamp(1.0 - excess * fade_inverse_, 0.0, 1.0);
 }
 
+template void TreeView::active(std::span<const double>, ActiveLeaves<double>&) const noexcept;
+template double TreeView::evaluate(std::span<const double>,
+                                   const ActiveLeaves<double>&) const noexcept;
+template double TreeView::evaluate<double>(std::span<const double>) const noexcept;
+
 TreeView::TreeView(const format::Tree& tree, int inputs) noexcept
     : nodes_(tree.nodes.data()),
       coefficients_(tree.coefficients.data()),
       bounds_(tree.bounds.data()),
+      half_width_(tree.blend_half_width.empty() ? nullptr : tree.blend_half_width.data()),
+      directions_(tree.directions.empty() ? nullptr : tree.directions.data()),
+      region_(tree.region.empty() ? nullptr : tree.region.data()),
+      sigma_(tree.sigma.empty() ? nullptr : tree.sigma.data()),
       inputs_(inputs),
+      terms_(static_cast<int>(format::leaf_terms(static_cast<std::size_t>(inputs), tree.degree))),
+      degree_(tree.degree),
       depth_(tree.depth),
-      leaves_(static_cast<int>(tree.bounds.size() / 2)) {}
+      leaves_(static_cast<int>(tree.leaves())) {}
 
-int TreeView::leaf(std::span<const double> u) const noexcept {
-  int at = leaves_ > 1 ? 0 : ~0;
-  for (int i = 0; i < depth_; ++i) {
-    // In a leaf the walk stands still: the root is read again and its answer dropped.
-    const format::TreeNode& node = nodes_[at < 0 ? 0 : at];
-    const int next = u[node.input] <= node.threshold ? node.low : node.high;
-    at = at < 0 ? at : next;
+bool TreeView::same_leaves(const TreeView& other) const noexcept {
+  if (leaves_ != other.leaves_ || inputs_ != other.inputs_ || depth_ != other.depth_) return false;
+  if (blended() != other.blended()) return false;
+  if ((directions_ == nullptr) != (other.directions_ == nullptr)) return false;
+  for (int i = 0; i + 1 < leaves_; ++i) {
+    if (!(nodes_[i] == other.nodes_[i])) return false;
+    if (blended() && half_width_[i] != other.half_width_[i]) return false;
   }
-  return ~at;
+  const int numbers = directions_ == nullptr ? 0 : (leaves_ - 1) * inputs_;
+  for (int i = 0; i < numbers; ++i)
+    if (directions_[i] != other.directions_[i]) return false;
+  return true;
 }
 
-double TreeView::evaluate(std::span<const double> u) const noexcept {
-  if (empty()) return 0.0;
-  const int k = leaf(u);
-  const double* w = coefficients_ + static_cast<std::ptrdiff_t>(k) * (inputs_ + 1);
-  double y = w[0];
-  for (int i = 0; i < inputs_; ++i) y += w[i + 1] * u[i];
-  return clamp(y, bounds_[2 * k], bounds_[2 * k + 1]);
+int TreeView::leaf(std::span<const double> u) const noexcept { return hard_leaf(u); }
+
+double TreeView::sigma(std::span<const double> u) const noexcept {
+  if (empty() || sigma_ == nullptr) return 0.0;
+  ActiveLeaves<double> leaves;
+  active(u, leaves);
+  double out = 0.0;
+  for (int i = 0; i < leaves.count; ++i)
+    out += leaves.weight[i] * static_cast<double>(sigma_[leaves.leaf[i]]);
+  return out;
 }
 
 }  // namespace plumb

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "compare/autocorrelation.hpp"
-#include "compare/f_tail.hpp"
 #include "compare/lack_of_fit.hpp"
 #include "residual_cases.hpp"
+#include "tree/f_tail.hpp"
 
 namespace plumb::offline::compare {
 namespace {

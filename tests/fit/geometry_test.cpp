@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "fit/random.hpp"
+#include "cell/random.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "cell/random.hpp"
 #include "fit/error_stats.hpp"
-#include "fit/random.hpp"
 #include "fit/weights.hpp"
 
 namespace plumb::offline {

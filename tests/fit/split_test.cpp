@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "fit/random.hpp"
+#include "cell/random.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -19,6 +19,8 @@ inline constexpr int kMaxTemperatures = 8;        // sensors
 inline constexpr int kTreeAxes = 3;               // x, y, z of the base frame
 inline constexpr int kMaxTreeLeaves = 4096;       // per axis
 inline constexpr int kMaxTreeDepth = 64;
+inline constexpr int kMaxActiveLeaves = 64;  // with a say in one blended value
+inline constexpr int kMaxLeafTerms = 1 + kMaxJoints + kMaxJoints * (kMaxJoints + 1) / 2;
 inline constexpr int kMaxParameters = 160;  // fitted parameters with a covariance
 inline constexpr int kMaxFileBytes = 16 << 20;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -172,8 +173,8 @@ struct Mechanics {
   bool operator==(const Mechanics&) const = default;
 };
 
-/// Inner node of a tree: input u[input] <= threshold goes low, else high.
-/// A child >= 0 is an inner node, always behind its parent; a child < 0 is leaf ~child.
+/// Inner node of a tree: x <= threshold goes low, else high; x is u[input], or the node's direction
+/// times u. A child >= 0 is an inner node, always behind its parent; a child < 0 is leaf ~child.
 struct TreeNode {
   double threshold = 0.0;  // on the normalised input, -1 .. 1
   std::uint16_t input = 0;
@@ -185,16 +186,32 @@ struct TreeNode {
 
 /// Local linear model tree for one axis [Nelles 2000], inputs normalised to the trained domain:
 /// u_i = (2 q_i - q_min_i - q_max_i) / (q_max_i - q_min_i).
-/// Leaf k predicts clamp(w[k][0] + sum_i w[k][i + 1] u_i, bounds[k][0], bounds[k][1]) in [m].
-/// No nodes and one leaf is a plain linear model; no leaves is "no correction".
+/// Leaf k says y_k = w[k] . (1, u_1 .. u_n [, u_i u_k for i <= k]) in [m].
+///
+/// Crisp: the leaf that u falls into speaks, clamp(y_k, low_k, high_k).
+/// Blended: at a node with half width h and s = clamp((x - threshold + h) / 2h, 0, 1) the high side
+/// weighs 3 s^2 - 2 s^3 and the low side the rest; a leaf's validity Phi_k is the product along its
+/// path. sum_k Phi_k y_k is held softly, C1, between sum_k Phi_k low_k and sum_k Phi_k high_k.
+/// No nodes and one leaf is a plain model; no leaves is "no correction".
 struct Tree {
-  std::uint16_t depth = 0;               // compares from the root to the deepest leaf
-  std::vector<TreeNode> nodes;           // leaves - 1 of them
-  std::vector<double> coefficients;      // leaves x (joints + 1), row-major, [m]
-  std::vector<double> bounds;            // leaves x 2, [m]: what was seen there in training
-  std::vector<double> blend_half_width;  // empty: crisp; else one per node, normalised
+  std::uint16_t depth = 0;                    // compares from the root to the deepest leaf
+  std::vector<TreeNode> nodes = {};           // leaves - 1 of them
+  std::vector<double> coefficients = {};      // leaves x terms, row-major, [m]
+  std::vector<double> bounds = {};            // leaves x 2, [m]: what was seen in training
+  std::vector<double> blend_half_width = {};  // empty: crisp; else one per node, normalised
+  std::uint8_t degree = 1;                    // of the leaves in u: 1 or 2
+  std::vector<double> directions = {};        // nodes x joints, sum |.| = 1; empty: along the axes
+  std::vector<float> region = {};             // leaves x joints x (low, high), normalised, or empty
+  std::vector<float> sigma = {};              // one per leaf, [m]: 1 sigma of an error, or empty
   bool operator==(const Tree&) const = default;
+
+  std::size_t leaves() const { return bounds.size() / 2; }
 };
+
+/// Coefficients of a leaf over so many inputs.
+constexpr std::size_t leaf_terms(std::size_t inputs, int degree) {
+  return 1 + inputs + (degree == 2 ? inputs * (inputs + 1) / 2 : 0);
+}
 
 /// Box of joint positions the model was trained in, [rad] or [m].
 struct Domain {

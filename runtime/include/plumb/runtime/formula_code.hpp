@@ -6,14 +6,13 @@
 
 #include "plumb/format/formula.hpp"
 #include "plumb/runtime/elementary.hpp"
+#include "plumb/runtime/plain.hpp"
 
 /// Runs the stack code of a formula. Templated on the number, so that the cycle's formula is the
 /// one that was differentiated.
 namespace plumb::formula {
 
 using format::FormulaOp;
-
-inline double plain(double x) noexcept { return x; }
 
 /// Neither infinite nor NaN.
 inline bool is_number(double x) noexcept { return x - x == 0.0; }

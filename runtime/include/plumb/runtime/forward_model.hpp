@@ -55,6 +55,8 @@ class ForwardModel {
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
   bool has_tree_ = false;
+  TreeView walked_;        // the first that is not empty
+  bool one_walk_ = false;  // the others differ from it in their numbers only
 };
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "plumb/format/model.hpp"
@@ -27,28 +28,105 @@ class TrainedDomain {
   std::array<double, format::kMaxJoints> half_inverse_{};
 };
 
-/// Evaluates one tree of a verified model, [Nelles 2000] eq. (1) with crisp validity.
-/// Refers to the model's memory: the model must outlive it.
+/// Leaves that have a say, and how much: weights > 0 that add up to 1.
+template <class Scalar>
+struct ActiveLeaves {
+  int count = 0;
+  std::array<int, format::kMaxActiveLeaves + 1> leaf;       // one to spare: written, not counted
+  std::array<Scalar, format::kMaxActiveLeaves + 1> weight;  // by walks without a branch
+};
+
+/// A leaf's correction fades to zero over this distance outside its region, normalised input.
+inline constexpr double kRegionFade = 0.1;
+
+/// A blended sum leaves the range that its leaves saw by at most this share of it.
+inline constexpr double kSoftShare = 0.1;
+
+/// Evaluates one tree of a verified model as format::Tree defines it. Refers to the model's memory:
+/// the model must outlive it. Scalar: double in the cycle; offline also numbers with derivatives,
+/// which is where its Jacobian comes from. u: normalised inputs, shape (n,), clamped to the box.
+///
+/// Cost, crisp: exactly `depth` compares and one leaf, whatever u is. Blended: at most
+/// kMaxActiveLeaves leaves and depth times as many nodes. Wait-free; any thread.
 class TreeView {
  public:
   TreeView() = default;
   explicit TreeView(const format::Tree& tree, int inputs) noexcept;
 
   bool empty() const noexcept { return leaves_ == 0; }
+  bool blended() const noexcept { return half_width_ != nullptr; }
 
-  /// Leaf that u, shape (n,), falls into. Cost: exactly `depth` compares, whatever u is.
+  /// Whether the leaves of both are the same, so that one walk serves both.
+  bool same_leaves(const TreeView& other) const noexcept;
+
+  /// Leaf whose hard cell u falls into.
   int leaf(std::span<const double> u) const noexcept;
 
-  /// Error along the tree's axis [m], clamped to what the leaf saw in training; 0 if empty.
-  double evaluate(std::span<const double> u) const noexcept;
+  /// One leaf with weight 1 if crisp. Where more than kMaxActiveLeaves would have a say, which the
+  /// trainer avoids, further nodes are crisp.
+  template <class Scalar>
+  void active(std::span<const Scalar> u, ActiveLeaves<Scalar>& out) const noexcept;
+
+  /// Error along the tree's axis [m], held within what was seen, fading out outside the leaves'
+  /// regions; 0 if empty.
+  template <class Scalar>
+  Scalar evaluate(std::span<const Scalar> u) const noexcept;
+
+  /// The same for leaves found before.
+  template <class Scalar>
+  Scalar evaluate(std::span<const Scalar> u, const ActiveLeaves<Scalar>& active) const noexcept;
+
+  double evaluate(std::span<const double> u) const noexcept { return evaluate<double>(u); }
+
+  /// 1 sigma of the error of `evaluate` as the trainer saw it on held-out poses [m]; 0 if unknown.
+  double sigma(std::span<const double> u) const noexcept;
 
  private:
+  template <class Scalar>
+  Scalar split_value(std::span<const Scalar> u, int node) const noexcept;
+  template <class Scalar>
+  Scalar trust(std::span<const Scalar> u, int leaf) const noexcept;
+  template <class Scalar>
+  void walk(std::span<const Scalar> u, ActiveLeaves<Scalar>& out) const noexcept;
+  template <class Scalar>
+  int hard_leaf(std::span<const Scalar> u) const noexcept;
+
   const format::TreeNode* nodes_ = nullptr;
   const double* coefficients_ = nullptr;
   const double* bounds_ = nullptr;
+  const double* half_width_ = nullptr;
+  const double* directions_ = nullptr;
+  const float* region_ = nullptr;
+  const float* sigma_ = nullptr;
   int inputs_ = 0;
+  int terms_ = 0;
+  int degree_ = 1;
   int depth_ = 0;
   int leaves_ = 0;
 };
+
+/// What a leaf's coefficients multiply: 1, u_i, and for degree 2 the products u_i u_k, i <= k.
+/// out: shape (leaf_terms(n, degree),).
+template <class Scalar>
+void fill_leaf_terms(std::span<const Scalar> u, int degree, std::span<Scalar> out) noexcept {
+  std::size_t next = 0;
+  out[next++] = Scalar(1.0);
+  for (const Scalar& x : u) out[next++] = x;
+  if (degree < 2) return;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    for (std::size_t k = i; k < u.size(); ++k) out[next++] = u[i] * u[k];
+}
+
+}  // namespace plumb
+
+#include "plumb/runtime/tree_walk.hpp"
+
+namespace plumb {
+
+extern template void TreeView::active(std::span<const double>,
+                                      ActiveLeaves<double>&) const noexcept;
+extern template double TreeView::evaluate(std::span<const double>,
+                                          const ActiveLeaves<double>&) const noexcept;
+extern template double TreeView::evaluate<double>(std::span<const double>) const noexcept;
 
 }  // namespace plumb

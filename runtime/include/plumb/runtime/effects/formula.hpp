@@ -85,7 +85,7 @@ struct Formula {
   static void apply(std::span<const S> theta, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
     using formula::is_number;
-    using formula::plain;
+    using plumb::plain;
     if (shape.formula == nullptr) return;
     const format::Formula& f = *shape.formula;
     const S motion = formula::evaluate(

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/format/model.hpp"
+#include "tree/growth.hpp"
+
+namespace plumb::offline {
+
+/// Box of the joint positions q, shape (n >= 1, joints) [rad] or [m]; a joint that hardly moved
+/// gets a hair's width, so that q_min < q_max.
+format::Domain trained_box(const Samples& q);
+
+/// Joints that move by more than that hair.
+int moving_joints(const Samples& q);
+
+/// u of every row as the runtime sees it: in [-1, 1], clamped outside. Shape (n, joints).
+Samples normalised(const format::Domain& domain, const Samples& q);
+
+/// How far the runtime trusts a tree at every row: 1 inside the box, 0 far outside. Shape (n,).
+Eigen::VectorXd trust(const format::Domain& domain, const Samples& q);
+
+}  // namespace plumb::offline

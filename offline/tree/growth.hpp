@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "plumb/format/model.hpp"
+#include "tree/samples.hpp"
+
+namespace plumb::offline {
+
+/// kAxes: one input a split. kOblique: also weighted sums of inputs, where they pay.
+enum class SplitKind { kAxes, kOblique };
+
+struct GrowthSettings {
+  int max_leaves = 256;
+  int min_samples = 0;  // per leaf; 0 = 3 times its coefficients
+  int degree = 1;       // of the leaves: affine or quadratic
+  SplitKind splits = SplitKind::kAxes;
+  double min_side = 0.0;  // share of a cell's width that either side of a split keeps, 0 .. 0.5;
+};                        // 0.5 halves cells as LOLIMOT does. Wide cells blend better.
+
+/// Least squares on the samples of one cell, all outputs.
+struct LocalModel {
+  std::vector<double> w;                          // outputs x leaf terms [m]
+  double rss = 0.0;                               // of all outputs [m^2]
+  std::array<double, format::kTreeAxes> y_min{};  // what was seen [m]
+  std::array<double, format::kTreeAxes> y_max{};
+  int samples = 0;
+};
+
+/// A box of the input space that was a leaf once, and perhaps was split.
+struct TreeCell {
+  LocalModel model;
+  int depth = 0;
+  int input = -1;                      // of its split along an axis; -1: none, or oblique
+  std::vector<double> direction = {};  // of an oblique split: shape (p,), sum |.| = 1
+  double threshold = 0.0;
+  int low = -1, high = -1;  // cells; -1: never split
+  int split_at = 0;         // leaves of the tree when it was split
+
+  bool is_split() const { return low >= 0; }
+  double split_value(std::span<const double> u) const;
+};
+
+/// Which splits of a grown tree stand, one a cell. Those below one that does not stand are moot.
+using Splits = std::vector<char>;
+
+/// A linear model tree grown best-first by exhaustive splits [Karlic 1992, Potts 2005], with every
+/// size on the way. Crisp; blended_fit.hpp makes a smooth one of it.
+class GrownTree {
+ public:
+  int leaves() const { return cells.empty() ? 0 : static_cast<int>(split_order.size()) + 1; }
+
+  /// Residual sum of squares with k leaves [m^2], k = 1 .. leaves(). Cost O(k).
+  double rss(int k) const;
+
+  /// Those of the tree with k leaves.
+  Splits first_splits(int k) const;
+
+  /// In the model file's form, for one output; k = 0: no correction.
+  format::Tree cut(const Splits& stand, int output = 0) const;
+  format::Tree cut(int k, int output = 0) const;
+
+  /// Cells that are leaves when only those splits stand, in the order of the tree cut so.
+  std::vector<int> leaf_cells(const Splits& stand) const;
+
+  /// What a cell says at u, clamped to what it saw as the runtime does. u: shape (p,).
+  double predict(int cell, std::span<const double> u, int output) const;
+
+  std::vector<TreeCell> cells;   // every cell ever made, parents before children
+  std::vector<int> split_order;  // the cell that was split when the tree had 1, 2, ... leaves
+  int inputs = 0;
+  int degree = 1;
+  int outputs = 1;
+};
+
+/// Grows on (u, y), u: (n, p) in [-1, 1], p <= kMaxJoints, y: (n, 1 .. 3) [m]: several outputs
+/// share the splits that lower their errors together. Every leaf keeps min_samples and a design of
+/// full rank (condition at most about 1e7); terms that depend on earlier ones in all samples get no
+/// coefficient and no split. Thresholds lie midway between neighbouring values. Ties go to the
+/// lowest input, then the lowest threshold, and the result is the same to the last bit for any
+/// order of the rows. Fewer than min_samples rows: no leaves.
+/// Cost O(p terms^2 n) a level after one sort; oblique splits sort again in every cell.
+GrownTree grow(const Samples& u, const Samples& y, const GrowthSettings& settings);
+
+}  // namespace plumb::offline

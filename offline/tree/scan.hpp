@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tree/growth.hpp"
+#include "tree/rows.hpp"
+
+namespace plumb::offline {
+
+/// Neighbouring values closer than this are one value: the runtime's rounding of u could put a
+/// sample on either side of a threshold between them.
+inline constexpr double kSameValue = 1e-9;
+
+/// One of the weighted sums of inputs tried in a cell; a single input is column `column`.
+struct SplitCandidate {
+  int column = -1;                // of TrainingRows; -1: none, or oblique
+  std::vector<double> direction;  // over the used inputs, sum |.| = 1; empty: none, or one column
+  double threshold = 0.0;         // rows with value <= threshold go low
+  double rss = 0.0;               // both sides together [m^2]
+
+  bool found() const { return column >= 0 || !direction.empty(); }
+  double value(const TrainingRows& rows, int row) const;
+};
+
+/// Thresholds that may be chosen.
+struct Admissible {
+  double from = -2.0, to = 2.0;
+};
+
+/// Best split along one input, by exhaustive search over the rows of a cell. sorted[c]: the cell's
+/// rows in the order of column c; admissible: shape (inputs,). Cost O(inputs terms^2 rows).
+SplitCandidate best_split(const TrainingRows& rows, const std::vector<std::span<const int>>& sorted,
+                          std::span<const Admissible> admissible, int min_samples);
+
+/// The same along one direction: order lists the rows by `value`, shape (rows of the cell,).
+/// Infinite rss where nothing is admissible.
+SplitCandidate best_split_along(const TrainingRows& rows, std::span<const int> order,
+                                std::span<const double> value, int min_samples);
+
+/// Least squares on some rows, in terms of all leaf terms. all_terms: of a leaf, with the constant.
+LocalModel fit_cell_model(const TrainingRows& rows, std::span<const int> which, int all_terms);
+
+/// First term that depends on the constant and the terms before it, or -1.
+int dependent_term(const TrainingRows& rows);
+
+}  // namespace plumb::offline
