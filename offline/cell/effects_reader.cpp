@@ -37,6 +37,27 @@ void read_min_gain(TomlTable& t, EffectEntry& entry) {
     t.out_of_range("min_gain", "a share like \"2%\" or 0.02");
 }
 
+/// Words and numbers that say what kind of tree is wanted.
+void read_tree_options(TomlTable& t, EffectEntry& entry) {
+  const auto word = [&](const char* key, const char* usual, const char* other) {
+    if (t.node(key) == nullptr) return;
+    const auto text = t.text(key);
+    if (text && (*text == usual || *text == other))
+      entry.options[key] = *text;
+    else
+      t.out_of_range(key, fmt::format("\"{}\" or \"{}\"", usual, other));
+  };
+  read_min_gain(t, entry);
+  word("form", "blended", "crisp");
+  word("splits", "shared", "own");
+  if (t.node("degree") == nullptr) return;
+  const auto degree = t.number("degree");
+  if (degree && (*degree == 1.0 || *degree == 2.0))
+    entry.options["degree"] = *degree;
+  else
+    t.out_of_range("degree", "1 (affine leaves) or 2 (quadratic ones too)");
+}
+
 /// A number or a text that an effect may be given.
 struct Option {
   const char* effect;
@@ -85,7 +106,7 @@ void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
     else
       entry.joints.push_back(index);
   }
-  if (name == "local_tree") read_min_gain(t, entry);
+  if (name == "local_tree") read_tree_options(t, entry);
   read_options(name, t, entry);
   t.done();
   draft.cell.effects.push_back(std::move(entry));

@@ -11,14 +11,18 @@
 #include "cli/verbs.hpp"
 #include "compile/audit.hpp"
 #include "compile/compiler.hpp"
+#include "compile/emit_c.hpp"
 #include "show/audit_view.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   std::string output;
+  std::string c_output;
   bool refit_all = false;
   bool gate = false;
   WriteOptions write;
@@ -76,28 +80,53 @@ Json result_of(const format::Model& model, const Audit& audit, const std::string
           {"audit", show::audit_json(audit, model)}};
 }
 
+/// The model file; never the one that the C is meant for.
+fs::path model_file(const Options& options, const Cell& cell) {
+  const fs::path file =
+      options.output.empty() ? cell.directory / "robot.plumb" : fs::path(options.output);
+  if (!options.c_output.empty() &&
+      fs::weakly_canonical(file) == fs::weakly_canonical(options.c_output))
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = fmt::format("--emit-c names the model file itself, {}",
+                                                        file.string()),
+                                 .help = "for example: plumb compile --emit-c robot.h"});
+  return file;
+}
+
+/// The model, and if asked for the same tree as C.
+OutputFiles files_of(const Options& options, const fs::path& file, const format::Model& model) {
+  OutputFiles out;
+  out.add(file, model_bytes(model));
+  if (!options.c_output.empty()) out.add(options.c_output, emit_c(model, options.c_output));
+  return out;
+}
+
+std::string wrote_text(const Options& options, const fs::path& file) {
+  std::string out = wrote(file, options.write) + "\n";
+  if (!options.c_output.empty()) out += wrote(options.c_output, options.write) + "\n";
+  return out;
+}
+
 void compile_cell(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  const std::filesystem::path file = options.output.empty() ? cell.directory / "robot.plumb"
-                                                            : std::filesystem::path(options.output);
+  const fs::path file = model_file(options, cell);
   const Measurements measured = open_measurements(cell, outcome);
   Run run = current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
                                outcome);
   const format::Model model = compiled(options, cell, measured, std::move(run));
-  std::string bytes = model_bytes(model);
+  const OutputFiles files = files_of(options, file, model);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   outcome.result = result_of(model, found, file.string());
+  if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
   const std::string text = headline(model) + show::audit_text(found, model);
   if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;
     return;
   }
-  OutputFiles files;
-  files.add(file, std::move(bytes));
   files.commit(options.write, outcome);
-  outcome.text = text + "\n" + wrote(file, options.write) + "\n";
+  outcome.text = text + "\n" + wrote_text(options, file);
 }
 
 }  // namespace
@@ -110,6 +139,11 @@ void add_compile(Program& program) {
        .examples = "  plumb compile\n  plumb -C mycell compile -o robot.plumb --gate --force"},
       [options](const Globals& g, Outcome& o) { compile_cell(*options, g, o); });
   verb.add_option("-o,--output", options->output, "Model file; else robot.plumb beside cell.toml")
+      ->type_name("FILE");
+  verb.add_option(
+          "--emit-c", options->c_output,
+          "Also write the tree as one C99 header that needs nothing else; its symbols begin "
+          "with the file's name")
       ->type_name("FILE");
   verb.add_flag("--refit-all", options->refit_all,
                 "Use every pose; the model then carries no held-out figure");

@@ -24,6 +24,7 @@ void add_inspect(Program& program);
 void add_predict(Program& program);
 void add_correct(Program& program);
 void add_simulate(Program& program);
+void add_study(Program& program);
 void add_explain(Program& program);
 
 }  // namespace plumb::offline::cli

@@ -11,11 +11,13 @@
 #include "fit/geometry.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/forward_model.hpp"
+#include "tree/active_bound.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr int kBorderPoints = 32;   // looked at on each leaf border
+constexpr int kHalvings = 60;       // down to neighbouring numbers
 constexpr double kLargeJump = 0.1;  // of the guard's limit: worth a warning
 
 using Box = std::vector<std::pair<double, double>>;
@@ -71,10 +73,29 @@ double jump_at(const format::Tree& tree, const TreeView& view, int node, const B
   return worst;
 }
 
+/// Of an oblique tree: on both sides of borders met on the way through the box.
+double jump_on_the_way(const TreeView& view, const Box& box, Random& random) {
+  double worst = 0.0;
+  for (int i = 0; i < kAuditPoses; ++i) {
+    auto from = somewhere_in(box, random), to = somewhere_in(box, random);
+    if (view.leaf(from) == view.leaf(to)) continue;
+    std::vector<double> middle(from.size());
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      for (std::size_t k = 0; k < from.size(); ++k) middle[k] = 0.5 * (from[k] + to[k]);
+      (view.leaf(middle) == view.leaf(from) ? from : to) = middle;
+    }
+    worst = std::max(worst, std::abs(view.evaluate(to) - view.evaluate(from)));
+  }
+  return worst;
+}
+
 double worst_jump(const format::Tree& tree, int inputs, Random& random) {
   const TreeView view(tree, inputs);
+  if (view.blended()) return 0.0;
+  const Box box(inputs, {-1.0, 1.0});
+  if (!tree.directions.empty()) return jump_on_the_way(view, box, random);
   double worst = 0.0;
-  std::vector<Box> cells(tree.nodes.size(), Box(inputs, {-1.0, 1.0}));
+  std::vector<Box> cells(tree.nodes.size(), box);
   for (std::size_t node = 0; node < tree.nodes.size(); ++node) {
     const auto& n = tree.nodes[node];
     worst = std::max(worst, jump_at(tree, view, static_cast<int>(node), cells[node], random));
@@ -153,7 +174,7 @@ void judge(const format::Model& model, Audit& out) {
          .message = fmt::format("the tree steps by {:.3f} mm at a leaf border; the guard spreads "
                                 "such a step over time, but the arm leaves its path meanwhile",
                                 out.worst_jump_m * 1e3),
-         .help = "measure more poses, or leave the tree out: delete [effects.local_tree]"});
+         .help = "blend the leaves: [effects.local_tree] form = \"blended\""});
   if (model.provenance.held_out.poses == 0)
     out.remarks.push_back({.severity = Severity::kWarning,
                            .code = "W-AUDIT-HELD",
@@ -169,7 +190,8 @@ Audit audit(const format::Model& model) {
   Random random(1);
   const int inputs = static_cast<int>(model.nominal.joints.size());
   for (const auto& tree : model.trees) {
-    out.leaves += static_cast<int>(tree.bounds.size() / 2);
+    out.leaves += static_cast<int>(tree.leaves());
+    out.active_leaves = std::max(out.active_leaves, most_active_leaves(tree, inputs));
     out.worst_jump_m = std::max(out.worst_jump_m, worst_jump(tree, inputs, random));
   }
   look_at_uncertainty(model, out);

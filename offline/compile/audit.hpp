@@ -14,10 +14,11 @@ struct Audit {
   double worst_correction_m = 0.0;  // largest |T(q) - N(q)| at the tool over the trained domain
   double worst_rotation_rad = 0.0;
   std::vector<double> worst_q;     // where
-  double worst_jump_m = 0.0;       // largest step of a tree at a leaf border, one axis
+  double worst_jump_m = 0.0;       // largest step of a crisp tree at a leaf border, one axis
   double sigma_tool_mean_m = 0.0;  // predicted 1 sigma of the tool point (3-D), from the covariance
   double sigma_tool_max_m = 0.0;
   int leaves = 0;
+  int active_leaves = 0;  // at most so many have a say in one value, one axis
   std::size_t bytes = 0;
   std::vector<Problem> remarks;  // a correction above the guard's limit, and such
 };

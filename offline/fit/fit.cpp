@@ -34,6 +34,14 @@ TreeSettings tree_settings(const Cell& cell, const EffectEntry& entry) {
   out.seed = cell.measurement.seed;
   if (const auto it = entry.options.find("min_gain"); it != entry.options.end())
     out.min_gain = share_of(it->second);
+  const auto says = [&](const char* key, const char* word) {
+    const auto it = entry.options.find(key);
+    return it != entry.options.end() && it->second == EffectEntry::Value(std::string(word));
+  };
+  if (says("form", "crisp")) out.form = TreeForm::kCrisp;
+  if (says("splits", "own")) out.sharing = Sharing::kOwn;
+  if (const auto it = entry.options.find("degree"); it != entry.options.end())
+    out.max_degree = static_cast<int>(std::get<double>(it->second));
   return out;
 }
 

@@ -65,7 +65,12 @@ void to_json(Json& j, const Tree& tree) {
   j = {{"depth", tree.depth},
        {"nodes", nodes},
        {"coefficients", tree.coefficients},
-       {"bounds", tree.bounds}};
+       {"bounds", tree.bounds},
+       {"blend_half_width", tree.blend_half_width},
+       {"degree", tree.degree},
+       {"directions", tree.directions},
+       {"region", tree.region},
+       {"sigma", tree.sigma}};
 }
 void from_json(const Json& j, Tree& tree) {
   j.at("depth").get_to(tree.depth);
@@ -77,6 +82,12 @@ void from_json(const Json& j, Tree& tree) {
                           .high = n.at(3).get<std::int16_t>()});
   j.at("coefficients").get_to(tree.coefficients);
   j.at("bounds").get_to(tree.bounds);
+  if (!j.contains("degree")) return;  // runs of before are crisp and affine
+  j.at("blend_half_width").get_to(tree.blend_half_width);
+  j.at("degree").get_to(tree.degree);
+  j.at("directions").get_to(tree.directions);
+  j.at("region").get_to(tree.region);
+  j.at("sigma").get_to(tree.sigma);
 }
 
 void to_json(Json& j, const Domain& domain) {

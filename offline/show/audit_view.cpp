@@ -45,6 +45,7 @@ Json audit_json(const Audit& audit, const format::Model& model) {
     put(out, "sigma_tool_max_mm", to_mm(audit.sigma_tool_max_m));
   }
   out["leaves"] = audit.leaves;
+  out["active_leaves"] = audit.active_leaves;
   out["bytes"] = audit.bytes;
   out["poses_looked_at"] = kAuditPoses;
   return out;
@@ -62,8 +63,10 @@ std::string audit_text(const Audit& audit, const format::Model& model) {
                fmt::format("mean {} mm, max {} mm", mm(audit.sigma_tool_mean_m),
                            mm(audit.sigma_tool_max_m))});
   table.add({"leaves", fmt::format("{}", audit.leaves)});
-  if (audit.leaves > 0)
+  if (audit.leaves > 0) {
+    table.add({"  with a say in one value, at most", fmt::format("{}", audit.active_leaves)});
     table.add({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
+  }
   table.add({"size", fmt::format("{} bytes", audit.bytes)});
   return table.left_from(1).text();
 }

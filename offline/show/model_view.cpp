@@ -53,8 +53,10 @@ Json trees_json(const format::Model& model) {
   Json out = Json::array();
   for (std::size_t k = 0; k < model.trees.size(); ++k)
     out.push_back({{"axis", axes[k]},
-                   {"leaves", model.trees[k].bounds.size() / 2},
-                   {"depth", model.trees[k].depth}});
+                   {"leaves", model.trees[k].leaves()},
+                   {"depth", model.trees[k].depth},
+                   {"degree", model.trees[k].degree},
+                   {"blended", !model.trees[k].blend_half_width.empty()}});
   return out;
 }
 
@@ -145,6 +147,17 @@ std::string effects_text(const format::Model& model) {
   return out;
 }
 
+std::string trees_text(const format::Model& model) {
+  std::string out;
+  for (const format::Tree& tree : model.trees) {
+    if (tree.leaves() == 0) continue;
+    out += fmt::format("{}{} {} {} leaves", out.empty() ? "" : ", ", tree.leaves(),
+                       tree.blend_half_width.empty() ? "crisp" : "blended",
+                       tree.degree == 2 ? "quadratic" : "affine");
+  }
+  return out.empty() ? "none" : out;
+}
+
 }  // namespace
 
 Json model_json(const format::Model& model) {
@@ -176,6 +189,7 @@ std::string model_text(const format::Model& model) {
   table.add({"arm", fmt::format("{} joints, {} DH", model.nominal.joints.size(),
                                 convention(model.nominal))});
   table.add({"effects", effects_text(model)});
+  table.add({"trees", trees_text(model)});
   table.add({"held-out", held_out_text(p)});
   table.add({"corrects", fmt::format("{}, at most {} mm and {:.3f} deg, {:.1f} mm/s", corrects(g),
                                      mm(g.max_correction_m), to_deg(g.max_rotation_rad),

@@ -20,6 +20,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr int kDenseUnknowns = 900;
 constexpr Index kSlab = 256;
+constexpr double kBeyondSeen = 0.25;  // of the range of y that a leaf saw: the truth may go so far
 constexpr double kLeastScale = 1e-6;  // of a leaf, normalised input
 constexpr double kRootRidge = 1e-12;  // of the whole box's own model
 
@@ -259,6 +260,8 @@ struct BlendedFit::Design {
     if (dense.size() > 0) {
       MatrixXd A = dense;
       A.diagonal().array() += added;
+      const Eigen::LLT<MatrixXd> factor(A);  // of the lower triangle
+      if (factor.info() == Eigen::Success) return factor.solve(b);
       return A.selfadjointView<Eigen::Lower>().ldlt().solve(b);
     }
     Sparse A = sparse;
@@ -282,8 +285,8 @@ struct BlendedFit::Design {
         low = std::min(low, y(entry.index, output));
         high = std::max(high, y(entry.index, output));
       }
-      out.bounds[2 * k] = low;
-      out.bounds[2 * k + 1] = high;
+      out.bounds[2 * k] = low - kBeyondSeen * (high - low);
+      out.bounds[2 * k + 1] = high + kBeyondSeen * (high - low);
     }
     return out;
   }

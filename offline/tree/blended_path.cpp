@@ -12,22 +12,21 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kNarrower = 0.7;     // ramps, until few enough leaves have a say
-constexpr double kNarrowest = 0.02;   // overlap: nearly crisp
+constexpr double kNarrowest = 0.1;    // overlap: less is nearly crisp
 constexpr int kStepShare = 3;         // of the leaves are split at a time: one in three
 constexpr double kBeyondSeen = 0.25;  // of the width of what a leaf saw
 constexpr double kAlmostAll = 1e-6;
 
 }  // namespace
 
-format::Tree with_ramps(format::Tree tree, const Samples& u, double overlap) {
+std::optional<format::Tree> with_ramps(format::Tree tree, const Samples& u, double overlap) {
   const int inputs = static_cast<int>(u.cols());
   for (; overlap > kNarrowest; overlap *= kNarrower) {
     add_ramps(tree, u, overlap);
     if (tree.leaves() <= format::kMaxActiveLeaves) return tree;
     if (most_active_leaves(tree, inputs) <= format::kMaxActiveLeaves) return tree;
   }
-  add_ramps(tree, u, kNarrowest);
-  return tree;
+  return std::nullopt;
 }
 
 BlendedPath::BlendedPath(const Samples& u, const Samples& y, const BlendSettings& settings)
@@ -40,10 +39,14 @@ BlendedPath::BlendedPath(const Samples& u, const Samples& y, const BlendSettings
   make_fit();
 }
 
-void BlendedPath::make_fit() {
+/// False if the ramps of these splits would give too many leaves a say.
+bool BlendedPath::make_fit() {
+  const auto tree = with_ramps(grown_.cut(stand_), u_, settings_.overlap);
+  if (!tree) return false;
   cells_ = grown_.leaf_cells(stand_);
   leaves_ = static_cast<int>(cells_.size());
-  fit_ = std::make_unique<BlendedFit>(with_ramps(grown_.cut(stand_), u_, settings_.overlap), u_);
+  fit_ = std::make_unique<BlendedFit>(*tree, u_);
+  return true;
 }
 
 std::vector<double> BlendedPath::losses() const {
@@ -75,8 +78,11 @@ bool BlendedPath::grow_to(int leaves) {
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return loss[a] > loss[b]; });
     const int step = std::min(std::max(1, leaves_ / kStepShare), leaves - leaves_);
     order.resize(std::min<std::size_t>(order.size(), step));
+    const Splits before = stand_;
     for (int k : order) stand_[cells_[k]] = 1;
-    make_fit();
+    if (make_fit()) continue;
+    stand_ = before;
+    return false;
   }
   return leaves_ > 0;
 }

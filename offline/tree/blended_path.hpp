@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "tree/blended_fit.hpp"
@@ -21,7 +22,8 @@ struct BlendSettings {
 };
 
 /// Blended trees of growing size on the same samples: each is the one before with the leaves split
-/// in which it errs most, by sum_i Phi_k(u_i) e_i^2. Every tree respects kMaxActiveLeaves.
+/// in which it errs most, by sum_i Phi_k(u_i) e_i^2. Every tree respects kMaxActiveLeaves: where
+/// narrower ramps do not help, because too many cells meet in one point, it grows no further.
 /// Cost: one growth; then a global least squares a step, steps growing by a third.
 class BlendedPath {
  public:
@@ -39,7 +41,7 @@ class BlendedPath {
   std::vector<format::Tree> solve(double ridge) const;
 
  private:
-  void make_fit();
+  bool make_fit();
   std::vector<double> losses() const;
 
   const Samples& u_;
@@ -52,8 +54,9 @@ class BlendedPath {
   std::unique_ptr<BlendedFit> fit_;
 };
 
-/// The crisp structure with ramps as wide as `overlap` and kMaxActiveLeaves allow.
-format::Tree with_ramps(format::Tree tree, const Samples& u, double overlap);
+/// The crisp structure with ramps as wide as `overlap` and kMaxActiveLeaves allow; none if even
+/// narrow ones give too many leaves a say somewhere.
+std::optional<format::Tree> with_ramps(format::Tree tree, const Samples& u, double overlap);
 
 /// What each leaf was trained in: the box of the samples where it has a say, widened by a quarter
 /// of its width and at least to where the input's trained range ends nearby. None if every leaf saw

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <limits>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,10 @@ namespace {
 /// five times better in-sample and are worse on fresh poses (the published experiment, on noise).
 constexpr int kPosesPerCoefficient = 10;
 
+/// The cycle walks as deep as the deepest leaf whatever the input: a few more leaves elsewhere cost
+/// less than one that is far down.
+constexpr int kCrispDepth = 10;
+
 using Chosen = std::array<int, format::kTreeAxes>;  // of the candidates, per axis
 
 /// Mean over folds and its standard error.
@@ -34,8 +40,14 @@ Mean mean_of(const Eigen::VectorXd& x) {
   return {mean, std::sqrt((x.array() - mean).square().sum() / (n * (n - 1.0)))};
 }
 
+/// ln of squared errors; folds without any error are as good as it gets.
+Eigen::VectorXd logarithm(const Eigen::VectorXd& squared_error) {
+  return squared_error.array().max(std::numeric_limits<double>::min()).log();
+}
+
 /// Fewest coefficients among the candidates that the best one does not beat by more than a standard
-/// error; of the same size the one with the least error. squared_error: (folds, candidates).
+/// error; of the same size the one with the least error. Ratios are compared: a fold that is hard
+/// for all of them must not hide a difference. squared_error: (folds, candidates).
 int smallest_good(const Eigen::MatrixXd& squared_error,
                   const std::vector<TreeCandidate>& candidates, int inputs) {
   const Eigen::VectorXd total = squared_error.colwise().sum();
@@ -47,7 +59,8 @@ int smallest_good(const Eigen::MatrixXd& squared_error,
   Eigen::Index out = best;
   for (Eigen::Index k = 0; k < total.size(); ++k) {
     if (!std::isfinite(total[k]) || !(order(k) < order(out))) continue;
-    const Mean excess = mean_of(squared_error.col(k) - squared_error.col(best));
+    const Mean excess =
+        mean_of(logarithm(squared_error.col(k)) - logarithm(squared_error.col(best)));
     if (excess.value <= excess.se) out = k;
   }
   return static_cast<int>(out);
@@ -165,6 +178,7 @@ GrowthSettings growth_of(const TreeSettings& settings, int degree) {
   out.max_leaves = settings.max_leaves;
   out.min_samples = settings.min_samples;
   out.degree = degree;
+  if (settings.form == TreeForm::kCrisp) out.max_depth = kCrispDepth;
   return out;
 }
 

@@ -111,7 +111,7 @@ class Grower {
     tree_.cells.push_back({.model = fit_cell_model(rows_, sorted[0], terms), .depth = depth});
     ranges_.push_back({begin, end, walls, {}});
     const double noise = kRounding * y_max_, rss = tree_.cells[cell].model.rss;
-    if (depth == format::kMaxTreeDepth || rss <= noise * noise * (end - begin)) return;
+    if (depth >= settings_.max_depth || rss <= noise * noise * (end - begin)) return;
     SplitCandidate best = best_split(rows_, sorted, admissible(walls), settings_.min_samples);
     if (settings_.splits == SplitKind::kOblique)
       best = oblique_split(rows_, sorted[0], best, settings_.min_samples);

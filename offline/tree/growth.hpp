@@ -15,8 +15,9 @@ enum class SplitKind { kAxes, kOblique };
 
 struct GrowthSettings {
   int max_leaves = 256;
-  int min_samples = 0;  // per leaf; 0 = 3 times its coefficients
-  int degree = 1;       // of the leaves: affine or quadratic
+  int min_samples = 0;                    // per leaf; 0 = 3 times its coefficients
+  int max_depth = format::kMaxTreeDepth;  // compares on the way to a leaf
+  int degree = 1;                         // of the leaves: affine or quadratic
   SplitKind splits = SplitKind::kAxes;
   double min_side = 0.0;  // share of a cell's width that either side of a split keeps, 0 .. 0.5;
 };                        // 0.5 halves cells as LOLIMOT does. Wide cells blend better.

@@ -22,6 +22,8 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
   }
   for (const TreeView& tree : trees_)
     if (!tree.empty() && walked_.empty()) walked_ = tree;
+  all_hard_ =
+      std::all_of(trees_.begin(), trees_.end(), [](const TreeView& tree) { return tree.hard(); });
   one_walk_ = std::all_of(trees_.begin(), trees_.end(), [&](const TreeView& tree) {
     return tree.empty() || tree.same_leaves(walked_);
   });
@@ -92,6 +94,10 @@ Vector3 ForwardModel::tree_at(std::span<const double> q) const noexcept {
   const std::span<double> inputs = std::span(u).first(static_cast<std::size_t>(joints()));
   domain_.normalise(q, inputs);
   const std::span<const double> at = inputs;
+  if (all_hard_ && !one_walk_) {
+    const auto e = TreeView::evaluate_all(trees_, at);
+    return {e[0], e[1], e[2]};
+  }
   if (!one_walk_) return {trees_[0].evaluate(at), trees_[1].evaluate(at), trees_[2].evaluate(at)};
   ActiveLeaves<double> leaves;
   walked_.active(at, leaves);

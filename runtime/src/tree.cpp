@@ -7,8 +7,9 @@ namespace plumb {
 namespace {
 
 double clamp(double x, double low, double high) noexcept {
-  // Written so that NaN gives `low`, never an index or a bound of its own.
-  return x > low ? (x < high ? x : high) : low;
+  // Written so that NaN gives `low`, never an index or a bound of its own; and without a branch.
+  const double up = x > low ? x : low;
+  return up < high ? up : high;
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ template double TreeView::evaluate(std::span<const double>,
 template double TreeView::evaluate<double>(std::span<const double>) const noexcept;
 
 TreeView::TreeView(const format::Tree& tree, int inputs) noexcept
-    : nodes_(tree.nodes.data()),
+    : nodes_(tree.nodes.empty() ? &internal::kNoNode : tree.nodes.data()),
       coefficients_(tree.coefficients.data()),
       bounds_(tree.bounds.data()),
       half_width_(tree.blend_half_width.empty() ? nullptr : tree.blend_half_width.data()),
@@ -68,7 +69,33 @@ bool TreeView::same_leaves(const TreeView& other) const noexcept {
   return true;
 }
 
-int TreeView::leaf(std::span<const double> u) const noexcept { return hard_leaf(u); }
+int TreeView::leaf(std::span<const double> u) const noexcept {
+  return directions_ != nullptr ? hard_leaf<true>(u) : hard_leaf<false>(u);
+}
+
+inline double TreeView::evaluate_leaf(std::span<const double> u, int leaf) const noexcept {
+  if (empty()) return 0.0;
+  const double y = inputs_ == 6 ? leaf_value<6>(u, leaf) : leaf_value<0>(u, leaf);
+  const double held = clamp(y, bounds_[2 * leaf], bounds_[2 * leaf + 1]);
+  return region_ == nullptr ? held : held * trust(u, leaf);
+}
+
+std::array<double, format::kTreeAxes> TreeView::evaluate_all(
+    const std::array<TreeView, format::kTreeAxes>& trees, std::span<const double> u) noexcept {
+  static_assert(format::kTreeAxes == 3);
+  const TreeView &x = trees[0], &y = trees[1], &z = trees[2];
+  const internal::InputKeys keys = internal::input_keys(u);
+  internal::HardWalk in_x(x.nodes_, x.leaves_), in_y(y.nodes_, y.leaves_),
+      in_z(z.nodes_, z.leaves_);
+  const int depth = std::max({x.depth_, y.depth_, z.depth_});
+  for (int i = 0; i < depth; ++i) {
+    in_x.step(keys);
+    in_y.step(keys);
+    in_z.step(keys);
+  }
+  return {x.evaluate_leaf(u, in_x.leaf()), y.evaluate_leaf(u, in_y.leaf()),
+          z.evaluate_leaf(u, in_z.leaf())};
+}
 
 double TreeView::sigma(std::span<const double> u) const noexcept {
   if (empty() || sigma_ == nullptr) return 0.0;

@@ -135,6 +135,9 @@ TEST(CellMessage, OfSettingsOutOfRange) {
   EXPECT_EQ(with("[deploy]\ncycle_us = 1"), Summary{"E-CELL-RANGE 6:12"});
   EXPECT_EQ(with("[deploy]\nmax_correction_mm = 0"), Summary{"E-CELL-RANGE 6:21"});
   EXPECT_EQ(with("[effects.local_tree]\nmin_gain = \"2\""), Summary{"E-CELL-RANGE 6:12"});
+  EXPECT_EQ(with("[effects.local_tree]\nform = \"smooth\""), Summary{"E-CELL-RANGE 6:8"});
+  EXPECT_EQ(with("[effects.local_tree]\nsplits = \"both\""), Summary{"E-CELL-RANGE 6:10"});
+  EXPECT_EQ(with("[effects.local_tree]\ndegree = 3"), Summary{"E-CELL-RANGE 6:10"});
 }
 
 TEST(CellMessage, OfHeldOutRulesThatAreNone) {

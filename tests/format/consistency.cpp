@@ -18,33 +18,126 @@ bool visit(const Tree& tree, int node, int depth, std::set<int>& met) {
          visit(tree, n.high, depth + 1, met);
 }
 
-/// The value for inputs u, as model.hpp states it; only after visit().
-long double value(const Tree& tree, const std::vector<double>& u) {
-  int at = tree.nodes.empty() ? ~0 : 0;
-  while (at >= 0) {
-    const TreeNode& n = tree.nodes.at(static_cast<std::size_t>(at));
-    at = u.at(n.input) <= n.threshold ? n.low : n.high;
-  }
-  const auto leaf = static_cast<std::size_t>(~at);
-  long double sum = tree.coefficients.at(leaf * (u.size() + 1));
-  for (std::size_t i = 0; i < u.size(); ++i)
-    sum += static_cast<long double>(tree.coefficients.at(leaf * (u.size() + 1) + i + 1)) * u[i];
-  return std::clamp<long double>(sum, tree.bounds.at(2 * leaf), tree.bounds.at(2 * leaf + 1));
+/// Products u_i u_k, i <= k, counted one by one.
+std::size_t terms_of(std::size_t joints, int degree) {
+  std::size_t out = 1 + joints;
+  for (std::size_t i = 0; degree == 2 && i < joints; ++i) out += joints - i;
+  return out;
 }
 
-std::string of_tree(const Tree& tree, std::size_t joints) {
-  const std::size_t leaves = tree.nodes.size() + 1;
+/// A tree's value for inputs u, as model.hpp and tree.hpp state it; only after the sizes and
+/// visit(). The sum goes over every leaf with a validity, however many.
+class Reading {
+ public:
+  Reading(const Tree& tree, const std::vector<double>& u) : tree_(tree), u_(u) {
+    terms_.push_back(1.0L);
+    terms_.insert(terms_.end(), u.begin(), u.end());
+    for (std::size_t i = 0; tree.degree == 2 && i < u.size(); ++i)
+      for (std::size_t k = i; k < u.size(); ++k)
+        terms_.push_back(static_cast<long double>(u[i]) * u[k]);
+    descend(tree.nodes.empty() ? ~0 : 0, 1.0L);
+  }
+
+  long double value() const {
+    const long double margin = blended() ? 0.1L * (high_ - low_) : 0.0L;
+    long double y = std::clamp(y_, low_, high_);
+    if (margin > 0.0L && y_ > high_) y += margin * (y_ - high_) / (margin + y_ - high_);
+    if (margin > 0.0L && y_ < low_) y -= margin * (low_ - y_) / (margin + low_ - y_);
+    return y * trust_;
+  }
+
+ private:
+  bool blended() const { return !tree_.blend_half_width.empty(); }
+
+  void descend(int at, long double validity) {
+    if (!(validity > 0.0L)) return;
+    if (at < 0) return speak(static_cast<std::size_t>(~at), validity);
+    const auto index = static_cast<std::size_t>(at);
+    const TreeNode& n = tree_.nodes.at(index);
+    long double x = u_.at(n.input);
+    if (!tree_.directions.empty()) {
+      x = 0.0L;
+      for (std::size_t i = 0; i < u_.size(); ++i)
+        x += static_cast<long double>(tree_.directions.at(index * u_.size() + i)) * u_[i];
+    }
+    long double high = x <= n.threshold ? 0.0L : 1.0L;
+    if (blended()) {
+      const long double h = tree_.blend_half_width.at(index);
+      const long double s = std::clamp((x - n.threshold + h) / (2.0L * h), 0.0L, 1.0L);
+      high = s * s * (3.0L - 2.0L * s);
+    }
+    descend(n.low, validity * (1.0L - high));
+    descend(n.high, validity * high);
+  }
+
+  void speak(std::size_t leaf, long double validity) {
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      y_ += validity * tree_.coefficients.at(leaf * terms_.size() + i) * terms_[i];
+    low_ += validity * tree_.bounds.at(2 * leaf);
+    high_ += validity * tree_.bounds.at(2 * leaf + 1);
+    long double trust = validity;
+    for (std::size_t i = 0; !tree_.region.empty() && i < u_.size(); ++i) {
+      const std::size_t side = (leaf * u_.size() + i) * 2;
+      const long double below = tree_.region.at(side) - static_cast<long double>(u_[i]);
+      const long double above = u_[i] - static_cast<long double>(tree_.region.at(side + 1));
+      const long double s = std::clamp(1.0L - std::max(below, above) / 0.1L, 0.0L, 1.0L);
+      trust *= s * s * (3.0L - 2.0L * s);
+    }
+    trust_ += trust;
+  }
+
+  const Tree& tree_;
+  const std::vector<double>& u_;
+  std::vector<long double> terms_;
+  long double y_ = 0.0L, low_ = 0.0L, high_ = 0.0L, trust_ = 0.0L;
+};
+
+std::string of_sizes(const Tree& tree, std::size_t joints) {
+  const std::size_t nodes = tree.nodes.size(), leaves = nodes + 1;
+  const auto all_or_none = [](const auto& x, std::size_t size) {
+    return x.empty() || x.size() == size;
+  };
+  if (tree.degree != 1 && tree.degree != 2) return "tree: degree";
   if (tree.bounds.size() != 2 * leaves) return "tree: leaves";
-  if (tree.coefficients.size() != leaves * (joints + 1)) return "tree: coefficients";
-  std::set<int> met;
-  if (!visit(tree, tree.nodes.empty() ? ~0 : 0, 0, met)) return "tree: walk";
-  if (met.size() != tree.nodes.size() + leaves) return "tree: unreached";
+  if (tree.coefficients.size() != leaves * terms_of(joints, tree.degree))
+    return "tree: coefficients";
+  if (!all_or_none(tree.blend_half_width, nodes)) return "tree: half widths";
+  if (!all_or_none(tree.directions, nodes * joints)) return "tree: directions";
+  if (!all_or_none(tree.region, 2 * leaves * joints)) return "tree: regions";
+  return all_or_none(tree.sigma, leaves) ? "" : "tree: sigmas";
+}
+
+std::string of_numbers(const Tree& tree, std::size_t joints) {
   for (const auto& n : tree.nodes)
     if (n.input >= joints || !std::isfinite(n.threshold)) return "tree: node";
   for (std::size_t i = 0; i < tree.bounds.size(); i += 2)
     if (!(tree.bounds[i] <= tree.bounds[i + 1])) return "tree: bounds";
+  for (double h : tree.blend_half_width)
+    if (!std::isfinite(1.0 / h) || !(h > 0.0 && h <= 2.0)) return "tree: half width";
+  for (std::size_t i = 0; i < tree.directions.size(); i += joints) {
+    long double length = 0.0L;
+    for (std::size_t k = i; k < i + joints; ++k) length += std::abs(tree.directions[k]);
+    if (!(std::abs(length - 1.0L) < 1e-8L)) return "tree: direction";
+  }
+  for (std::size_t i = 0; i < tree.region.size(); i += 2)
+    if (!(tree.region[i] <= tree.region[i + 1]) ||
+        !std::isfinite(tree.region[i + 1] - tree.region[i]))
+      return "tree: region";
+  for (float sigma : tree.sigma)
+    if (!(sigma >= 0.0F) || !std::isfinite(sigma)) return "tree: sigma";
+  return {};
+}
+
+std::string of_tree(const Tree& tree, std::size_t joints) {
+  if (auto what = of_sizes(tree, joints); !what.empty()) return what;
+  std::set<int> met;
+  if (!visit(tree, tree.nodes.empty() ? ~0 : 0, 0, met)) return "tree: walk";
+  if (met.size() != 2 * tree.nodes.size() + 1) return "tree: unreached";
+  if (auto what = of_numbers(tree, joints); !what.empty()) return what;
+  // Bounds of 1 m, and a tenth of their range beyond.
   for (double u : {-1.0, -0.3, 0.0, 0.7, 1.0})
-    if (!(std::abs(value(tree, std::vector<double>(joints, u))) <= 1.0L)) return "tree: value";
+    if (!(std::abs(Reading(tree, std::vector<double>(joints, u)).value()) <= 1.2L))
+      return "tree: value";
   return {};
 }
 
@@ -131,7 +224,7 @@ std::string inconsistency(const Model& m) {
     if (!what.empty()) return what;
   bool any = !m.domain.q_min.empty() || !m.domain.q_max.empty();
   for (const auto& tree : m.trees) {
-    if (tree.bounds.empty() && tree.nodes.empty() && tree.coefficients.empty()) continue;
+    if (tree == Tree{} || tree == Tree{.degree = 2}) continue;
     any = true;
     if (auto what = of_tree(tree, n); !what.empty()) return what;
   }

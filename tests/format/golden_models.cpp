@@ -106,6 +106,40 @@ Model planar_2r_model() {
   return m;
 }
 
+/// Two quadratic leaves, blended over the whole box; what is beyond 0.5 was not seen.
+Tree quadratic_tree() {
+  return {.depth = 1,
+          .nodes = {{0.0, 0, ~0, ~1, 0}},
+          .coefficients = {1e-4, -2e-5, 3e-5, 1e-5, -1e-5, 2e-5, 5e-5, 2e-5, 0.0, 1e-5, 0.0, -3e-5},
+          .bounds = {-1e-4, 1.5e-4, -5e-5, 1e-4},
+          .blend_half_width = {1.0},
+          .degree = 2,
+          .directions = {},
+          .region = {-1.25F, 0.5F, -1.25F, 1.25F, -0.5F, 1.25F, -1.25F, 0.5F},
+          .sigma = {5e-6F, 7e-6F}};
+}
+
+/// Three affine leaves along directions, the second split narrow.
+Tree oblique_tree() {
+  return {.depth = 2,
+          .nodes = {{-0.25, 0, 1, ~2, 0}, {0.5, 0, ~0, ~1, 0}},
+          .coefficients = {1e-5, 2e-5, -1e-5, 0.0, 1e-5, 3e-5, -2e-5, 0.0, 4e-5},
+          .bounds = {-2e-5, 4e-5, -1e-5, 3e-5, -6e-5, 2e-5},
+          .blend_half_width = {0.75, 0.0625},
+          .degree = 1,
+          .directions = {0.5, 0.5, 0.75, -0.25},
+          .region = {},
+          .sigma = {}};
+}
+
+Model blended_model() {
+  Model m = planar_2r_model();
+  m.trees = {quadratic_tree(), oblique_tree(), quadratic_tree()};
+  m.trees[2].coefficients[0] = -5e-5;
+  m.trees[2].blend_half_width.clear();
+  return m;
+}
+
 Model formula_model() {
   Model m = planar_2r_model();
   m.trees = {};
@@ -140,7 +174,8 @@ std::vector<std::pair<std::string, Model>> golden_models() {
   return {{"six_axis", six_axis_model()},
           {"planar", planar_model()},
           {"planar_2r", planar_2r_model()},
-          {"formula", formula_model()}};
+          {"formula", formula_model()},
+          {"blended", blended_model()}};
 }
 
 }  // namespace plumb::format

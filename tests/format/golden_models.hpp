@@ -15,6 +15,9 @@ Model six_axis_model();
 Model planar_model();
 Model planar_2r_model();
 
+/// The latter with blended, quadratic, oblique trees that know their region and their error.
+Model blended_model();
+
 /// File name without ending, and content.
 std::vector<std::pair<std::string, Model>> golden_models();
 

@@ -27,7 +27,7 @@ Bytes bytes_of(const fs::path& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-TEST(Golden, FilesOfSchemaOneReadToTheContentTheyWereMadeOf) {
+TEST(Golden, FilesOfEverySchemaReadToTheContentTheyWereMadeOf) {
   for (const auto& [name, model] : golden_models()) {
     const auto read = read_model(golden(name));
     ASSERT_TRUE(std::holds_alternative<Model>(read)) << std::get<ReadError>(read).detail;
@@ -39,6 +39,13 @@ TEST(Golden, FilesOfSchemaOneReadToTheContentTheyWereMadeOf) {
 TEST(Golden, TheWriterStillMakesTheSameBytes) {
   for (const auto& [name, model] : golden_models())
     EXPECT_EQ(write_model(model), bytes_of(golden(name))) << name;
+}
+
+TEST(Golden, OnlyTheFileWithNewKindsOfTreesIsOfSchemaTwo) {
+  for (const auto& golden_model : golden_models()) {
+    const std::string& name = golden_model.first;
+    EXPECT_EQ(stated_schema(bytes_of(golden(name))), name == "blended" ? 2U : 1U) << name;
+  }
 }
 
 TEST(Golden, EveryFileHasAModelItIsHeldTo) {

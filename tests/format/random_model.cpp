@@ -72,13 +72,51 @@ int grow(Random& random, Tree& tree, int joints, int leaves, int& next_leaf, int
   return static_cast<int>(here);
 }
 
-Tree tree(Random& random, int joints, int leaves) {
+/// What a tree has beside its nodes, thresholds and bounds.
+struct Kind {
+  bool blended, quadratic, oblique, region, sigma;
+};
+
+Kind kind(Random& random) {
+  const int bits = random.between(0, 31);
+  return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0};
+}
+
+/// Sum of absolute values 1.
+void add_direction(Random& random, int joints, Tree& tree) {
+  std::vector<double> direction;
+  double length = 0.0;
+  for (int i = 0; i < joints; ++i) {
+    direction.push_back(random.uniform(-1.0, 1.0));
+    length += std::abs(direction.back());
+  }
+  for (double x : direction) tree.directions.push_back(x / length);
+}
+
+void add_kind(Random& random, const Kind& kind, int joints, int leaves, Tree& out) {
+  out.degree = kind.quadratic ? 2 : 1;
+  for (auto& node : out.nodes) {
+    if (kind.blended) out.blend_half_width.push_back(random.uniform(1e-6, 2.0));
+    if (!kind.oblique) continue;
+    add_direction(random, joints, out);
+    node.input = 0;
+  }
+  for (int i = 0; kind.region && i < leaves * joints; ++i) {
+    out.region.push_back(static_cast<float>(random.uniform(-1.5, 0.0)));
+    out.region.push_back(static_cast<float>(random.uniform(0.0, 1.5)));
+  }
+  for (int i = 0; kind.sigma && i < leaves; ++i)
+    out.sigma.push_back(static_cast<float>(random.uniform(0.0, 1e-3)));
+}
+
+Tree tree(Random& random, const Kind& kind, int joints, int leaves) {
   Tree out;
   if (leaves == 0) return out;
   int next_leaf = 0;
   grow(random, out, joints, leaves, next_leaf, 0);
-  for (int i = 0; i < leaves * (joints + 1); ++i)
-    out.coefficients.push_back(random.uniform(-1e-3, 1e-3));
+  add_kind(random, kind, joints, leaves, out);
+  const int terms = 1 + joints + (kind.quadratic ? joints * (joints + 1) / 2 : 0);
+  for (int i = 0; i < leaves * terms; ++i) out.coefficients.push_back(random.uniform(-1e-3, 1e-3));
   for (int i = 0; i < leaves; ++i) {
     out.bounds.push_back(random.uniform(-1e-3, 0.0));
     out.bounds.push_back(random.uniform(0.0, 1e-3));
@@ -123,7 +161,7 @@ struct Sizes {
   int joints, leaves, effects, effect_parameters, parameters;
 };
 
-Model model(Random& random, const Sizes& sizes) {
+Model model(Random& random, const Sizes& sizes, const std::array<Kind, kTreeAxes>& kinds) {
   Model m;
   m.cell_name = "Zelle 4 — 東";
   m.robot_name = "R";
@@ -142,7 +180,8 @@ Model model(Random& random, const Sizes& sizes) {
   m.domain.fade = random.uniform(0.01, 1.0);
   for (int i = 0; i < sizes.effects; ++i)
     m.effects.push_back(effect(random, sizes.joints, sizes.effect_parameters));
-  for (auto& axis : m.trees) axis = tree(random, sizes.joints, sizes.leaves);
+  for (std::size_t axis = 0; axis < kinds.size(); ++axis)
+    m.trees[axis] = tree(random, kinds[axis], sizes.joints, sizes.leaves);
   m.guard = {.corrects = static_cast<Corrects>(random.between(0, 1)),
              .max_correction_m = random.uniform(1e-4, 1e-2),
              .max_rotation_rad = random.uniform(1e-3, 0.1),
@@ -166,13 +205,16 @@ Model random_model(std::uint64_t seed) {
                     .effects = random.between(0, 5),
                     .effect_parameters = random.between(0, 12),
                     .parameters = random.between(0, 40)};
-  return model(random, sizes);
+  return model(random, sizes, {kind(random), kind(random), kind(random)});
 }
 
 Model largest_model() {
   Random random(1);
+  std::array<Kind, kTreeAxes> everything;
+  everything.fill({true, true, true, true, true});
   return model(random,
-               {kMaxJoints, kMaxTreeLeaves, kMaxEffects, kMaxEffectParameters, kMaxParameters});
+               {kMaxJoints, kMaxTreeLeaves, kMaxEffects, kMaxEffectParameters, kMaxParameters},
+               everything);
 }
 
 }  // namespace plumb::format

@@ -50,6 +50,20 @@ TEST(SemanticCheck, AllowsWhatIsAtTheLimit) {
   EXPECT_EQ(internal::unsoundness(m), std::nullopt);
 }
 
+TEST(SemanticCheck, AllowsTreesOfEveryKindAtTheirLimits) {
+  Model m = blended_model();
+  m.trees[0].blend_half_width = {2.0};
+  m.trees[0].region[0] = -4.0F;
+  m.trees[0].region[5] = m.trees[0].region[4];
+  m.trees[0].region[7] = 4.0F;
+  m.trees[0].sigma = {0.0F, 1.0F};
+  m.trees[1].blend_half_width = {1e-9, 2.0};
+  m.trees[1].directions = {-1.0, 0.0, 1.0 - 1e-10, 0.0};
+  m.trees[2] = {};
+  m.trees[2].degree = 2;
+  EXPECT_EQ(internal::unsoundness(m), std::nullopt);
+}
+
 TEST(SemanticCheck, NeedsNoDomainWithoutTrees) {
   Model m = six_axis_model();
   m.trees = {};

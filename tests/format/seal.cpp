@@ -26,6 +26,18 @@ void put_u32(Bytes& bytes, std::size_t at, std::uint32_t value) {
   for (std::size_t k = 0; k < 4; ++k) bytes[at + k] = static_cast<std::byte>(value >> (8 * k));
 }
 
+std::uint32_t stated_schema(const Bytes& file) {
+  const auto number = [&](std::size_t at, std::size_t bytes) {
+    std::uint32_t out = 0;
+    for (std::size_t k = 0; k < bytes; ++k)
+      out |= std::to_integer<std::uint32_t>(file.at(at + k)) << (8 * k);
+    return out;
+  };
+  const std::uint32_t table = number(0, 4);
+  const std::uint32_t fields = table - number(table, 4);  // its own size, the table's, then places
+  return number(table + number(fields + 4, 2), 4);
+}
+
 Bytes resealed(Bytes file) {
   const std::size_t at = file.size() - 4;
   put_u32(file, at, crc32p4(std::span(file).first(at)));

@@ -20,6 +20,9 @@ Bytes resealed(Bytes file);
 /// A payload padded to 8 bytes, with the trailer that model.fbs describes.
 Bytes sealed(Bytes payload);
 
+/// Schema version by hand, as model.fbs promises it for ever: the first field of the root table.
+std::uint32_t stated_schema(const Bytes& file);
+
 /// Little endian at `at`.
 void put_u32(Bytes& bytes, std::size_t at, std::uint32_t value);
 

@@ -42,9 +42,6 @@ std::vector<Rule> shape_rules() {
       {"MissingNode", "nodes and leaves do not match",
        [](Model& m) { m.trees[0].nodes.pop_back(); }},
       {"TooManyLeaves", "it has 4097 leaves", [](Model& m) { m.trees[0] = list_tree(4096, 6); }},
-      {"Blended", "newer Plumb", [](Model& m) { m.trees[0].blend_half_width.assign(3, 0.1); }},
-      {"BlendedWithoutLeaves", "newer Plumb",
-       [](Model& m) { m.trees[2].blend_half_width.assign(1, 0.1); }},
   };
 }
 

@@ -2,10 +2,14 @@
 // Files our writer would not make: of other schemas, sparse, hostile.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "consistency.hpp"
+#include "golden_models.hpp"
 #include "model_generated.h"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/version.hpp"
+#include "plumb/format/writer.hpp"
 #include "seal.hpp"
 
 namespace plumb::format {
@@ -97,11 +101,77 @@ TEST(Wire, ANewerSchemaIsNamedWithBothVersions) {
 TEST(Wire, ANewerSchemaIsNewerEvenIfNothingElseIsAsWeKnowIt) {
   Builder b;
   const auto start = b.StartTable();
-  b.AddElement<std::uint32_t>(wire::Model::VT_SCHEMA_VERSION, 2, 0);
-  b.AddElement<std::uint8_t>(wire::Model::VT_NOMINAL, 9, 0);  // a chain, says schema 1
+  b.AddElement<std::uint32_t>(wire::Model::VT_SCHEMA_VERSION, kSchemaVersion + 1, 0);
+  b.AddElement<std::uint8_t>(wire::Model::VT_NOMINAL, 9, 0);  // a chain, say we
   b.Finish(Offset<wire::Model>(b.EndTable(start)), wire::ModelIdentifier());
   const auto* data = reinterpret_cast<const std::byte*>(b.GetBufferPointer());
   EXPECT_EQ(refusal(sealed({data, data + b.GetSize()})).code, ReadErrorCode::kNewerSchema);
+}
+
+TEST(Wire, EverySchemaUpToOursIsReadAndTheNextIsNewer) {
+  static_assert(kSchemaVersion == 2);
+  for (std::uint32_t schema : {1U, 2U}) {
+    Builder b;
+    EXPECT_TRUE(std::holds_alternative<Model>(read_model(file(b, {.schema = schema})))) << schema;
+  }
+  Builder b;
+  EXPECT_EQ(refusal(file(b, {.schema = 3})).code, ReadErrorCode::kNewerSchema);
+}
+
+TEST(Wire, ATreeThatIsCrispAndAffineIsWrittenForReadersOfSchemaOne) {
+  Model m = planar_2r_model();
+  EXPECT_EQ(stated_schema(write_model(m)), 1U);
+  m.trees[0].sigma = {1e-6F};  // an old reader loses nothing it knew
+  EXPECT_EQ(stated_schema(write_model(m)), 1U);
+}
+
+TEST(Wire, EachKindOfTreeThatAnOldReaderWouldMisreadIsWrittenAsSchemaTwo) {
+  const std::vector<std::pair<std::string, std::function<void(Tree&)>>> kinds{
+      {"blended", [](Tree& t) { t.blend_half_width = {0.5}; }},
+      {"quadratic", [](Tree& t) { t.degree = 2, t.coefficients.resize(12); }},
+      {"oblique",
+       [](Tree& t) {
+         t.directions = {0.5, 0.5};
+       }},
+      {"region", [](Tree& t) { t.region.assign(8, 0.5F); }}};
+  Model crisp = planar_2r_model();
+  crisp.trees[1] = {.depth = 1,
+                    .nodes = {{0.0, 0, ~0, ~1, 0}},
+                    .coefficients = std::vector<double>(6, 1e-5),
+                    .bounds = {-1e-4, 1e-4, -1e-4, 1e-4}};
+  EXPECT_EQ(stated_schema(write_model(crisp)), 1U);
+  for (const auto& [name, make] : kinds) {
+    Model m = crisp;
+    make(m.trees[1]);
+    const Bytes bytes = write_model(m);
+    EXPECT_EQ(stated_schema(bytes), 2U) << name;
+    const auto read = read_model(bytes);
+    ASSERT_TRUE(std::holds_alternative<Model>(read)) << std::get<ReadError>(read).detail;
+    EXPECT_EQ(std::get<Model>(read), m) << name;
+  }
+}
+
+TEST(Wire, ATreeWithoutTheFieldsOfSchemaTwoIsCrispAndAffine) {
+  Builder b;
+  const std::vector<double> coefficients{1e-4, 2e-5}, bounds{-1e-4, 1e-4}, low{-1.0}, high{1.0};
+  const auto tree = wire::CreateTree(b, 0, 0, b.CreateVector(coefficients), b.CreateVector(bounds));
+  Extra extra;
+  extra.schema = 1;
+  extra.trees = b.CreateVector(std::vector<Offset<wire::Tree>>{tree});
+  extra.domain = wire::CreateDomain(b, b.CreateVector(low), b.CreateVector(high));
+  const auto read = read_model(file(b, extra));
+  ASSERT_TRUE(std::holds_alternative<Model>(read)) << std::get<ReadError>(read).detail;
+  const Tree expected{.depth = 0, .nodes = {}, .coefficients = coefficients, .bounds = bounds};
+  EXPECT_EQ(std::get<Model>(read).trees[0], expected);
+}
+
+TEST(Wire, TreesThatShareTheirRegionAreRefusedInLittleMemory) {
+  Builder b;
+  Extra extra;
+  const auto region = b.CreateVector(std::vector<float>(3'000'000, 0.5F));  // 12 MB
+  const auto tree = wire::CreateTree(b, 0, 0, 0, 0, 0, 1, 0, region);
+  extra.trees = b.CreateVector(std::vector<Offset<wire::Tree>>(2, tree));
+  EXPECT_EQ(refusal(file(b, extra)).code, ReadErrorCode::kMalformed);
 }
 
 TEST(Wire, SchemaZeroIsRefused) {

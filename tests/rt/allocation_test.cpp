@@ -63,9 +63,8 @@ format::Effect formula() {
   return out;
 }
 
-TEST(Allocation, NeverHappensInTenThousandCycles) {
-  format::Model model = tests::one_arm();
-  model.effects = {formula()};
+void run_ten_thousand_cycles(format::Model model) {
+  model.effects.push_back(formula());
   ASSERT_EQ(find_effect_fault(model).kind, EffectFault::Kind::kNone);
   const Corrector corrector(model);
   Guard guard(model.guard);
@@ -83,6 +82,12 @@ TEST(Allocation, NeverHappensInTenThousandCycles) {
   });
   EXPECT_EQ(caught, 0);
   EXPECT_GT(valid, 0);
+}
+
+TEST(Allocation, NeverHappensInTenThousandCycles) { run_ten_thousand_cycles(tests::one_arm()); }
+
+TEST(Allocation, NeverHappensInTenThousandCyclesWithBlendedTrees) {
+  run_ten_thousand_cycles(tests::blended_arm());
 }
 
 }  // namespace

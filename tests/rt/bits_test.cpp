@@ -53,8 +53,7 @@ TEST(Bits, OfElementaryFunctionsAreTheSameEverywhere) {
   EXPECT_EQ(hash.value(), 0xdcc4c13597d8269fU);
 }
 
-TEST(Bits, OfThePredictionAndTheCorrectionAreTheSameEverywhere) {
-  const format::Model model = tests::one_arm();
+std::uint64_t hash_of(const format::Model& model) {
   const Corrector corrector(model);
   tests::Random random(kSeed);
   Hash hash;
@@ -70,7 +69,34 @@ TEST(Bits, OfThePredictionAndTheCorrectionAreTheSameEverywhere) {
   }
   std::printf("%d inputs, seed %d: %016llx\n", kCount / 10, static_cast<int>(kSeed),
               static_cast<unsigned long long>(hash.value()));
-  EXPECT_EQ(hash.value(), 0x9d4ccce4499f8847U);
+  return hash.value();
+}
+
+TEST(Bits, OfThePredictionAndTheCorrectionAreTheSameEverywhere) {
+  EXPECT_EQ(hash_of(tests::one_arm()), 0x9d4ccce4499f8847U);
+}
+
+TEST(Bits, OfAnArmWithBlendedTreesAreTheSameEverywhere) {
+  EXPECT_EQ(hash_of(tests::blended_arm()), 0x44143eefc0dd44abU);
+}
+
+TEST(Bits, OfBlendedTreesAloneAreTheSameEverywhere) {
+  const format::Model model = tests::blended_arm();
+  const ForwardModel arm(model);
+  tests::Random random(kSeed);
+  Hash hash;
+  long moved = 0;
+  for (int i = 0; i < kCount; ++i) {
+    std::array<double, 6> q{};
+    for (double& x : q) x = random.uniform(-3.2, 3.2);
+    const Vector3 error = arm.tree_error(q);
+    for (int axis = 0; axis < 3; ++axis) hash.add(error(axis));
+    moved += error.norm() > 1e-6 ? 1 : 0;
+  }
+  std::printf("%d inputs, seed %d: %016llx\n", kCount, static_cast<int>(kSeed),
+              static_cast<unsigned long long>(hash.value()));
+  EXPECT_GT(moved, kCount / 3);
+  EXPECT_EQ(hash.value(), 0xa7d1626c85f4c7a9U);
 }
 
 }  // namespace

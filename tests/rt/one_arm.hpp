@@ -42,4 +42,26 @@ inline format::Model one_arm() {
   return model;
 }
 
+/// The same with three quadratic leaves along directions on every axis, blended over most of the
+/// box, each with a region; the axes share their leaves, and the bounds hold the sum softly.
+inline format::Model blended_arm() {
+  format::Model model = one_arm();
+  format::Tree tree;
+  tree.depth = 2;
+  tree.degree = 2;
+  tree.nodes = {{0.25, 0, ~0, 1, 0}, {-0.5, 0, ~1, ~2, 0}};
+  tree.blend_half_width = {0.75, 0.3};
+  tree.directions = {0.5, 0.25, 0.0, 0.125, 0.0, 0.125, 0.1, -0.2, 0.3, 0.2, -0.1, 0.1};
+  for (int leaf = 0; leaf < 3; ++leaf) {
+    for (int i = 0; i < 28; ++i) tree.coefficients.push_back(3e-6 * ((i + leaf) % 7 - 3));
+    tree.bounds.insert(tree.bounds.end(), {-3e-5 + 1e-6 * leaf, 3e-5});
+    for (int i = 0; i < 6; ++i) tree.region.insert(tree.region.end(), {-0.95F, 0.9F});
+  }
+  for (std::size_t axis = 0; axis < model.trees.size(); ++axis) {
+    model.trees[axis] = tree;
+    for (double& w : model.trees[axis].coefficients) w *= 1.0 - 0.25 * static_cast<double>(axis);
+  }
+  return model;
+}
+
 }  // namespace plumb::tests

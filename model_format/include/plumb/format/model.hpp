@@ -192,6 +192,7 @@ struct TreeNode {
 /// Blended: at a node with half width h and s = clamp((x - threshold + h) / 2h, 0, 1) the high side
 /// weighs 3 s^2 - 2 s^3 and the low side the rest; a leaf's validity Phi_k is the product along its
 /// path. sum_k Phi_k y_k is held softly, C1, between sum_k Phi_k low_k and sum_k Phi_k high_k.
+/// With regions, either fades out where u leaves what the leaves that speak were trained in.
 /// No nodes and one leaf is a plain model; no leaves is "no correction".
 struct Tree {
   std::uint16_t depth = 0;                    // compares from the root to the deepest leaf

@@ -55,6 +55,7 @@ class ForwardModel {
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
   bool has_tree_ = false;
+  bool all_hard_ = false;  // so all are walked side by side
   TreeView walked_;        // the first that is not empty
   bool one_walk_ = false;  // the others differ from it in their numbers only
 };

@@ -32,11 +32,13 @@ class TrainedDomain {
 template <class Scalar>
 struct ActiveLeaves {
   int count = 0;
-  std::array<int, format::kMaxActiveLeaves + 1> leaf;       // one to spare: written, not counted
-  std::array<Scalar, format::kMaxActiveLeaves + 1> weight;  // by walks without a branch
+  std::array<int, format::kMaxActiveLeaves> leaf;
+  std::array<Scalar, format::kMaxActiveLeaves> weight;
 };
 
-/// A leaf's correction fades to zero over this distance outside its region, normalised input.
+/// What is said fades to zero over this distance outside the regions of the leaves that say it,
+/// normalised input: the sum is multiplied by sum_k Phi_k prod_i (3 s_i^2 - 2 s_i^3), s_i falling
+/// from 1 to 0.
 inline constexpr double kRegionFade = 0.1;
 
 /// A blended sum leaves the range that its leaves saw by at most this share of it.
@@ -78,17 +80,32 @@ class TreeView {
 
   double evaluate(std::span<const double> u) const noexcept { return evaluate<double>(u); }
 
+  /// Crisp along the axes, or empty: `evaluate_all` serves it.
+  bool hard() const noexcept { return !blended() && directions_ == nullptr; }
+
+  /// All axes at once [m], hard trees over the same inputs. Every compare waits for the one before,
+  /// so three walks side by side take little longer than one.
+  static std::array<double, format::kTreeAxes> evaluate_all(
+      const std::array<TreeView, format::kTreeAxes>& trees, std::span<const double> u) noexcept;
+
   /// 1 sigma of the error of `evaluate` as the trainer saw it on held-out poses [m]; 0 if unknown.
   double sigma(std::span<const double> u) const noexcept;
 
  private:
-  template <class Scalar>
+  double evaluate_leaf(std::span<const double> u, int leaf) const noexcept;
+  template <bool kOblique, class Scalar>
   Scalar split_value(std::span<const Scalar> u, int node) const noexcept;
+  template <int kInputs, class Scalar>
+  Scalar leaf_value(std::span<const Scalar> u, int leaf) const noexcept;
+  template <int kInputs, class Scalar>
+  Scalar sum(std::span<const Scalar> u, const ActiveLeaves<Scalar>& active) const noexcept;
   template <class Scalar>
   Scalar trust(std::span<const Scalar> u, int leaf) const noexcept;
-  template <class Scalar>
+  template <bool kOblique, class Scalar>
   void walk(std::span<const Scalar> u, ActiveLeaves<Scalar>& out) const noexcept;
-  template <class Scalar>
+  template <bool kOblique, class Scalar>
+  int step(std::span<const Scalar> u, int at) const noexcept;
+  template <bool kOblique, class Scalar>
   int hard_leaf(std::span<const Scalar> u) const noexcept;
 
   const format::TreeNode* nodes_ = nullptr;

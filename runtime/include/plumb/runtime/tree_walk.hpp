@@ -2,7 +2,8 @@
 #pragma once
 
 #include <array>
-#include <utility>
+#include <bit>
+#include <cstdint>
 
 #include "plumb/runtime/plain.hpp"
 #include "plumb/runtime/tree.hpp"
@@ -17,83 +18,145 @@ struct OpenNode {
   Scalar weight;
 };
 
+/// Beyond this share of a ramp from its end a side's weight is lost in rounding: it has no say.
+inline constexpr double kRampEnd = 0x1p-26;
+
+/// Unsigned integers in the order of the numbers. Integers compare and choose in a third of the
+/// time that floating-point numbers take, and a walk waits for every compare.
+constexpr std::uint64_t order_key(std::uint64_t bits) noexcept {
+  const auto sign = static_cast<std::uint64_t>(static_cast<std::int64_t>(bits) >> 63);
+  return bits ^ (sign | std::uint64_t{1} << 63);
+}
+
+/// Of an input: 0 counts as -0, which is greater than neither zero.
+inline std::uint64_t input_key(double x) noexcept {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return order_key(bits | static_cast<std::uint64_t>(bits == 0) << 63);
+}
+
+using InputKeys = std::array<std::uint64_t, format::kMaxJoints>;
+
+inline InputKeys input_keys(std::span<const double> u) noexcept {
+  InputKeys out;
+  for (std::size_t i = 0; i < u.size(); ++i) out[i] = input_key(u[i]);
+  return out;
+}
+
+/// What a walk reads where there is no node.
+inline constexpr format::TreeNode kNoNode{};
+
+/// A walk down a crisp tree. Masks, because compilers make branches of choices. Behind a leaf it
+/// starts again at the root, which does no harm, and the first leaf stays the one found.
+class HardWalk {
+ public:
+  HardWalk(const format::TreeNode* nodes, int leaves) noexcept
+      : nodes_(nodes), found_(leaves > 1 ? 0 : ~0), at_(found_) {}
+
+  void step(const InputKeys& keys) noexcept {
+    const format::TreeNode& node = nodes_[at_ & ~(at_ >> 63)];
+    const std::uint64_t threshold = order_key(std::bit_cast<std::uint64_t>(node.threshold));
+    const std::int64_t is_high = -static_cast<std::int64_t>(threshold < keys[node.input]);
+    const std::int64_t low = node.low, high = node.high;
+    at_ = low ^ ((low ^ high) & is_high);
+    found_ ^= (found_ ^ at_) & ~(found_ >> 63);
+  }
+
+  int leaf() const noexcept { return static_cast<int>(~found_); }
+
+ private:
+  const format::TreeNode* nodes_;
+  std::int64_t found_, at_;
+};
+
 /// Identity in [low, high], C1 beyond it, never further out than kSoftShare of the range:
-/// t -> m t / (m + t).
+/// t -> m t / (m + t). NaN gives `low`.
 template <class Scalar>
 Scalar hold_softly(const Scalar& y, const Scalar& low, const Scalar& high) noexcept {
   const Scalar margin = (high - low) * kSoftShare;
   if (plain(y) > plain(high)) return high + margin * (y - high) / (margin + (y - high));
+  if (plain(y) >= plain(low)) return y;
   if (plain(y) < plain(low)) return low - margin * (low - y) / (margin + (low - y));
-  return y;
+  return low;
 }
 
 }  // namespace internal
 
-template <class Scalar>
+template <bool kOblique, class Scalar>
 Scalar TreeView::split_value(std::span<const Scalar> u, int node) const noexcept {
-  if (directions_ == nullptr) return u[nodes_[node].input];
+  if constexpr (!kOblique) return u[nodes_[node].input];
   const double* d = directions_ + static_cast<std::ptrdiff_t>(node) * inputs_;
   Scalar sum = u[0] * d[0];
   for (int i = 1; i < inputs_; ++i) sum = sum + u[i] * d[i];
   return sum;
 }
 
-template <class Scalar>
+/// One compare. In a leaf the walk stands still: the root is read again and its answer dropped.
+/// Masks, because compilers make branches of choices, and these cannot be foreseen.
+template <bool kOblique, class Scalar>
+int TreeView::step(std::span<const Scalar> u, int at) const noexcept {
+  const int stays = at >> 31;
+  const int read = at & ~stays;
+  const format::TreeNode& node = nodes_[read];
+  const int is_low = -static_cast<int>(plain(split_value<kOblique>(u, read)) <= node.threshold);
+  const int next = node.high ^ ((node.high ^ node.low) & is_low);
+  return (at & stays) | (next & ~stays);
+}
+
+template <bool kOblique, class Scalar>
 int TreeView::hard_leaf(std::span<const Scalar> u) const noexcept {
   int at = leaves_ > 1 ? 0 : ~0;
-  for (int i = 0; i < depth_; ++i) {
-    // In a leaf the walk stands still: the root is read again and its answer dropped.
-    const int node = at < 0 ? 0 : at;
-    const bool low = plain(split_value(u, node)) <= nodes_[node].threshold;
-    const int next = low ? nodes_[node].low : nodes_[node].high;
-    at = at < 0 ? at : next;
-  }
+  for (int i = 0; i < depth_; ++i) at = step<kOblique>(u, at);
   return ~at;
 }
 
-/// Level by level; a child is always written and counted only if it belongs there.
-template <class Scalar>
+/// Depth first. Which side has a say is known before the division is done.
+template <bool kOblique, class Scalar>
 void TreeView::walk(std::span<const Scalar> u, ActiveLeaves<Scalar>& out) const noexcept {
   constexpr int kRoom = format::kMaxActiveLeaves;
-  using Open = internal::OpenNode<Scalar>;
-  std::array<std::array<Open, kRoom + 1>, 2> levels;
-  Open *here = levels[0].data(), *below = levels[1].data();
-  int open = 0;
-  const auto put = [&](int child, const Scalar& weight) {
-    const bool wanted = plain(weight) > 0.0;
-    out.leaf[out.count] = ~child;
-    out.weight[out.count] = weight;
-    below[open] = {child, weight};
-    out.count += static_cast<int>(wanted && child < 0);
-    open += static_cast<int>(wanted && child >= 0);
-  };
-  put(leaves_ > 1 ? 0 : ~0, Scalar(1.0));
-  while (open > 0) {
-    const int now = open;
-    std::swap(here, below);
-    open = 0;
-    for (int i = 0; i < now; ++i) {
-      const Open at = here[i];
-      const format::TreeNode& node = nodes_[at.node];
-      const double h = half_width_[at.node];
-      Scalar s = (split_value(u, at.node) - (node.threshold - h)) / (2.0 * h);
-      s = plain(s) > 0.0 ? (plain(s) < 1.0 ? s : Scalar(1.0)) : Scalar(0.0);
-      const bool full = out.count + open + (now - i) >= kRoom;
-      if (full) s = plain(s) > 0.5 ? Scalar(1.0) : Scalar(0.0);
-      const Scalar high = at.weight * (s * s * (3.0 - 2.0 * s));
-      put(node.low, at.weight - high);
-      put(node.high, high);
+  std::array<internal::OpenNode<Scalar>, kRoom> open;
+  int waiting = 0, count = 0, at = leaves_ > 1 ? 0 : ~0;
+  Scalar weight(1.0);
+  for (;;) {
+    while (at >= 0) {
+      const format::TreeNode& node = nodes_[at];
+      const double h = half_width_[at];
+      const double width = 2.0 * h;
+      const Scalar into = split_value<kOblique>(u, at) - (node.threshold - h);
+      bool says_low = plain(into) < width * (1.0 - internal::kRampEnd);
+      bool says_high = plain(into) > width * internal::kRampEnd;
+      if (count + waiting + 1 >= kRoom) [[unlikely]] {
+        says_high = plain(into) > 0.5 * width;
+        says_low = !says_high;
+      }
+      if (says_low && says_high) {
+        const Scalar s = into / width;
+        const Scalar high = weight * (s * s * (3.0 - 2.0 * s));
+        open[waiting++] = {node.high, high};
+        weight = weight - high;
+        at = node.low;
+      } else {
+        at = says_high ? node.high : node.low;
+      }
     }
+    out.leaf[count] = ~at;
+    out.weight[count] = weight;
+    ++count;
+    if (waiting == 0) break;
+    --waiting;
+    at = open[waiting].node;
+    weight = open[waiting].weight;
   }
+  out.count = count;
 }
 
 template <class Scalar>
 void TreeView::active(std::span<const Scalar> u, ActiveLeaves<Scalar>& out) const noexcept {
   out.count = 0;
   if (empty()) return;
-  if (blended()) return walk(u, out);
+  const bool oblique = directions_ != nullptr;
+  if (blended()) return oblique ? walk<true>(u, out) : walk<false>(u, out);
   out.count = 1;
-  out.leaf[0] = hard_leaf(u);
+  out.leaf[0] = oblique ? hard_leaf<true>(u) : hard_leaf<false>(u);
   out.weight[0] = Scalar(1.0);
 }
 
@@ -112,19 +175,26 @@ Scalar TreeView::trust(std::span<const Scalar> u, int leaf) const noexcept {
   return out;
 }
 
-template <class Scalar>
-Scalar TreeView::evaluate(std::span<const Scalar> u,
-                          const ActiveLeaves<Scalar>& active) const noexcept {
-  if (empty()) return Scalar(0.0);
-  std::array<Scalar, format::kMaxLeafTerms> terms;
-  fill_leaf_terms<Scalar>(u.first(static_cast<std::size_t>(inputs_)), degree_, terms);
+/// kInputs: known when compiled, so that short sums are unrolled; 0: `inputs_`.
+template <int kInputs, class Scalar>
+Scalar TreeView::leaf_value(std::span<const Scalar> u, int leaf) const noexcept {
+  const int inputs = kInputs > 0 ? kInputs : inputs_;
+  const double* w = coefficients_ + static_cast<std::ptrdiff_t>(leaf) * terms_;
+  Scalar value(w[0]);
+  for (int i = 0; i < inputs; ++i) value = value + u[i] * w[i + 1];
+  if (degree_ < 2) return value;
+  const double* next = w + inputs + 1;
+  for (int i = 0; i < inputs; ++i)
+    for (int k = i; k < inputs; ++k) value = value + (u[i] * u[k]) * *next++;
+  return value;
+}
+
+template <int kInputs, class Scalar>
+Scalar TreeView::sum(std::span<const Scalar> u, const ActiveLeaves<Scalar>& active) const noexcept {
   Scalar y(0.0), low(0.0), high(0.0), trusted(region_ == nullptr ? 1.0 : 0.0);
   for (int i = 0; i < active.count; ++i) {
     const int k = active.leaf[i];
-    const double* w = coefficients_ + static_cast<std::ptrdiff_t>(k) * terms_;
-    Scalar value(w[0]);
-    for (int t = 1; t < terms_; ++t) value = value + terms[t] * w[t];
-    y = y + active.weight[i] * value;
+    y = y + active.weight[i] * leaf_value<kInputs>(u, k);
     low = low + active.weight[i] * bounds_[2 * k];
     high = high + active.weight[i] * bounds_[2 * k + 1];
     if (region_ != nullptr) trusted = trusted + active.weight[i] * trust(u, k);
@@ -132,6 +202,20 @@ Scalar TreeView::evaluate(std::span<const Scalar> u,
   if (blended()) return internal::hold_softly(y, low, high) * trusted;
   // Written so that NaN gives `low`.
   return (plain(y) > plain(low) ? (plain(y) < plain(high) ? y : high) : low) * trusted;
+}
+
+template <class Scalar>
+Scalar TreeView::evaluate(std::span<const Scalar> u,
+                          const ActiveLeaves<Scalar>& active) const noexcept {
+  if (empty()) return Scalar(0.0);
+  switch (inputs_) {
+    case 2:
+      return sum<2>(u, active);
+    case 6:
+      return sum<6>(u, active);
+    default:
+      return sum<0>(u, active);
+  }
 }
 
 template <class Scalar>

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/study_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "show/heat_map.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+using study::AxisTrees;
+using study::PlanarStudy;
+using study::StudyRow;
+
+constexpr const char* kAxis[] = {"x", "y"};
+
+/// One quantity of the test grid, its rows phi12 and its columns phi23, as the grid is listed.
+HeatMap map_of(const PlanarStudy& study, const Eigen::VectorXd& value_mm) {
+  const RowsN& q = study.test_q;
+  Eigen::Index columns = 0;
+  while (columns < q.rows() && q(columns, 0) == q(0, 0)) ++columns;
+  HeatMap out;
+  out.value.resize(q.rows() / columns, columns);
+  for (Eigen::Index i = 0; i < q.rows(); ++i) out.value(i / columns, i % columns) = value_mm[i];
+  out.x_low = to_deg(q.col(1).minCoeff());
+  out.x_high = to_deg(q.col(1).maxCoeff());
+  out.y_low = to_deg(q.col(0).minCoeff());
+  out.y_high = to_deg(q.col(0).maxCoeff());
+  out.x_title = "phi23 [deg]";
+  out.y_title = "phi12 [deg]";
+  out.value_title = "[mm]";
+  return out;
+}
+
+/// Borders of the leaves of a tree split along the axes.
+class Borders {
+ public:
+  Borders(const AxisTrees& trees, int axis) : tree_(trees.tree[axis]), domain_(trees.domain) {
+    if (!tree_.nodes.empty()) visit(0, {-1.0, -1.0}, {1.0, 1.0});
+  }
+  std::vector<MapLine> lines;
+
+ private:
+  using Corner = std::array<double, 2>;
+
+  double deg(int input, double u) const {
+    const double mid = 0.5 * (domain_.q_min[input] + domain_.q_max[input]);
+    return to_deg(mid + 0.5 * u * (domain_.q_max[input] - domain_.q_min[input]));
+  }
+
+  void visit(int node, Corner low, Corner high) {
+    if (node < 0) return;
+    const auto& n = tree_.nodes[static_cast<std::size_t>(node)];
+    const double at = deg(n.input, n.threshold);
+    if (n.input == 0)
+      lines.push_back({deg(1, low[1]), at, deg(1, high[1]), at});
+    else
+      lines.push_back({at, deg(0, low[0]), at, deg(0, high[0])});
+    Corner middle = high;
+    middle[n.input] = n.threshold;
+    visit(n.low, low, middle);
+    middle = low;
+    middle[n.input] = n.threshold;
+    visit(n.high, middle, high);
+  }
+
+  const format::Tree& tree_;
+  const format::Domain& domain_;
+};
+
+/// Error of the calibrated arm along one axis at the test grid [mm].
+Eigen::VectorXd remaining_mm(const PlanarStudy& study, int axis) {
+  const auto truth = study::true_poses(study.request.variant, study.test_q);
+  return 1e3 * (truth.p_AC_A - study::rigid_points(study.links.d, study.test_q)).col(axis);
+}
+
+HeatMap signed_map(const PlanarStudy& study, const Eigen::VectorXd& value, std::string title) {
+  HeatMap out = map_of(study, value);
+  out.title = std::move(title);
+  out.scale = ColourScale::kSigned;
+  out.most = value.cwiseAbs().maxCoeff();
+  return out;
+}
+
+HeatMap leaf_map(const StudyRow& row, int axis, HeatMap below) {
+  below.lines = Borders(*row.trees, axis).lines;
+  below.title = fmt::format("{}: {} leaves for {} over {}", row.model,
+                            row.trees->tree[axis].leaves(), kAxis[axis], below.title);
+  return below;
+}
+
+HeatMap total_map(const PlanarStudy& study, const StudyRow& row) {
+  HeatMap out = map_of(study, 1e3 * row.error_at_test);
+  out.title = fmt::format("{}: total error, mean {:.3g} mm", row.model, 1e3 * row.test.mean);
+  out.most = 1e3 * row.test.max;
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> planar_figures(const PlanarStudy& study) {
+  std::vector<std::pair<std::string, std::string>> out;
+  const auto positions = study::true_poses(study.request.variant, study.test_q).p_AC_A;
+  for (int axis = 0; axis < 2; ++axis) {
+    const HeatMap error = signed_map(study, remaining_mm(study, axis),
+                                     fmt::format("error of the calibrated arm, {}", kAxis[axis]));
+    out.emplace_back(fmt::format("fig{:02}_error_{}.svg", 4 + axis, kAxis[axis]), svg(error));
+    const HeatMap leaves = leaf_map(study.row("calibrated_llmt"), axis, error);
+    out.emplace_back(fmt::format("fig{:02}_leaves_{}.svg", 6 + axis, kAxis[axis]), svg(leaves));
+    const HeatMap place =
+        signed_map(study, 1e3 * positions.col(axis), fmt::format("position {}", kAxis[axis]));
+    const HeatMap alone = leaf_map(study.row("alone"), axis, place);
+    out.emplace_back(fmt::format("fig{:02}_leaves_alone_{}.svg", 8 + axis, kAxis[axis]),
+                     svg(alone));
+  }
+  for (const StudyRow& row : study.rows)
+    out.emplace_back(fmt::format("fig10_{}.svg", row.key), svg(total_map(study, row)));
+  return out;
+}
+
+}  // namespace plumb::offline::show

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "fit/arm_state.hpp"
+#include "study/planar_poses.hpp"
+
+/// The missing physics instead of a tree: the planar arm as a cell like any other.
+namespace plumb::offline::study {
+
+struct PlanarMeasuring {
+  PlanarVariant variant = PlanarVariant::kPublished;
+  RowsN q;               // (n, 2)
+  double noise_m = 0.0;  // 1 sigma per axis
+  std::uint64_t seed = 1;
+};
+
+/// Cell and measurements, as `plumb study planar --write-cell` writes them.
+struct PlanarCell {
+  Cell cell;
+  Measurements measured;
+  std::string csv, truth_json;
+};
+PlanarCell measured_cell(const PlanarMeasuring& measuring);
+
+/// Calibrated with the bending of both links, through the law that runs in the cycle.
+ArmState with_link_flexure(const PlanarCell& planar);
+
+/// What `plumb diagnose --apply` makes of it.
+struct PlanarDiagnosis {
+  ArmState state;
+  std::string verdict;  // at the end, in words
+  std::string added;    // "link_flexure J1, J2", or "nothing"
+};
+PlanarDiagnosis diagnosed(const PlanarCell& planar);
+
+/// Point C as the state predicts it, in the frame of point A. Shape (n, 2) [m].
+Samples points(const ArmState& state, const RowsN& q);
+
+}  // namespace plumb::offline::study
