@@ -79,6 +79,12 @@ struct Tally {
   }
 };
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
+constexpr int kFewer = 20;  // slow builds
+#else
+constexpr int kFewer = 1;
+#endif
+
 /// `runs` data sets of `fewest` to `most` poses, all from one seed.
 struct Plan {
   Truth truth;
@@ -89,7 +95,7 @@ struct Plan {
 Tally run_many(const Plan& plan) {
   const auto& [truth, joints, fewest, most, runs, seed] = plan;
   Tally out;
-  for (int run = 0; run < runs; ++run) {
+  for (int run = 0; run < runs / kFewer; ++run) {
     Random random(seed + run);
     const Samples q = poses(fewest + random.below(most - fewest + 1), joints, random);
     const TreeChoice choice = choose(q, truth.residual(q, random));
