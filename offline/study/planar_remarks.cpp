@@ -22,7 +22,7 @@ std::vector<std::string> about_the_arm(PlanarVariant variant) {
       "This variant follows the printed text: bars of 60 mm and correct statics. It bends three "
       "times as much, so the paper's figures beside it are not for comparison.",
       "One number, 1/EI, explains it: the beam formula leaves {formula} mm, the law that runs in "
-      "the cycle {flexure} mm; no tree comes near, and 20 poses suffice where a tree needs "
+      "the cycle {flexure} mm, and 20 poses suffice where a tree needs "
       "hundreds."};
 }
 
