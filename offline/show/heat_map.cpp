@@ -14,6 +14,7 @@ constexpr double kLeft = 70, kTop = 48, kWidth = 560, kHeight = 400, kBar = 18, 
                  kBottom = 56;
 constexpr int kColours = 64;  // steps of the scale
 constexpr int kTicks = 5;
+constexpr double kSeam = 0.4;  // rectangles overlap: no background shines through
 
 using Colour = std::array<double, 3>;
 
@@ -35,6 +36,9 @@ std::string colour(const std::array<Colour, 5>& scale, double share) {
         static_cast<int>(std::lround(scale[i][k] + part * (scale[i + 1][k] - scale[i][k]))));
   return out;
 }
+
+/// Without a sign on zero.
+std::string whole(double value) { return fmt::format("{:.0f}", std::round(value) + 0.0); }
 
 class Figure {
  public:
@@ -91,9 +95,9 @@ class Figure {
         Eigen::Index end = c + 1;
         while (end < columns && step(map_.value(r, end)) == same) ++end;
         out_ += fmt::format(
-            "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
+            "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
             kLeft + w * static_cast<double>(c), kTop + kHeight - h * static_cast<double>(r + 1),
-            w * static_cast<double>(end - c), h,
+            w * static_cast<double>(end - c) + kSeam, h + kSeam,
             colour(scale(), static_cast<double>(same) / (kColours - 1)));
         c = end;
       }
@@ -117,8 +121,8 @@ class Figure {
       const double share = static_cast<double>(i) / (kTicks - 1);
       const double at_x = map_.x_low + share * (map_.x_high - map_.x_low);
       const double at_y = map_.y_low + share * (map_.y_high - map_.y_low);
-      label(x(at_x), kTop + kHeight + 18, "middle", fmt::format("{:.0f}", at_x));
-      label(kLeft - 6, y(at_y) + 4, "end", fmt::format("{:.0f}", at_y));
+      label(x(at_x), kTop + kHeight + 18, "middle", whole(at_x));
+      label(kLeft - 6, y(at_y) + 4, "end", whole(at_y));
     }
     label(kLeft + kWidth / 2, kTop + kHeight + 40, "middle", map_.x_title);
     label(kLeft - 54, kTop - 10, "start", map_.y_title);

@@ -20,7 +20,6 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr int kDenseUnknowns = 900;
 constexpr Index kSlab = 256;
-constexpr double kBeyondSeen = 0.25;  // of the range of y that a leaf saw: the truth may go so far
 constexpr double kLeastScale = 1e-6;  // of a leaf, normalised input
 constexpr double kRootRidge = 1e-12;  // of the whole box's own model
 
@@ -54,6 +53,12 @@ Say say_of(const format::Tree& tree, const Samples& u) {
     out.row_begin.push_back(out.by_row.size());
   }
   return out;
+}
+
+/// Share of the range that n samples show by which the truth may go further between and beside
+/// them: about the gap between neighbours of a grid in two inputs, a quarter for few samples.
+double unseen_share(std::size_t n) {
+  return n == 0 ? 0.0 : std::min(0.25, 2.0 / std::sqrt(static_cast<double>(n)));
 }
 
 /// Inputs centred and scaled to where a leaf has a say.
@@ -285,8 +290,9 @@ struct BlendedFit::Design {
         low = std::min(low, y(entry.index, output));
         high = std::max(high, y(entry.index, output));
       }
-      out.bounds[2 * k] = low - kBeyondSeen * (high - low);
-      out.bounds[2 * k + 1] = high + kBeyondSeen * (high - low);
+      const double beyond = unseen_share(say.by_leaf[k].size()) * (high - low);
+      out.bounds[2 * k] = low - beyond;
+      out.bounds[2 * k + 1] = high + beyond;
     }
     return out;
   }

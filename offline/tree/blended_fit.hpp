@@ -28,8 +28,8 @@ class BlendedFit {
   BlendedFit& operator=(const BlendedFit&) = delete;
 
   /// The tree with new coefficients and bounds for every column of y, shape (n, outputs) [m].
-  /// bounds: what was seen where a leaf has a say, and a quarter of that range more: between the
-  /// samples, and in the corners, the truth may well go further.
+  /// bounds: what was seen where a leaf has a say, and 2 / sqrt(samples) of that range more, at
+  /// most a quarter: between the samples, and in the corners, the truth goes further.
   std::vector<format::Tree> solve(const Samples& y, double ridge) const;
 
   /// The same with each leaf fitted by itself to the samples weighted by its validity: the textbook
