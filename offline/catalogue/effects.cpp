@@ -11,11 +11,10 @@ constexpr Explanation kEffects[] = {
      "apart. Typical: 0.5 mm, 0.5 mrad. Needs: nothing but poses. Always listed first."},
     {"local_tree",
      "What physics leaves over, learnt as a local linear model tree over the joint positions: "
-     "affine or quadratic in each leaf, blended smoothly from leaf to leaf, held to what was seen "
-     "there, fading out outside the trained domain. Kept only if it lowers the cross-validated "
-     "error. Needs: dense poses. Options: min_gain = \"2%\"; form = \"blended\" or \"crisp\" "
-     "(steps "
-     "at leaf borders, cheaper); splits = \"shared\" by the axes or \"own\"; degree = 1 or 2."},
+     "affine or quadratic leaves, blended smoothly into each other, or crisp where that is clearly "
+     "better; held to what was seen there, fading out outside the trained domain. Kept only if it "
+     "lowers the cross-validated error. Needs: dense poses. Options: min_gain = \"2%\"; form = "
+     "\"blended\" or \"crisp\"; splits = \"shared\" by the axes or \"own\"; degree = 1 or 2."},
     {"joint_compliance",
      "A joint turns under its load: dq = c tau, tau being the torque of gravity and payload about "
      "the joint. Heavy arms 1e6 to 4e6 N m/rad, light ones 1e4 to 1e5. Needs: link masses or the "

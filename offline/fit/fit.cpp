@@ -39,6 +39,7 @@ TreeSettings tree_settings(const Cell& cell, const EffectEntry& entry) {
     return it != entry.options.end() && it->second == EffectEntry::Value(std::string(word));
   };
   if (says("form", "crisp")) out.form = TreeForm::kCrisp;
+  if (says("form", "blended")) out.form = TreeForm::kBlended;
   if (says("splits", "own")) out.sharing = Sharing::kOwn;
   if (const auto it = entry.options.find("degree"); it != entry.options.end())
     out.max_degree = static_cast<int>(std::get<double>(it->second));

@@ -85,6 +85,7 @@ AxisTrees chosen(const Lesson& lesson, int leaves, int degree, std::uint64_t see
   std::vector<int> group(lesson.q.rows());
   std::iota(group.begin(), group.end(), 0);
   const TreeSettings settings{.seed = seed,
+                              .form = TreeForm::kBlended,
                               .sharing = Sharing::kOwn,
                               .max_leaves = leaves,
                               .max_degree = degree,

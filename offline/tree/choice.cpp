@@ -26,6 +26,7 @@ constexpr int kPosesPerCoefficient = 10;
 /// The cycle walks as deep as the deepest leaf whatever the input: a few more leaves elsewhere cost
 /// less than one that is far down.
 constexpr int kCrispDepth = 10;
+constexpr double kCrispMustGain = 0.95;  // of the error of blended trees
 
 using Chosen = std::array<int, format::kTreeAxes>;  // of the candidates, per axis
 
@@ -264,11 +265,9 @@ int degree_for(const TreeSettings& settings, int poses, int joints) {
   return poses < kPosesPerCoefficient * terms ? 1 : settings.max_degree;
 }
 
-}  // namespace
-
-TreeChoice choose_trees(const Samples& all_q, const Samples& all_residual,
-                        const std::array<bool, 3>& axis_used, std::span<const int> all_groups,
-                        const TreeSettings& settings) {
+TreeChoice choose_form(const Samples& all_q, const Samples& all_residual,
+                       const std::array<bool, 3>& axis_used, std::span<const int> all_groups,
+                       const TreeSettings& settings) {
   const auto order = lexicographic_pairs(all_q, all_residual);
   const Samples q = rows_of(all_q, order), residual = rows_of(all_residual, order);
   std::vector<int> group;
@@ -303,6 +302,21 @@ TreeChoice choose_trees(const Samples& all_q, const Samples& all_residual,
   out.reason = why(gain, words_for(validation, chosen, settings.form), chosen != Chosen{}, asked);
   if (gain.convinces()) grow_chosen(q, residual, validation, chosen, settings, out);
   return out;
+}
+
+}  // namespace
+
+TreeChoice choose_trees(const Samples& q, const Samples& residual,
+                        const std::array<bool, 3>& axis_used, std::span<const int> group,
+                        const TreeSettings& settings) {
+  if (settings.form != TreeForm::kEither)
+    return choose_form(q, residual, axis_used, group, settings);
+  TreeSettings one = settings;
+  one.form = TreeForm::kBlended;
+  TreeChoice blended = choose_form(q, residual, axis_used, group, one);
+  one.form = TreeForm::kCrisp;
+  TreeChoice crisp = choose_form(q, residual, axis_used, group, one);
+  return crisp.cv_after_m < kCrispMustGain * blended.cv_after_m ? crisp : blended;
 }
 
 }  // namespace plumb::offline

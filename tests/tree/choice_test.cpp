@@ -134,6 +134,18 @@ TEST(TreeChoice, AClearNonlinearEffectIsLearnt) {
   EXPECT_GT(choice.cv_before_m - choice.cv_after_m, choice.gain_se_m);
 }
 
+TEST(TreeChoice, SmoothErrorsAreBlendedAndStepsAreNot) {
+  Random random(21);
+  const Samples q = poses(800, 2, random);
+  EXPECT_FALSE(choose(q, Truth{.size = 5.0}.residual(q, random)).trees[0].blend_half_width.empty());
+  Samples steps = Truth{}.residual(q, random);
+  for (Eigen::Index i = 0; i < q.rows(); ++i)
+    steps(i, 0) += q(i, 0) > 0.37 ? 20.0 * kNoise : q(i, 1) > -0.61 ? -20.0 * kNoise : 0.0;
+  const TreeChoice choice = choose(q, steps);
+  EXPECT_TRUE(choice.trees[0].blend_half_width.empty()) << choice.reason;
+  EXPECT_GT(choice.leaves[0], 2);
+}
+
 TEST(TreeChoice, OnlyTheAxisThatHasAnEffectGetsATree) {
   Random random(8);
   const Samples q = poses(1000, 4, random);
