@@ -105,9 +105,10 @@ Chosen best_of(const Validation& validation, Sharing sharing, int inputs) {
     if (!validation.has_axis(axis)) continue;
     const Eigen::MatrixXd& error = validation.squared_error[axis];
     out[axis] = smallest_good(error, validation.candidates, inputs);
+    if (sharing == Sharing::kOwn) continue;
     sum = sum.size() == 0 ? error : Eigen::MatrixXd(sum + error);
   }
-  if (sharing == Sharing::kShared && sum.size() > 0)
+  if (sum.size() > 0)
     out.fill(smallest_good(sum, validation.candidates, inputs));
   return out;
 }
