@@ -108,8 +108,7 @@ Chosen best_of(const Validation& validation, Sharing sharing, int inputs) {
     if (sharing == Sharing::kOwn) continue;
     sum = sum.size() == 0 ? error : Eigen::MatrixXd(sum + error);
   }
-  if (sum.size() > 0)
-    out.fill(smallest_good(sum, validation.candidates, inputs));
+  if (sum.size() > 0) out.fill(smallest_good(sum, validation.candidates, inputs));
   return out;
 }
 
