@@ -3,19 +3,12 @@
 
 #include <algorithm>
 
+#include "tree/walls.hpp"
+
 namespace plumb::offline {
 namespace {
 
 constexpr double kNarrowest = 1e-6;  // half width, normalised: a ramp between two float values
-
-/// Walls of the cells on the way down, along the axes.
-struct Walls {
-  std::array<double, format::kMaxJoints> low, high;
-  Walls() {
-    low.fill(-1.0);
-    high.fill(1.0);
-  }
-};
 
 class Ramps {
  public:

@@ -9,6 +9,7 @@
 #include "tree/oblique.hpp"
 #include "tree/rows.hpp"
 #include "tree/scan.hpp"
+#include "tree/walls.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -72,15 +73,6 @@ class Grower {
   }
 
  private:
-  /// Walls of a cell along each input.
-  struct Walls {
-    std::array<double, format::kMaxJoints> low, high;
-    Walls() {
-      low.fill(-1.0);
-      high.fill(1.0);
-    }
-  };
-
   struct Range {
     int begin, end;
     Walls walls;
