@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/planar_poses.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "cell/random.hpp"
 #include "study/link_calibration.hpp"
+#include "study/white_noise.hpp"
 
 namespace plumb::offline::study {
-namespace {
-
-/// Box and Muller's normal deviate.
-double normal(Random& random) {
-  const double size = std::sqrt(-2.0 * std::log(1.0 - random.unit()));
-  return size * std::cos(2.0 * std::numbers::pi * random.unit());
-}
-
-}  // namespace
-
 PlanarPoses true_poses(PlanarVariant variant, const RowsN& q) {
   PlanarPoses out{q, rigid_points(kNominalLinks, q)};
   for (Eigen::Index i = 0; i < q.rows(); ++i)

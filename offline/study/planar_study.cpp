@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -39,12 +38,6 @@ std::string leaf_count(const AxisTrees& trees) {
   return fmt::format("{} + {} leaves", trees.tree[0].leaves(), trees.tree[1].leaves());
 }
 
-/// As published: what a leaf says is not held to what it saw.
-format::Tree unheld(format::Tree tree) {
-  for (std::size_t i = 0; i < tree.bounds.size(); ++i) tree.bounds[i] = i % 2 == 0 ? -1e300 : 1e300;
-  return tree;
-}
-
 /// What is learnt from: angles, and for both axes what the trees shall say.
 struct Lesson {
   RowsN q;
@@ -58,6 +51,24 @@ struct Lesson {
         domain(trained_box(q)),
         u(normalised(domain, q)) {}
 };
+
+/// The three of the study.
+struct Lessons {
+  Lesson rest;                 // what the calibrated links leave
+  Lesson alone;                // the positions themselves
+  std::optional<Lesson> fine;  // many of them
+};
+
+Lessons lessons_of(const PlanarRequest& request, const PlanarPoses& train, const Links& links) {
+  Lessons out{Lesson(train.q, train.p_AC_A - rigid_points(links, train.q)),
+              Lesson(train.q, train.p_AC_A), std::nullopt};
+  if (request.grids == PlanarRequest::Grids::kAll) {
+    const PlanarPoses many =
+        measured_poses(request.variant, planar_grid(kFineStep), request.noise_m, request.seed + 1);
+    out.fine.emplace(many.q, many.p_AC_A);
+  }
+  return out;
+}
 
 using Grown = std::array<GrownTree, 2>;
 
@@ -121,14 +132,13 @@ class Collector {
     out.test_q = test_.q;
   }
 
-  StudyRow& add(StudyRow row, const Predictor& predict) {
+  void add(StudyRow row, const Predictor& predict) {
     out_.request.tell(row.model);
     const Samples at_test = predict(test_.q);
     row.test = total_error(at_test, test_.p_AC_A);
     row.disjoint = total_error(predict(disjoint_.q), disjoint_.p_AC_A);
     row.error_at_test = (at_test - test_.p_AC_A).rowwise().norm();
     out_.rows.push_back(std::move(row));
-    return out_.rows.back();
   }
 
   /// Trees over rigid links, or alone (base = nullptr).
@@ -186,8 +196,8 @@ void add_textbook(const Lesson& lesson, const Grown& trees, const Links& links, 
   });
 }
 
-void add_published(const PlanarRequest& request, const PlanarPoses& train, const Lesson& rest,
-                   const Links& links, Collector& rows) {
+void add_published(const Lessons& lessons, const Links& links, Collector& rows) {
+  const Lesson &rest = lessons.rest, &alone = lessons.alone;
   rows.add({.key = "rigid",
             .model = "rigid kinematic model",
             .size = "-",
@@ -210,7 +220,6 @@ void add_published(const PlanarRequest& request, const PlanarPoses& train, const
                   .size = {},
                   .paper = printed(0.0157, 0.131)},
                  cut(rest, calibrated, by_gain), &links);
-  const Lesson alone(train.q, train.p_AC_A);
   rows.add_trees(
       {.key = "alone",
        .model = "tree alone, 1536 positions",
@@ -219,10 +228,8 @@ void add_published(const PlanarRequest& request, const PlanarPoses& train, const
       cut(alone, grown(alone, {.max_leaves = format::kMaxTreeLeaves, .min_samples = kSamplesAlone}),
           all_splits),
       nullptr);
-  if (request.grids == PlanarRequest::Grids::kAll) {
-    const PlanarPoses many =
-        measured_poses(request.variant, planar_grid(kFineStep), request.noise_m, request.seed + 1);
-    const Lesson fine(many.q, many.p_AC_A);
+  if (lessons.fine) {
+    const Lesson& fine = *lessons.fine;
     rows.add_trees(
         {.key = "alone_fine",
          .model = "tree alone, 148,680 positions",
@@ -235,27 +242,22 @@ void add_published(const PlanarRequest& request, const PlanarPoses& train, const
   add_textbook(rest, calibrated, links, rows);
 }
 
-void add_ours(const PlanarRequest& request, const PlanarPoses& train, const Lesson& rest,
-              const Links& links, Collector& rows) {
+void add_ours(const Lessons& lessons, const Links& links, std::uint64_t seed, Collector& rows) {
   const auto row = [](const char* key, const char* model) {
     return StudyRow{.key = key, .model = model, .size = {}, .kind = RowKind::kOurs};
   };
   rows.add_trees(row("blended_affine", "calibrated + blended tree, affine leaves"),
-                 chosen(rest, kAffineLeaves, 1, request.seed), &links);
+                 chosen(lessons.rest, kAffineLeaves, 1, seed), &links);
   rows.add_trees(row("blended_quadratic", "calibrated + blended tree, quadratic leaves"),
-                 chosen(rest, kQuadraticLeaves, 2, request.seed), &links);
-  const Lesson alone(train.q, train.p_AC_A);
+                 chosen(lessons.rest, kQuadraticLeaves, 2, seed), &links);
   rows.add_trees(row("blended_alone", "blended tree alone, 1536 positions"),
-                 chosen(alone, kAloneLeaves, 2, request.seed), nullptr);
-  if (request.grids != PlanarRequest::Grids::kAll) return;
-  const PlanarPoses many =
-      measured_poses(request.variant, planar_grid(kFineStep), request.noise_m, request.seed + 1);
-  const Lesson fine(many.q, many.p_AC_A);
+                 chosen(lessons.alone, kAloneLeaves, 2, seed), nullptr);
+  if (!lessons.fine) return;
   rows.add_trees(row("blended_alone_fine_affine", "blended tree alone, 148,680 positions, affine"),
-                 at_once(fine, kFineAffine, 1), nullptr);
+                 at_once(*lessons.fine, kFineAffine, 1), nullptr);
   rows.add_trees(
       row("blended_alone_fine_quadratic", "blended tree alone, 148,680 positions, quadratic"),
-      at_once(fine, kFineQuadratic, 2), nullptr);
+      at_once(*lessons.fine, kFineQuadratic, 2), nullptr);
 }
 
 void add_physics(const PlanarRequest& request, const PlanarPoses& train, PlanarStudy& out,
@@ -316,10 +318,10 @@ PlanarStudy run_planar_study(const PlanarRequest& request) {
   const PlanarPoses train =
       measured_poses(request.variant, planar_grid(kTrainingStep), request.noise_m, request.seed);
   out.links = calibrate_links(train);
-  const Lesson rest(train.q, train.p_AC_A - rigid_points(out.links.d, train.q));
+  const Lessons lessons = lessons_of(request, train, out.links.d);
   Collector rows(out, train.q);
-  add_published(request, train, rest, out.links.d, rows);
-  add_ours(request, train, rest, out.links.d, rows);
+  add_published(lessons, out.links.d, rows);
+  add_ours(lessons, out.links.d, request.seed, rows);
   add_physics(request, train, out, rows);
   out.remarks = planar_remarks(out);
   return out;

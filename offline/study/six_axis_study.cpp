@@ -5,17 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
-#include "cell/random.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
 #include "plumb/runtime/tree.hpp"
 #include "simulate/arm_rows.hpp"
 #include "simulate/simulate.hpp"
 #include "simulate/study_arms.hpp"
+#include "study/textbook_trees.hpp"
+#include "study/white_noise.hpp"
 #include "tree/choice.hpp"
 #include "tree/domain.hpp"
 #include "tree/growth.hpp"
@@ -57,9 +56,7 @@ class PublishedTrees {
     const int fewest = static_cast<int>(q.cols()) + 1;
     for (int axis = 0; axis < 3; ++axis) {
       const GrownTree tree = grow(u, e.col(axis), {.max_leaves = kLeaves, .min_samples = fewest});
-      trees_.push_back(tree.cut(tree.leaves()));
-      for (std::size_t i = 0; i < trees_.back().bounds.size(); ++i)
-        trees_.back().bounds[i] = i % 2 == 0 ? -1e300 : 1e300;
+      trees_.push_back(unheld(tree.cut(tree.leaves())));
     }
   }
 
@@ -83,9 +80,7 @@ Samples noise_like(const Samples& like, std::uint64_t seed) {
   Random random(seed);
   Samples out(like.rows(), 3);
   for (Eigen::Index i = 0; i < out.rows(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k)
-      out(i, k) = std::sqrt(-2.0 * std::log(1.0 - random.unit())) *
-                  std::cos(2.0 * std::numbers::pi * random.unit());
+    for (Eigen::Index k = 0; k < 3; ++k) out(i, k) = normal(random);
   return out * (mean_norm(like) / mean_norm(out));
 }
 

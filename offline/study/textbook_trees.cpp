@@ -80,6 +80,11 @@ std::vector<Cell> halved(const std::vector<Cell>& cells, std::size_t which, Eige
 
 }  // namespace
 
+format::Tree unheld(format::Tree tree) {
+  for (std::size_t i = 0; i < tree.bounds.size(); ++i) tree.bounds[i] = i % 2 == 0 ? -1e300 : 1e300;
+  return tree;
+}
+
 VectorXd lolimot(const Samples& u, const VectorXd& y, int leaves, const Samples& u_test) {
   std::vector<Cell> cells{{-VectorXd::Ones(u.cols()), VectorXd::Ones(u.cols()), {}}};
   fit_locally(cells, u, y, {0});

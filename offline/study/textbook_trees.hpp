@@ -3,8 +3,11 @@
 
 #include "tree/growth.hpp"
 
-/// What textbooks do to make a tree smooth; for comparison only, never compiled into a model.
+/// Trees as the study and textbooks have them; for comparison only, never compiled into a model.
 namespace plumb::offline::study {
+
+/// As published: what a leaf says is not held to what it saw.
+format::Tree unheld(format::Tree tree);
 
 /// LOLIMOT [Nelles 2000]: halves the cell whose samples it misses most, along the input that helps
 /// most; normalised Gaussian validity of sigma = width / 3, each leaf fitted to the samples

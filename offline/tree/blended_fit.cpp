@@ -2,7 +2,6 @@
 #include "tree/blended_fit.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -32,10 +31,6 @@ struct Say {
   std::vector<std::size_t> row_begin;
   std::vector<Entry> by_row;
   std::vector<std::vector<Entry>> by_leaf;
-
-  std::span<const Entry> of_row(Index row) const {
-    return {&by_row[row_begin[row]], row_begin[row + 1] - row_begin[row]};
-  }
 };
 
 Say say_of(const format::Tree& tree, const Samples& u) {

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <limits>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "plumb/runtime/tree.hpp"
 #include "tree/domain.hpp"
@@ -198,7 +197,8 @@ std::vector<format::Tree> blended_trees(const Samples& u, const Samples& y,
   BlendedPath path(u, y, blend);
   path.grow_to(candidate.leaves);
   auto out = path.solve(candidate.ridge);
-  for (auto& tree : out) add_regions(tree, u);
+  add_regions(out[0], u);
+  for (auto& tree : out) tree.region = out[0].region;  // the leaves are the same
   return out;
 }
 
