@@ -108,7 +108,7 @@ class Profiler {
                            frames);
       weigh(chain, frames, mechanics, cell_.gravity, X_TF, context_at(measured_.context, i, {}),
             loads);
-      for (int j = 0; j < cell_.joints(); ++j) out(i, j) = loads.joint[j].torque;
+      for (int j = 0; j < cell_.joints(); ++j) out(i, j) = loads.torque(j, chain, frames);
     }
     return out;
   }

@@ -231,7 +231,8 @@ bool listed(const std::vector<std::string>& names, std::string_view name) {
 
 double largest_torque(const Stage& s, int joint) {
   double out = 0.0;
-  for (const auto& loads : s.loads) out = std::max(out, std::abs(loads.joint[joint].torque));
+  for (std::size_t i = 0; i < s.loads.size(); ++i)
+    out = std::max(out, std::abs(s.loads[i].torque(joint, s.chain, s.frames[i])));
   return out;
 }
 

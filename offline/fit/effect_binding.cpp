@@ -64,7 +64,7 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
                          frames);
     weigh(chain, frames, mechanics, cell.gravity, X_TF, context_at(measured.context, i, {}), loads);
     for (int j = 0; j < cell.joints(); ++j)
-      out[j] = std::max(out[j], std::abs(loads.joint[j].torque));
+      out[j] = std::max(out[j], std::abs(loads.torque(j, chain, frames)));
   }
   return out;
 }

@@ -89,10 +89,10 @@ void Corrector::scaled_jacobian(const Chain& chain, const ChainFrames<double>& f
 }
 
 /// Position-only cells: the orientation stays the controller's own, in residual and derivative.
-Transformd Corrector::corrected_pose(std::span<const double> q, const Context& context, Jacobian& J,
-                                     Status& status) const noexcept {
+Transformd Corrector::corrected_pose(std::span<const double> q, const Deviation& deviation,
+                                     Jacobian& J, Status& status) const noexcept {
   ChainFrames<double> frames;
-  const Prediction arm = true_arm_.predict(q, context, frames);
+  const Prediction arm = true_arm_.predict(q, deviation, frames);
   status = arm.status;
   scaled_jacobian(true_arm_.chain(), frames, J);
   if (limits_.corrects == format::Corrects::kPose) return arm.X_BT;
@@ -103,10 +103,10 @@ Transformd Corrector::corrected_pose(std::span<const double> q, const Context& c
   return {.R = frames.tip.R, .p = arm.X_BT.p};
 }
 
-void Corrector::linearise(const Transformd& X_BD, const JointPositions& q, const Context& context,
-                          Iterate& out) const noexcept {
+void Corrector::linearise(const Transformd& X_BD, const JointPositions& q,
+                          const Deviation& deviation, Iterate& out) const noexcept {
   Jacobian J;
-  const Transformd X_BT = corrected_pose(std::span(q).first(joints()), context, J, out.status);
+  const Transformd X_BT = corrected_pose(std::span(q).first(joints()), deviation, J, out.status);
   Vector6 r;
   r.head<3>() = clamped(X_BD.p - X_BT.p, kMaxError) / limits_.length_scale_m;
   r.tail<3>() = rotation_vector(times_transposed<double>(X_BD.R, X_BT.R));
@@ -171,8 +171,11 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   nominal_pose(q, J_N);
   const int seed_sign = internal::determinant_sign(J_N);
   Iterate at;
+  Deviation deviation;
   for (; out.steps < kInverseSteps; ++out.steps) {
-    linearise(out.X_BC, q, context, at);
+    if (out.steps == 0 || out.steps >= kHeldSteps)
+      deviation = true_arm_.deviation_at(std::span(q).first(n), context);
+    linearise(out.X_BC, q, deviation, at);
     advance(at, q);
   }
   const Transformd X_BC = nominal_pose(q, J_N);

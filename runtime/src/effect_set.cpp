@@ -75,6 +75,7 @@ EffectSet::EffectSet(const format::Model& model) noexcept
     if (law < 0 || count_ == format::kMaxEffects) continue;
     Bound& bound = effects_[static_cast<std::size_t>(count_++)];
     bound.law = law;
+    with_law(law, [&bound](auto found) { bound.apply = &decltype(found)::template apply<double>; });
     bound.shape = shape_of(model, effect);
     bound.theta = effect.parameters;
     bound.needs = effect.context;
@@ -135,9 +136,10 @@ bool EffectSet::apply(std::span<const double> q, const Chain& chain,
                       Motion<double>& out) const noexcept {
   Surroundings around;
   survey(chain, frames, context, around);
-  for (int i = 0; i < count_; ++i)
-    apply_one<double>(i, effects_[static_cast<std::size_t>(i)].theta, q, chain, frames, around,
-                      out);
+  for (int i = 0; i < count_; ++i) {
+    const Bound& bound = effects_[static_cast<std::size_t>(i)];
+    bound.apply(bound.theta, bound.shape, situation(bound, q, chain, frames, around), out);
+  }
   return around.stood_in || out.undefined;
 }
 

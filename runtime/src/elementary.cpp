@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/elementary.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+
+#include "plumb/runtime/lanes.hpp"
 
 // Polynomial coefficients: the minimax sets of FDLIBM 5.3 [Sun Microsystems 1993], which state an
 // approximation error below 2^-57 on the reduced intervals.
@@ -13,63 +17,92 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Ored into the bits of a number it makes it none.
+constexpr std::int64_t kNotANumber = 0x7ff8000000000000;
+
 bool is_nan(double x) { return x != x; }
 double magnitude(double x) { return x < 0.0 ? -x : x; }
 
-/// Nearest whole number of |x| < 2^51, ties to even: the sum drops all fractional bits.
-double nearest(double x) {
-  constexpr double kShift = 0x1.8p52;
-  return (x + kShift) - kShift;
-}
+/// x + kShift has no fractional bits left, |x| < 2^51: its last bits are the whole number nearest
+/// to x, ties to even, in two's complement.
+constexpr double kShift = 0x1.8p52;
+
+double nearest(double x) { return (x + kShift) - kShift; }
 
 /// 2^k for -1022 <= k <= 1023.
 double power_of_two(int k) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
+/// Real: double, or Lanes of them.
+template <class Real>
 struct Reduced {
-  double value;  // in [-pi/4, pi/4]
-  double tail;   // value + tail is the remainder to about 100 bits
-  std::uint32_t quadrant;
+  Real value;    // in [-pi/4, pi/4]
+  Real tail;     // value + tail is the remainder to about 100 bits
+  Real shifted;  // kShift + quadrant
 };
 
 /// Cody-Waite: pi/2 in two parts of 33 bits and a third, so the first products are exact.
-Reduced reduce(double x) {
+template <class Real>
+void reduce(const Real& x, Reduced<Real>& out) {
   constexpr double kTwoOverPi = 6.36619772367581382433e-01;
   constexpr double kPart1 = 1.57079632673412561417e+00;
   constexpr double kPart2 = 6.07710050630396597660e-11;
   constexpr double kPart3 = 2.02226624879595063154e-21;
-  const double n = nearest(x * kTwoOverPi);
-  const double first = x - n * kPart1;
-  const double second = n * kPart2;
-  const double rest = first - second;
-  const double lost = (first - rest) - second - n * kPart3;
-  const double value = rest + lost;
-  return {value, (rest - value) + lost,
-          static_cast<std::uint32_t>(static_cast<std::int64_t>(n)) & 3U};
+  out.shifted = x * kTwoOverPi + kShift;
+  const Real n = out.shifted - kShift;
+  const Real first = x - n * kPart1;
+  const Real second = n * kPart2;
+  const Real rest = first - second;
+  const Real lost = (first - rest) - second - n * kPart3;
+  out.value = rest + lost;
+  out.tail = (rest - out.value) + lost;
 }
 
-double sine(double x, double tail) {
-  const double z = x * x;
-  const double v = z * x;
-  const double p = 8.33333333332248946124e-03 +
-                   z * (-1.98412698298579493134e-04 +
-                        z * (2.75573137070700676789e-06 +
-                             z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-  return x - ((z * (0.5 * tail - v * p) - tail) - v * -1.66666666666666324348e-01);
+template <class Real>
+void sine(const Real& x, const Real& tail, Real& out) {
+  const Real z = x * x;
+  const Real v = z * x;
+  const Real p = 8.33333333332248946124e-03 +
+                 z * (-1.98412698298579493134e-04 +
+                      z * (2.75573137070700676789e-06 +
+                           z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+  out = x - ((z * (0.5 * tail - v * p) - tail) - v * -1.66666666666666324348e-01);
 }
 
-double cosine(double x, double tail) {
-  const double z = x * x;
-  const double p =
+template <class Real>
+void cosine(const Real& x, const Real& tail, Real& out) {
+  const Real z = x * x;
+  const Real p =
       z * (4.16666666666666019037e-02 +
            z * (-1.38888888888741095749e-03 +
                 z * (2.48015872894767294178e-05 +
                      z * (-2.75573143513906633035e-07 +
                           z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-  const double half = 0.5 * z;
-  const double w = 1.0 - half;
-  return w + (((1.0 - w) - half) + (z * p - x * tail));
+  const Real half = 0.5 * z;
+  const Real w = 1.0 - half;
+  out = w + (((1.0 - w) - half) + (z * p - x * tail));
+}
+
+constexpr double kLargestAngle = 1e5;
+
+/// The quadrant swaps sine and cosine and turns their signs: all with integers, so that a lane
+/// costs the same whatever is in it.
+void sin_cos_lanes(const Lanes& x, Lanes& sin_out, Lanes& cos_out) {
+  Reduced<Lanes> r;
+  reduce(x, r);
+  Lanes s, c;
+  sine(r.value, r.tail, s);
+  cosine(r.value, r.tail, c);
+  const LaneBits quadrant = reinterpret_cast<LaneBits>(r.shifted);
+  const LaneBits swap = -(quadrant & 1);
+  const LaneBits s_bits = reinterpret_cast<LaneBits>(s), c_bits = reinterpret_cast<LaneBits>(c);
+  const LaneBits mixed = (s_bits ^ c_bits) & swap;
+  const LaneBits beyond = ~((x <= kLargestAngle) & (x >= -kLargestAngle)) & kNotANumber;
+  const LaneBits sin_bits = (s_bits ^ mixed ^ ((quadrant & 2) << 62)) | beyond;
+  const LaneBits cos_bits = (c_bits ^ mixed ^ (((quadrant + 1) & 2) << 62)) | beyond;
+  sin_out = reinterpret_cast<Lanes>(sin_bits);
+  cos_out = reinterpret_cast<Lanes>(cos_bits);
 }
 
 /// atan of 0 <= x <= 1 shifted to |t| <= 7/16 or so by atan(x) = atan(c) + atan((x - c)/(1 + c x)).
@@ -204,16 +237,29 @@ bool is_odd(double x) {
 }  // namespace
 
 SinCos<double> sin_cos(double x) noexcept {
-  constexpr double kLargest = 1e5;
-  if (!(magnitude(x) <= kLargest)) return {kNaN, kNaN};
-  const Reduced r = reduce(x);
-  const double s = sine(r.value, r.tail);
-  const double c = cosine(r.value, r.tail);
-  const bool swap = (r.quadrant & 1U) != 0;
+  if (!(magnitude(x) <= kLargestAngle)) return {kNaN, kNaN};
+  Reduced<double> r;
+  reduce(x, r);
+  double s, c;
+  sine(r.value, r.tail, s);
+  cosine(r.value, r.tail, c);
+  const auto quadrant = std::bit_cast<std::uint64_t>(r.shifted);
+  const bool swap = (quadrant & 1U) != 0;
   const double sin_magnitude = swap ? c : s;
   const double cos_magnitude = swap ? s : c;
-  return {(r.quadrant & 2U) != 0 ? -sin_magnitude : sin_magnitude,
-          ((r.quadrant + 1U) & 2U) != 0 ? -cos_magnitude : cos_magnitude};
+  return {(quadrant & 2U) != 0 ? -sin_magnitude : sin_magnitude,
+          ((quadrant + 1U) & 2U) != 0 ? -cos_magnitude : cos_magnitude};
+}
+
+void sin_cos(std::span<const double> x, double* sin, double* cos) noexcept {
+  static_assert(sizeof(Lanes) == kSinCosLanes * sizeof(double));
+  Lanes in, s, c;
+  for (std::size_t i = 0; i < x.size(); i += kSinCosLanes) {
+    std::memcpy(&in, x.data() + i, sizeof in);
+    sin_cos_lanes(in, s, c);
+    std::memcpy(sin + i, &s, sizeof s);
+    std::memcpy(cos + i, &c, sizeof c);
+  }
 }
 
 double atan2(double y, double x) noexcept {

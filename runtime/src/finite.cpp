@@ -11,7 +11,7 @@ bool is_finite(const Vector3& v) noexcept {
 
 bool is_joint_state(std::span<const double> q) noexcept {
   bool good = true;
-  for (const double x : q) good = good && x >= -kMaxJointPosition && x <= kMaxJointPosition;
+  for (const double x : q) good &= (x >= -kMaxJointPosition) & (x <= kMaxJointPosition);
   return good;
 }
 

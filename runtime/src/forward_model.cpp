@@ -35,53 +35,76 @@ bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context) const noexcept {
-  if (!acceptable(q)) return refusal();
-  if (effects_.empty()) return finished(q, chain_.forward<double>(q), Status::kOk);
-  ChainFrames<double> frames;
-  const Status status = move(q, context, frames);
-  return finished(q, frames.tip, status);
+  const Deviation deviation = deviation_at(q, context);
+  JointPositions bent;
+  if (!bend(q, deviation, bent)) return refusal();
+  return finished(chain_.forward<double>(bent), deviation);
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
                                  ChainFrames<double>& frames) const noexcept {
-  if (!acceptable(q)) return refusal();
-  const Status status = move(q, context, frames);
-  return finished(q, frames.tip, status);
+  return predict(q, deviation_at(q, context), frames);
 }
 
-/// Frames with all effects; their twists in the tip alone.
-Status ForwardModel::move(std::span<const double> q, const Context& context,
-                          ChainFrames<double>& frames) const noexcept {
-  chain_.frames<double>(q, frames);
-  if (effects_.empty()) return Status::kOk;
-  Motion<double> motion;
-  const bool fallback = effects_.apply(q, chain_, frames, context, motion);
-  std::array<double, kMaxJoints> bent{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(joints()); ++i)
-    bent[i] = q[i] + motion.dq[i];
-  const std::span<const double> there = std::span(bent).first(static_cast<std::size_t>(joints()));
-  if (!internal::is_joint_state(there)) {
-    frames.tip.p.setConstant(kUnknown);
-    return Status::kNotFinite;
+Prediction ForwardModel::predict(std::span<const double> q, const Deviation& deviation,
+                                 ChainFrames<double>& frames) const noexcept {
+  JointPositions bent;
+  if (!bend(q, deviation, bent)) return refusal();
+  chain_.frames<double>(bent, frames);
+  const Prediction out = finished(frames.tip, deviation);
+  frames.tip.R = out.X_BT.R;
+  frames.tip.p = out.X_BT.p - out.tree_B;
+  return out;
+}
+
+Deviation ForwardModel::deviation_at(std::span<const double> q,
+                                     const Context& context) const noexcept {
+  Deviation out;
+  if (!acceptable(q)) {
+    out.status = Status::kNotFinite;
+    return out;
   }
-  chain_.frames<double>(there, frames);
-  const Vector3& e = motion.turn_B;
-  frames.tip.p += motion.shift_B;
-  frames.tip.R = exp({{0.0, 0.0, 0.0}, {e(0), e(1), e(2)}}).R * frames.tip.R;
-  return fallback ? Status::kContextFallback : Status::kOk;
+  if (!effects_.empty()) add_effects(q, context, out);
+  if (has_tree_) add_tree(q, out);
+  return out;
 }
 
-/// Adds the tree. An encoder scale can still bring a joint beyond what sin_cos knows.
-Prediction ForwardModel::finished(std::span<const double> q, const Transformd& X_BT,
-                                  Status status) const noexcept {
-  if (!internal::is_finite(X_BT.p)) return refusal();
-  Prediction out{.X_BT = X_BT, .tree_B = Vector3::Zero(), .status = status};
-  if (!has_tree_) return out;
+void ForwardModel::add_effects(std::span<const double> q, const Context& context,
+                               Deviation& out) const noexcept {
+  ChainFrames<double> frames;
+  chain_.frames<double>(q, frames);
+  Motion<double> motion;
+  if (effects_.apply(q, chain_, frames, context, motion)) out.status = Status::kContextFallback;
+  const Vector3& e = motion.turn_B;
+  out.dq = motion.dq;
+  out.shift_B = motion.shift_B;
+  out.turn_B = exp({{0.0, 0.0, 0.0}, {e(0), e(1), e(2)}}).R;
+}
+
+void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {
   const double weight = domain_.weight(q);
   out.tree_B = tree_at(q) * weight;
-  out.X_BT.p += out.tree_B;
   if (weight < 1.0) out.status = Status::kOutsideDomain;
-  return out;
+}
+
+/// False: a joint is, or was moved, where no joint can be.
+bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
+                        JointPositions& out) const noexcept {
+  const auto n = static_cast<std::size_t>(joints());
+  if (refused(deviation.status) || q.size() < n) return false;
+  for (std::size_t i = 0; i < n; ++i) out[i] = q[i] + deviation.dq[i];
+  return internal::is_joint_state(std::span<const double>(out).first(n));
+}
+
+/// An encoder scale can still bring a joint beyond what sin_cos knows.
+Prediction ForwardModel::finished(const Transformd& X_BT,
+                                  const Deviation& deviation) const noexcept {
+  const Vector3 p = X_BT.p + deviation.shift_B;
+  if (!internal::is_finite(p)) return refusal();
+  return {.X_BT = {.R = effects_.empty() ? X_BT.R : Matrix3(deviation.turn_B * X_BT.R),
+                   .p = p + deviation.tree_B},
+          .tree_B = deviation.tree_B,
+          .status = deviation.status};
 }
 
 Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {

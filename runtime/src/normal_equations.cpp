@@ -7,8 +7,10 @@ namespace {
 /// Pivots below it belong to singular values below 1e-7: rounding, not geometry.
 constexpr double kTinyPivot = 1e-14;
 
+using Square = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+
 /// Brings the largest entry of column k, from row k down, into row k; -1 if rows were swapped.
-int swap_in_pivot(Matrix6& A, int k) noexcept {
+int swap_in_pivot(Square& A, int k) noexcept {
   int largest = k;
   for (int i = k + 1; i < 6; ++i)
     if (A(i, k) * A(i, k) > A(largest, k) * A(largest, k)) largest = i;
@@ -20,43 +22,58 @@ int swap_in_pivot(Matrix6& A, int k) noexcept {
   return largest == k ? 1 : -1;
 }
 
+void set_diagonal(Matrix6& A, std::size_t i, double x) noexcept {
+  if (i < 4)
+    A.column[i].top[i] = x;
+  else
+    A.column[i].bottom[i - 4] = x;
+}
+
 }  // namespace
 
 Matrix6 gram(const Jacobian& J, int n) noexcept {
   Matrix6 A;
-  for (int j = 0; j < 6; ++j) {
-    // Whole columns in one local array: six independent sums the compiler may keep in registers.
-    double sum[6] = {};
-    for (int k = 0; k < n; ++k) {
-      const double* column = J.data() + 6 * k;
-      for (int i = 0; i < 6; ++i) sum[i] += column[i] * column[j];
+  for (auto& column : A.column) column = {Lanes{}, Lanes{}};
+  for (int k = 0; k < n; ++k) {
+    const Lanes top{J(0, k), J(1, k), J(2, k), J(3, k)};
+    const Lanes bottom{J(4, k), J(5, k), 0.0, 0.0};
+    for (int j = 0; j < 6; ++j) {
+      auto& column = A.column[static_cast<std::size_t>(j)];
+      column.top = column.top + top * J(j, k);
+      column.bottom = column.bottom + bottom * J(j, k);
     }
-    for (int i = 0; i < 6; ++i) A(i, j) = sum[i];
   }
   return A;
 }
 
 Ldl factor(const Matrix6& A) noexcept {
   Ldl f{.L = A, .d = Vector6::Zero()};
-  for (int k = 0; k < 6; ++k) {
-    f.d(k) = f.L(k, k);
-    const double inverse = f.d(k) == 0.0 ? 0.0 : 1.0 / f.d(k);
-    for (int j = k + 1; j < 6; ++j) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    auto& pivot = f.L.column[k];
+    const double d = f.L(k, k);
+    const double inverse = d == 0.0 ? 0.0 : 1.0 / d;
+    for (std::size_t j = k + 1; j < 6; ++j) {
       const double l = f.L(j, k) * inverse;
-      for (int i = j; i < 6; ++i) f.L(i, j) -= l * f.L(i, k);
+      f.L.column[j].top = f.L.column[j].top - pivot.top * l;
+      f.L.column[j].bottom = f.L.column[j].bottom - pivot.bottom * l;
     }
-    for (int i = k + 1; i < 6; ++i) f.L(i, k) *= inverse;
+    pivot.top = pivot.top * inverse;
+    pivot.bottom = pivot.bottom * inverse;
+    f.d(static_cast<int>(k)) = d;
   }
   return f;
 }
 
 Vector6 Ldl::solve(const Vector6& b) const noexcept {
   Vector6 x = b;
+  const auto at = [this](int i, int j) {
+    return L(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  };
   for (int j = 0; j < 6; ++j)
-    for (int i = j + 1; i < 6; ++i) x(i) -= L(i, j) * x(j);
+    for (int i = j + 1; i < 6; ++i) x(i) -= at(i, j) * x(j);
   for (int i = 0; i < 6; ++i) x(i) = d(i) > kTinyPivot ? x(i) / d(i) : 0.0;
   for (int j = 5; j >= 0; --j)
-    for (int i = j + 1; i < 6; ++i) x(j) -= L(i, j) * x(i);
+    for (int i = j + 1; i < 6; ++i) x(j) -= at(i, j) * x(i);
   return x;
 }
 
@@ -68,7 +85,7 @@ int Ldl::positive_pivots(int rows) const noexcept {
 
 RankAbove rank_above(double s, const Matrix6& JJt) noexcept {
   Matrix6 shifted = JJt;
-  for (int i = 0; i < 6; ++i) shifted(i, i) -= s * s;
+  for (std::size_t i = 0; i < 6; ++i) set_diagonal(shifted, i, JJt(i, i) - s * s);
   const Ldl f = factor(shifted);
   return {.position = f.positive_pivots(3), .pose = f.positive_pivots(6)};
 }
@@ -82,7 +99,7 @@ JointVector minimum_norm_step(const Jacobian& J, int n, const Vector6& r) noexce
 }
 
 int determinant_sign(const Jacobian& J) noexcept {
-  Matrix6 A = J.leftCols<6>();
+  Square A = J.leftCols<6>();
   int sign = 1;
   for (int k = 0; k < 6; ++k) {
     sign *= swap_in_pivot(A, k);

@@ -7,13 +7,25 @@
 namespace plumb::internal {
 
 using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
-using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+
+/// 6 x 6, its columns padded to two Lanes; what stands behind row 5 means nothing.
+struct Matrix6 {
+  struct Column {
+    Lanes top, bottom;
+  };
+  std::array<Column, 6> column;
+
+  double operator()(std::size_t i, std::size_t j) const noexcept {
+    return i < 4 ? column[j].top[i] : column[j].bottom[i - 4];
+  }
+};
 using JointVector = Eigen::Matrix<double, kMaxJoints, 1, Eigen::DontAlign>;
 
 /// J J^T of the first n columns.
 Matrix6 gram(const Jacobian& J, int n) noexcept;
 
-/// A = L D L^T without pivoting: L unit lower triangular in `L`, D in `d`.
+/// A = L D L^T without pivoting: L unit lower triangular in `L`, D in `d`; above the diagonal of L
+/// stands what means nothing.
 /// By Sylvester's law of inertia A has as many positive eigenvalues as `d` positive entries, and so
 /// has each leading block.
 struct Ldl {

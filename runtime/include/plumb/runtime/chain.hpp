@@ -5,6 +5,7 @@
 #include <span>
 
 #include "plumb/format/model.hpp"
+#include "plumb/runtime/lanes.hpp"
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb {
@@ -51,8 +52,10 @@ class Chain {
   const Transformd& constant(int i) const noexcept { return constant_[i]; }
 
  private:
-  template <class S>
-  Transform<S> moved(const Transform<S>& X, int i, const S& q) const;
+  template <int kJoints, class S, class F>
+  Columns<S> walk(std::span<const S> q, F behind_joint) const;
+  template <class S, class F>
+  Columns<S> walk(std::span<const S> q, F behind_joint) const;
 
   int joints_ = 0;
   std::array<bool, kMaxJoints> revolute_{};
@@ -68,51 +71,46 @@ void jacobian(const Chain& chain, const ChainFrames<double>& frames, Jacobian& o
 
 // --- implementation ------------------------------------------------------------------------------
 
-template <class S>
-Transform<S> Chain::moved(const Transform<S>& X, int i, const S& q) const {
-  Transform<S> out;
-  const S position = q * scale_[i] + zero_[i];
-  if (revolute_[i]) {
-    using portable::sin_cos;
-    const auto t = sin_cos(position);
-    for (int k = 0; k < 3; ++k) {
-      out.R(k, 0) = X.R(k, 0) * t.cos + X.R(k, 1) * t.sin;
-      out.R(k, 1) = X.R(k, 1) * t.cos - X.R(k, 0) * t.sin;
-      out.R(k, 2) = X.R(k, 2);
-    }
-    out.p = X.p;
-  } else {
-    out.R = X.R;
-    for (int k = 0; k < 3; ++k) out.p(k) = X.p(k) + X.R(k, 2) * position;
+/// behind_joint(i, X_BPi) for every joint; returns X_BT. kJoints: known when compiled, so that the
+/// loops are unrolled; 0: joints().
+template <int kJoints, class S, class F>
+Columns<S> Chain::walk(std::span<const S> q, F behind_joint) const {
+  using portable::sin_cos;
+  constexpr std::size_t kLanes = portable::kSinCosLanes;
+  constexpr std::size_t kMost = kJoints > 0 ? kJoints : kMaxJoints;
+  constexpr std::size_t kRoom = (kMost + kLanes - 1) / kLanes * kLanes;
+  const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : joints_);
+  std::array<S, kRoom> position, sin, cos;
+  for (std::size_t i = 0; i < n; ++i) position[i] = q[i] * scale_[i] + zero_[i];
+  for (std::size_t i = n; i < kRoom; ++i) position[i] = S(0.0);
+  sin_cos(std::span<const S>(position).first(n), sin.data(), cos.data());
+  Columns<S> X(constant_[0]);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (revolute_[i])
+      X.turn(sin[i], cos[i]);
+    else
+      X.slide(position[i]);
+    behind_joint(i, X);
+    X.append(constant_[i + 1]);
   }
-  return out;
+  return X;
 }
 
-template <class S>
-Transform<S> constant_as(const Transformd& X) {
-  if constexpr (std::is_same_v<S, double>) {
-    return X;
-  } else {
-    return {X.R.template cast<S>(), X.p.template cast<S>()};
-  }
+template <class S, class F>
+Columns<S> Chain::walk(std::span<const S> q, F behind_joint) const {
+  return joints_ == 6 ? walk<6>(q, behind_joint) : walk<0>(q, behind_joint);
 }
 
 template <class S>
 Transform<S> Chain::forward(std::span<const S> q) const {
-  Transform<S> X = constant_as<S>(constant_[0]);
-  for (int i = 0; i < joints_; ++i) X = moved(X, i, q[i]) * constant_as<S>(constant_[i + 1]);
-  return X;
+  Transform<S> out;
+  walk(q, [](std::size_t, const Columns<S>&) {}).store(out);
+  return out;
 }
 
 template <class S>
 void Chain::frames(std::span<const S> q, ChainFrames<S>& out) const {
-  Transform<S> X = constant_as<S>(constant_[0]);
-  for (int i = 0; i < joints_; ++i) {
-    const Transform<S> P = moved(X, i, q[i]);
-    X = P * constant_as<S>(constant_[i + 1]);
-    out.joint[i] = P;
-  }
-  out.tip = X;
+  walk(q, [&out](std::size_t i, const Columns<S>& X) { X.store(out.joint[i]); }).store(out.tip);
 }
 
 extern template Transform<double> Chain::forward(std::span<const double>) const;

@@ -26,6 +26,8 @@ struct Correction {
 /// The controller knows only its nominal chain N. From a seed q, kInverseSteps times
 /// q <- q + J(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
 /// position; the orientation in T is then the controller's own, that of N(q).
+/// Effects and tree are worked out at the seed and from step kHeldSteps on; in between, where the
+/// steps are still large, those of the seed stand for them.
 /// J is the derivative of the calibrated chain, not of N: for the same price the steps converge
 /// quadratically, also where J_N^+ is large. Only the refusals look at J_N.
 /// Fewer than six joints: the controllable part of the target, position before orientation.
@@ -48,7 +50,8 @@ struct Correction {
 /// Refers to the model's memory: the model must outlive it.
 class Corrector {
  public:
-  static constexpr int kInverseSteps = 8;
+  static constexpr int kInverseSteps = 7;
+  static constexpr int kHeldSteps = 4;
   static constexpr double kMaxResidual_m = 1e-6;
   static constexpr double kMaxResidual_rad = 1e-6;
 
@@ -74,9 +77,9 @@ class Corrector {
   void scaled_jacobian(const Chain& chain, const ChainFrames<double>& frames,
                        Jacobian& out) const noexcept;
   Transformd nominal_pose(const JointPositions& q, Jacobian& J_N) const noexcept;
-  Transformd corrected_pose(std::span<const double> q, const Context& context, Jacobian& J,
+  Transformd corrected_pose(std::span<const double> q, const Deviation& deviation, Jacobian& J,
                             Status& status) const noexcept;
-  void linearise(const Transformd& X_BD, const JointPositions& q, const Context& context,
+  void linearise(const Transformd& X_BD, const JointPositions& q, const Deviation& deviation,
                  Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
   bool far(const JointPositions& q, const JointPositions& seed) const noexcept;

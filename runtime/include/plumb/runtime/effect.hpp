@@ -72,6 +72,9 @@ struct Situation {
   const Context& context;
   double temperature_degC = kUnknown;          // of the sensor this effect reads
   std::span<const std::uint8_t> sensors = {};  // of several: which temperatures of the context
+
+  /// About the axis of joint j [N m]; along it [N] if it slides.
+  double torque(int j) const noexcept { return loads.torque(j, chain, frames); }
 };
 
 /// Motion caused by effects, gathered over all of them.

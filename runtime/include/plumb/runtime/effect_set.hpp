@@ -34,8 +34,11 @@ const std::string* temperature_name(const format::Model& model, int k) noexcept;
 /// The effects of a model, ready for the cycle. Refers to the model's memory.
 /// Precondition: find_effect_fault finds none.
 class EffectSet {
+  using Apply = void (*)(std::span<const double> theta, const EffectShape& shape,
+                         const Situation& at, Motion<double>& out);
   struct Bound {
     int law = 0;
+    Apply apply = nullptr;
     EffectShape shape;
     std::span<const double> theta;
     std::span<const format::ContextNeed> needs;
@@ -66,15 +69,7 @@ class EffectSet {
                  const ChainFrames<double>& frames, const Surroundings& around,
                  Motion<S>& out) const {
     const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    apply_effect<S>(bound.law, theta, bound.shape,
-                    {.q = q,
-                     .chain = chain,
-                     .frames = frames,
-                     .loads = around.loads,
-                     .context = around.context,
-                     .temperature_degC = temperature(bound, around.context),
-                     .sensors = std::span(bound.sensors).first(bound.sensor_count)},
-                    out);
+    apply_effect<S>(bound.law, theta, bound.shape, situation(bound, q, chain, frames, around), out);
   }
 
   /// Motion of the arm at one pose. `chain` is the calibrated one, `frames` its frames at q without
@@ -87,10 +82,18 @@ class EffectSet {
  private:
   static bool fill_in(const Bound& bound, Context& context) noexcept;
   bool fill_in(Context& context) const noexcept;
-  static double temperature(const Bound& bound, const Context& context) noexcept {
-    return bound.temperature < 0
-               ? kUnknown
-               : context.temperature_degC[static_cast<std::size_t>(bound.temperature)];
+  static Situation situation(const Bound& bound, std::span<const double> q, const Chain& chain,
+                             const ChainFrames<double>& frames,
+                             const Surroundings& around) noexcept {
+    const auto sensor = static_cast<std::size_t>(bound.temperature);
+    return {.q = q,
+            .chain = chain,
+            .frames = frames,
+            .loads = around.loads,
+            .context = around.context,
+            .temperature_degC =
+                bound.temperature < 0 ? kUnknown : around.context.temperature_degC[sensor],
+            .sensors = std::span(bound.sensors).first(bound.sensor_count)};
   }
 
   std::array<Bound, format::kMaxEffects> effects_;

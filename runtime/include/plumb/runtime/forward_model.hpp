@@ -19,6 +19,16 @@ struct Prediction {
   Status status;    // kOk, kOutsideDomain or kContextFallback; kNotFinite leaves X_BT at identity
 };
 
+/// How the arm at one pose departs from its calibrated chain: effects and tree. It changes little
+/// from pose to pose, so that near by it may stand for what it would be there.
+struct Deviation {
+  std::array<double, kMaxJoints> dq{};   // of the joints [rad] or [m]
+  Vector3 shift_B = Vector3::Zero();     // of the tip [m]
+  Matrix3 turn_B = Matrix3::Identity();  // of the tip
+  Vector3 tree_B = Vector3::Zero();      // [m]
+  Status status = Status::kOk;
+};
+
 /// The true arm T(q): calibrated chain, effects, local linear model tree.
 /// Refers to the model's memory: the model must outlive it.
 class ForwardModel {
@@ -39,15 +49,25 @@ class ForwardModel {
   Prediction predict(std::span<const double> q, const Context& context,
                      ChainFrames<double>& frames) const noexcept;
 
+  /// The same in two parts: the second costs no more than the chain alone, and takes what the first
+  /// said of this pose or of one near by.
+  Deviation deviation_at(std::span<const double> q, const Context& context) const noexcept;
+  Prediction predict(std::span<const double> q, const Deviation& deviation,
+                     ChainFrames<double>& frames) const noexcept;
+
   /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
 
  private:
+  using JointPositions = std::array<double, kMaxJoints>;
+
   bool acceptable(std::span<const double> q) const noexcept;
-  Prediction finished(std::span<const double> q, const Transformd& X_BT,
-                      Status status) const noexcept;
-  Status move(std::span<const double> q, const Context& context,
-              ChainFrames<double>& frames) const noexcept;
+  void add_effects(std::span<const double> q, const Context& context,
+                   Deviation& out) const noexcept;
+  void add_tree(std::span<const double> q, Deviation& out) const noexcept;
+  bool bend(std::span<const double> q, const Deviation& deviation,
+            JointPositions& out) const noexcept;
+  Prediction finished(const Transformd& X_BT, const Deviation& deviation) const noexcept;
   Vector3 tree_at(std::span<const double> q) const noexcept;
 
   Chain chain_;

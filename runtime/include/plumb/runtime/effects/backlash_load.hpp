@@ -26,7 +26,7 @@ struct BacklashLoad {
                     Motion<S>& out) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
       const int j = shape.joints[i];
-      out.dq[j] += b[i] * (0.5 * portable::tanh(at.loads.joint[j].torque / shape.constants[i]));
+      out.dq[j] += b[i] * (0.5 * portable::tanh(at.torque(j) / shape.constants[i]));
     }
   }
 };

@@ -22,7 +22,7 @@ struct CrossCompliance {
   static void apply(std::span<const S> c, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
     if (shape.joints.size() < 2) return;
-    out.dq[shape.joints[0]] += c[0] * at.loads.joint[shape.joints[1]].torque;
+    out.dq[shape.joints[0]] += c[0] * at.torque(shape.joints[1]);
   }
 };
 

@@ -29,7 +29,7 @@ struct Formula {
       case FormulaOp::kPosition:
         return at.q[which];
       case FormulaOp::kTorque:
-        return at.loads.joint[which].torque;
+        return at.torque(static_cast<int>(which));
       case FormulaOp::kDirection:
         return at.context.direction[which];
       case FormulaOp::kTravel:

@@ -24,7 +24,7 @@ struct JointCompliance {
                     Motion<S>& out) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
       const int j = shape.joints[i];
-      out.dq[j] += c[i] * at.loads.joint[j].torque;
+      out.dq[j] += c[i] * at.torque(j);
     }
   }
 };

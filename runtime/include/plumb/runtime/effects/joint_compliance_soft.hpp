@@ -28,7 +28,7 @@ struct JointComplianceSoft {
                     Motion<S>& out) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
       const int j = shape.joints[i];
-      const double torque = at.loads.joint[j].torque;
+      const double torque = at.torque(j);
       const double size = torque < 0.0 ? -torque : torque;
       const double given = 1.0 - portable::exp(-size / shape.constants[i]);
       out.dq[j] += theta[2 * i] * torque + theta[2 * i + 1] * (torque < 0.0 ? -given : given);

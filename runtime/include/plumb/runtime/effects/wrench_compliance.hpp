@@ -22,7 +22,8 @@ struct WrenchCompliance {
   static void apply(std::span<const S> c, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i)
-      out.dq[shape.joints[i]] += c[i] * at.loads.wrench_torque[shape.joints[i]];
+      out.dq[shape.joints[i]] +=
+          c[i] * at.loads.wrench_torque(shape.joints[i], at.chain, at.frames);
   }
 };
 
