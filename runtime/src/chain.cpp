@@ -56,7 +56,18 @@ void jacobian(const Chain& chain, const ChainFrames<double>& frames, Jacobian& o
   }
 }
 
-template Transform<double> Chain::forward(std::span<const double>) const;
-template void Chain::frames(std::span<const double>, ChainFrames<double>&) const;
+template <>
+Transform<double> Chain::forward(std::span<const double> q) const {
+  Transformd out;
+  walk(q, [](std::size_t, const Columns<double>&) {}).store(out);
+  return out;
+}
+
+template <>
+void Chain::frames(std::span<const double> q, ChainFrames<double>& out) const {
+  walk(q, [&out](std::size_t i, const Columns<double>& X) {
+    X.store(out.joint[i]);
+  }).store(out.tip);
+}
 
 }  // namespace plumb

@@ -34,7 +34,7 @@ double power_of_two(int k) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
-/// Real: double, or Lanes of them.
+/// Real: double, or several of them.
 template <class Real>
 struct Reduced {
   Real value;    // in [-pi/4, pi/4]
@@ -88,21 +88,22 @@ constexpr double kLargestAngle = 1e5;
 
 /// The quadrant swaps sine and cosine and turns their signs: all with integers, so that a lane
 /// costs the same whatever is in it.
-void sin_cos_lanes(const Lanes& x, Lanes& sin_out, Lanes& cos_out) {
-  Reduced<Lanes> r;
+void sin_cos_packed(const Packed& x, Packed& sin_out, Packed& cos_out) {
+  Reduced<Packed> r;
   reduce(x, r);
-  Lanes s, c;
+  Packed s, c;
   sine(r.value, r.tail, s);
   cosine(r.value, r.tail, c);
-  const LaneBits quadrant = reinterpret_cast<LaneBits>(r.shifted);
-  const LaneBits swap = -(quadrant & 1);
-  const LaneBits s_bits = reinterpret_cast<LaneBits>(s), c_bits = reinterpret_cast<LaneBits>(c);
-  const LaneBits mixed = (s_bits ^ c_bits) & swap;
-  const LaneBits beyond = ~((x <= kLargestAngle) & (x >= -kLargestAngle)) & kNotANumber;
-  const LaneBits sin_bits = (s_bits ^ mixed ^ ((quadrant & 2) << 62)) | beyond;
-  const LaneBits cos_bits = (c_bits ^ mixed ^ (((quadrant + 1) & 2) << 62)) | beyond;
-  sin_out = reinterpret_cast<Lanes>(sin_bits);
-  cos_out = reinterpret_cast<Lanes>(cos_bits);
+  const PackedBits quadrant = reinterpret_cast<PackedBits>(r.shifted);
+  const PackedBits swap = -(quadrant & 1);
+  const PackedBits s_bits = reinterpret_cast<PackedBits>(s);
+  const PackedBits c_bits = reinterpret_cast<PackedBits>(c);
+  const PackedBits mixed = (s_bits ^ c_bits) & swap;
+  const PackedBits beyond = ~((x <= kLargestAngle) & (x >= -kLargestAngle)) & kNotANumber;
+  const PackedBits sin_bits = (s_bits ^ mixed ^ ((quadrant & 2) << 62)) | beyond;
+  const PackedBits cos_bits = (c_bits ^ mixed ^ (((quadrant + 1) & 2) << 62)) | beyond;
+  sin_out = reinterpret_cast<Packed>(sin_bits);
+  cos_out = reinterpret_cast<Packed>(cos_bits);
 }
 
 /// atan of 0 <= x <= 1 shifted to |t| <= 7/16 or so by atan(x) = atan(c) + atan((x - c)/(1 + c x)).
@@ -252,11 +253,11 @@ SinCos<double> sin_cos(double x) noexcept {
 }
 
 void sin_cos(std::span<const double> x, double* sin, double* cos) noexcept {
-  static_assert(sizeof(Lanes) == kSinCosLanes * sizeof(double));
-  Lanes in, s, c;
-  for (std::size_t i = 0; i < x.size(); i += kSinCosLanes) {
+  static_assert(kSinCosLanes % kPackedLanes == 0);
+  Packed in, s, c;
+  for (std::size_t i = 0; i < x.size(); i += kPackedLanes) {
     std::memcpy(&in, x.data() + i, sizeof in);
-    sin_cos_lanes(in, s, c);
+    sin_cos_packed(in, s, c);
     std::memcpy(sin + i, &s, sizeof s);
     std::memcpy(cos + i, &c, sizeof c);
   }

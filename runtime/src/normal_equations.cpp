@@ -22,18 +22,12 @@ int swap_in_pivot(Square& A, int k) noexcept {
   return largest == k ? 1 : -1;
 }
 
-void set_diagonal(Matrix6& A, std::size_t i, double x) noexcept {
-  if (i < 4)
-    A.column[i].top[i] = x;
-  else
-    A.column[i].bottom[i - 4] = x;
-}
-
 }  // namespace
 
 Matrix6 gram(const Jacobian& J, int n) noexcept {
+  const Lanes zero{0.0, 0.0, 0.0, 0.0};
   Matrix6 A;
-  for (auto& column : A.column) column = {Lanes{}, Lanes{}};
+  for (auto& column : A.column) column = {zero, zero};
   for (int k = 0; k < n; ++k) {
     const Lanes top{J(0, k), J(1, k), J(2, k), J(3, k)};
     const Lanes bottom{J(4, k), J(5, k), 0.0, 0.0};
@@ -84,8 +78,14 @@ int Ldl::positive_pivots(int rows) const noexcept {
 }
 
 RankAbove rank_above(double s, const Matrix6& JJt) noexcept {
+  const double s2 = s * s;
   Matrix6 shifted = JJt;
-  for (std::size_t i = 0; i < 6; ++i) set_diagonal(shifted, i, JJt(i, i) - s * s);
+  shifted.column[0].top = JJt.column[0].top - Lanes{s2, 0.0, 0.0, 0.0};
+  shifted.column[1].top = JJt.column[1].top - Lanes{0.0, s2, 0.0, 0.0};
+  shifted.column[2].top = JJt.column[2].top - Lanes{0.0, 0.0, s2, 0.0};
+  shifted.column[3].top = JJt.column[3].top - Lanes{0.0, 0.0, 0.0, s2};
+  shifted.column[4].bottom = JJt.column[4].bottom - Lanes{s2, 0.0, 0.0, 0.0};
+  shifted.column[5].bottom = JJt.column[5].bottom - Lanes{0.0, s2, 0.0, 0.0};
   const Ldl f = factor(shifted);
   return {.position = f.positive_pivots(3), .pose = f.positive_pivots(6)};
 }

@@ -113,7 +113,10 @@ void Chain::frames(std::span<const S> q, ChainFrames<S>& out) const {
   walk(q, [&out](std::size_t i, const Columns<S>& X) { X.store(out.joint[i]); }).store(out.tip);
 }
 
-extern template Transform<double> Chain::forward(std::span<const double>) const;
-extern template void Chain::frames(std::span<const double>, ChainFrames<double>&) const;
+// Of doubles: in the archive only, since how numbers are packed depends on what it is compiled for.
+template <>
+Transform<double> Chain::forward(std::span<const double> q) const;
+template <>
+void Chain::frames(std::span<const double> q, ChainFrames<double>& out) const;
 
 }  // namespace plumb

@@ -8,13 +8,39 @@
 
 #include "plumb/runtime/transform.hpp"
 
-/// Four numbers worked on at once, lane by lane: where the machine has no such registers the
-/// compiler takes them two by two or one by one, and the bits are the same. Never passed by value,
-/// because how that is done depends on the machine.
 namespace plumb {
 
-using Lanes = double __attribute__((vector_size(32)));
-using LaneBits = std::int64_t __attribute__((vector_size(32)));
+/// As many numbers as the machine works on at once, lane by lane; the bits are the same everywhere.
+#ifdef __AVX__
+inline constexpr std::size_t kPackedLanes = 4;
+#else
+inline constexpr std::size_t kPackedLanes = 2;
+#endif
+using Packed = double __attribute__((vector_size(kPackedLanes * sizeof(double))));
+using PackedBits = std::int64_t __attribute__((vector_size(kPackedLanes * sizeof(double))));
+
+/// Four numbers worked on together: one register, or two. (GCC would take a vector that is longer
+/// than its registers through memory.)
+#ifdef __AVX__
+using Lanes = Packed;
+#else
+struct Lanes {
+  Packed low, high;
+
+  Lanes() = default;
+  Lanes(double a, double b, double c, double d) : low{a, b}, high{c, d} {}
+  Lanes(const Packed& first, const Packed& last) : low(first), high(last) {}
+  double operator[](std::size_t i) const { return i < 2 ? low[i] : high[i - 2]; }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  friend Lanes operator*(const Lanes& a, double b) { return {a.low * b, a.high * b}; }
+};
+#endif
 
 /// What a column of three numbers is kept in: doubles in lanes, of which the fourth means nothing.
 template <class S>
