@@ -123,9 +123,12 @@ Offset<wire::Guard> add(Builder& b, const GuardLimits& g) {
 
 Offset<wire::Provenance> add(Builder& b, const Provenance& p) {
   std::vector<Offset<wire::InputHash>> inputs;
-  for (const auto& input : p.inputs)
-    inputs.push_back(
-        wire::CreateInputHash(b, b.CreateString(input.name), b.CreateString(input.sha256)));
+  for (const auto& input : p.inputs) {
+    // In this order, which compilers would otherwise choose: the same model is the same bytes.
+    const auto sha256 = b.CreateString(input.sha256);
+    const auto name = b.CreateString(input.name);
+    inputs.push_back(wire::CreateInputHash(b, name, sha256));
+  }
   const auto& h = p.held_out;
   const auto held_out = wire::CreateHeldOut(b, h.poses, h.mean_m, h.rms_m, h.p95_m, h.max_m);
   const auto version = b.CreateString(p.tool_version);

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# Install and export: find_package(Plumb) gives Plumb::format and Plumb::runtime.
+# Install and export: find_package(Plumb) gives Plumb::format, Plumb::runtime, Plumb::c and, on Linux, Plumb::drivers.
 include(CMakePackageConfigHelpers)
 
 set(plumb_package ${CMAKE_INSTALL_LIBDIR}/cmake/Plumb)
-install(TARGETS plumb_format plumb_runtime EXPORT PlumbTargets
+install(TARGETS plumb_format plumb_runtime plumb_c EXPORT PlumbTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
 install(DIRECTORY model_format/include/ runtime/include/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT runtime)
@@ -15,4 +15,11 @@ install(FILES ${PROJECT_BINARY_DIR}/PlumbConfig.cmake ${PROJECT_BINARY_DIR}/Plum
         DESTINATION ${plumb_package} COMPONENT runtime)
 if(TARGET plumb)
   install(TARGETS plumb RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+endif()
+if(TARGET plumb_drivers)
+  install(TARGETS plumb_drivers EXPORT PlumbTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+  install(DIRECTORY drivers/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT runtime)
+endif()
+if(TARGET plumb-rt)
+  install(TARGETS plumb-rt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
 endif()
