@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/verb_doctor.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "rt/doctor_report.hpp"
+#include "rt/rt_probe.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+constexpr int kShortest_us = 100, kLongest_us = 1'000'000;
+
+struct DoctorOptions {
+  int cycle_us = 4000;
+  std::string root = "/";
+  bool strict = false;
+};
+
+void refuse_root(const std::string& root, Outcome& outcome) {
+  outcome.exit = Exit::kEnvironment;
+  outcome.error = Error{.code = "E-ROOT",
+                        .message = fmt::format("'{}' holds no folder 'proc'", root),
+                        .help = "plumb-rt doctor"};
+}
+
+void look(const DoctorOptions& options, Outcome& outcome) {
+  const std::filesystem::path root = options.root;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(root / "proc", ignored))
+    return refuse_root(options.root, outcome);
+  const MachineFiles files(root);
+  const auto steps = options.root == "/" ? try_rt_process({}) : std::vector<RtStep>{};
+  const Examination seen{
+      .cycle_us = options.cycle_us, .checks = examine(files, steps), .can = can_interfaces(files)};
+  outcome.result = to_json(seen);
+  outcome.text = to_text(seen);
+  if (!options.strict || seen.fit()) return;
+  outcome.exit = Exit::kEnvironment;
+  outcome.error = Error{.code = "E-UNFIT", .message = verdict(seen), .help = "plumb-rt doctor"};
+}
+
+}  // namespace
+
+void add_doctor(Program& program) {
+  const auto options = std::make_shared<DoctorOptions>();
+  CLI::App& verb =
+      program.verb({.name = "doctor",
+                    .summary = "What this machine grants a real-time cycle, and what it denies",
+                    .examples = "  plumb-rt doctor                   # every check, and a verdict\n"
+                                "  plumb-rt doctor --strict --json   # for a script: exit code 5 "
+                                "if not fit"},
+                   [options](Outcome& outcome) { look(*options, outcome); });
+  verb.add_option("--cycle-us", options->cycle_us, "The cycle to be fit for, in microseconds")
+      ->check(CLI::Range(kShortest_us, kLongest_us))
+      ->capture_default_str();
+  verb.add_option("--root", options->root,
+                  "Look at the copy of another machine's /proc and /sys in DIR; nothing is tried")
+      ->type_name("DIR");
+  verb.add_flag("--strict", options->strict, "Exit code 5 when the machine is not fit");
+}
+
+}  // namespace plumb::drivers::rt

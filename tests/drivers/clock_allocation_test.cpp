@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// No allocation in a tick: every malloc of this program is counted, operator new included.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+
+#include "plumb/drivers/cycle_clock.hpp"
+#include "tests/drivers/scripted_time.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+}
+
+namespace plumb::drivers {
+namespace {
+
+template <class F>
+long allocations_of(F work) {
+  const long before = allocations;
+  work();
+  return allocations - before;
+}
+
+TEST(ClockAllocation, IsCaughtWhenPlanted) {
+  EXPECT_EQ(1, allocations_of([] {
+              const auto planted = std::make_unique<double>(1.0);
+              EXPECT_EQ(*planted, 1.0);
+            }));
+  EXPECT_EQ(1, allocations_of([] {
+              void* volatile planted = std::malloc(8);
+              std::free(planted);
+            }));
+}
+
+TEST(ClockAllocation, NeverHappensInATickOfTheRealClock) {
+  CycleClock<> clock(100'000);
+  EXPECT_EQ(0, allocations_of([&] {
+              for (int i = 0; i < 100; ++i) std::ignore = clock.wait();
+            }));
+  EXPECT_EQ(clock.counters().ticks, 100U);
+}
+
+TEST(ClockAllocation, NeverHappensWhenTicksAreMissed) {
+  tests::Script script;
+  CycleClock<tests::ScriptedTime> clock(1'000'000, {&script});
+  EXPECT_EQ(0, allocations_of([&] {
+              for (int i = 0; i < 1000; ++i) {
+                script.now_ns += 2'500'000;
+                std::ignore = clock.wait();
+              }
+            }));
+  EXPECT_GT(clock.counters().missed, 1000U);
+}
+
+}  // namespace
+}  // namespace plumb::drivers
