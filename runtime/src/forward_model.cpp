@@ -65,7 +65,7 @@ Deviation ForwardModel::deviation_at(std::span<const double> q,
     return out;
   }
   if (!effects_.empty()) add_effects(q, context, out);
-  if (has_tree_) add_tree(q, out);
+  if (has_tree_ && !refused(out.status)) add_tree(q, out);
   return out;
 }
 
@@ -75,10 +75,14 @@ void ForwardModel::add_effects(std::span<const double> q, const Context& context
   chain_.frames<double>(q, frames);
   Motion<double> motion;
   if (effects_.apply(q, chain_, frames, context, motion)) out.status = Status::kContextFallback;
-  const Vector3& e = motion.turn_B;
+  const std::array<double, 3> turn{motion.turn_B(0), motion.turn_B(1), motion.turn_B(2)};
+  if (!internal::is_joint_state(turn)) {
+    out.status = Status::kNotFinite;
+    return;
+  }
   out.dq = motion.dq;
   out.shift_B = motion.shift_B;
-  out.turn_B = exp({{0.0, 0.0, 0.0}, {e(0), e(1), e(2)}}).R;
+  out.turn_B = exp({{0.0, 0.0, 0.0}, turn}).R;
 }
 
 void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {

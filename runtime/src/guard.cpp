@@ -42,6 +42,11 @@ double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 
 Guard::Guard(const format::GuardLimits& limits) noexcept : limits_(sound(limits)) {}
 
+void Guard::swap(const format::GuardLimits& limits) noexcept {
+  limits_ = sound(limits);
+  ++counters_.swaps;
+}
+
 double Guard::elapsed(double dt_s) const noexcept {
   return dt_s > 0.0 ? std::min(dt_s, 2.0 * limits_.cycle_s) : 0.0;
 }
@@ -84,31 +89,47 @@ GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
   return {.X_BC = X_BC, .has_output = has_output_, .status = status};
 }
 
-GuardOutput Guard::step(const Transformd& X_BD, const Correction& correction,
-                        double dt_s) noexcept {
+/// What the correction says, unless it is no correction.
+Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
+  const bool sane = internal::is_pose(correction.X_BC) &&
+                    internal::is_finite(Vector3(correction.X_BC.p - X_BD.p));
+  return sane || refused(correction.status) ? correction.status : Status::kNotFinite;
+}
+
+/// One cycle further on the way out.
+GuardOutput Guard::fade(const Transformd& X_BD, const Offset& goal, Status why,
+                        double dt) noexcept {
+  ramp_towards(0.0, dt);
+  approach(goal, dt);
+  return applied_to(X_BD, why);
+}
+
+GuardOutput Guard::step(const Transformd& X_BD, const Correction& correction, double dt_s,
+                        Inputs inputs) noexcept {
   ++counters_.steps;
   if (!internal::is_pose(X_BD)) {
     ++counters_.held;
     return {.X_BC = last_, .has_output = has_output_, .status = Status::kNotFinite};
   }
-  const bool sane = internal::is_pose(correction.X_BC) &&
-                    internal::is_finite(Vector3(correction.X_BC.p - X_BD.p));
-  const Status status = sane || refused(correction.status) ? correction.status : Status::kNotFinite;
+  const Status status = judge(X_BD, correction);
   const double dt = elapsed(dt_s);
+  const Offset goal = refused(status) ? Offset{} : wanted(X_BD, correction.X_BC);
+  if (inputs == Inputs::kStale) {
+    ++counters_.stale;
+    return fade(X_BD, goal, Status::kStale, dt);
+  }
   if (refused(status)) {
     ++counters_.refused;
-    ramp_towards(0.0, dt);
-    approach({}, dt);
-    return applied_to(X_BD, status);
+    return fade(X_BD, goal, status, dt);
   }
   has_output_ = true;
-  const double goal = enabled_ == Enable::kOn ? 1.0 : 0.0;
-  ramp_towards(goal, dt);
-  if (approach(wanted(X_BD, correction.X_BC), dt)) {
+  const double full = enabled_ == Enable::kOn ? 1.0 : 0.0;
+  ramp_towards(full, dt);
+  if (approach(goal, dt)) {
     ++counters_.limited;
     return applied_to(X_BD, Status::kLimited);
   }
-  return applied_to(X_BD, ramp_ == goal ? status : Status::kRamping);
+  return applied_to(X_BD, ramp_ == full ? status : Status::kRamping);
 }
 
 }  // namespace plumb

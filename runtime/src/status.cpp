@@ -29,6 +29,8 @@ const char* to_string(Status s) noexcept {
       return "seed-not-commanded";
     case Status::kNoModel:
       return "no-model";
+    case Status::kStale:
+      return "stale";
   }
   return "unknown";
 }

@@ -18,6 +18,9 @@ Model planar_2r_model();
 /// The latter with blended, quadratic, oblique trees that know their region and their error.
 Model blended_model();
 
+/// And with a law of the user's own.
+Model formula_model();
+
 /// File name without ending, and content.
 std::vector<std::pair<std::string, Model>> golden_models();
 

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "cell/problem.hpp"
+#include "tests/fuzz/require.hpp"
 
 namespace plumb::tests {
-
-inline void require(bool holds, const char* law) {
-  if (holds) return;
-  std::fprintf(stderr, "broken: %s\n", law);
-  std::abort();
-}
 
 /// A refusal is of the user's input, and says what and how.
 inline void require_helpful(const offline::Failure& failure) {

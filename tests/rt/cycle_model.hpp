@@ -30,16 +30,26 @@ inline std::vector<format::Effect> six_effects() {
   const std::vector<format::ContextNeed> direction{{ContextInput::kDirection, "", 0.0}};
   const std::vector<format::ContextNeed> payload{{ContextInput::kPayload, "", 5.0}};
   std::vector<format::Effect> out(6);
-  out[0] = {.name = "joint_compliance", .joints = {1, 2}, .parameters = {2e-6, 3e-6}};
-  out[1] = {.name = "gear_ripple", .joints = {1}, .parameters = {8e-5, -5e-5}, .constants = {17.0}};
+  out[0] = {
+      .name = "joint_compliance", .joints = {1, 2}, .parameters = {2e-6, 3e-6}, .context = {}};
+  out[1] = {.name = "gear_ripple",
+            .joints = {1},
+            .parameters = {8e-5, -5e-5},
+            .context = {},
+            .constants = {17.0}};
   out[2] = {.name = "reversal",
             .joints = {0, 1},
             .parameters = {6e-5, 8e-5},
             .context = direction,
             .constants = {0.01}};
-  out[3] = {.name = "wrist_coupling", .parameters = {1e-4, -5e-5, 2e-4}};
-  out[4] = {.name = "base_compliance", .parameters = {1e-7, 1e-7, 0.0, 0.0, 0.0, 0.0}};
+  out[3] = {
+      .name = "wrist_coupling", .joints = {}, .parameters = {1e-4, -5e-5, 2e-4}, .context = {}};
+  out[4] = {.name = "base_compliance",
+            .joints = {},
+            .parameters = {1e-7, 1e-7, 0.0, 0.0, 0.0, 0.0},
+            .context = {}};
   out[5] = {.name = "tool_sag",
+            .joints = {},
             .parameters = {1e-6, 0.0, 0.0, 0.0, 1e-6, 0.0, 0.0, 0.0, 5e-7},
             .context = payload};
   return out;

@@ -103,22 +103,31 @@ Added added(const Transformd& X_BC, const Transformd& X_BD) {
 class Watch {
  public:
   Watch(const format::GuardLimits& limits_in, test::RandomArm& random)
-      : limits_(limits_in), guard_(limits_in), random_(random) {}
+      : limits_(limits_in),
+        guard_(limits_in),
+        random_(random),
+        largest_m_(limits_in.max_correction_m),
+        largest_rad_(limits_in.max_rotation_rad) {}
 
   void step() {
     if (random_.coin(0.01))
       guard_.enable(random_.coin() ? Guard::Enable::kOn : Guard::Enable::kOff);
+    if (random_.coin(0.01)) swap();
     const bool sound = random_.coin(0.95);
+    const auto inputs = random_.coin(0.95) ? Guard::Inputs::kFresh : Guard::Inputs::kStale;
     const Transformd X_BD = sound ? sound_pose(random_) : broken_pose(random_);
     const Correction correction = correction_for(random_, X_BD);
     const double dt = cycle(random_);
-    const GuardOutput out = guard_.step(X_BD, correction, dt);
+    const GuardOutput out = guard_.step(X_BD, correction, dt, inputs);
 
     ASSERT_TRUE(finite(out.X_BC));
+    counted();
     if (!sound) return held(out);
     if (!refused(out.status)) valid_ = true;
     ASSERT_EQ(out.has_output, valid_);
-    if (refused(correction.status)) {
+    if (inputs == Guard::Inputs::kStale) {
+      ASSERT_EQ(out.status, Status::kStale);
+    } else if (refused(correction.status)) {
       ASSERT_EQ(out.status, correction.status);
     }
     if (valid_) last_ = out.X_BC;
@@ -127,8 +136,8 @@ class Watch {
 
   /// However it stands, refusals bring it to the target itself and keep it there.
   void decay() {
-    const double rate = std::min(limits_.slew_m_per_s / limits_.max_correction_m,
-                                 limits_.slew_rad_per_s / limits_.max_rotation_rad);
+    const double rate =
+        std::min(limits_.slew_m_per_s / largest_m_, limits_.slew_rad_per_s / largest_rad_);
     const int cycles = static_cast<int>(1.0 / (rate * limits_.cycle_s)) + 2;
     if (!(rate > 0.0) || cycles > 1'000) return;
     const Transformd X_BD = sound_pose(random_);
@@ -138,6 +147,7 @@ class Watch {
     ASSERT_EQ(out.X_BC.p, X_BD.p);
     ASSERT_EQ(out.X_BC.R, X_BD.R);
     before_ = {};
+    counters_ = guard_.counters();
     if (valid_) last_ = out.X_BC;
   }
 
@@ -150,12 +160,33 @@ class Watch {
     ASSERT_EQ(out.X_BC.R, last_.R);
   }
 
+  void swap() {
+    limits_ = limits(random_);
+    guard_.swap(limits_);
+    largest_m_ = std::max(largest_m_, limits_.max_correction_m);
+    largest_rad_ = std::max(largest_rad_, limits_.max_rotation_rad);
+  }
+
+  void counted() {
+    const GuardCounters now = guard_.counters();
+    ASSERT_EQ(now.steps, counters_.steps + 1);
+    const auto why = [](const GuardCounters& c) {
+      return c.held + c.stale + c.refused + c.limited;
+    };
+    ASSERT_LE(why(now), why(counters_) + 1);
+    ASSERT_GE(why(now), why(counters_));
+    ASSERT_GE(now.swaps, counters_.swaps);
+    counters_ = now;
+  }
+
+  /// Within the limits now, or on the way there from those of a model before.
   void bounded(const Added& now, double dt) {
-    ASSERT_LE(now.p.norm(), limits_.max_correction_m + kRounding);
+    ASSERT_LE(now.p.norm(), std::max(limits_.max_correction_m, before_.p.norm()) + kRounding);
     ASSERT_LE((now.p - before_.p).norm(), limits_.slew_m_per_s * dt + kRounding);
     ASSERT_LE((now.r - before_.r).norm(), limits_.slew_rad_per_s * dt + kRounding);
     const bool turns = limits_.corrects == format::Corrects::kPose;
-    ASSERT_LE(now.r.norm(), turns ? limits_.max_rotation_rad + kRounding : kRounding);
+    const double limit = turns ? limits_.max_rotation_rad : 0.0;
+    ASSERT_LE(now.r.norm(), std::max(limit, before_.r.norm()) + kRounding);
     before_ = now;
   }
 
@@ -165,6 +196,9 @@ class Watch {
   Added before_;
   Transformd last_;
   bool valid_ = false;
+  GuardCounters counters_;
+  double largest_m_;  // of all models so far
+  double largest_rad_;
 };
 
 TEST(Guard, KeepsEveryOutputFiniteSmallSlowAndHeldWhateverComesIn) {
@@ -218,6 +252,78 @@ TEST(Guard, RampsOutToExactlyNothingWhenSwitchedOffAndInAgain) {
   EXPECT_NEAR(steady.x(out), 1e-3, 1e-15);
 }
 
+TEST(Guard, RampsOutWithoutAStepWhenNothingFreshArrivesAndInAgain) {
+  const Steady steady;
+  Guard guard({.ramp_s = 0.4, .cycle_s = 0.004});
+  GuardOutput out;
+  for (int k = 0; k < 100; ++k) out = guard.step(steady.X_BD, steady.correction, 0.004);
+  double before = steady.x(out);
+  EXPECT_NEAR(before, 1e-3, 1e-15);
+  for (int k = 0; k < 100; ++k) {
+    out = guard.step(steady.X_BD, steady.correction, 0.004, Guard::Inputs::kStale);
+    EXPECT_EQ(out.status, Status::kStale);
+    EXPECT_LE(std::abs(steady.x(out) - before), 1.6e-3 * 0.01);
+    EXPECT_LT(steady.x(out), before);
+    before = steady.x(out);
+  }
+  EXPECT_EQ(before, 0.0);
+  for (int k = 0; k < 100; ++k) out = guard.step(steady.X_BD, steady.correction, 0.004);
+  EXPECT_EQ(out.status, Status::kOk);
+  EXPECT_NEAR(steady.x(out), 1e-3, 1e-15);
+  EXPECT_EQ(guard.counters().stale, 100U);
+  EXPECT_EQ(guard.counters().refused, 0U);
+}
+
+TEST(Guard, SaysNothingWhileStaleFromTheBeginning) {
+  const Steady steady;
+  Guard guard({});
+  for (int k = 0; k < 10; ++k)
+    EXPECT_FALSE(
+        guard.step(steady.X_BD, steady.correction, 0.004, Guard::Inputs::kStale).has_output);
+  EXPECT_TRUE(guard.step(steady.X_BD, steady.correction, 0.004).has_output);
+}
+
+/// Two models that disagree by 3 mm; the second slower and tighter.
+struct Swap {
+  format::GuardLimits old_limits{
+      .max_correction_m = 0.003, .slew_m_per_s = 0.02, .ramp_s = 0.4, .cycle_s = 0.004};
+  format::GuardLimits new_limits{
+      .max_correction_m = 0.0015, .slew_m_per_s = 0.005, .ramp_s = 0.8, .cycle_s = 0.004};
+  Transformd X_BD = translation(0.5, 0.2, 0.9);
+  Correction before{.X_BC = translation(0.502, 0.2, 0.9), .status = Status::kOk};
+  Correction after{.X_BC = translation(0.499, 0.2, 0.9), .status = Status::kOk};
+  double x(const GuardOutput& out) const { return out.X_BC.p(0) - X_BD.p(0); }
+
+  /// Largest step of the guard in the two seconds after a swap at this cycle of its ramp.
+  template <class Exchange>
+  double largest_step(int phase, Exchange exchange) const {
+    Guard guard(old_limits);
+    double at = 0.0, largest = 0.0;
+    for (int k = 0; k < phase; ++k) at = x(guard.step(X_BD, before, 0.004));
+    exchange(guard);
+    for (int k = 0; k < 500; ++k) {
+      const double now = x(guard.step(X_BD, after, 0.004));
+      largest = std::max(largest, std::abs(now - at));
+      at = now;
+    }
+    EXPECT_NEAR(at, -1e-3, 1e-12) << phase;
+    return largest;
+  }
+};
+
+TEST(Guard, AbsorbsASwapAtAnyPhaseOfARampWithoutAStepBeyondTheSlewLimit) {
+  const Swap swap;
+  for (int phase = 0; phase < 150; ++phase)
+    EXPECT_LE(swap.largest_step(phase, [&](Guard& guard) { guard.swap(swap.new_limits); }),
+              0.005 * 0.004 + 1e-15)
+        << phase;
+}
+
+TEST(Guard, WouldStepIfASwapMadeItAnew) {
+  const Swap swap;
+  EXPECT_GT(swap.largest_step(120, [&](Guard& guard) { guard = Guard(swap.new_limits); }), 1e-3);
+}
+
 TEST(Guard, StaysFiniteOnTopOfTargetsAtTheEndOfTheNumbers) {
   test::RandomArm random(seed);
   Guard guard({.corrects = format::Corrects::kPose, .ramp_s = 0.0});
@@ -260,7 +366,11 @@ TEST(Guard, CountsWhatItDid) {
   EXPECT_EQ(guard.step(steady.X_BD, steady.correction, 0.004).status, Status::kLimited);
   (void)guard.step(steady.X_BD, refusal, 0.004);
   (void)guard.step(broken, steady.correction, 0.004);
-  EXPECT_EQ(guard.counters().steps, 3U);
+  (void)guard.step(steady.X_BD, refusal, 0.004, Guard::Inputs::kStale);
+  guard.swap({});
+  EXPECT_EQ(guard.counters().steps, 4U);
+  EXPECT_EQ(guard.counters().stale, 1U);
+  EXPECT_EQ(guard.counters().swaps, 1U);
   EXPECT_EQ(guard.counters().limited, 1U);
   EXPECT_EQ(guard.counters().refused, 1U);
   EXPECT_EQ(guard.counters().held, 1U);

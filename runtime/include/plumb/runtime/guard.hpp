@@ -9,11 +9,14 @@
 namespace plumb {
 
 /// Monotone counters of a guard; read them from the thread that steps it.
+/// A step counts as one of held, stale, refused and limited at most, in this order.
 struct GuardCounters {
   std::uint64_t steps = 0;
   std::uint64_t refused = 0;
   std::uint64_t limited = 0;
-  std::uint64_t held = 0;  // a target that was not finite: the last output stood
+  std::uint64_t held = 0;   // a target that was not finite: the last output stood
+  std::uint64_t stale = 0;  // ramping out, or out, because nothing fresh arrived
+  std::uint64_t swaps = 0;  // limits taken over from another model
 };
 
 /// What goes to the robot controller this cycle. Always finite.
@@ -32,16 +35,30 @@ struct GuardOutput {
 /// present target. A target that is not finite, or no rotation, holds the last output; a correction
 /// that is not finite counts as refused.
 ///
-/// The ramp runs 0 .. 1 over ramp_s of valid cycles, smoothly, and back while refused or off.
-/// Status: a refusal passes through, else kLimited, kRamping, or what the correction says.
-/// One thread; no allocation; fixed cost.
+/// The ramp runs 0 .. 1 over ramp_s of valid cycles, smoothly, and back while refused, stale or
+/// off. Status: kStale, else a refusal passes through, else kLimited, kRamping, or what the
+/// correction says.
+///
+/// Another model needs no blending: what is applied is kept, so the difference of the two models
+/// is what the next steps make up for at the slew limit, and only one model is ever evaluated.
+/// A correction beyond the new size limit shrinks to it at the same pace.
+///
+/// Heap: none. Thread: one. Cost: fixed. Errors: by status only; whatever comes in, no output
+/// steps.
 class Guard {
  public:
   explicit Guard(const format::GuardLimits& limits) noexcept;
 
+  /// Whether target and joint state are recent enough to go by (class Age knows).
+  enum class Inputs : std::uint8_t { kFresh, kStale };
+
   /// Once a cycle. dt: time since the last step [s]; not finite or negative counts as 0, and more
   /// than two cycles as two.
-  GuardOutput step(const Transformd& X_BD, const Correction& correction, double dt_s) noexcept;
+  GuardOutput step(const Transformd& X_BD, const Correction& correction, double dt_s,
+                   Inputs inputs = Inputs::kFresh) noexcept;
+
+  /// Another model of the same robot speaks from the next step on: under its limits.
+  void swap(const format::GuardLimits& limits) noexcept;
 
   /// From now on the correction ramps out to zero (kOff) or back in.
   enum class Enable : std::uint8_t { kOff, kOn };
@@ -56,6 +73,8 @@ class Guard {
   };
 
   double elapsed(double dt_s) const noexcept;
+  Status judge(const Transformd& X_BD, const Correction& correction) const noexcept;
+  GuardOutput fade(const Transformd& X_BD, const Offset& goal, Status why, double dt) noexcept;
   Offset wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept;
   void ramp_towards(double goal, double dt) noexcept;
   bool approach(const Offset& goal, double dt) noexcept;

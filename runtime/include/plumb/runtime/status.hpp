@@ -20,6 +20,7 @@ enum class [[nodiscard]] Status : std::int8_t{
     kNotConverged = -5,        // the residual exceeds 1 um or 1 urad
     kSeedNotCommanded = -6,    // more than six joints need the commanded joints as seed
     kNoModel = -7,
+    kStale = -8,  // no fresh target or joint state for too long
 };
 
 constexpr bool refused(Status s) noexcept { return static_cast<std::int8_t>(s) < 0; }

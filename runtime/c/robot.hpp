@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "plumb.h"
+#include "plumb/runtime/cycle.hpp"
+
+/// What stands behind the opaque pointer.
+struct plumb_robot {
+  explicit plumb_robot(std::unique_ptr<const plumb::LoadedModel> first)
+      : running(std::move(first)), slot(*running), cycle(slot) {}
+
+  static constexpr std::uint64_t kMark = 0x31304d554c503a29;
+
+  std::uint64_t mark = kMark;  // tells a robot from other aligned memory
+
+  // Loader thread.
+  std::unique_ptr<const plumb::LoadedModel> running;
+  std::unique_ptr<const plumb::LoadedModel> before;  // until the cycle has taken `running`
+
+  // Both.
+  plumb::ModelSlot slot;
+
+  // Cycle thread.
+  plumb::Cycle cycle;
+
+  // Any thread; never change.
+  int joints = 0;
+  std::string serial;
+  std::array<std::string, PLUMB_MAX_TEMPERATURES> sensors;
+  int sensor_count = 0;
+};

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Plumb for those who embed it in an existing controller. C99 and later, C++.
+ *
+ * Life of a robot:   plumb_load_*  ->  plumb_correct, once a cycle, for ever  ->  plumb_unload
+ *                       plumb_swap_* from a loader thread, whenever a better model exists
+ *
+ * | phase | calls                                                | heap | thread                  |
+ * |-------|------------------------------------------------------|------|-------------------------|
+ * | load  | plumb_load_*, plumb_unload                           | yes  | any, nothing else runs  |
+ * | swap  | plumb_swap_*, plumb_collect                          | yes  | one loader thread       |
+ * | cycle | plumb_correct, plumb_enable, plumb_predict,          | no   | one cycle thread        |
+ * |       | plumb_read_counters                                  |      |                         |
+ * | any   | plumb_input_init and the calls that return text or   | no   | any                     |
+ * |       | the number of joints                                 |      |                         |
+ *
+ * The loader thread and the cycle thread may run at the same time. Calls of the cycle take no lock,
+ * no memory and no system call, and their cost is fixed for a given model.
+ *
+ * Errors: no call crashes on a pointer that is null or misaligned, on a struct of another size, on
+ * structs that overlap, or on any bit pattern in a number. It says so and leaves the rest alone.
+ * Only pointers to memory that is not yours, or a robot that was unloaded, cannot be found out.
+ *
+ * Structs carry their size: set it to sizeof before the call (plumb_input_init does). A library
+ * that knows more members than your header neither reads nor writes beyond that size.
+ *
+ * Units: SI, [rad] or [m] for joints, temperatures in degrees Celsius, times as the suffix says.
+ * Poses: of the tool in the robot's base frame; R by rows, columns are the tool's axes.
+ */
+#ifndef PLUMB_H
+#define PLUMB_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PLUMB_MAX_JOINTS 9
+#define PLUMB_MAX_TEMPERATURES 8
+
+/* What a call came to. */
+typedef enum plumb_result {
+  PLUMB_OK = 0,
+  PLUMB_NULL = 1,           /* a pointer that must not be null is */
+  PLUMB_MISALIGNED = 2,     /* a pointer is not aligned for its struct */
+  PLUMB_BAD_SIZE = 3,       /* a struct's size is smaller than any version of it */
+  PLUMB_NOT_A_ROBOT = 4,    /* not what plumb_load_* returned */
+  PLUMB_UNREADABLE = 5,     /* no such file, damaged, not a model, or its content makes no sense */
+  PLUMB_UNKNOWN_EFFECT = 6, /* the model needs an effect that this version does not have */
+  PLUMB_OTHER_ROBOT = 7,    /* the model was made for another robot */
+  PLUMB_BUSY = 8,           /* the cycle has not taken the last model yet: try again later */
+  PLUMB_NO_MEMORY = 9
+} plumb_result;
+
+/* What a cycle came to: 0 ok, > 0 degraded but valid, < 0 refused, the correction decays to 0. */
+typedef enum plumb_status {
+  PLUMB_STATUS_OK = 0,
+  PLUMB_STATUS_OUTSIDE_DOMAIN = 1,   /* outside the trained joint domain: physics only */
+  PLUMB_STATUS_CONTEXT_FALLBACK = 2, /* an input of an effect was missing or stale */
+  PLUMB_STATUS_LIMITED = 3,          /* the correction was cut to its size or slew limit */
+  PLUMB_STATUS_RAMPING = 4,          /* the correction is being ramped in or out */
+  PLUMB_STATUS_NOT_FINITE = -1,      /* a target or joint position is no sound number */
+  PLUMB_STATUS_NEAR_SINGULAR = -2,
+  PLUMB_STATUS_OTHER_CONFIGURATION = -3,
+  PLUMB_STATUS_FAR_FROM_SEED = -4,
+  PLUMB_STATUS_NOT_CONVERGED = -5,
+  PLUMB_STATUS_SEED_NOT_COMMANDED = -6, /* more than six joints need q_commanded */
+  PLUMB_STATUS_NO_MODEL = -7,
+  PLUMB_STATUS_STALE = -8 /* no fresh target or joint state for 0.1 s */
+} plumb_status;
+
+/* One robot: its model, its cycle. */
+typedef struct plumb_robot plumb_robot;
+
+typedef struct plumb_pose {
+  double p_m[3];
+  double R[9];
+} plumb_pose;
+
+/* A value and how long ago it was taken [s]. */
+typedef struct plumb_reading {
+  double value;
+  double age_s;
+} plumb_reading;
+
+/* Bits of plumb_input.arrived. What did not arrive is not read; the one before stands and ages. */
+#define PLUMB_TARGET UINT32_C(1)                    /* X_BD */
+#define PLUMB_MEASURED UINT32_C(2)                  /* q_measured */
+#define PLUMB_COMMANDED UINT32_C(4)                 /* q_commanded; seven joints or more need it */
+#define PLUMB_PAYLOAD UINT32_C(8)                   /* payload_kg, payload_com_m */
+#define PLUMB_TIME UINT32_C(16)                     /* time_s */
+#define PLUMB_TEMPERATURE(k) (UINT32_C(256) << (k)) /* temperature_degC[k], k = 0 .. 7 */
+
+typedef struct plumb_input {
+  uint32_t size;    /* sizeof(plumb_input) */
+  uint32_t arrived; /* bits above */
+  int64_t now_ns;   /* any clock that runs on; jumps are harmless */
+  plumb_pose X_BD;  /* desired tool pose */
+  double q_measured[PLUMB_MAX_JOINTS];
+  double q_commanded[PLUMB_MAX_JOINTS]; /* joint positions the controller means by X_BD */
+  plumb_reading payload_kg;
+  double payload_com_m[3];                                /* flange frame */
+  plumb_reading temperature_degC[PLUMB_MAX_TEMPERATURES]; /* as plumb_temperature_name counts */
+  plumb_reading time_s; /* process time, as in the measurements; runs on by itself */
+} plumb_input;
+
+typedef struct plumb_output {
+  uint32_t size;              /* sizeof(plumb_output) */
+  int32_t has_output;         /* 0 until the first valid cycle: send nothing */
+  int32_t status;             /* plumb_status of what is sent */
+  int32_t solved;             /* plumb_status of the inverse alone, before limits and ramps */
+  plumb_pose X_BC;            /* what to send; always finite and a rotation */
+  double q[PLUMB_MAX_JOINTS]; /* joint positions that bring the true arm to X_BD */
+  double residual_m;          /* what the inverse left, position */
+  double residual_rad;        /* and orientation */
+} plumb_output;
+
+typedef struct plumb_joints {
+  uint32_t size;     /* sizeof(plumb_joints) */
+  uint32_t reserved; /* 0 */
+  double q[PLUMB_MAX_JOINTS];
+} plumb_joints;
+
+typedef struct plumb_prediction {
+  uint32_t size;    /* sizeof(plumb_prediction) */
+  int32_t status;   /* plumb_status */
+  plumb_pose X_BT;  /* where the tool really is; identity when refused */
+  double tree_m[3]; /* what the tree added */
+} plumb_prediction;
+
+/* Monotone since loading. A cycle counts as one of held, stale, refused, limited at most. */
+typedef struct plumb_counters {
+  uint32_t size;     /* sizeof(plumb_counters) */
+  uint32_t reserved; /* 0 */
+  uint64_t steps;
+  uint64_t refused;
+  uint64_t limited;
+  uint64_t held;
+  uint64_t stale;
+  uint64_t swaps;
+} plumb_counters;
+
+/* ---- load: slow, uses the heap and, by file, the disk ---- */
+
+/*
+ * Reads, verifies and binds a model. serial: the robot it must be made for; null takes any.
+ * *robot: the loaded robot, or null after an error. message: one sentence about an error, ended by
+ * a 0 within `capacity` bytes; may be null.
+ * Returns OK, NULL, MISALIGNED, UNREADABLE, UNKNOWN_EFFECT, OTHER_ROBOT, NO_MEMORY.
+ */
+plumb_result plumb_load_file(const char* path, const char* serial, plumb_robot** robot,
+                             char* message, size_t capacity);
+/* The same from memory, which may be freed afterwards; any alignment. */
+plumb_result plumb_load_bytes(const void* bytes, size_t count, const char* serial,
+                              plumb_robot** robot, char* message, size_t capacity);
+
+/* Frees the robot; no thread may use it any more. Null is fine. OK, MISALIGNED, NOT_A_ROBOT. */
+plumb_result plumb_unload(plumb_robot* robot);
+
+/* ---- swap: slow, uses the heap; one loader thread beside the running cycle ---- */
+
+/*
+ * Reads and verifies another model of the same robot and hands it to the cycle, which takes it at
+ * the beginning of its next step; the difference comes in at the slew limit, never as a step.
+ * Same robot: same serial, nominal chain, base and tool, sensors in the same order.
+ * After an error the running model stays. Returns as plumb_load_file, NOT_A_ROBOT, and BUSY.
+ */
+plumb_result plumb_swap_file(plumb_robot* robot, const char* path, char* message, size_t capacity);
+plumb_result plumb_swap_bytes(plumb_robot* robot, const void* bytes, size_t count, char* message,
+                              size_t capacity);
+
+/*
+ * Frees the model before the last, once the cycle has taken the last: OK; until then BUSY.
+ * Not needed for another swap, which does the same first.
+ */
+plumb_result plumb_collect(plumb_robot* robot);
+
+/* ---- cycle: no heap, no lock, no system call; one thread ---- */
+
+/* Nothing arrived, no number known; sets the size. OK, NULL, MISALIGNED. */
+plumb_result plumb_input_init(plumb_input* input);
+
+/*
+ * One cycle. Whenever `output` can be written it is: after an error with has_output 0, and the
+ * cycle did not step. Input and output may overlap: the input is read first.
+ * OK, NULL, MISALIGNED, BAD_SIZE, NOT_A_ROBOT.
+ */
+plumb_result plumb_correct(plumb_robot* robot, const plumb_input* input, plumb_output* output);
+
+/* Ramps the correction out (0) or back in (otherwise). OK, NULL, MISALIGNED, NOT_A_ROBOT. */
+plumb_result plumb_enable(plumb_robot* robot, int on);
+
+/* Where the tool is at q, with the context of the last cycle. Errors as plumb_correct. */
+plumb_result plumb_predict(const plumb_robot* robot, const plumb_joints* joints,
+                           plumb_prediction* prediction);
+
+/* Errors as plumb_correct. */
+plumb_result plumb_read_counters(const plumb_robot* robot, plumb_counters* counters);
+
+/* ---- any thread, constant ---- */
+
+/* 0 if this is no robot. */
+int plumb_joint_count(const plumb_robot* robot);
+/* Serial of the robot, from its first model; empty if it has none or this is no robot. */
+const char* plumb_serial(const plumb_robot* robot);
+/* Name of sensor k of the first model; null behind the last, or if this is no robot. */
+const char* plumb_temperature_name(const plumb_robot* robot, int k);
+/* Lower-case text, for example "near-singular"; "unknown" for numbers that are no status. */
+const char* plumb_status_text(int32_t status);
+/* Plain English, for example "made for another robot"; "unknown" likewise. */
+const char* plumb_result_text(int32_t result);
+/* For example "0.1.0". */
+const char* plumb_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* PLUMB_H */
