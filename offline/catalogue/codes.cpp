@@ -12,6 +12,13 @@ constexpr Explanation kCodes[] = {
     {"E-GATE",
      "compile --gate: the audit has a warning, or 95 % of the held-out poses are not within the "
      "cell's tolerance. No model was written."},
+    {"E-GATE-TIME",
+     "bench --max-us: correct and guard together take longer in the median. On a machine that is "
+     "not "
+     "representative that says little: the same gate on the controller's own PC counts."},
+    {"W-BENCH-HEAP",
+     "While the cycle was timed, it took memory from the heap. It must not: an allocation can take "
+     "any time. The tests of the runtime would have failed, so report it with the model file."},
     {"E-RUN-DATA",
      "The run was made from other measurement files than the cell has now, so its predictions "
      "belong to other poses. Fit again, or put the old files back."},

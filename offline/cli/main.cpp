@@ -5,9 +5,9 @@ int main(int argc, char** argv) {
   using namespace plumb::offline::cli;
   Program program;
   for (const auto add :
-       {add_demo,     add_new,     add_simulate, add_import,  add_check, add_fit,    add_compare,
-        add_diagnose, add_add,     add_drop,     add_plan,    add_runs,  add_diff,   add_compile,
-        add_export,   add_inspect, add_predict,  add_correct, add_study, add_explain})
+       {add_demo,     add_new,     add_simulate, add_import,  add_check, add_fit,   add_compare,
+        add_diagnose, add_add,     add_drop,     add_plan,    add_runs,  add_diff,  add_compile,
+        add_export,   add_inspect, add_predict,  add_correct, add_bench, add_study, add_explain})
     add(program);
   return program.run(argc, argv);
 }

@@ -23,6 +23,7 @@ void add_export(Program& program);
 void add_inspect(Program& program);
 void add_predict(Program& program);
 void add_correct(Program& program);
+void add_bench(Program& program);
 void add_simulate(Program& program);
 void add_study(Program& program);
 void add_explain(Program& program);

@@ -3,18 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <filesystem>
 
-#include "plumb/format/reader.hpp"
 #include "tests/bare_metal/cycle_hash.hpp"
+#include "tests/rt/cycle_model.hpp"
 
 namespace plumb::bare_metal {
 namespace {
 
 TEST(BareMetal, BitsAreTheSameAsOnThisMachine) {
-  const auto read = format::read_model(std::filesystem::path(PLUMB_GOLDEN "/six_axis.plumb"));
-  ASSERT_TRUE(std::holds_alternative<format::Model>(read));
-  const Corrector corrector(std::get<format::Model>(read));
+  const format::Model model = tests::cycle_model();
+  const Corrector corrector(model);
   const auto just = [](auto cycle) { cycle(); };
   const std::uint64_t hash = hash_of_cycles(corrector, just, just);
   std::printf("%d cycles, seed %d: %016llx\n", kCycles, static_cast<int>(kSeed),

@@ -5,13 +5,13 @@
 #include "tests/bare_metal/cycle_hash.hpp"
 #include "tests/bare_metal/instruction_meter.hpp"
 #include "tests/bare_metal/machine.hpp"
-#include "tests/format/golden_models.hpp"
+#include "tests/rt/cycle_model.hpp"
 
 namespace plumb::bare_metal {
 namespace {
 
 // How far the cost may follow the input, in percent.
-constexpr std::uint64_t kPredictSpread = 1, kCorrectSpread = 2;
+constexpr std::uint64_t kPredictSpread = 1, kCorrectSpread = 3;
 
 void say(const char* what, std::uint64_t number, int base = 10) {
   write(what);
@@ -48,7 +48,7 @@ Exit run(const format::Model& model) {
 }  // namespace
 
 int run_program() {
-  const format::Model model = format::six_axis_model();
+  const format::Model model = tests::cycle_model();
   return run(model);
 }
 

@@ -12,15 +12,17 @@ from pathlib import Path
 
 class Run:
     """Medians of Google Benchmark's repetitions, in [ns]: processor time, or wall time where the
-    benchmark runs on several processors and says so."""
+    benchmark runs on several processors, or times single calls, and says so."""
 
     def __init__(self, path):
         scale = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
         self.rows = {}
         for row in json.loads(path.read_text())["benchmarks"]:
             if row.get("aggregate_name", "median") == "median":
-                name = row["run_name"].removesuffix("/real_time")
-                clock = "cpu_time" if name == row["run_name"] else "real_time"
+                name, _, _ = row["run_name"].partition("/iterations:")
+                wall = row["run_name"].endswith(("/real_time", "/manual_time"))
+                name = name.removesuffix("/real_time")
+                clock = "real_time" if wall else "cpu_time"
                 row["ns"] = row[clock] * scale[row["time_unit"]]
                 self.rows[name] = row
 
@@ -121,4 +123,5 @@ def main():
     growth(trees)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -11,7 +11,7 @@ namespace {
 
 const std::vector<std::string> kVerbs{"demo",    "new",     "simulate", "check",   "fit",
                                       "compare", "runs",    "diff",     "compile", "inspect",
-                                      "predict", "correct", "explain"};
+                                      "predict", "correct", "bench",    "explain"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;

@@ -28,7 +28,8 @@ class Writing : public testing::Test {
         {"-C", "cell", "compile"},
         {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "cell/cell.toml"},
         {"-C", "cell", "predict", "--as-measured", "-o", "cell/cell.toml"},
-        {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "cell/cell.toml"}};
+        {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "cell/cell.toml"},
+        {"bench", "cell/robot.plumb", "--calls", "100", "-o", "cell/cell.toml"}};
   }
   Sandbox box;
 };

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/bench_inputs.hpp"
+#include "bench/kernel.hpp"
+#include "plumb/runtime/guard.hpp"
+
+namespace plumb::offline::bench {
+
+/// What of the cycle is timed.
+enum class Part {
+  kCycle,       // correct, then guard
+  kCorrect,     // Corrector::solve
+  kGuard,       // Guard::step
+  kPredict,     // ForwardModel::predict
+  kKinematics,  // predict without effects and trees
+  kEffect,      // predict with one effect and no tree
+  kTrees,       // predict with the trees and no effect
+};
+
+struct CycleKernel {
+  Part part = Part::kCycle;
+  std::string label;  // of an effect, "joint_compliance:J2+J3", each once; else empty
+  std::unique_ptr<Kernel> kernel;
+};
+
+/// The runtime's own code on a model and on its parts. Inputs are handed over by copy, a few ns.
+class CycleKernels {
+ public:
+  /// Precondition: find_effect_fault finds none in the model.
+  CycleKernels(const format::Model& model, const BenchInputs& inputs);
+  ~CycleKernels();
+  CycleKernels(const CycleKernels&) = delete;
+  CycleKernels& operator=(const CycleKernels&) = delete;
+
+  const std::vector<CycleKernel>& all() const { return kernels_; }
+
+  /// Of the poses of the inputs, those the corrector refuses. They cost what the others do.
+  std::size_t refused_poses() const { return refused_; }
+
+ private:
+  struct Arm;
+
+  Arm& add_arm(format::Model model);
+  void add_correction(Arm& arm);
+  void add_prediction(Arm& arm, Part part, std::string label = "");
+  std::string unique(const std::string& label) const;
+
+  const BenchInputs& inputs_;
+  std::vector<std::unique_ptr<Arm>> arms_;
+  std::vector<Correction> corrections_;  // of each pose
+  std::size_t refused_ = 0;
+  std::vector<CycleKernel> kernels_;
+};
+
+}  // namespace plumb::offline::bench

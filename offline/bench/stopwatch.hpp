@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+
+namespace plumb::offline::bench {
+
+/// std::chrono::steady_clock [ns].
+inline double now_ns() noexcept {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<double>(std::chrono::nanoseconds(now).count());
+}
+
+/// What two readings with nothing between them differ by [ns]: the median of thousands. To be taken
+/// off every interval.
+double clock_cost_ns();
+
+}  // namespace plumb::offline::bench

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "bench/benchmark.hpp"
+#include "cli/model_file.hpp"
+#include "cli/output_files.hpp"
+#include "cli/progress.hpp"
+#include "cli/verbs.hpp"
+#include "show/latency_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+struct Options {
+  std::string model, figure;
+  bench::TimingRequest request;
+  std::uint64_t seed = 1;
+  std::optional<double> max_us;
+  WriteOptions write;
+};
+
+/// Before the seconds that timing takes.
+void refuse_existing(const Options& options) {
+  if (options.figure.empty()) return;
+  Outcome unused;
+  unused.result = Json::object();
+  OutputFiles files;
+  files.add(options.figure, "");
+  files.commit({.force = options.write.force, .dry_run = true}, unused);
+}
+
+bench::Benchmark timed(const Options& options, const format::Model& model) {
+  const Progress progress(fmt::format("timing the cycle of {}", options.model));
+  return bench::benchmark(model, options.request, options.seed);
+}
+
+void remark_on(const bench::Benchmark& found, Outcome& outcome) {
+  if (found.timings.allocations == 0) return;
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-BENCH-HEAP",
+       .message = fmt::format("the cycle took memory from the heap {} times, which it must not",
+                              found.timings.allocations),
+       .help = "this is a bug of plumb: report it with the model file"});
+}
+
+bool passes(const Options& options, const bench::Benchmark& found, Outcome& outcome) {
+  const double median_us = 1e-3 * found.cycle().median();
+  if (!options.max_us || median_us <= *options.max_us) return true;
+  outcome.exit = Exit::kGateFailed;
+  outcome.errors.push_back(
+      {.code = "E-GATE-TIME",
+       .message = fmt::format("the median of correct + guard, {:.3g} us, exceeds --max-us {:g}",
+                              median_us, *options.max_us),
+       .help = "see what costs it in the table: plumb bench " + options.model});
+  return false;
+}
+
+void draw(const Options& options, const bench::Benchmark& found, Outcome& outcome) {
+  OutputFiles files;
+  files.add(options.figure, show::bench_figure(found));
+  files.commit(options.write, outcome);
+  outcome.text += "\n" + wrote(options.figure, options.write) + "\n";
+}
+
+void bench_model(const Options& options, Outcome& outcome) {
+  const format::Model model = open_model(options.model, outcome);
+  refuse_existing(options);
+  const bench::Benchmark found = timed(options, model);
+  outcome.result = show::bench_json(found);
+  outcome.text = show::bench_text(found);
+  remark_on(found, outcome);
+  if (passes(options, found, outcome) && !options.figure.empty()) draw(options, found, outcome);
+}
+
+}  // namespace
+
+void add_bench(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb =
+      program.verb({.name = "bench",
+                    .summary = "How long a cycle takes, and what each effect of the model costs",
+                    .examples = "  plumb bench robot.plumb\n"
+                                "  plumb bench robot.plumb --max-us 10 -o latency.svg --json"},
+                   [options](const Globals&, Outcome& o) { bench_model(*options, o); });
+  verb.add_option("MODEL", options->model, "Model file of plumb compile")->required();
+  verb.add_option("--calls", options->request.calls,
+                  "Of each part of the cycle; a hundredth of it, at most 1000, cold")
+      ->check(CLI::Range(1L, bench::TimingRequest::kMostCalls))
+      ->capture_default_str();
+  verb.add_option("--seed", options->seed, "Of the random poses")->capture_default_str();
+  verb.add_option("--max-us", options->max_us,
+                  "Gate: exit 1 if correct + guard take longer than this in the median")
+      ->type_name("US")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* const figure =
+      verb.add_option("-o,--output", options->figure, "SVG file: histogram of the latency")
+          ->type_name("FILE");
+  options->write.add_to(verb);
+  for (const char* flag : {"--force", "--dry-run"}) verb.get_option(flag)->needs(figure);
+}
+
+}  // namespace plumb::offline::cli
