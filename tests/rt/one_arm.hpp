@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "plumb/format/model.hpp"
@@ -10,7 +10,8 @@ namespace plumb::tests {
 
 /// A UR10-like arm with errors of half a millimetre and a small tree on every axis.
 inline format::Model one_arm() {
-  const double alpha[] = {M_PI_2, 0.0, 0.0, M_PI_2, -M_PI_2, 0.0};
+  constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
+  const double alpha[] = {kQuarterTurn, 0.0, 0.0, kQuarterTurn, -kQuarterTurn, 0.0};
   const double a[] = {0.0, -0.612, -0.5723, 0.0, 0.0, 0.0};
   const double d[] = {0.1273, 0.0, 0.0, 0.163941, 0.1157, 0.0922};
   format::Model model;
@@ -20,8 +21,8 @@ inline format::Model one_arm() {
     row.alpha = alpha[i];
     row.a = a[i];
     row.d = d[i];
-    row.q_min = -2.0 * M_PI;
-    row.q_max = 2.0 * M_PI;
+    row.q_min = -2.0 * std::numbers::pi;
+    row.q_max = 2.0 * std::numbers::pi;
     model.nominal.joints.push_back(row);
     row.alpha += 3e-4;
     row.a += 5e-4;
