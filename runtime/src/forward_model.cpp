@@ -51,7 +51,7 @@ Prediction ForwardModel::predict(std::span<const double> q, const Deviation& dev
   JointPositions bent;
   if (!bend(q, deviation, bent)) return refusal();
   chain_.frames<double>(bent, frames);
-  const Prediction out = finished(frames.tip, deviation);
+  Prediction out = finished(frames.tip, deviation);
   frames.tip.R = out.X_BT.R;
   frames.tip.p = out.X_BT.p - out.tree_B;
   return out;
