@@ -13,7 +13,11 @@ namespace plumb {
 namespace {
 
 // model_slot_test [<swaps>]
+#ifdef __SANITIZE_ADDRESS__
+int swaps = 10'000;  // every model is made and freed with the sanitizer looking on
+#else
 int swaps = 100'000;
+#endif
 
 using Published = ModelSlot::Published;
 
