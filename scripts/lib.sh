@@ -43,6 +43,21 @@ test_preset() {
   [[ $bad == 0 ]]
 }
 
+# built_and_tested PRESET TARGETS [CTest arguments]: TARGETS, separated by blanks; all if there are none.
+built_and_tested() {
+  local preset=$1 targets=()
+  if [[ -n $2 ]]; then
+    read -ra targets <<< "$2"
+    targets=(--target "${targets[@]}")
+  fi
+  shift 2
+  if stage "build $preset" build_preset "$preset" "${targets[@]}"; then
+    stage "test $preset" test_preset "$preset" "$@" || true
+  else
+    failed=$((failed + 1))
+  fi
+}
+
 # For trap ... EXIT: the closing line, however the script ends. What stops it between gates is a
 # failure, and so is no test at all.
 close() {
