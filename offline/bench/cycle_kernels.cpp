@@ -100,4 +100,24 @@ std::string CycleKernels::unique(const std::string& label) const {
   return taken == 0 ? label : label + "#" + std::to_string(taken + 1);
 }
 
+const char* name_of(Part part) {
+  switch (part) {
+    case Part::kCycle:
+      return "cycle";
+    case Part::kCorrect:
+      return "correct";
+    case Part::kGuard:
+      return "guard";
+    case Part::kPredict:
+      return "predict";
+    case Part::kKinematics:
+      return "kinematics";
+    case Part::kEffect:
+      return "effect";
+    case Part::kTrees:
+      break;
+  }
+  return "trees";
+}
+
 }  // namespace plumb::offline::bench

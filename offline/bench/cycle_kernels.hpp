@@ -22,6 +22,9 @@ enum class Part {
   kTrees,       // predict with the trees and no effect
 };
 
+/// "cycle", "correct", ...: as programs read it.
+const char* name_of(Part part);
+
 struct CycleKernel {
   Part part = Part::kCycle;
   std::string label;  // of an effect, "joint_compliance:J2+J3", each once; else empty

@@ -20,26 +20,6 @@ using bench::Timing;
 using bench::Timings;
 using bench::Way;
 
-const char* name_of(Part part) {
-  switch (part) {
-    case Part::kCycle:
-      return "cycle";
-    case Part::kCorrect:
-      return "correct";
-    case Part::kGuard:
-      return "guard";
-    case Part::kPredict:
-      return "predict";
-    case Part::kKinematics:
-      return "kinematics";
-    case Part::kEffect:
-      return "effect";
-    case Part::kTrees:
-      break;
-  }
-  return "trees";
-}
-
 const char* name_of(Way way) {
   if (way == Way::kWarm) return "warm";
   return way == Way::kChain ? "latency_chain" : "cold";

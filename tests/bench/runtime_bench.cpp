@@ -146,31 +146,17 @@ void register_kernel(const std::string& name, Kernel& kernel) {
       ->Iterations(kColdCalls);
 }
 
-std::string name_of(const CycleKernel& kernel) {
-  switch (kernel.part) {
-    case Part::kCycle:
-      return "cycle";
-    case Part::kCorrect:
-      return "correct";
-    case Part::kGuard:
-      return "guard";
-    case Part::kPredict:
-      return "predict";
-    case Part::kKinematics:
-      return "kinematics";
-    case Part::kEffect:
-      return "effect:" + kernel.label;
-    case Part::kTrees:
-      break;
-  }
-  return "trees:100";
+std::string title(const CycleKernel& kernel) {
+  const std::string name = name_of(kernel.part);
+  if (kernel.part == Part::kTrees) return name + ":100";
+  return kernel.part == Part::kEffect ? name + ":" + kernel.label : name;
 }
 
 /// Everything that lives as long as the benchmarks.
 class Registry {
  public:
   Registry() {
-    for (const CycleKernel& kernel : whole_.all()) register_kernel(name_of(kernel), *kernel.kernel);
+    for (const CycleKernel& kernel : whole_.all()) register_kernel(title(kernel), *kernel.kernel);
     register_only("correct_kinematics", Part::kCorrect, chain_alone(model()));
     for (const int leaves : {16, 1000})
       register_only("trees:" + std::to_string(leaves), Part::kPredict, with_leaves(leaves));
