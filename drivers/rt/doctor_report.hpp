@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "program/outcome.hpp"
 #include "rt/check.hpp"
-#include "rt/outcome.hpp"
 
 namespace plumb::drivers::rt {
 

@@ -2,7 +2,14 @@
 #include "rt/verb_doctor.hpp"
 
 int main(int argc, char** argv) {
-  plumb::drivers::rt::Program program;
+  plumb::Program program(
+      {.name = "plumb-rt",
+       .about = "The controller-side program: the real-time cycle between a target source and the "
+                "robot controller.",
+       .examples = "  plumb-rt doctor                   # is this machine fit for a 4 ms cycle?\n"
+                   "  plumb-rt doctor --cycle-us 1000   # and for 1 kHz?",
+       .first = "plumb-rt doctor"},
+      plumb::WorksIn::kAnywhere);
   plumb::drivers::rt::add_doctor(program);
   return program.run(argc, argv);
 }

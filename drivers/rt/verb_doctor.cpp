@@ -22,9 +22,9 @@ struct DoctorOptions {
 
 void refuse_root(const std::string& root, Outcome& outcome) {
   outcome.exit = Exit::kEnvironment;
-  outcome.error = Error{.code = "E-ROOT",
-                        .message = fmt::format("'{}' holds no folder 'proc'", root),
-                        .help = "plumb-rt doctor"};
+  outcome.errors = {{.code = "E-ROOT",
+                     .message = fmt::format("'{}' holds no folder 'proc'", root),
+                     .help = "plumb-rt doctor"}};
 }
 
 void look(const DoctorOptions& options, Outcome& outcome) {
@@ -40,7 +40,7 @@ void look(const DoctorOptions& options, Outcome& outcome) {
   outcome.text = to_text(seen);
   if (!options.strict || seen.fit()) return;
   outcome.exit = Exit::kEnvironment;
-  outcome.error = Error{.code = "E-UNFIT", .message = verdict(seen), .help = "plumb-rt doctor"};
+  outcome.errors = {{.code = "E-UNFIT", .message = verdict(seen), .help = "plumb-rt doctor"}};
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void add_doctor(Program& program) {
                     .examples = "  plumb-rt doctor                   # every check, and a verdict\n"
                                 "  plumb-rt doctor --strict --json   # for a script: exit code 5 "
                                 "if not fit"},
-                   [options](Outcome& outcome) { look(*options, outcome); });
+                   [options](const Globals&, Outcome& outcome) { look(*options, outcome); });
   verb.add_option("--cycle-us", options->cycle_us, "The cycle to be fit for, in microseconds")
       ->check(CLI::Range(kShortest_us, kLongest_us))
       ->capture_default_str();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rt/program.hpp"
+#include "program/program.hpp"
 
 namespace plumb::drivers::rt {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cell/measurements.hpp"
-#include "cell/problem_list.hpp"
+#include "program/problem_list.hpp"
 
 namespace plumb::offline {
 

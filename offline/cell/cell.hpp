@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "cell/problem.hpp"
 #include "plumb/format/model.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

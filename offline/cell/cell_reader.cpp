@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "cell/cell_sections.hpp"
-#include "cell/file.hpp"
+#include "program/file.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cell/cell.hpp"
-#include "cell/toml_table.hpp"
 #include "cell/units.hpp"
+#include "program/toml_table.hpp"
 
 namespace plumb::offline {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "cell/csv_header.hpp"
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {

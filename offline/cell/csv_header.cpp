@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "cell/column_names.hpp"
-#include "cell/shell_word.hpp"
 #include "cell/units.hpp"
-#include "cell/utf8.hpp"
+#include "program/shell_word.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {

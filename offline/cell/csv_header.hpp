@@ -7,7 +7,7 @@
 
 #include "cell/csv_line.hpp"
 #include "cell/measurements.hpp"
-#include "cell/problem_list.hpp"
+#include "program/problem_list.hpp"
 
 namespace plumb::offline {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {

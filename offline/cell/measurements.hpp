@@ -10,7 +10,7 @@
 
 #include "cell/contexts.hpp"
 #include "cell/kept_rows.hpp"
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

@@ -7,9 +7,9 @@
 #include "cell/csv_bytes.hpp"
 #include "cell/csv_header.hpp"
 #include "cell/csv_number.hpp"
-#include "cell/file.hpp"
 #include "cell/units.hpp"
-#include "cell/utf8.hpp"
+#include "program/file.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cell/cell.hpp"
-#include "cell/toml_table.hpp"
+#include "program/toml_table.hpp"
 
 namespace plumb::offline {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cell/toml_table.hpp"
 #include "cell/toml_text.hpp"
+#include "program/toml_table.hpp"
 
 namespace plumb::offline {
 namespace {

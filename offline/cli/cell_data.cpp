@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "cell/file.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
+#include "program/file.hpp"
+#include "program/interrupt.hpp"
 
 namespace plumb::offline::cli {
 namespace {

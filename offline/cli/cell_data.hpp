@@ -5,8 +5,8 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "cli/outcome.hpp"
 #include "fit/run_store.hpp"
+#include "program/outcome.hpp"
 #include "show/runs_view.hpp"
 
 /// From -C to a run: what most verbs begin with.

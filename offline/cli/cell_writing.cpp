@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "cell/effects_edit.hpp"
-#include "cell/file.hpp"
-#include "cli/interrupt.hpp"
+#include "program/file.hpp"
+#include "program/interrupt.hpp"
 
 namespace plumb::offline::cli {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/outcome.hpp"
 #include "cli/output_files.hpp"
 #include "plumb/runtime/status.hpp"
+#include "program/outcome.hpp"
 #include "show/csv_columns.hpp"
 
 namespace plumb::offline::cli {

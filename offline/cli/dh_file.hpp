@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "cli/outcome.hpp"
 #include "plumb/format/model.hpp"
+#include "program/outcome.hpp"
 
 namespace plumb::offline::cli {
 

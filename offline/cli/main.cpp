@@ -3,7 +3,15 @@
 
 int main(int argc, char** argv) {
   using namespace plumb::offline::cli;
-  Program program;
+  plumb::Program program(
+      {.name = "plumb",
+       .about = "Calibrates a robot arm from measurements and compiles what it learnt for the "
+                "controller.",
+       .examples =
+           "  plumb demo compliance mycell      # a sample cell with simulated measurements\n"
+           "  plumb -C mycell fit               # calibrate it",
+       .first = "plumb demo"},
+      plumb::WorksIn::kCell);
   for (const auto add :
        {add_demo,     add_new,     add_simulate, add_import,  add_check, add_fit,   add_compare,
         add_diagnose, add_add,     add_drop,     add_plan,    add_runs,  add_diff,  add_compile,

@@ -6,10 +6,10 @@
 #include <span>
 #include <stdexcept>
 
-#include "cell/file.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
+#include "program/file.hpp"
 
 namespace plumb::offline::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/outcome.hpp"
 #include "plumb/format/model.hpp"
+#include "program/outcome.hpp"
 
 namespace plumb::offline::cli {
 

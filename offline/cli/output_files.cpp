@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cell/file.hpp"
-#include "cli/interrupt.hpp"
+#include "program/file.hpp"
+#include "program/interrupt.hpp"
 
 namespace plumb::offline::cli {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/outcome.hpp"
+#include "program/outcome.hpp"
 
 namespace plumb::offline::cli {
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "cli/interrupt.hpp"
+#include "program/interrupt.hpp"
 
 namespace plumb::offline::cli {
 

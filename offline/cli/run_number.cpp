@@ -6,7 +6,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline::cli {
 

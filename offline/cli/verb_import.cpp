@@ -3,13 +3,13 @@
 
 #include <memory>
 
-#include "cell/file.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/output_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "import/importer.hpp"
 #include "import/joining.hpp"
+#include "program/file.hpp"
 #include "show/text_table.hpp"
 
 namespace plumb::offline::cli {

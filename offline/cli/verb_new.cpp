@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "cell/cell.hpp"
-#include "cell/file.hpp"
 #include "cli/dh_file.hpp"
 #include "cli/output_files.hpp"
 #include "cli/verbs.hpp"
+#include "program/file.hpp"
 #include "urdf/urdf_reader.hpp"
 
 namespace plumb::offline::cli {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/program.hpp"
+#include "program/program.hpp"
 
 /// One function a verb: adds it with its options to the program.
 namespace plumb::offline::cli {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "cell/problem.hpp"
 #include "plumb/format/model.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <span>
 
-#include "cell/problem.hpp"
 #include "compile/c_tables.hpp"
 #include "compile/c_text.hpp"
 #include "compile/c_tree_code.hpp"
 #include "plumb/format/crc32.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 namespace {

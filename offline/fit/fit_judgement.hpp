@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "cell/problem.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/solver.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

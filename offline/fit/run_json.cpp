@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cell/problem.hpp"
 #include "fit/model_json.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -9,9 +9,9 @@
 #include <charconv>
 #include <chrono>
 
-#include "cell/file.hpp"
 #include "cell/formula_reader.hpp"
 #include "fit/run_json.hpp"
+#include "program/file.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "cell/column_names.hpp"
-#include "cell/problem.hpp"
 #include "cell/units.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 namespace {

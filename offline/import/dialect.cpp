@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

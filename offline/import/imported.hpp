@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

@@ -8,13 +8,13 @@
 
 #include "cell/column_names.hpp"
 #include "cell/csv_line.hpp"
-#include "cell/file.hpp"
-#include "cell/problem_list.hpp"
 #include "cell/units.hpp"
 #include "import/column_guess.hpp"
 #include "import/euler.hpp"
 #include "import/moves.hpp"
 #include "import/timestamps.hpp"
+#include "program/file.hpp"
+#include "program/problem_list.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "cell/file.hpp"
-#include "cell/utf8.hpp"
+#include "program/file.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

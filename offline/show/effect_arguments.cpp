@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/formula_reader.hpp"
-#include "cell/shell_word.hpp"
+#include "program/shell_word.hpp"
 
 namespace plumb::offline::show {
 namespace {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cell/file.hpp"
+#include "program/file.hpp"
 #include "urdf/dh_conversion.hpp"
 
 namespace plumb::offline {

@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "cell/file.hpp"
 #include "diagnose/scan.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit.hpp"
+#include "program/file.hpp"
 #include "simulate/law.hpp"
 
 namespace plumb::tests {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/file.hpp"
+#include "program/file.hpp"
 
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/toml_inline.hpp"
+#include "program/toml_inline.hpp"
 
 #include "cell/cell.hpp"
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 #include "support.hpp"
 
 namespace plumb::offline {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 #include <gtest/gtest.h>
 

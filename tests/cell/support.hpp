@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "c_program.hpp"
-#include "cell/problem.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/forward_model.hpp"
+#include "program/problem.hpp"
 #include "questions.hpp"
 #include "random_trees.hpp"
 

@@ -116,12 +116,13 @@ TEST(PlumbRt, UsageErrorsEndWithTwoAndSayWhy) {
   for (auto words : wrong) {
     const Ran ran = plumb_rt(words);
     EXPECT_EQ(ran.exit, 2) << ran.out;
-    EXPECT_EQ(ran.err.rfind("error[E-USAGE]: ", 0), 0U) << ran.err;
+    EXPECT_NE(ran.err.find("error[E-USAGE"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("  = help: "), std::string::npos) << ran.err;
     EXPECT_EQ(ran.out, "");
     words.push_back("--json");
     const Ran json = plumb_rt(words);
     EXPECT_EQ(json.exit, 2);
-    EXPECT_EQ(json.json()["error"]["code"], "E-USAGE");
+    EXPECT_EQ(json.json()["error"]["code"].get<std::string>().rfind("E-USAGE", 0), 0U);
   }
 }
 

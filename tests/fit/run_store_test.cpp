@@ -6,8 +6,8 @@
 
 #include <fstream>
 
-#include "cell/file.hpp"
 #include "fit/cell_data.hpp"
+#include "program/file.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {

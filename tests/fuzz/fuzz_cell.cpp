@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Cell cell;
   try {
     cell = parse_cell(std::string(reinterpret_cast<const char*>(data), size), file);
-  } catch (const Failure& failure) {
+  } catch (const plumb::Failure& failure) {
     require_helpful(failure);
     return 0;
   }
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Cell again = parse_cell(write_cell(cell), file);
     require(again.joints() == cell.joints(), "what is written is read back");
     require(again.effects.size() == cell.effects.size(), "effects are read back");
-  } catch (const Failure& failure) {
+  } catch (const plumb::Failure& failure) {
     std::fputs(failure.what(), stderr);
     require(false, "what is written can be read");
   }

@@ -23,7 +23,7 @@ void read_strictly(std::string_view text) {
       require(column.text.empty() || column.text.size() == rows, "columns are of one length");
       for (double v : column.values) require(std::isfinite(v), "numbers are finite");
     }
-  } catch (const Failure& failure) {
+  } catch (const plumb::Failure& failure) {
     require_helpful(failure);
   }
 }
@@ -36,7 +36,7 @@ void read_generously(std::string_view text) {
     const RawRows rows = cut(source, {});
     for (const auto& row : rows.cells)
       require(row.size() == rows.dialect.header.size(), "rows are as long as the header");
-  } catch (const Failure& failure) {
+  } catch (const plumb::Failure& failure) {
     require_helpful(failure);
   }
 }

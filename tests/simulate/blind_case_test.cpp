@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cell/file.hpp"
+#include "program/file.hpp"
 
 namespace plumb::offline {
 namespace {

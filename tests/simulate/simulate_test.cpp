@@ -9,7 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cell/file.hpp"
+#include "program/file.hpp"
 #include "simulate/random.hpp"
 
 namespace plumb::offline {

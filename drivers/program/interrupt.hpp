@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace plumb::offline::cli {
+namespace plumb {
 
 /// From now on SIGINT and SIGTERM end the program with exit code 130, after `last_words` went to
 /// stdout; the text is copied. While a `Writing` lives they wait for it: no draft stays behind.
@@ -17,4 +17,4 @@ class Writing {
   Writing& operator=(const Writing&) = delete;
 };
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

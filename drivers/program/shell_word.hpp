@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace plumb::offline {
+namespace plumb {
 
 /// As a shell takes it: quoted where it must be.
 std::string shell_word(const std::string& text);
 
-}  // namespace plumb::offline
+}  // namespace plumb

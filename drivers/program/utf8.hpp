@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plumb::offline {
+namespace plumb {
 
 /// Byte offset of the first byte that is not UTF-8 (overlong forms and surrogates included), or
 /// npos. Cost: one pass.
@@ -22,4 +22,4 @@ std::vector<std::string> printable_characters(std::string_view line);
 /// Without spaces, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 
-}  // namespace plumb::offline
+}  // namespace plumb

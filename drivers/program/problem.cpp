@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 namespace {
 
 const char* word(Severity severity) {
@@ -118,4 +118,4 @@ std::optional<std::string> did_you_mean(const std::string& word,
   return best;
 }
 
-}  // namespace plumb::offline
+}  // namespace plumb

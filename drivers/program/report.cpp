@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/report.hpp"
+#include "program/report.hpp"
 
 #include <fmt/format.h>
 
@@ -9,20 +9,20 @@
 
 #include "plumb/format/version.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 namespace {
 
 constexpr std::size_t kShown = 20;  // problems of one kind
 
 Json error_json(const Outcome& outcome) {
   if (outcome.errors.empty()) return nullptr;
-  Json out = show::problem_json(outcome.errors.front());
+  Json out = problem_json(outcome.errors.front());
   out.erase("severity");
   out["exit"] = static_cast<int>(outcome.exit);
   out["count"] = outcome.errors.size();
   Json all = Json::array();
   for (std::size_t i = 0; i < std::min(kShown, outcome.errors.size()); ++i)
-    all.push_back(show::problem_json(outcome.errors[i]));
+    all.push_back(problem_json(outcome.errors[i]));
   out["problems"] = all;
   return out;
 }
@@ -41,8 +41,13 @@ bool print_out(const std::string& text) {
 
 }  // namespace
 
-Json envelope(const std::string& verb, const Outcome& outcome) {
-  Json out{{"schema", "plumb." + verb + "/1"},
+std::string full_name(const Command& command) {
+  return command.program + (command.verb.empty() ? "" : " ") + command.verb;
+}
+
+Json envelope(const Command& command, const Outcome& outcome) {
+  const std::string& verb = command.verb.empty() ? command.program : command.verb;
+  Json out{{"schema", command.program + "." + verb + "/1"},
            {"ok", outcome.exit == Exit::kDone},
            {"command", verb},
            {"version", format::kVersion},
@@ -52,14 +57,14 @@ Json envelope(const std::string& verb, const Outcome& outcome) {
            {"error", error_json(outcome)}};
   for (const auto& input : outcome.inputs)
     out["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
-  for (const auto& remark : outcome.remarks) out["warnings"].push_back(show::problem_json(remark));
+  for (const auto& remark : outcome.remarks) out["warnings"].push_back(problem_json(remark));
   return out;
 }
 
-int report(const std::string& verb, const Globals& globals, const Outcome& outcome) {
+int report(const Command& command, const Globals& globals, const Outcome& outcome) {
   print_problems(outcome.remarks);
   const bool json = globals.output == Globals::Output::kJson;
-  const bool printed = print_out(json ? show::to_text(envelope(verb, outcome)) : outcome.text);
+  const bool printed = print_out(json ? to_text(envelope(command, outcome)) : outcome.text);
   const int reason = errno;
   print_problems(outcome.errors);
   if (printed) return static_cast<int>(outcome.exit);
@@ -70,4 +75,4 @@ int report(const std::string& verb, const Globals& globals, const Outcome& outco
   return static_cast<int>(Exit::kEnvironment);
 }
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

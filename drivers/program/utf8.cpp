@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 
 #include <cstdint>
 #include <cstring>
 
-namespace plumb::offline {
+namespace plumb {
 namespace {
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
@@ -84,4 +84,4 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-}  // namespace plumb::offline
+}  // namespace plumb

@@ -9,20 +9,22 @@
 #include <string>
 #include <vector>
 
-#include "cell/problem_list.hpp"
+#include "program/problem_list.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 
 /// The text of a TOML file and what was found wrong with it.
 class TomlSource {
  public:
-  TomlSource(std::string file, std::string text);
+  /// The codes of its problems begin with `codes`: "E-CELL" gives E-CELL-KEY, E-CELL-RANGE ...
+  TomlSource(std::string file, std::string text, std::string codes = "E-CELL");
 
   /// Throws Failure (kInput, E-TOML) if it is no TOML. Inline tables may run over several lines.
   toml::table parse();
 
   Place place(const toml::source_region& where, std::string label) const;
   ProblemList& problems() { return problems_; }
+  std::string code(const char* what) const { return codes_ + "-" + what; }
 
   /// Throws Failure (kInput) with all errors, in the order of the file.
   void stop_on_errors();
@@ -30,6 +32,7 @@ class TomlSource {
  private:
   std::string file_;
   std::string text_;
+  std::string codes_;
   std::string joined_;                     // as parsed: inline tables on one line
   std::vector<std::size_t> lines_;         // first character of each line of text_
   std::vector<std::size_t> joined_lines_;  // and of joined_
@@ -67,7 +70,7 @@ class TomlTable {
 
   void missing(const std::string& key, const std::string& help);
 
-  /// E-CELL-RANGE at the value of `key`: "'robot.joints[1].q' must be …".
+  /// Code RANGE at the value of `key`: "'robot.joints[1].q' must be …".
   void out_of_range(const std::string& key, const std::string& rule);
 
   void error(const std::string& code, const std::string& message, const toml::node& node,
@@ -94,4 +97,4 @@ class TomlTable {
   std::set<std::string> known_;
 };
 
-}  // namespace plumb::offline
+}  // namespace plumb

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "cli/outcome.hpp"
+#include "program/outcome.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 
 /// What a verb does; may throw Failure, std::filesystem errors, or anything else (a bug).
 using Action = std::function<void(const Globals&, Outcome&)>;
@@ -20,11 +20,22 @@ struct VerbText {
   std::string examples;  // two lines that can be pasted
 };
 
-/// The command line: verbs with -C, --json and --help, usage errors with "did you mean", and the
-/// way from what a verb throws to an exit code.
+/// The words of a program's own help.
+struct ProgramText {
+  std::string name;
+  std::string about;     // one sentence
+  std::string examples;  // two lines that can be pasted
+  std::string first;     // what to type when no verb was given
+};
+
+/// Whether its verbs work in a cell, the folder of a cell.toml that -C names.
+enum class WorksIn { kAnywhere, kCell };
+
+/// The command line: verbs with --json and --help, usage errors with "did you mean", and the way
+/// from what a verb throws to an exit code.
 class Program {
  public:
-  Program();
+  Program(ProgramText text, WorksIn place);
 
   /// A new verb; the caller adds its options. Verbs stand in the help in this order.
   CLI::App& verb(const VerbText& text, Action action);
@@ -33,14 +44,18 @@ class Program {
   int run(int argc, char** argv);
 
  private:
+  void add_globals(CLI::App& app);
   int dispatch(const CLI::App& verb);
+  int no_verb();
   int usage_error(const CLI::ParseError& error, const std::vector<std::string>& words);
   int unknown_verb(const std::string& word);
   std::vector<std::string> verb_names() const;
 
+  ProgramText text_;
+  WorksIn place_;
   CLI::App app_;
   Globals globals_;
   std::map<std::string, Action> actions_;
 };
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

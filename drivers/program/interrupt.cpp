@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/interrupt.hpp"
+#include "program/interrupt.hpp"
 
 #include <pthread.h>
 #include <signal.h>
 #include <unistd.h>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 namespace {
 
 std::string words;  // written once, before the handler is set
@@ -47,4 +47,4 @@ Writing::~Writing() {
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

@@ -4,12 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "cell/problem.hpp"
-#include "show/json.hpp"
+#include "program/json.hpp"
+#include "program/problem.hpp"
 
-namespace plumb::offline::cli {
-
-using show::Json;
+namespace plumb {
 
 /// What every verb is told.
 struct Globals {
@@ -37,4 +35,4 @@ struct Outcome {
   }
 };
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/guarded.hpp"
+#include "program/guarded.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "plumb/format/version.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 namespace {
 
 void fail(Outcome& outcome, Exit exit, Problem problem) {
@@ -16,15 +16,15 @@ void fail(Outcome& outcome, Exit exit, Problem problem) {
   outcome.errors = {std::move(problem)};
 }
 
-Problem bug(const char* what) {
+Problem bug(const std::string& program, const char* what) {
   return {.code = "E-BUG",
-          .message = fmt::format("this is a bug in plumb {}: {}", format::kVersion, what),
+          .message = fmt::format("this is a bug in {} {}: {}", program, format::kVersion, what),
           .help = "report it with the command and, if you may, the input files"};
 }
 
 }  // namespace
 
-void guarded(const std::function<void()>& work, Outcome& outcome) {
+void guarded(const std::string& program, const std::function<void()>& work, Outcome& outcome) {
   try {
     work();
   } catch (const Failure& failure) {
@@ -39,10 +39,10 @@ void guarded(const std::function<void()>& work, Outcome& outcome) {
     fail(outcome, Exit::kEnvironment,
          {.code = "E-MEMORY", .message = "out of memory", .help = "free -h"});
   } catch (const std::exception& error) {
-    fail(outcome, Exit::kBug, bug(error.what()));
+    fail(outcome, Exit::kBug, bug(program, error.what()));
   } catch (...) {
-    fail(outcome, Exit::kBug, bug("an exception of unknown type"));
+    fail(outcome, Exit::kBug, bug(program, "an exception of unknown type"));
   }
 }
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace plumb::offline {
+namespace plumb {
 
 /// error: nothing was written. warning: done, but read this. note: a choice made for you.
 enum class Severity { kError, kWarning, kNote };
@@ -19,6 +19,7 @@ enum class Exit : int {
   kInput = 3,
   kNumbersSayNo = 4,
   kEnvironment = 5,
+  kBusLost = 6,
   kBug = 70,
   kInterrupted = 130,
 };
@@ -68,4 +69,4 @@ class Failure : public std::exception {
 std::optional<std::string> did_you_mean(const std::string& word,
                                         const std::vector<std::string>& candidates);
 
-}  // namespace plumb::offline
+}  // namespace plumb

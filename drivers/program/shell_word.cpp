@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/shell_word.hpp"
+#include "program/shell_word.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 
 std::string shell_word(const std::string& text) {
   if (!text.empty() && text.find_first_of(" ()[]*?$&;|<>\"'`\\#~") == std::string::npos)
@@ -11,4 +11,4 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
-}  // namespace plumb::offline
+}  // namespace plumb

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "cell/toml_inline.hpp"
-#include "cell/toml_table.hpp"
-#include "cell/utf8.hpp"
+#include "program/toml_inline.hpp"
+#include "program/toml_table.hpp"
+#include "program/utf8.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 namespace {
 
 /// Index of the first character (not byte) of each line.
@@ -37,8 +37,8 @@ std::string line_of(std::string_view text, std::size_t number) {
 
 }  // namespace
 
-TomlSource::TomlSource(std::string file, std::string text)
-    : file_(std::move(file)), text_(std::move(text)) {
+TomlSource::TomlSource(std::string file, std::string text, std::string codes)
+    : file_(std::move(file)), text_(std::move(text)), codes_(std::move(codes)) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   joined_ = join_inline_tables(text_);
   lines_ = line_starts(text_);
@@ -78,4 +78,4 @@ void TomlSource::stop_on_errors() {
   throw Failure(Exit::kInput, std::move(errors));
 }
 
-}  // namespace plumb::offline
+}  // namespace plumb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/file.hpp"
+#include "program/file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,9 +13,9 @@
 #include <chrono>
 #include <cstring>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ std::string sha256(std::string_view bytes) {
   return out;
 }
 
-}  // namespace plumb::offline
+}  // namespace plumb

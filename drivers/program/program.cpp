@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/program.hpp"
+#include "program/program.hpp"
 
 #include <fmt/format.h>
 
@@ -8,28 +8,14 @@
 #include <iostream>
 #include <new>
 
-#include "cli/guarded.hpp"
-#include "cli/help_text.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/report.hpp"
 #include "plumb/format/version.hpp"
+#include "program/guarded.hpp"
+#include "program/help_text.hpp"
+#include "program/interrupt.hpp"
+#include "program/report.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 namespace {
-
-constexpr const char* kAbout =
-    "Calibrates a robot arm from measurements and compiles what it learnt for the controller.";
-constexpr const char* kExamples =
-    "  plumb demo compliance mycell      # a sample cell with simulated measurements\n"
-    "  plumb -C mycell fit               # calibrate it";
-
-void add_globals(CLI::App& app, Globals& globals) {
-  app.add_option("-C", globals.directory, "Folder of the cell; else the nearest one upward")
-      ->type_name("DIR");
-  app.add_flag_callback(
-      "--json", [&globals] { globals.output = Globals::Output::kJson; },
-      "One JSON object on stdout; messages on stderr");
-}
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> out;
@@ -46,24 +32,34 @@ std::string unknown_option(const CLI::App& verb) {
   return it == rest.end() ? "" : *it;
 }
 
-std::string option_help(const CLI::App& verb, const std::string& name) {
+std::string option_help(const CLI::App& verb, const std::string& command) {
   const std::string option = unknown_option(verb);
   if (const auto near = did_you_mean(option, option_names(verb)); !option.empty() && near)
     return fmt::format("did you mean '{}'?", *near);
-  return fmt::format("plumb {}{}--help", name, name.empty() ? "" : " ");
+  return command + " --help";
 }
 
 }  // namespace
 
-Program::Program() : app_(kAbout, "plumb") {
+Program::Program(ProgramText text, WorksIn place)
+    : text_(std::move(text)), place_(place), app_(text_.about, text_.name) {
   app_.formatter(std::make_shared<ExamplesFirst>());
   app_.get_formatter()->label("SUBCOMMAND", "VERB");
-  app_.footer(kExamples);
-  app_.set_version_flag("--version", fmt::format("plumb {}", format::kVersion));
+  app_.footer(text_.examples);
+  app_.set_version_flag("--version", fmt::format("{} {}", text_.name, format::kVersion));
   app_.set_help_flag("-h,--help", "Print this help");
   app_.require_subcommand(0, 1);
   app_.allow_extras();
-  add_globals(app_, globals_);
+  add_globals(app_);
+}
+
+void Program::add_globals(CLI::App& app) {
+  if (place_ == WorksIn::kCell)
+    app.add_option("-C", globals_.directory, "Folder of the cell; else the nearest one upward")
+        ->type_name("DIR");
+  app.add_flag_callback(
+      "--json", [this] { globals_.output = Globals::Output::kJson; },
+      "One JSON object on stdout; messages on stderr");
 }
 
 CLI::App& Program::verb(const VerbText& text, Action action) {
@@ -72,7 +68,7 @@ CLI::App& Program::verb(const VerbText& text, Action action) {
   sub.allow_extras(false);
   sub.footer(text.examples);
   sub.set_help_flag("-h,--help", "Print this help");
-  add_globals(sub, globals_);
+  add_globals(sub);
   actions_[text.name] = std::move(action);
   return sub;
 }
@@ -96,12 +92,16 @@ int Program::run(int argc, char** argv) {
   const auto rest = app_.remaining();
   if (!rest.empty()) return unknown_verb(rest.front());
   if (!verbs.empty()) return dispatch(*verbs.front());
+  return no_verb();
+}
+
+int Program::no_verb() {
   std::cerr << app_.help();
   Outcome outcome;
   outcome.exit = Exit::kUsage;
   outcome.errors.push_back(
-      {.code = "E-USAGE", .message = "no verb was given", .help = "plumb demo"});
-  return report("plumb", globals_, outcome);
+      {.code = "E-USAGE", .message = "no verb was given", .help = text_.first});
+  return report({text_.name, ""}, globals_, outcome);
 }
 
 int Program::dispatch(const CLI::App& verb) {
@@ -110,10 +110,11 @@ int Program::dispatch(const CLI::App& verb) {
   interrupted.exit = Exit::kInterrupted;
   interrupted.errors.push_back({.code = "E-INTERRUPTED", .message = "interrupted"});
   const bool json = globals_.output == Globals::Output::kJson;
-  end_on_interrupt(json ? show::to_text(envelope(name, interrupted)) : "");
+  end_on_interrupt(json ? to_text(envelope({text_.name, name}, interrupted)) : "");
   Outcome outcome;
-  guarded([&] { actions_.at(name)(globals_, outcome); }, outcome);
-  return report(name, globals_, outcome);
+  guarded(
+      text_.name, [&] { actions_.at(name)(globals_, outcome); }, outcome);
+  return report({text_.name, name}, globals_, outcome);
 }
 
 int Program::usage_error(const CLI::ParseError& error, const std::vector<std::string>& words) {
@@ -123,10 +124,11 @@ int Program::usage_error(const CLI::ParseError& error, const std::vector<std::st
   const std::string name = verbs.empty() ? "" : verbs.front()->get_name();
   Outcome outcome;
   outcome.exit = Exit::kUsage;
-  outcome.errors.push_back({.code = "E-USAGE",
-                            .message = error.what(),
-                            .help = option_help(verbs.empty() ? app_ : *verbs.front(), name)});
-  return report(name.empty() ? "plumb" : name, globals_, outcome);
+  outcome.errors.push_back(
+      {.code = "E-USAGE",
+       .message = error.what(),
+       .help = option_help(verbs.empty() ? app_ : *verbs.front(), full_name({text_.name, name}))});
+  return report({text_.name, name}, globals_, outcome);
 }
 
 int Program::unknown_verb(const std::string& word) {
@@ -134,11 +136,12 @@ int Program::unknown_verb(const std::string& word) {
   outcome.exit = Exit::kUsage;
   const bool option = word.starts_with("-");
   const auto near = did_you_mean(word, option ? option_names(app_) : verb_names());
-  outcome.errors.push_back(
-      {.code = "E-USAGE-VERB",
-       .message = fmt::format("'{}' is not {} of plumb", word, option ? "an option" : "a verb"),
-       .help = near ? fmt::format("did you mean 'plumb {}'?", *near) : "plumb --help"});
-  return report("plumb", globals_, outcome);
+  outcome.errors.push_back({.code = "E-USAGE-VERB",
+                            .message = fmt::format("'{}' is not {} of {}", word,
+                                                   option ? "an option" : "a verb", text_.name),
+                            .help = near ? fmt::format("did you mean '{} {}'?", text_.name, *near)
+                                         : text_.name + " --help"});
+  return report({text_.name, ""}, globals_, outcome);
 }
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace plumb::offline {
+namespace plumb {
 
 /// A file as messages name it: relative if it lies in the working directory or below.
 std::string display_name(const std::filesystem::path& file);
@@ -24,4 +24,4 @@ void write_new_file(const std::filesystem::path& file, std::string_view bytes, O
 /// 64 lower-case hex digits.
 std::string sha256(std::string_view bytes);
 
-}  // namespace plumb::offline
+}  // namespace plumb

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "cell/problem.hpp"
+#include "program/problem.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 
 /// Errors and remarks of one pass over some files. Bounded, so that a hostile file cannot fill the
 /// memory with messages.
@@ -42,4 +42,4 @@ class ProblemList {
   std::vector<Problem> remarks_;
 };
 
-}  // namespace plumb::offline
+}  // namespace plumb

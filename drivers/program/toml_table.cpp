@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/toml_table.hpp"
+#include "program/toml_table.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace plumb::offline {
+namespace plumb {
 
 TomlTable::TomlTable(const toml::table& table, std::string path, TomlSource& source)
     : table_(&table), path_(std::move(path)), source_(&source) {}
@@ -68,7 +68,7 @@ std::string TomlTable::choice(const std::string& key, const std::vector<std::str
   if (std::find(words.begin(), words.end(), *given) != words.end()) return *given;
   const auto guess = did_you_mean(*given, words);
   const std::string all = fmt::format("\"{}\"", fmt::join(words, "\", \""));
-  error("E-CELL-RANGE", fmt::format("'{}' is \"{}\"", name(key), *given), *node(key),
+  error(source_->code("RANGE"), fmt::format("'{}' is \"{}\"", name(key), *given), *node(key),
         guess ? fmt::format("did you mean \"{}\"?", *guess) : "not one of " + all,
         fmt::format("{} = \"{}\"", key, guess.value_or(words.front())));
   return words.front();
@@ -174,19 +174,19 @@ Place TomlTable::place(const std::string& label) const {
 }
 
 void TomlTable::missing(const std::string& key, const std::string& help) {
-  source_->problems().error("E-CELL-MISSING", fmt::format("'{}' is missing", name(key)),
+  source_->problems().error(source_->code("MISSING"), fmt::format("'{}' is missing", name(key)),
                             place("belongs here"), help);
 }
 
 void TomlTable::wrong_type(const std::string& key, const toml::node& n, const std::string& wanted) {
-  error("E-CELL-TYPE", fmt::format("'{}' must be {}", name(key), wanted), n, "expected " + wanted,
-        "plumb explain E-CELL-TYPE");
+  error(source_->code("TYPE"), fmt::format("'{}' must be {}", name(key), wanted), n,
+        "expected " + wanted, "plumb explain " + source_->code("TYPE"));
 }
 
 void TomlTable::out_of_range(const std::string& key, const std::string& rule) {
   const toml::node* n = node(key);
-  error("E-CELL-RANGE", fmt::format("'{}' must be {}", name(key), rule), n ? *n : *table_,
-        "out of range", "plumb explain E-CELL-RANGE");
+  error(source_->code("RANGE"), fmt::format("'{}' must be {}", name(key), rule), n ? *n : *table_,
+        "out of range", "plumb explain " + source_->code("RANGE"));
 }
 
 void TomlTable::error(const std::string& code, const std::string& message, const toml::node& n,
@@ -205,7 +205,7 @@ void TomlTable::done() {
     if (known_.contains(text)) continue;
     const auto guess = did_you_mean(text, {known_.begin(), known_.end()});
     source_->problems().error(
-        "E-CELL-KEY", fmt::format("unknown key '{}'", name(text)),
+        source_->code("KEY"), fmt::format("unknown key '{}'", name(text)),
         source_->place(key.source(),
                        guess ? fmt::format("did you mean '{}'?", *guess) : "not known here"),
         guess ? fmt::format("rename it to '{}'", *guess)
@@ -213,4 +213,4 @@ void TomlTable::done() {
   }
 }
 
-}  // namespace plumb::offline
+}  // namespace plumb

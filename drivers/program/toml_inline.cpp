@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/toml_inline.hpp"
+#include "program/toml_inline.hpp"
 
 #include <algorithm>
 
-#include "cell/utf8.hpp"
+#include "program/utf8.hpp"
 
-namespace plumb::offline {
+namespace plumb {
 namespace {
 
 class Joiner {
@@ -83,4 +83,4 @@ class Joiner {
 
 std::string join_inline_tables(std::string_view text) { return Joiner(text).join(); }
 
-}  // namespace plumb::offline
+}  // namespace plumb

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace plumb::offline::cli {
+namespace plumb {
 
 /// Help that begins with the examples, which are kept in the footer.
 class ExamplesFirst : public CLI::Formatter {
@@ -22,4 +22,4 @@ class ExamplesFirst : public CLI::Formatter {
   std::string make_footer(const CLI::App*) const override { return "\n"; }
 };
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb
