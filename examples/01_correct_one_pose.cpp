@@ -21,7 +21,7 @@ int main(int count, char** arguments) {
   std::vector<double> seed;
   for (const auto& joint : loaded->model().nominal.joints)
     seed.push_back(0.6 * joint.q_max + 0.4 * joint.q_min);
-  const plumb::Transformd X_BD = corrector.nominal().forward<double>(seed);
+  const plumb::Transformd X_BD = corrector.nominal().forward(seed);
 
   // Cycle: fixed cost, never allocates, always returns.
   const plumb::Correction correction = corrector.solve(X_BD, seed, plumb::SeedKind::kCommanded);

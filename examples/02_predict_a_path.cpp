@@ -25,7 +25,7 @@ int main(int count, char** arguments) {
     for (const auto& joint : joints)
       q.push_back(joint.q_min + (0.3 + 0.4 * along) * (joint.q_max - joint.q_min));
     const plumb::Prediction arm = corrector.forward_model().predict(q);
-    const double error_m = (arm.X_BT.p - corrector.nominal().forward<double>(q).p).norm();
+    const double error_m = (arm.X_BT.p - corrector.nominal().forward(q).p).norm();
     largest_m = std::max(largest_m, error_m);
     std::printf("%7.0f%% %12.4f  %s\n", 100.0 * along, 1e3 * error_m, to_string(arm.status));
   }

@@ -30,7 +30,7 @@ int main(int count, char** arguments) {
     input.target = input.joints = silent ? plumb::Arrival::kNothingNew : plumb::Arrival::kArrived;
     if (!silent) {
       for (double& x : q) x += kSpeed * 0.004;
-      input.X_BD = loaded->corrector().nominal().forward<double>(q);
+      input.X_BD = loaded->corrector().nominal().forward(q);
       for (std::size_t i = 0; i < q.size(); ++i) input.q_measured[i] = q[i];
     }
     const plumb::GuardOutput sent = cycle.step(input).output;

@@ -26,7 +26,7 @@ int main(int count, char** arguments) {
     input.now_ns += 4'000'000;
     // Up for a second, down for a second, then at rest: the direction is held.
     for (double& x : q) x += k < 250 ? 4e-4 : k < 500 ? -4e-4 : 0.0;
-    input.X_BD = loaded->corrector().nominal().forward<double>(q);
+    input.X_BD = loaded->corrector().nominal().forward(q);
     std::copy(q.begin(), q.end(), input.q_measured.begin());
     // The sensor reports once a second, 20 ms late, and falls silent after two.
     input.context = {};

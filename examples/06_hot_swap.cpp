@@ -19,7 +19,7 @@ int main(int count, char** arguments) {
   plumb::Cycle cycle(slot);
   const double slew_m = running->limits().slew_m_per_s * running->limits().cycle_s;
   const std::array<double, 2> q{0.3, 0.8};
-  const plumb::Transformd X_BD = running->corrector().nominal().forward<double>(q);
+  const plumb::Transformd X_BD = running->corrector().nominal().forward(q);
 
   std::atomic<bool> stop{false};
   double largest_step_m = 0.0;

@@ -46,7 +46,7 @@ BenchInputs::BenchInputs(const format::Model& model, std::uint64_t seed)
   const std::size_t n = model.nominal.joints.size();
   for (BenchPose& pose : poses_) {
     for (std::size_t i = 0; i < n; ++i) pose.q[i] = joint_at_random(model, i, random);
-    pose.X_BD = nominal.forward<double>(std::span<const double>(pose.q).first(n));
+    pose.X_BD = nominal.forward(std::span<const double>(pose.q).first(n));
   }
   for (Context& context : contexts_) context = everything_known(random);
 }

@@ -27,9 +27,9 @@ ArmShape arm_shape(const Cell& cell, const Measurements& measured, const std::ve
                    const ArmState& state) {
   ArmShape out;
   const Chain chain(state.arm.calibrated);
-  ChainFrames<double> frames;
+  ChainFrames frames;
   const auto q = measured.q.row(rows.front());
-  chain.frames<double>({q.data(), static_cast<std::size_t>(q.cols())}, frames);
+  chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
   const int n = cell.joints();
   for (int j = 0; j + 1 < n; ++j) {
     const Vector3 a = frames.joint[j].R.col(2), b = frames.joint[j + 1].R.col(2);

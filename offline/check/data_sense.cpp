@@ -89,10 +89,10 @@ void sense_levers(const Cell& cell, const Measurements& measured, const std::vec
   out.lever_m.assign(cell.joints(), 0.0);
   if (!(g.norm() > 0.0)) return;
   const Chain chain(cell.nominal);
-  ChainFrames<double> frames;
+  ChainFrames frames;
   for (const int i : rows) {
     const auto q = measured.q.row(i);
-    chain.frames<double>({q.data(), static_cast<std::size_t>(q.cols())}, frames);
+    chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
     for (int j = 0; j < cell.joints(); ++j) {
       const Vector3 z = frames.joint[j].R.col(2);
       const double lever = z.dot((frames.tip.p - frames.joint[j].p).cross(g)) / g.norm();

@@ -220,7 +220,7 @@ class Detective {
       std::vector<Transformd> X_BT;
       for (int i = 0; i < few.size(); ++i)
         X_BT.push_back(
-            chain.forward<double>({few.q.row(i).data(), static_cast<std::size_t>(few.q.cols())}));
+            chain.forward({few.q.row(i).data(), static_cast<std::size_t>(few.q.cols())}));
       loose = placer.place(X_BT);
       placer.tighten(loose);
     }

@@ -28,7 +28,7 @@ double misfit_in_given_frame(const Cell& cell, const Measurements& measured,
   Eigen::VectorXd b(3 * rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto q = measured.q.row(rows[i]);
-    const auto X_BT = chain.forward<double>({q.data(), static_cast<std::size_t>(q.cols())});
+    const auto X_BT = chain.forward({q.data(), static_cast<std::size_t>(q.cols())});
     const Transformd X_MT = X_MB * X_BT;
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<Eigen::Index>(3 * i) + k;

@@ -75,10 +75,10 @@ std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& mea
   const Vector3 target(placed.X_TG.p[0], placed.X_TG.p[1], placed.X_TG.p[2]);
   const auto thin = thinned(rows, kMostRows);
   double squares = 0.0;
-  ChainFrames<double> frames;
+  ChainFrames frames;
   for (const int i : thin) {
     const auto q = measured.q.row(i);
-    chain.frames<double>({q.data(), static_cast<std::size_t>(q.cols())}, frames);
+    chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
     const Vector3 tip = frames.tip * target;
     for (int j = 0; j < cell.joints(); ++j) {
       const Vector3 z = frames.joint[j].R.col(2);

@@ -38,7 +38,7 @@ Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
     const auto q = targets.quat_B.row(row);
     return from_pose({{p(0), p(1), p(2)}, {q(0), q(1), q(2), q(3)}});
   }
-  Transformd X_BD = nominal.forward<double>(seed);
+  Transformd X_BD = nominal.forward(seed);
   X_BD.p = p.transpose();
   return X_BD;
 }

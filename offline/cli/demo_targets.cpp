@@ -28,8 +28,8 @@ std::vector<double> somewhere(const format::Chain& chain, Random& random) {
 
 /// Smallest singular value of the Jacobian, lengths divided by the reach.
 double dexterity(const Chain& arm, const std::vector<double>& q, double reach_m) {
-  ChainFrames<double> frames;
-  arm.frames<double>(q, frames);
+  ChainFrames frames;
+  arm.frames(q, frames);
   Jacobian J;
   jacobian(arm, frames, J);
   Eigen::MatrixXd scaled = J.leftCols(arm.joints());
@@ -46,7 +46,7 @@ std::string header(const Cell& cell) {
 }
 
 std::string line(const Cell& cell, int number, const Chain& arm, const std::vector<double>& q) {
-  const format::Pose pose = to_pose(arm.forward<double>(q));
+  const format::Pose pose = to_pose(arm.forward(q));
   std::string out = fmt::format("T{:02}", number);
   for (double p : pose.p) out += fmt::format(",{:.6f}", show::to_mm(p));
   for (double e : pose.q) out += fmt::format(",{:.12f}", e);

@@ -101,10 +101,10 @@ class Profiler {
     const Chain chain(state_.arm.calibrated);
     const Transformd X_TF = from_pose(cell_.nominal.tool).inverse();
     RowsN out(measured_.q.rows(), measured_.q.cols());
-    ChainFrames<double> frames;
+    ChainFrames frames;
     Loads loads;
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
-      chain.frames<double>({measured_.q.row(i).data(), static_cast<std::size_t>(out.cols())},
+      chain.frames({measured_.q.row(i).data(), static_cast<std::size_t>(out.cols())},
                            frames);
       weigh(chain, frames, mechanics, cell_.gravity, X_TF, context_at(measured_.context, i, {}),
             loads);

@@ -17,10 +17,10 @@ StepMotions::StepMotions(const ArmState& state, const Measurements& measured, co
   from_middle_.resize(3, n);
   R_MT_.resize(rows_.size());
   joint_.assign(turns_.size(), Eigen::Matrix3Xd(3, n));
-  ChainFrames<double> frames;
+  ChainFrames frames;
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto q = measured.q.row(rows_[static_cast<std::size_t>(i)]);
-    chain.frames<double>({q.data(), static_cast<std::size_t>(q.cols())}, frames);
+    chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
     const Vector3 p_B = frames.tip * target_T;
     from_middle_.col(i) = X_MB * p_B;
     R_MT_[static_cast<std::size_t>(i)] = X_MB.R * frames.tip.R;

@@ -47,7 +47,7 @@ void look_at_corrections(const format::Model& model, Audit& out) {
   for (int i = 0; i < kAuditPoses; ++i) {
     const auto q = somewhere_in(box, random);
     const Transformd X_BT = true_arm.predict(q).X_BT;
-    const Transformd X_BN = nominal.forward<double>(q);
+    const Transformd X_BN = nominal.forward(q);
     const double shift = (X_BT.p - X_BN.p).norm();
     const double turn = rotation_vector(X_BT.R * X_BN.R.transpose()).norm();
     if (shift > out.worst_correction_m) {

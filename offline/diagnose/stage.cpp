@@ -69,7 +69,7 @@ void look(const ArmState& state, Stage& out) {
   out.arm_B.resize(count);
   const Transformd X_TG = from_pose(state.X_TG);
   for (std::size_t i = 0; i < count; ++i) {
-    out.chain.frames<double>(out.q(static_cast<Eigen::Index>(i)), out.frames[i]);
+    out.chain.frames(out.q(static_cast<Eigen::Index>(i)), out.frames[i]);
     out.context[i] = context_of(*out.measured, out.row[i], out.sensors, out.X_MB);
     weigh(out.chain, out.frames[i], state.arm.mechanics, state.arm.gravity, X_TF, out.context[i],
           out.loads[i]);

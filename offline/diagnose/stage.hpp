@@ -55,7 +55,7 @@ struct Stage {
 
   /// What laws of the library look at, pose by pose.
   Chain chain;
-  std::vector<ChainFrames<double>> frames;
+  std::vector<ChainFrames> frames;
   std::vector<Loads> loads;
   std::vector<Context> context;
   std::vector<double> sigma;  // (lines,)

@@ -57,10 +57,10 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
   const format::Mechanics mechanics = mechanics_of(cell);
   const Transformd X_TF = from_pose(cell.nominal.tool).inverse();
   std::vector<double> out(cell.joints(), 0.0);
-  ChainFrames<double> frames;
+  ChainFrames frames;
   Loads loads;
   for (Eigen::Index i = 0; i < measured.q.rows(); ++i) {
-    chain.frames<double>({measured.q.row(i).data(), static_cast<std::size_t>(cell.joints())},
+    chain.frames({measured.q.row(i).data(), static_cast<std::size_t>(cell.joints())},
                          frames);
     weigh(chain, frames, mechanics, cell.gravity, X_TF, context_at(measured.context, i, {}), loads);
     for (int j = 0; j < cell.joints(); ++j)
@@ -217,8 +217,8 @@ namespace {
 std::vector<Vector3> link_vectors(const Cell& cell) {
   const Chain chain(cell.nominal);
   const std::vector<double> zero(static_cast<std::size_t>(chain.joints()), 0.0);
-  ChainFrames<double> frames;
-  chain.frames<double>(zero, frames);
+  ChainFrames frames;
+  chain.frames(zero, frames);
   std::vector<Vector3> out;
   for (int j = 0; j < chain.joints(); ++j) {
     const Vector3 end = j + 1 == chain.joints() ? frames.tip.p : frames.joint[j + 1].p;

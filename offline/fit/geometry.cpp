@@ -326,8 +326,8 @@ GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p)
 
 /// One pose before and after the effects moved it.
 struct GeometryDerivative::Bent {
-  ChainFrames<double> rigid;
-  ChainFrames<double> frames;  // with joint effects; the tip without the twists
+  ChainFrames rigid;
+  ChainFrames frames;  // with joint effects; the tip without the twists
   EffectSet::Surroundings around;
   Motion<double> motion;
   Matrix3 turn = Matrix3::Identity();  // of the tip, by the twists
@@ -401,7 +401,7 @@ void GeometryDerivative::evaluate(std::span<const double> q, const Context& cont
   Bent bent;
   bend(q, context, bent);
   out.undefined = bent.undefined;
-  const ChainFrames<double>& frames = bent.frames;
+  const ChainFrames& frames = bent.frames;
   const Matrix3& R_MB = X_MB_.R;
   const Vector3 arm_B = frames.tip.R * X_TG_.p;  // before the twists turn it
   const Vector3 p_B = frames.tip.p + bent.motion.shift_B + bent.turn * arm_B;

@@ -24,21 +24,21 @@ bool inside(const Vector3& p, const std::vector<PoseRules::Box>& boxes) {
 }
 
 Vector3 reflector(const Chain& chain, const ArmState& state, const Eigen::VectorXd& q,
-                  ChainFrames<double>& frames) {
-  chain.frames<double>({q.data(), static_cast<std::size_t>(q.size())}, frames);
+                  ChainFrames& frames) {
+  chain.frames({q.data(), static_cast<std::size_t>(q.size())}, frames);
   return frames.tip * Vector3(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
 }
 
 }  // namespace
 
 Vector3 reflector_B(const ArmState& state, const Eigen::VectorXd& q) {
-  ChainFrames<double> frames;
+  ChainFrames frames;
   return reflector(Chain(state.arm.calibrated), state, q, frames);
 }
 
 RowsN pose_pool(const Cell& cell, const ArmState& state, const PoseRules& rules) {
   const Chain chain(state.arm.calibrated);
-  ChainFrames<double> frames;
+  ChainFrames frames;
   Random random(rules.seed);
   RowsN out(rules.pool, cell.joints());
   Eigen::VectorXd q(cell.joints());

@@ -16,8 +16,8 @@ constexpr std::size_t kNumbersShown = 12;
 constexpr double kConfounded = 0.8;  // mutual reproduction above it leaves the choice open
 
 Vector3 nominal_point(const Cell& cell, const Eigen::VectorXd& q) {
-  ChainFrames<double> frames;
-  Chain(cell.nominal).frames<double>({q.data(), static_cast<std::size_t>(q.size())}, frames);
+  ChainFrames frames;
+  Chain(cell.nominal).frames({q.data(), static_cast<std::size_t>(q.size())}, frames);
   return frames.tip.p;
 }
 

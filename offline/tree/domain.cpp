@@ -45,7 +45,11 @@ Samples normalised(const format::Domain& domain, const Samples& q) {
 Eigen::VectorXd trust(const format::Domain& domain, const Samples& q) {
   const TrainedDomain trained(domain);
   Eigen::VectorXd out(q.rows());
-  for (Eigen::Index i = 0; i < q.rows(); ++i) out[i] = trained.weight(SampleRow(q, i).span());
+  std::array<double, format::kMaxJoints> u;
+  for (Eigen::Index i = 0; i < q.rows(); ++i) {
+    const SampleRow row(q, i);
+    out[i] = trained.normalise(row.span(), {u.data(), row.span().size()});
+  }
   return out;
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "lanes.hpp"
+#include "sin_cos_packed.hpp"
+
 namespace plumb {
 namespace {
 
@@ -40,9 +43,20 @@ Chain::Chain(const format::Chain& parameters) noexcept
     constant_[i + 1] = behind(row, parameters.convention);
   }
   constant_[joints_] = constant_[joints_] * exp(parameters.tool_twist) * from_pose(parameters.tool);
+  for (int i = 0; i <= joints_; ++i) link_[i] = link_of(constant_[i]);
 }
 
-void jacobian(const Chain& chain, const ChainFrames<double>& frames, Jacobian& out) noexcept {
+Chain::Link Chain::link_of(const Transformd& C) noexcept {
+  const bool about_x = C.R(0, 0) == 1.0 && C.R(1, 0) == 0.0 && C.R(2, 0) == 0.0 &&
+                       C.R(0, 1) == 0.0 && C.R(0, 2) == 0.0;
+  return {.plain = about_x && C.p(1) == 0.0 && C.R(1, 1) == C.R(2, 2) && C.R(1, 2) == -C.R(2, 1),
+          .d = C.p(2),
+          .a = C.p(0),
+          .sin_alpha = C.R(2, 1),
+          .cos_alpha = C.R(1, 1)};
+}
+
+void jacobian(const Chain& chain, const ChainFrames& frames, Jacobian& out) noexcept {
   out.setZero();
   for (int i = 0; i < chain.joints(); ++i) {
     const Transformd& X_BP = frames.joint[i];
@@ -56,18 +70,85 @@ void jacobian(const Chain& chain, const ChainFrames<double>& frames, Jacobian& o
   }
 }
 
-template <>
-Transform<double> Chain::forward(std::span<const double> q) const {
-  Transformd out;
-  walk(q, [](std::size_t, const Columns<double>&) {}).store(out);
-  return out;
+/// One way along the chain.
+class Chain::Walk {
+ public:
+  Walk(const Chain& chain, std::span<const double> q) noexcept : chain_(chain) {
+    const double* at = q.data();
+    if (chain.joints_ == 6)
+      prepare<6>(at);
+    else
+      prepare<0>(at);
+  }
+
+  /// behind_joint(i, X_BPi) for every joint; returns X_BT.
+  template <class F>
+  Columns along(F behind_joint) const noexcept {
+    return chain_.joints_ == 6 ? along<6>(behind_joint) : along<0>(behind_joint);
+  }
+
+ private:
+  /// Positions, sines and cosines. kJoints: known when compiled, so that the loops are unrolled; 0:
+  /// any number. What goes into a register is gathered there: from memory just written in parts it
+  /// would have to wait.
+  template <int kJoints>
+  void prepare(const double* q) noexcept {
+    const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : chain_.joints_);
+    for (std::size_t i = 0; i < n; i += kPackedLanes) {
+      const Packed at = load_some(q + i, n - i) * load(&chain_.scale_[i]) + load(&chain_.zero_[i]);
+      Packed sin, cos;
+      portable::sin_cos_packed(at, sin, cos);
+      store(at, &position_[i]);
+      store(sin, &sin_[i]);
+      store(cos, &cos_[i]);
+    }
+  }
+
+  template <int kJoints, class F>
+  Columns along(F behind_joint) const noexcept {
+    const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : chain_.joints_);
+    Columns X(chain_.constant_[0]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (chain_.revolute_[i])
+        X.turn(sin_[i], cos_[i]);
+      else
+        X.slide(position_[i]);
+      behind_joint(i, X);
+      const Link& link = chain_.link_[i + 1];
+      if (link.plain)
+        X.append_link(link.d, link.a, link.sin_alpha, link.cos_alpha);
+      else
+        X.append(chain_.constant_[i + 1]);
+    }
+    return X;
+  }
+
+  const Chain& chain_;
+  alignas(32) std::array<double, kRoom> position_, sin_, cos_;
+};
+
+Transformd Chain::forward(std::span<const double> q) const noexcept {
+  return Walk(*this, q).along([](std::size_t, const Columns&) {}).pose();
 }
 
-template <>
-void Chain::frames(std::span<const double> q, ChainFrames<double>& out) const {
-  walk(q, [&out](std::size_t i, const Columns<double>& X) {
+void Chain::frames(std::span<const double> q, ChainFrames& out) const noexcept {
+  Walk(*this, q)
+      .along([&out](std::size_t i, const Columns& X) { X.store(out.joint[i]); })
+      .store(out.tip);
+}
+
+void Chain::frames(std::span<const double> q, const ChainPoints& of_frames, ChainFrames& out,
+                   ChainPoints& points_B) const noexcept {
+  const auto locate = [&](std::size_t i, const Columns& X) {
+    const Lanes point = X.point(of_frames.at[i].data());
+    std::memcpy(points_B.at[i].data(), &point, sizeof point);
+  };
+  const Columns tip = Walk(*this, q).along([&](std::size_t i, const Columns& X) {
     X.store(out.joint[i]);
-  }).store(out.tip);
+    locate(i, X);
+  });
+  tip.store(out.tip);
+  locate(static_cast<std::size_t>(joints_), tip);
 }
 
 }  // namespace plumb

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/effect_set.hpp"
 
+#include <cstddef>
+#include <cstring>
+
 #include "plumb/format/formula.hpp"
 #include "plumb/runtime/effect_library.hpp"
+#include "room.hpp"
 
 namespace plumb {
 namespace {
@@ -17,11 +21,14 @@ int sensor_of(const format::Model& model, const std::string& name) noexcept {
   return -1;
 }
 
-bool substitute(double& value, double fallback) noexcept {
-  if (known(value)) return false;
-  value = fallback;
-  return true;
-}
+/// Where an input stands in a Context, counted in numbers: so a need is one number, not a switch.
+constexpr std::size_t place(std::size_t bytes) noexcept { return bytes / sizeof(double); }
+constexpr std::size_t kDirectionAt = place(offsetof(Context, direction));
+constexpr std::size_t kTravelAt = place(offsetof(Context, travel));
+constexpr std::size_t kPayloadAt = place(offsetof(Context, payload_kg));
+constexpr std::size_t kTemperatureAt = place(offsetof(Context, temperature_degC));
+constexpr std::size_t kTimeAt = place(offsetof(Context, time_s));
+static_assert(std::is_standard_layout_v<Context> && std::is_trivially_copyable_v<Context>);
 
 EffectShape shape_of(const format::Model& model, const format::Effect& effect) noexcept {
   return {.arm_joints = static_cast<int>(model.calibrated.joints.size()),
@@ -69,78 +76,107 @@ const std::string* temperature_name(const format::Model& model, int k) noexcept 
 }
 
 EffectSet::EffectSet(const format::Model& model) noexcept
-    : model_(&model), X_TF_(from_pose(model.calibrated.tool).inverse()) {
+    : weights_(model.mechanics, model.gravity, from_pose(model.calibrated.tool).inverse(),
+               static_cast<int>(model.calibrated.joints.size())) {
   for (const auto& effect : model.effects) {
     const int law = find_effect_law(effect.name);
-    if (law < 0 || count_ == format::kMaxEffects) continue;
-    Bound& bound = effects_[static_cast<std::size_t>(count_++)];
-    bound.law = law;
-    with_law(law, [&bound](auto found) { bound.apply = &decltype(found)::template apply<double>; });
-    bound.shape = shape_of(model, effect);
-    bound.theta = effect.parameters;
-    bound.needs = effect.context;
-    for (const auto& need : effect.context) {
-      if (need.input != format::ContextInput::kTemperature) continue;
-      bound.temperature = sensor_of(model, need.name);
-      if (bound.temperature >= 0 && bound.sensor_count < bound.sensors.size())
-        bound.sensors[bound.sensor_count++] = static_cast<std::uint8_t>(bound.temperature);
-    }
+    if (law >= 0 && count_ < format::kMaxEffects) bind(model, effect, law);
   }
 }
 
-bool EffectSet::fill_in(const Bound& bound, Context& context) noexcept {
-  bool any = false;
-  const auto fill = [&any](double& value, double fallback) {
-    any = substitute(value, fallback) || any;
-  };
+void EffectSet::bind(const format::Model& model, const format::Effect& effect, int law) noexcept {
+  Bound& bound = effects_[static_cast<std::size_t>(count_++)];
+  bound.law = law;
+  with_law(law, [&bound](auto found) { bound.apply = &decltype(found)::template apply<double>; });
+  bound.shape = shape_of(model, effect);
+  bound.theta = effect.parameters;
+  for (const auto& need : effect.context) {
+    if (need.input != format::ContextInput::kTemperature) continue;
+    bound.temperature = sensor_of(model, need.name);
+    if (bound.temperature >= 0 && bound.sensor_count < bound.sensors.size())
+      bound.sensors[bound.sensor_count++] = static_cast<std::uint8_t>(bound.temperature);
+  }
   std::size_t sensor = 0;
-  for (const auto& need : bound.needs) switch (need.input) {
-      case format::ContextInput::kDirection:
-        for (int j : bound.shape.joints)
-          fill(context.direction[static_cast<std::size_t>(j)], need.fallback);
-        break;
-      case format::ContextInput::kTravel:
-        for (int j : bound.shape.joints)
-          fill(context.travel[static_cast<std::size_t>(j)], need.fallback);
-        break;
-      case format::ContextInput::kPayload:
-        fill(context.payload_kg, need.fallback);
-        break;
-      case format::ContextInput::kTemperature:
-        if (sensor < bound.sensor_count)
-          fill(context.temperature_degC[bound.sensors[sensor++]], need.fallback);
-        break;
-      case format::ContextInput::kTime:
-        fill(context.time_s, need.fallback);
-        break;
-    }
-  return any;
+  for (const auto& need : effect.context) stand_in(need, bound, sensor);
 }
 
+void EffectSet::stand_in(const format::ContextNeed& need, const Bound& bound,
+                         std::size_t& sensor) noexcept {
+  switch (need.input) {
+    case format::ContextInput::kDirection:
+      for (const std::size_t j : bound.shape.joints) stand_in(kDirectionAt + j, need.fallback);
+      break;
+    case format::ContextInput::kTravel:
+      for (const std::size_t j : bound.shape.joints) stand_in(kTravelAt + j, need.fallback);
+      break;
+    case format::ContextInput::kPayload:
+      stand_in(kPayloadAt, need.fallback);
+      break;
+    case format::ContextInput::kTemperature:
+      if (sensor < bound.sensor_count)
+        stand_in(kTemperatureAt + bound.sensors[sensor++], need.fallback);
+      break;
+    case format::ContextInput::kTime:
+      stand_in(kTimeAt, need.fallback);
+      break;
+  }
+}
+
+void EffectSet::stand_in(std::size_t input, double value) noexcept {
+  for (std::size_t i = 0; i < stand_in_count_; ++i)
+    if (stand_ins_[i].input == input) return;
+  if (input < kInputs) stand_ins_[stand_in_count_++] = {input, value};
+}
+
+/// True if anything was unknown.
 bool EffectSet::fill_in(Context& context) const noexcept {
+  auto* const bytes = reinterpret_cast<std::byte*>(&context);
   bool any = false;
-  for (int i = 0; i < count_; ++i)
-    any = fill_in(effects_[static_cast<std::size_t>(i)], context) || any;
+  for (std::size_t i = 0; i < stand_in_count_; ++i) {
+    std::byte* const input = bytes + stand_ins_[i].input * sizeof(double);
+    double value;
+    std::memcpy(&value, input, sizeof value);
+    any |= !known(value);
+    value = known(value) ? value : stand_ins_[i].value;
+    std::memcpy(input, &value, sizeof value);
+  }
   return any;
 }
 
-void EffectSet::survey(const Chain& chain, const ChainFrames<double>& frames,
-                       const Context& context, Surroundings& out) const noexcept {
+/// The temperatures that are this effect's own.
+void EffectSet::show(const Bound& bound, Situation& at) noexcept {
+  if (bound.temperature < 0) return;
+  at.temperature_degC = at.context.temperature_degC[static_cast<std::size_t>(bound.temperature)];
+  at.sensors = std::span(bound.sensors).first(bound.sensor_count);
+}
+
+void EffectSet::survey(const Chain& chain, const ChainFrames& frames, const Context& context,
+                       Surroundings& out) const noexcept {
   out.context = context;
   out.stood_in = fill_in(out.context);
-  weigh(chain, frames, model_->mechanics, model_->gravity, X_TF_, out.context, out.loads);
+  weights_.weigh(chain, frames, out.context, out.loads);
 }
 
-bool EffectSet::apply(std::span<const double> q, const Chain& chain,
-                      const ChainFrames<double>& frames, const Context& context,
+bool EffectSet::apply(std::span<const double> q, const Chain& chain, const Context& context,
                       Motion<double>& out) const noexcept {
-  Surroundings around;
-  survey(chain, frames, context, around);
+  internal::Room<Context> seen;
+  Context& filled = seen.value;
+  internal::copy(context, filled);
+  const bool stood_in = fill_in(filled);
+  internal::Room<ChainFrames> room;
+  ChainFrames& frames = room.value;
+  ChainPoints of_frames, points_B;
+  weights_.hang(filled, of_frames);
+  chain.frames(q, of_frames, frames, points_B);
+  Loads loads;
+  weights_.weigh(points_B, filled, loads);
+  Situation at{.q = q, .chain = chain, .frames = frames, .loads = loads, .context = filled};
   for (int i = 0; i < count_; ++i) {
     const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    bound.apply(bound.theta, bound.shape, situation(bound, q, chain, frames, around), out);
+    show(bound, at);
+    bound.apply(bound.theta, bound.shape, at, out);
   }
-  return around.stood_in || out.undefined;
+  return stood_in || out.undefined;
 }
 
 }  // namespace plumb

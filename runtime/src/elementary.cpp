@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "plumb/runtime/lanes.hpp"
+#include "sin_cos_packed.hpp"
 
 // Polynomial coefficients: the minimax sets of FDLIBM 5.3 [Sun Microsystems 1993], which state an
 // approximation error below 2^-57 on the reduced intervals.
@@ -17,93 +17,14 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Ored into the bits of a number it makes it none.
-constexpr std::int64_t kNotANumber = 0x7ff8000000000000;
-
 bool is_nan(double x) { return x != x; }
 double magnitude(double x) { return x < 0.0 ? -x : x; }
-
-/// x + kShift has no fractional bits left, |x| < 2^51: its last bits are the whole number nearest
-/// to x, ties to even, in two's complement.
-constexpr double kShift = 0x1.8p52;
 
 double nearest(double x) { return (x + kShift) - kShift; }
 
 /// 2^k for -1022 <= k <= 1023.
 double power_of_two(int k) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
-}
-
-/// Real: double, or several of them.
-template <class Real>
-struct Reduced {
-  Real value;    // in [-pi/4, pi/4]
-  Real tail;     // value + tail is the remainder to about 100 bits
-  Real shifted;  // kShift + quadrant
-};
-
-/// Cody-Waite: pi/2 in two parts of 33 bits and a third, so the first products are exact.
-template <class Real>
-void reduce(const Real& x, Reduced<Real>& out) {
-  constexpr double kTwoOverPi = 6.36619772367581382433e-01;
-  constexpr double kPart1 = 1.57079632673412561417e+00;
-  constexpr double kPart2 = 6.07710050630396597660e-11;
-  constexpr double kPart3 = 2.02226624879595063154e-21;
-  out.shifted = x * kTwoOverPi + kShift;
-  const Real n = out.shifted - kShift;
-  const Real first = x - n * kPart1;
-  const Real second = n * kPart2;
-  const Real rest = first - second;
-  const Real lost = (first - rest) - second - n * kPart3;
-  out.value = rest + lost;
-  out.tail = (rest - out.value) + lost;
-}
-
-template <class Real>
-void sine(const Real& x, const Real& tail, Real& out) {
-  const Real z = x * x;
-  const Real v = z * x;
-  const Real p = 8.33333333332248946124e-03 +
-                 z * (-1.98412698298579493134e-04 +
-                      z * (2.75573137070700676789e-06 +
-                           z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-  out = x - ((z * (0.5 * tail - v * p) - tail) - v * -1.66666666666666324348e-01);
-}
-
-template <class Real>
-void cosine(const Real& x, const Real& tail, Real& out) {
-  const Real z = x * x;
-  const Real p =
-      z * (4.16666666666666019037e-02 +
-           z * (-1.38888888888741095749e-03 +
-                z * (2.48015872894767294178e-05 +
-                     z * (-2.75573143513906633035e-07 +
-                          z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-  const Real half = 0.5 * z;
-  const Real w = 1.0 - half;
-  out = w + (((1.0 - w) - half) + (z * p - x * tail));
-}
-
-constexpr double kLargestAngle = 1e5;
-
-/// The quadrant swaps sine and cosine and turns their signs: all with integers, so that a lane
-/// costs the same whatever is in it.
-void sin_cos_packed(const Packed& x, Packed& sin_out, Packed& cos_out) {
-  Reduced<Packed> r;
-  reduce(x, r);
-  Packed s, c;
-  sine(r.value, r.tail, s);
-  cosine(r.value, r.tail, c);
-  const PackedBits quadrant = reinterpret_cast<PackedBits>(r.shifted);
-  const PackedBits swap = -(quadrant & 1);
-  const PackedBits s_bits = reinterpret_cast<PackedBits>(s);
-  const PackedBits c_bits = reinterpret_cast<PackedBits>(c);
-  const PackedBits mixed = (s_bits ^ c_bits) & swap;
-  const PackedBits beyond = ~((x <= kLargestAngle) & (x >= -kLargestAngle)) & kNotANumber;
-  const PackedBits sin_bits = (s_bits ^ mixed ^ ((quadrant & 2) << 62)) | beyond;
-  const PackedBits cos_bits = (c_bits ^ mixed ^ (((quadrant + 1) & 2) << 62)) | beyond;
-  sin_out = reinterpret_cast<Packed>(sin_bits);
-  cos_out = reinterpret_cast<Packed>(cos_bits);
 }
 
 /// atan of 0 <= x <= 1 shifted to |t| <= 7/16 or so by atan(x) = atan(c) + atan((x - c)/(1 + c x)).

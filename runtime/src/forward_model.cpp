@@ -38,19 +38,22 @@ Prediction ForwardModel::predict(std::span<const double> q, const Context& conte
   const Deviation deviation = deviation_at(q, context);
   JointPositions bent;
   if (!bend(q, deviation, bent)) return refusal();
-  return finished(chain_.forward<double>(bent), deviation);
+  return finished(chain_.forward(bent), deviation);
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
-                                 ChainFrames<double>& frames) const noexcept {
+                                 ChainFrames& frames) const noexcept {
   return predict(q, deviation_at(q, context), frames);
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Deviation& deviation,
-                                 ChainFrames<double>& frames) const noexcept {
+                                 ChainFrames& frames) const noexcept {
   JointPositions bent;
-  if (!bend(q, deviation, bent)) return refusal();
-  chain_.frames<double>(bent, frames);
+  if (!bend(q, deviation, bent)) {
+    frames = ChainFrames{};
+    return refusal();
+  }
+  chain_.frames(bent, frames);
   Prediction out = finished(frames.tip, deviation);
   frames.tip.R = out.X_BT.R;
   frames.tip.p = out.X_BT.p - out.tree_B;
@@ -64,30 +67,25 @@ Deviation ForwardModel::deviation_at(std::span<const double> q,
     out.status = Status::kNotFinite;
     return out;
   }
+  if (has_tree_) add_tree(q, out);
   if (!effects_.empty()) add_effects(q, context, out);
-  if (has_tree_ && !refused(out.status)) add_tree(q, out);
   return out;
 }
 
 void ForwardModel::add_effects(std::span<const double> q, const Context& context,
                                Deviation& out) const noexcept {
-  ChainFrames<double> frames;
-  chain_.frames<double>(q, frames);
-  Motion<double> motion;
-  if (effects_.apply(q, chain_, frames, context, motion)) out.status = Status::kContextFallback;
-  const std::array<double, 3> turn{motion.turn_B(0), motion.turn_B(1), motion.turn_B(2)};
-  if (!internal::is_joint_state(turn)) {
+  const bool stood_in = effects_.apply(q, chain_, context, out.motion);
+  if (stood_in && out.status == Status::kOk) out.status = Status::kContextFallback;
+  const Vector3& turn_B = out.motion.turn_B;
+  if (internal::is_joint_state(std::span(turn_B.data(), 3)))
+    out.turn_B = rotation_of(turn_B);
+  else
     out.status = Status::kNotFinite;
-    return;
-  }
-  out.dq = motion.dq;
-  out.shift_B = motion.shift_B;
-  out.turn_B = exp({{0.0, 0.0, 0.0}, turn}).R;
 }
 
 void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {
-  const double weight = domain_.weight(q);
-  out.tree_B = tree_at(q) * weight;
+  double weight = 1.0;
+  out.tree_B = tree_at(q, weight);
   if (weight < 1.0) out.status = Status::kOutsideDomain;
 }
 
@@ -96,16 +94,16 @@ bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
                         JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (refused(deviation.status) || q.size() < n) return false;
-  for (std::size_t i = 0; i < n; ++i) out[i] = q[i] + deviation.dq[i];
+  for (std::size_t i = 0; i < n; ++i) out[i] = q[i] + deviation.motion.dq[i];
   return internal::is_joint_state(std::span<const double>(out).first(n));
 }
 
 /// An encoder scale can still bring a joint beyond what sin_cos knows.
 Prediction ForwardModel::finished(const Transformd& X_BT,
                                   const Deviation& deviation) const noexcept {
-  const Vector3 p = X_BT.p + deviation.shift_B;
+  const Vector3 p = X_BT.p + deviation.motion.shift_B;
   if (!internal::is_finite(p)) return refusal();
-  return {.X_BT = {.R = effects_.empty() ? X_BT.R : Matrix3(deviation.turn_B * X_BT.R),
+  return {.X_BT = {.R = effects_.empty() ? X_BT.R : product(deviation.turn_B, X_BT.R),
                    .p = p + deviation.tree_B},
           .tree_B = deviation.tree_B,
           .status = deviation.status};
@@ -113,14 +111,19 @@ Prediction ForwardModel::finished(const Transformd& X_BT,
 
 Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {
   if (!has_tree_ || !acceptable(q)) return Vector3::Zero();
-  return tree_at(q) * domain_.weight(q);
+  double weight = 1.0;
+  return tree_at(q, weight);
 }
 
-Vector3 ForwardModel::tree_at(std::span<const double> q) const noexcept {
-  std::array<double, kMaxJoints> u{};
+/// `weight`: how far the trees are trusted there; they are already weighed with it.
+Vector3 ForwardModel::tree_at(std::span<const double> q, double& weight) const noexcept {
+  std::array<double, kMaxJoints> u;
   const std::span<double> inputs = std::span(u).first(static_cast<std::size_t>(joints()));
-  domain_.normalise(q, inputs);
-  const std::span<const double> at = inputs;
+  weight = domain_.normalise(q, inputs);
+  return trees_at(inputs) * weight;
+}
+
+Vector3 ForwardModel::trees_at(std::span<const double> at) const noexcept {
   if (all_hard_ && !one_walk_) {
     const auto e = TreeView::evaluate_all(trees_, at);
     return {e[0], e[1], e[2]};

@@ -18,21 +18,14 @@ format::GuardLimits sound(format::GuardLimits limits) noexcept {
   return limits;
 }
 
-/// Length of v without overflow.
-double norm(const Vector3& v) noexcept {
-  double largest = 0.0;
-  for (int i = 0; i < 3; ++i) largest = std::max({largest, v(i), -v(i)});
-  if (largest < 1e-150) return largest;
-  const Vector3 u(v(0) / largest, v(1) / largest, v(2) / largest);
-  return largest * portable::sqrt(dot(u, u));
-}
-
-/// v, shortened to `limit`; `cut` becomes true if it was longer.
+/// v, shortened to `limit`; `cut` becomes true if it was longer. One whose square is beyond all
+/// numbers becomes zero.
 Vector3 shortened(const Vector3& v, double limit, bool& cut) noexcept {
-  const double length = norm(v);
-  if (length <= limit) return v;
-  cut = true;
-  return v * (limit / length);
+  const double length = portable::sqrt(dot(v, v));
+  const bool longer = length > limit;
+  cut |= longer;
+  const double share = limit / length;
+  return v * (longer ? share : 1.0);
 }
 
 /// 0 .. 1 without a corner at either end.
@@ -65,34 +58,44 @@ void Guard::ramp_towards(double goal, double dt) noexcept {
 
 /// Moves the applied correction towards `goal`; true if a limit cut it.
 bool Guard::approach(const Offset& goal, double dt) noexcept {
-  bool cut = false;
   const double gain = smooth_step(ramp_);
-  const Vector3 translation = shortened(goal.translation, limits_.max_correction_m, cut) * gain;
-  const Vector3 rotation = shortened(goal.rotation, limits_.max_rotation_rad, cut) * gain;
-  bool slewing_m = false, slewing_rad = false;
-  const Vector3 move =
-      shortened(translation - applied_.translation, limits_.slew_m_per_s * dt, slewing_m);
-  const Vector3 turn =
-      shortened(rotation - applied_.rotation, limits_.slew_rad_per_s * dt, slewing_rad);
+  bool cut = approach(goal.translation, gain, limits_.max_correction_m, limits_.slew_m_per_s * dt,
+                      applied_.translation);
+  if (turns())
+    cut |= approach(goal.rotation, gain, limits_.max_rotation_rad, limits_.slew_rad_per_s * dt,
+                    applied_.rotation);
+  return cut;
+}
+
+bool Guard::approach(const Vector3& goal, double gain, double size, double step,
+                     Vector3& applied) noexcept {
+  bool cut = false, slewing = false;
+  const Vector3 wanted = shortened(goal, size, cut) * gain;
+  const Vector3 move = shortened(wanted - applied, step, slewing);
   // Arriving sets the goal itself, so that a decayed correction is exactly zero.
-  applied_.translation = slewing_m ? Vector3(applied_.translation + move) : translation;
-  applied_.rotation = slewing_rad ? Vector3(applied_.rotation + turn) : rotation;
-  return cut || slewing_m || slewing_rad;
+  applied = slewing ? Vector3(applied + move) : wanted;
+  return cut || slewing;
+}
+
+/// A model that corrects positions only may still have a turn to undo, of the one before it.
+bool Guard::turns() const noexcept {
+  const Vector3& e = applied_.rotation;
+  return limits_.corrects == format::Corrects::kPose || e(0) != 0.0 || e(1) != 0.0 || e(2) != 0.0;
 }
 
 GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
-  const Vector3& e = applied_.rotation;
-  const Transformd turn = exp(format::Twist{.d = {}, .e = {e(0), e(1), e(2)}});
-  Transformd X_BC = turn * Transformd{.R = X_BD.R, .p = Vector3::Zero()};
-  X_BC.p = X_BD.p + applied_.translation;
-  if (has_output_) last_ = X_BC;
-  return {.X_BC = X_BC, .has_output = has_output_, .status = status};
+  GuardOutput out{.X_BC = X_BD, .has_output = has_output_, .status = status};
+  if (turns()) out.X_BC.R = product(rotation_of(applied_.rotation), X_BD.R);
+  out.X_BC.p += applied_.translation;
+  if (has_output_) last_ = out.X_BC;
+  return out;
 }
 
 /// What the correction says, unless it is no correction.
 Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
-  const bool sane = internal::is_pose(correction.X_BC) &&
-                    internal::is_finite(Vector3(correction.X_BC.p - X_BD.p));
+  const bool turned = limits_.corrects == format::Corrects::kPose;
+  const bool sane = internal::is_finite(Vector3(correction.X_BC.p - X_BD.p)) &&
+                    (!turned || internal::is_pose(correction.X_BC));
   return sane || refused(correction.status) ? correction.status : Status::kNotFinite;
 }
 

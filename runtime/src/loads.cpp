@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/loads.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "lanes.hpp"
+
 namespace plumb {
 namespace {
 
@@ -8,40 +15,85 @@ Vector3 vector(const std::array<double, 3>& v) noexcept { return {v[0], v[1], v[
 
 bool known(double v) noexcept { return v == v; }
 
-struct Payload {
-  double mass;
-  Vector3 com_F;
-};
+/// Of either sign.
+bool is_zero(const std::array<double, 3>& v) noexcept {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x) << 1; };
+  return (bits(v[0]) | bits(v[1]) | bits(v[2])) == 0;
+}
 
-Payload payload_of(const format::Mechanics& mechanics, const Context& context) noexcept {
-  Payload out{known(context.payload_kg) ? context.payload_kg : mechanics.payload_kg,
-              vector(mechanics.payload_com_m)};
-  for (int k = 0; k < 3; ++k)
-    if (known(context.payload_com_m[k])) out.com_F(k) = context.payload_com_m[k];
+std::array<double, 4> point(const Vector3& p) noexcept { return {p(0), p(1), p(2), 1.0}; }
+
+Lanes lanes(const std::array<double, 4>& p) noexcept {
+  Lanes out;
+  std::memcpy(&out, p.data(), sizeof out);
   return out;
 }
 
 }  // namespace
 
-void weigh(const Chain& chain, const ChainFrames<double>& frames,
-           const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
-           const Transformd& X_TF, const Context& context, Loads& out) noexcept {
-  out.gravity = vector(gravity);
-  const Payload payload = payload_of(mechanics, context);
-  out.payload_at = frames.tip * (X_TF * payload.com_F);
-  out.payload_force = out.gravity * payload.mass;
+Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
+                 const Transformd& X_TF, int joints) noexcept
+    : gravity_(vector(gravity)),
+      X_TF_(X_TF),
+      payload_kg_(mechanics.payload_kg),
+      payload_com_F_(vector(mechanics.payload_com_m)),
+      joints_(static_cast<std::size_t>(joints)) {
+  const std::size_t links = std::min(mechanics.links.size(), joints_);
+  for (std::size_t j = 0; j < links; ++j) {
+    centres_.at[j] = point(vector(mechanics.links[j].com_m));
+    mass_[j] = mechanics.links[j].mass_kg;
+  }
+}
+
+double Weights::payload_kg(const Context& context) const noexcept {
+  return known(context.payload_kg) ? context.payload_kg : payload_kg_;
+}
+
+void Weights::hang(const Context& context, ChainPoints& of_frames) const noexcept {
+  Vector3 com_F = payload_com_F_;
+  for (int k = 0; k < 3; ++k)
+    com_F(k) = known(context.payload_com_m[k]) ? context.payload_com_m[k] : com_F(k);
+  for (std::size_t j = 0; j < joints_; ++j) of_frames.at[j] = centres_.at[j];
+  of_frames.at[joints_] = point(X_TF_ * com_F);
+}
+
+void Weights::weigh(const ChainPoints& points_B, const Context& context,
+                    Loads& out) const noexcept {
+  const double payload = payload_kg(context);
+  const auto& at = points_B.at[joints_];
+  out.gravity = gravity_;
+  out.payload_at = Vector3(at[0], at[1], at[2]);
+  out.payload_force = gravity_ * payload;
   out.wrench = vector(context.force_N);
   out.tip_moment = vector(context.moment_Nm);
-  Loads::Behind behind{payload.mass, out.payload_at * payload.mass};
-  const int links = static_cast<int>(mechanics.links.size());
-  for (int j = chain.joints() - 1; j >= 0; --j) {
-    if (j < links) {
-      const auto& link = mechanics.links[j];
-      behind.mass += link.mass_kg;
-      behind.first_moment += (frames.joint[j] * vector(link.com_m)) * link.mass_kg;
-    }
-    out.joint[j] = behind;
+  out.pushed = !is_zero(context.force_N) || !is_zero(context.moment_Nm);
+  static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
+  Lanes behind = lanes(at) * payload;
+  for (std::size_t j = joints_; j-- > 0;) {
+    behind = behind + lanes(points_B.at[j]) * mass_[j];
+    std::memcpy(static_cast<void*>(&out.joint[j]), &behind, sizeof behind);
   }
+}
+
+void Weights::weigh(const Chain& chain, const ChainFrames& frames, const Context& context,
+                    Loads& out) const noexcept {
+  ChainPoints of_frames, points_B;
+  hang(context, of_frames);
+  const auto place = [&](const Transformd& X, std::size_t i) {
+    const auto& c = of_frames.at[i];
+    points_B.at[i] = point(X * Vector3(c[0], c[1], c[2]));
+  };
+  const auto n = static_cast<std::size_t>(chain.joints());
+  for (std::size_t j = 0; j < n; ++j) place(frames.joint[j], j);
+  place(frames.tip, n);
+  weigh(points_B, context, out);
+}
+
+void weigh(const Chain& chain, const ChainFrames& frames, const format::Mechanics& mechanics,
+           const std::array<double, 3>& gravity, const Transformd& X_TF, const Context& context,
+           Loads& out) noexcept {
+  const Weights weights(mechanics, gravity, X_TF, chain.joints());
+  weights.weigh(chain, frames, context, out);
 }
 
 }  // namespace plumb

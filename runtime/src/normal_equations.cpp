@@ -7,21 +7,6 @@ namespace {
 /// Pivots below it belong to singular values below 1e-7: rounding, not geometry.
 constexpr double kTinyPivot = 1e-14;
 
-using Square = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
-
-/// Brings the largest entry of column k, from row k down, into row k; -1 if rows were swapped.
-int swap_in_pivot(Square& A, int k) noexcept {
-  int largest = k;
-  for (int i = k + 1; i < 6; ++i)
-    if (A(i, k) * A(i, k) > A(largest, k) * A(largest, k)) largest = i;
-  for (int j = k; j < 6; ++j) {
-    const double held = A(k, j);
-    A(k, j) = A(largest, j);
-    A(largest, j) = held;
-  }
-  return largest == k ? 1 : -1;
-}
-
 }  // namespace
 
 Matrix6 gram(const Jacobian& J, int n) noexcept {
@@ -96,21 +81,6 @@ JointVector minimum_norm_step(const Jacobian& J, int n, const Vector6& r) noexce
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < 6; ++i) dq(k) += J(i, k) * y(i);
   return dq;
-}
-
-int determinant_sign(const Jacobian& J) noexcept {
-  Square A = J.leftCols<6>();
-  int sign = 1;
-  for (int k = 0; k < 6; ++k) {
-    sign *= swap_in_pivot(A, k);
-    if (A(k, k) == 0.0) return 0;
-    if (A(k, k) < 0.0) sign = -sign;
-    for (int i = k + 1; i < 6; ++i) {
-      const double l = A(i, k) / A(k, k);
-      for (int j = k + 1; j < 6; ++j) A(i, j) -= l * A(k, j);
-    }
-  }
-  return sign;
 }
 
 }  // namespace plumb::internal

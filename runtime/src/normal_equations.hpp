@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lanes.hpp"
 #include "plumb/runtime/chain.hpp"
 
 /// The 6 x 6 linear algebra of the inverse correction: fixed size, fixed order, fixed cost.
@@ -51,8 +52,5 @@ RankAbove rank_above(double s, const Matrix6& JJt) noexcept;
 
 /// Shortest step with J dq = r: J^T (J J^T)^-1 r. n >= 6.
 JointVector minimum_norm_step(const Jacobian& J, int n, const Vector6& r) noexcept;
-
-/// Sign of the determinant of the first six columns: -1, 0 or +1.
-int determinant_sign(const Jacobian& J) noexcept;
 
 }  // namespace plumb::internal

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/transform.hpp"
 
+#include "lanes.hpp"
+
 namespace plumb {
 namespace {
 
@@ -14,19 +16,25 @@ struct ExpCoefficients {
 
 ExpCoefficients exp_coefficients(double t2) noexcept {
   if (t2 < kSmallAngle * kSmallAngle)
-    return {1.0 - t2 / 6.0 * (1.0 - t2 / 20.0 * (1.0 - t2 / 42.0)),
-            0.5 * (1.0 - t2 / 12.0 * (1.0 - t2 / 30.0 * (1.0 - t2 / 56.0))),
-            (1.0 - t2 / 20.0 * (1.0 - t2 / 42.0 * (1.0 - t2 / 72.0))) / 6.0};
+    return {1.0 - t2 * (1.0 / 6 - t2 * (1.0 / 120 - t2 * (1.0 / 5040))),
+            0.5 - t2 * (1.0 / 24 - t2 * (1.0 / 720 - t2 * (1.0 / 40320))),
+            1.0 / 6 - t2 * (1.0 / 120 - t2 * (1.0 / 5040 - t2 * (1.0 / 362880)))};
   const double t = portable::sqrt(t2);
   const auto half = portable::sin_cos(0.5 * t);
   const double sine = 2.0 * half.sin * half.cos;
   return {sine / t, 2.0 * half.sin * half.sin / t2, (t - sine) / (t2 * t)};
 }
 
-Matrix3 skew(const Vector3& v) noexcept {
-  Matrix3 m;
-  m << 0.0, -v(2), v(1), v(2), 0.0, -v(0), -v(1), v(0), 0.0;
-  return m;
+/// 1 - b t^2 + b e e^T + a [e]x
+Matrix3 rotation(const Vector3& e, double t2, double a, double b) noexcept {
+  const double rest = 1.0 - b * t2;
+  const Vector3 be = b * e, ae = a * e;
+  const double xy = be(0) * e(1), xz = be(0) * e(2), yz = be(1) * e(2);
+  Matrix3 R;
+  R.col(0) = Vector3(rest + be(0) * e(0), xy + ae(2), xz - ae(1));
+  R.col(1) = Vector3(xy - ae(2), rest + be(1) * e(1), yz + ae(0));
+  R.col(2) = Vector3(xz + ae(1), yz - ae(0), rest + be(2) * e(2));
+  return R;
 }
 
 /// Unit quaternion (w, x, y, z), w >= 0, by the largest of its four squares [Shepperd 1978].
@@ -63,18 +71,31 @@ std::array<double, 4> quaternion(const Matrix3& R) noexcept {
 
 }  // namespace
 
+Matrix3 product(const Matrix3& A, const Matrix3& B) noexcept {
+  const double* a = A.data();
+  const Lanes x{a[0], a[1], a[2], 0.0}, y{a[3], a[4], a[5], 0.0}, z{a[6], a[7], a[8], 0.0};
+  Matrix3 out;
+  for (int j = 0; j < 3; ++j) {
+    const double* b = B.data() + 3 * j;
+    const Lanes column = x * b[0] + y * b[1] + z * b[2];
+    std::memcpy(out.data() + 3 * j, &column, 3 * sizeof(double));
+  }
+  return out;
+}
+
 Transformd exp(const format::Twist& xi) noexcept {
   const Vector3 d(xi.d[0], xi.d[1], xi.d[2]);
   const Vector3 e(xi.e[0], xi.e[1], xi.e[2]);
-  const auto [a, b, c] = exp_coefficients(dot(e, e));
+  const double t2 = dot(e, e);
+  const auto [a, b, c] = exp_coefficients(t2);
   const Vector3 ed = cross<double>(e, d);
-  Transformd X;
-  const Matrix3 K = skew(e);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      X.R(i, j) = (i == j ? 1.0 - b * dot(e, e) : 0.0) + a * K(i, j) + b * (e(i) * e(j));
-  X.p = d + b * ed + c * cross<double>(e, ed);
-  return X;
+  return {.R = rotation(e, t2, a, b), .p = d + b * ed + c * cross<double>(e, ed)};
+}
+
+Matrix3 rotation_of(const Vector3& e) noexcept {
+  const double t2 = dot(e, e);
+  const ExpCoefficients k = exp_coefficients(t2);
+  return rotation(e, t2, k.a, k.b);
 }
 
 Vector3 rotation_vector(const Matrix3& R) noexcept {

@@ -2,6 +2,7 @@
 #include "plumb/runtime/tree.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace plumb {
 namespace {
@@ -10,6 +11,14 @@ double clamp(double x, double low, double high) noexcept {
   // Written so that NaN gives `low`, never an index or a bound of its own; and without a branch.
   const double up = x > low ? x : low;
   return up < high ? up : high;
+}
+
+/// Compares from node `at` to the nearest leaf, `most` of them at most. With log2 of the leaves,
+/// which no shortest way exceeds, it looks at as many nodes as there are.
+int shortest(const format::TreeNode* nodes, int at, int most) noexcept {
+  if (at < 0 || most == 0) return 0;
+  return 1 + std::min(shortest(nodes, nodes[at].low, most - 1),
+                      shortest(nodes, nodes[at].high, most - 1));
 }
 
 }  // namespace
@@ -23,17 +32,24 @@ TrainedDomain::TrainedDomain(const format::Domain& domain) noexcept
   }
 }
 
-void TrainedDomain::normalise(std::span<const double> q, std::span<double> u) const noexcept {
-  for (int i = 0; i < joints_; ++i) u[i] = clamp((q[i] - mid_[i]) * half_inverse_[i], -1.0, 1.0);
+double TrainedDomain::normalise(std::span<const double> q, std::span<double> u) const noexcept {
+  if (joints_ == 6) return normalise<6>(q.data(), u.data());
+  return normalise<0>(q.data(), u.data());
 }
 
-double TrainedDomain::weight(std::span<const double> q) const noexcept {
-  double excess = 0.0;  // in half spans
-  for (int i = 0; i < joints_; ++i) {
-    const double u = (q[i] - mid_[i]) * half_inverse_[i];
-    excess = std::max(excess, std::max(u - 1.0, -1.0 - u));
+/// kJoints: known when compiled, so that the loop is unrolled; 0: joints_. Magnitudes are compared
+/// as integers, which grow with them.
+template <int kJoints>
+double TrainedDomain::normalise(const double* q, double* u) const noexcept {
+  const int n = kJoints > 0 ? kJoints : joints_;
+  std::int64_t farthest = std::bit_cast<std::int64_t>(1.0);  // in half spans from the middle
+  for (int i = 0; i < n; ++i) {
+    const double at = (q[i] - mid_[i]) * half_inverse_[i];
+    const auto away = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(at) << 1 >> 1);
+    farthest = away > farthest ? away : farthest;
+    u[i] = clamp(at, -1.0, 1.0);
   }
-  return clamp(1.0 - excess * fade_inverse_, 0.0, 1.0);
+  return clamp(1.0 - (std::bit_cast<double>(farthest) - 1.0) * fade_inverse_, 0.0, 1.0);
 }
 
 template void TreeView::active(std::span<const double>, ActiveLeaves<double>&) const noexcept;
@@ -53,7 +69,9 @@ TreeView::TreeView(const format::Tree& tree, int inputs) noexcept
       terms_(static_cast<int>(format::leaf_terms(static_cast<std::size_t>(inputs), tree.degree))),
       degree_(tree.degree),
       depth_(tree.depth),
-      leaves_(static_cast<int>(tree.leaves())) {}
+      leaves_(static_cast<int>(tree.leaves())),
+      sure_depth_(shortest(nodes_, leaves_ > 1 ? 0 : ~0,
+                           static_cast<int>(std::bit_width(tree.leaves())))) {}
 
 bool TreeView::same_leaves(const TreeView& other) const noexcept {
   if (leaves_ != other.leaves_ || inputs_ != other.inputs_ || depth_ != other.depth_) return false;
@@ -84,14 +102,19 @@ std::array<double, format::kTreeAxes> TreeView::evaluate_all(
     const std::array<TreeView, format::kTreeAxes>& trees, std::span<const double> u) noexcept {
   static_assert(format::kTreeAxes == 3);
   const TreeView &x = trees[0], &y = trees[1], &z = trees[2];
-  const internal::InputKeys keys = internal::input_keys(u);
   internal::HardWalk in_x(x.nodes_, x.leaves_), in_y(y.nodes_, y.leaves_),
       in_z(z.nodes_, z.leaves_);
+  const int sure = std::min({x.sure_depth_, y.sure_depth_, z.sure_depth_});
   const int depth = std::max({x.depth_, y.depth_, z.depth_});
-  for (int i = 0; i < depth; ++i) {
-    in_x.step(keys);
-    in_y.step(keys);
-    in_z.step(keys);
+  for (int i = 0; i < sure; ++i) {
+    in_x.step_down(u.data());
+    in_y.step_down(u.data());
+    in_z.step_down(u.data());
+  }
+  for (int i = sure; i < depth; ++i) {
+    in_x.step(u.data());
+    in_y.step(u.data());
+    in_z.step(u.data());
   }
   return {x.evaluate_leaf(u, in_x.leaf()), y.evaluate_leaf(u, in_y.leaf()),
           z.evaluate_leaf(u, in_z.leaf())};

@@ -44,7 +44,7 @@ std::span<const double> joints(std::size_t i) {
 void forward_kinematics(benchmark::State& state) {
   const Chain chain(model().calibrated);
   for (std::size_t i = 0; auto _ : state)
-    benchmark::DoNotOptimize(chain.forward<double>(joints(i++)));
+    benchmark::DoNotOptimize(chain.forward(joints(i++)));
 }
 BENCHMARK(forward_kinematics);
 
@@ -78,7 +78,7 @@ void forward_kinematics_kdl(benchmark::State& state) {
   const auto q = kdl_joints();
   KDL::Frame frame;
   solver.JntToCart(q[0], frame);
-  must_agree(frame, Chain(model().calibrated).forward<double>(joints(0)));
+  must_agree(frame, Chain(model().calibrated).forward(joints(0)));
   for (std::size_t i = 0; auto _ : state) {
     solver.JntToCart(q[i++ % q.size()], frame);
     benchmark::DoNotOptimize(frame);

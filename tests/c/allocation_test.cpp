@@ -75,7 +75,7 @@ TEST(Allocation, NeverHappensInAStepOfTheCycle) {
   Cycle cycle(slot);
   CycleInput in;
   in.target = in.joints = Arrival::kArrived;
-  in.X_BD = first->corrector().nominal().forward<double>(std::span(home(), 6));
+  in.X_BD = first->corrector().nominal().forward(std::span(home(), 6));
   std::copy_n(home(), PLUMB_MAX_JOINTS, in.q_measured.begin());
   EXPECT_EQ(allocations_of([&] {
               for (int k = 0; k < 10'000; ++k) {

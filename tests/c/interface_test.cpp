@@ -33,7 +33,7 @@ TEST(CInterface, SaysTheSameAsTheCycleOfTheLibrary) {
   plumb_input in = sound_input();
   CycleInput same;
   same.target = same.joints = Arrival::kArrived;
-  same.X_BD = loaded->corrector().nominal().forward<double>(std::span(home(), 6));
+  same.X_BD = loaded->corrector().nominal().forward(std::span(home(), 6));
   std::copy_n(home(), PLUMB_MAX_JOINTS, same.q_measured.begin());
   same.context.payload_kg = {8.0, 0.0};
   same.context.payload_com_m = {0.0, 0.0, 0.0};

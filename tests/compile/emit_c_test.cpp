@@ -56,7 +56,8 @@ struct Agreement {
 int expected_status(const format::Model& model, const Question& q) {
   for (const double x : q)
     if (!(std::abs(x) <= 1e4)) return -1;
-  return TrainedDomain(model.domain).weight(q) < 1.0 ? 1 : 0;
+  std::vector<double> u(q.size());
+  return TrainedDomain(model.domain).normalise(q, u) < 1.0 ? 1 : 0;
 }
 
 /// Whether a tree has as many leaves with a say as there may be.

@@ -183,7 +183,7 @@ TEST_P(EveryEffect, IsInvertedByTheCorrector) {
       const Context context = context_of(m, i, temperature_names(model), Transformd{});
       std::array<double, kJoints> q{};
       for (int j = 0; j < kJoints; ++j) q[j] = m.q(i, j) + dice.uniform(-0.02, 0.02);
-      const Transformd X_BD = corrector.nominal().forward<double>(q);
+      const Transformd X_BD = corrector.nominal().forward(q);
       const std::span<const double> seed_q(m.q.row(i).data(), kJoints);
       const Correction c = corrector.solve(X_BD, seed_q, SeedKind::kMeasured, context);
       if (refused(c.status)) continue;

@@ -161,7 +161,7 @@ TEST(FormulaFit, EveryTargetIsFittedAndRunsInTheModelFileAsItWasFitted) {
       const std::span<const double> q(m.q.row(i).data(), 6);
       const Vector3 p = from_pose(state.X_MB) * (arm.predict(q).X_BT * target_T);
       EXPECT_LT((p - fitted.row(i).transpose()).norm(), 1e-9) << target;
-      const Transformd X_BD = corrector.nominal().forward<double>(q);
+      const Transformd X_BD = corrector.nominal().forward(q);
       const Correction c = corrector.solve(X_BD, q, SeedKind::kMeasured);
       if (refused(c.status)) continue;
       ++solved;

@@ -37,7 +37,7 @@ struct Bench {
 using Call = double (*)(Bench&, const Input&);
 
 double chain(Bench& b, const Input& in) {
-  return b.corrector.forward_model().chain().forward<double>(in.q).p(0);
+  return b.corrector.forward_model().chain().forward(in.q).p(0);
 }
 
 double predict(Bench& b, const Input& in) {
@@ -121,7 +121,7 @@ Input random_input(const Bench& bench, tests::Random& random) {
   out.context.payload_kg = random.uniform(0.0, 10.0);
   out.context.payload_com_m = {0.01, 0.02, 0.1};
   out.context.time_s = random.uniform(0.0, 3600.0);
-  out.X_BD = bench.corrector.nominal().forward<double>(out.q);
+  out.X_BD = bench.corrector.nominal().forward(out.q);
   return out;
 }
 

@@ -41,7 +41,7 @@ TEST(Chain, AgreesWithKdlOverRandomArmsAndPoses) {
     const auto q = anywhere(random, parameters);
     const Chain chain(parameters);
     worst =
-        std::max(worst, difference(chain.forward<double>(q), test::KdlArm(parameters).forward(q)));
+        std::max(worst, difference(chain.forward(q), test::KdlArm(parameters).forward(q)));
   }
   std::printf("worst difference %.2e\n", worst);
   EXPECT_LT(worst, 1e-12);
@@ -56,8 +56,8 @@ TEST(Chain, JacobianAgreesWithKdlOverRandomArmsAndPoses) {
     const auto parameters = random.anything();
     const auto q = anywhere(random, parameters);
     const Chain chain(parameters);
-    ChainFrames<double> frames;
-    chain.frames<double>(q, frames);
+    ChainFrames frames;
+    chain.frames(q, frames);
     Jacobian J;
     jacobian(chain, frames, J);
     const Eigen::MatrixXd wanted = test::KdlArm(parameters).jacobian(q);
@@ -74,9 +74,9 @@ TEST(Chain, TipOfTheFramesIsTheForwardPoseBitForBit) {
     const auto parameters = random.anything();
     const auto q = anywhere(random, parameters);
     const Chain chain(parameters);
-    ChainFrames<double> frames;
-    chain.frames<double>(q, frames);
-    const Transformd X = chain.forward<double>(q);
+    ChainFrames frames;
+    chain.frames(q, frames);
+    const Transformd X = chain.forward(q);
     EXPECT_EQ(X.p, frames.tip.p);
     EXPECT_EQ(X.R, frames.tip.R);
   }
@@ -87,8 +87,8 @@ TEST(Chain, EveryJointFrameFollowedByItsConstantReachesTheNext) {
   const auto parameters = random.anything();
   const Chain chain(parameters);
   const auto q = anywhere(random, parameters);
-  ChainFrames<double> frames;
-  chain.frames<double>(q, frames);
+  ChainFrames frames;
+  chain.frames(q, frames);
   const int n = chain.joints();
   const Transformd tip = frames.joint[n - 1] * chain.constant(n);
   EXPECT_EQ(tip.p, frames.tip.p);

@@ -77,8 +77,8 @@ TEST(Corrector, BringsTheTrueArmOntoTheTargetThroughTheControllersOwnInverse) {
   EXPECT_EQ(loop.not_inverted, 0);
   EXPECT_LT(loop.refused, loop.targets / 8);
   EXPECT_LT(loop.position, 1e-9);
-  EXPECT_LT(loop.orientation, 1e-9);
-  EXPECT_LT(loop.kept, 1e-9);
+  EXPECT_LT(loop.orientation, 3e-9);
+  EXPECT_LT(loop.kept, 3e-9);
 }
 
 format::Model exact(const format::Chain& nominal) {
@@ -93,7 +93,7 @@ TEST(Corrector, LeavesTheTargetAloneWhenTheArmIsAsTheControllerBelieves) {
   const Corrector corrector(exact(test::ur10()));
   for (int k = 0; k < 1'000; ++k) {
     const Joints q = random.positions(test::ur10());
-    const Transformd X_BD = corrector.nominal().forward<double>(q);
+    const Transformd X_BD = corrector.nominal().forward(q);
     const auto correction = corrector.solve(X_BD, q, SeedKind::kMeasured);
     if (refused(correction.status)) continue;
     EXPECT_LT((correction.X_BC.p - X_BD.p).norm(), 1e-14);

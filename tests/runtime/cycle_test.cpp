@@ -63,7 +63,7 @@ class Rig {
   void hear_all() {
     const auto n = std::span(q_).first(6);
     in_.target = in_.joints = Arrival::kArrived;
-    in_.X_BD = first_->corrector().nominal().forward<double>(n);
+    in_.X_BD = first_->corrector().nominal().forward(n);
     in_.q_measured = q_;
     in_.q_commanded = Context::unknown();
     in_.context.temperature_degC[0] = {25.0, 0.0};

@@ -65,7 +65,7 @@ TEST(ForwardModel, ReportsTheTreesPartOfThePosition) {
     const auto q = random.positions(model.nominal);
     const auto out = arm.predict(q);
     EXPECT_EQ(out.tree_B, arm.tree_error(q));
-    EXPECT_EQ(out.X_BT.p, Vector3(arm.chain().forward<double>(q).p + out.tree_B));
+    EXPECT_EQ(out.X_BT.p, Vector3(arm.chain().forward(q).p + out.tree_B));
   }
 }
 

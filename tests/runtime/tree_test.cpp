@@ -113,7 +113,10 @@ TEST(TreeView, NaNNeverLeavesTheTreeNorItsBounds) {
 
 TEST(TrainedDomain, WeighsOneInsideZeroBeyondTheFadeAndHalfwayInTheMiddle) {
   const TrainedDomain domain({{-1.0, 0.0}, {1.0, 4.0}, 0.1});
-  const auto weight = [&](double a, double b) { return domain.weight(std::vector<double>{a, b}); };
+  const auto weight = [&](double a, double b) {
+    std::vector<double> u(2);
+    return domain.normalise(std::vector<double>{a, b}, u);
+  };
   EXPECT_EQ(weight(0.0, 2.0), 1.0);
   EXPECT_EQ(weight(-1.0, 4.0), 1.0);
   EXPECT_NEAR(weight(1.1, 2.0), 0.5, 1e-12);   // 0.1 beyond a span of 2, fade 0.1 spans

@@ -50,10 +50,9 @@ Samples correction(const TreeChoice& choice, const Samples& q) {
   std::vector<double> row(q.cols()), u(q.cols());
   for (Eigen::Index i = 0; i < q.rows(); ++i) {
     for (Eigen::Index k = 0; k < q.cols(); ++k) row[k] = q(i, k);
-    domain.normalise(row, u);
+    const double weight = domain.normalise(row, u);
     for (int axis = 0; axis < 3; ++axis)
-      out(i, axis) =
-          domain.weight(row) * TreeView(choice.trees[axis], static_cast<int>(q.cols())).evaluate(u);
+      out(i, axis) = weight * TreeView(choice.trees[axis], static_cast<int>(q.cols())).evaluate(u);
   }
   return out;
 }

@@ -31,7 +31,7 @@ int main() {
   const plumb::Corrector corrector(loaded);
   plumb::Guard guard(loaded.guard);
   const double q[] = {0.1, -1.2, 1.4, 0.3, 1.1, -0.3};
-  const plumb::Transformd target = corrector.nominal().forward<double>(q);
+  const plumb::Transformd target = corrector.nominal().forward(q);
   const auto correction = corrector.solve(target, q, plumb::SeedKind::kCommanded);
   const auto output = guard.step(target, correction, 0.004);
   std::printf("Plumb %s: %s, %.4f mm\n", plumb::format::kVersion, to_string(correction.status),

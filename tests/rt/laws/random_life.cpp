@@ -78,7 +78,7 @@ void RandomInputs::wander() {
 
 Transformd RandomInputs::sound_target() {
   const auto n = model_.nominal.joints.size();
-  Transformd X = corrector_.nominal().forward<double>(std::span<const double>(q_).first(n));
+  Transformd X = corrector_.nominal().forward(std::span<const double>(q_).first(n));
   const auto u = [&] { return random_.uniform(-1e-3, 1e-3); };
   X = exp(format::Twist{{u(), u(), u()}, {u(), u(), u()}}) * X;
   return one_in(random_, 32) ? sound_pose(random_) : X;

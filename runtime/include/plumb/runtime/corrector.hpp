@@ -26,11 +26,10 @@ struct Correction {
 /// The controller knows only its nominal chain N. From a seed q, kInverseSteps times
 /// q <- q + J(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
 /// position; the orientation in T is then the controller's own, that of N(q).
-/// Effects and tree are worked out at the seed and from step kHeldSteps on; in between, where the
-/// steps are still large, those of the seed stand for them.
-/// J is the derivative of the calibrated chain, not of N: for the same price the steps converge
-/// quadratically, also where J_N^+ is large. Only the refusals look at J_N.
-/// Fewer than six joints: the controllable part of the target, position before orientation.
+/// Effects and tree are worked out at the seed, at step kHeldSteps and at the last; in between
+/// those found last stand for them. J is the derivative of the calibrated chain, not of N: for the
+/// same price the steps converge quadratically, also where J_N^+ is large. Only the refusals look
+/// at J_N. Fewer than six joints: the controllable part of the target, position before orientation.
 /// More: the shortest steps from the seed.
 ///
 /// Refused (Status < 0), the first of these that holds:
@@ -69,28 +68,36 @@ class Corrector {
 
  private:
   struct Iterate;
+  struct Held;
+  struct Arm;
+  struct Nominal;
+  enum class Detail : std::uint8_t { kRough, kExact };
+  using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
   using JointPositions = std::array<double, kMaxJoints>;
 
   int joints() const noexcept { return nominal_.joints(); }
   double unit(int i) const noexcept { return nominal_.revolute(i) ? 1.0 : limits_.length_scale_m; }
   void find_controllable(const format::Chain& nominal) noexcept;
-  void scaled_jacobian(const Chain& chain, const ChainFrames<double>& frames,
-                       Jacobian& out) const noexcept;
-  Transformd nominal_pose(const JointPositions& q, Jacobian& J_N) const noexcept;
-  Transformd corrected_pose(std::span<const double> q, const Deviation& deviation, Jacobian& J,
-                            Status& status) const noexcept;
-  void linearise(const Transformd& X_BD, const JointPositions& q, const Deviation& deviation,
+  void scaled_jacobian(const Chain& chain, const ChainFrames& frames, Jacobian& out) const noexcept;
+  void look(const JointPositions& q, Nominal& out) const noexcept;
+  void place(std::span<const double> q, Detail detail, Held& held, Arm& out) const noexcept;
+  void derivative(const Arm& arm, Jacobian& J) const noexcept;
+  void linearise(const Transformd& X_BD, const JointPositions& q, Detail detail, Held& held,
                  Iterate& out) const noexcept;
+  void step_of_six(const Arm& arm, const Vector6& r, Iterate& out) const noexcept;
+  void step_of_others(const Arm& arm, const Vector6& r, Iterate& out) const noexcept;
+  void measure(const Vector6& moved, Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
   bool far(const JointPositions& q, const JointPositions& seed) const noexcept;
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-               const Jacobian& J_N, int seed_sign) const noexcept;
+               const Nominal& N, int seed_sign) const noexcept;
 
   Chain nominal_;
   ForwardModel true_arm_;
   format::GuardLimits limits_{};
-  int position_rank_ = 3;  // generic rank of the nominal Jacobian's position rows
-  int pose_rank_ = 6;      // and of all its rows
+  double per_length_ = 1.0;  // 1 / length_scale_m
+  int position_rank_ = 3;    // generic rank of the nominal Jacobian's position rows
+  int pose_rank_ = 6;        // and of all its rows
 };
 
 }  // namespace plumb

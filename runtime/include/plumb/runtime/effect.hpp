@@ -67,7 +67,7 @@ struct EffectShape {
 struct Situation {
   std::span<const double> q;  // [rad] or [m]
   const Chain& chain;
-  const ChainFrames<double>& frames;
+  const ChainFrames& frames;
   const Loads& loads;
   const Context& context;
   double temperature_degC = kUnknown;          // of the sensor this effect reads
@@ -87,15 +87,24 @@ struct Motion {
 
   /// Twist (d, e) [m, rad] in a frame (R, o): moves the tip at p by R d + (R e) x (p - o).
   void twist(const Transformd& X_BO, const Vector3& tip_B, const Vec3<S>& d, const Vec3<S>& e) {
-    const Vector3 arm = tip_B - X_BO.p;
-    Vec3<S> d_B, e_B;
-    for (int i = 0; i < 3; ++i) {
-      d_B(i) = d(0) * X_BO.R(i, 0) + d(1) * X_BO.R(i, 1) + d(2) * X_BO.R(i, 2);
+    displace(X_BO.R, d);
+    Vec3<S> e_B;
+    for (int i = 0; i < 3; ++i)
       e_B(i) = e(0) * X_BO.R(i, 0) + e(1) * X_BO.R(i, 1) + e(2) * X_BO.R(i, 2);
-    }
-    shift_B(0) += d_B(0) + e_B(1) * arm(2) - e_B(2) * arm(1);
-    shift_B(1) += d_B(1) + e_B(2) * arm(0) - e_B(0) * arm(2);
-    shift_B(2) += d_B(2) + e_B(0) * arm(1) - e_B(1) * arm(0);
+    rotate(e_B, tip_B - X_BO.p);
+  }
+
+  /// Displacement d in a frame of orientation R_B [m].
+  void displace(const Matrix3& R_B, const Vec3<S>& d) {
+    for (int i = 0; i < 3; ++i)
+      shift_B(i) += d(0) * R_B(i, 0) + d(1) * R_B(i, 1) + d(2) * R_B(i, 2);
+  }
+
+  /// Rotation e_B [rad] about a point from which the tip is at arm_B [m].
+  void rotate(const Vec3<S>& e_B, const Vector3& arm_B) {
+    shift_B(0) += e_B(1) * arm_B(2) - e_B(2) * arm_B(1);
+    shift_B(1) += e_B(2) * arm_B(0) - e_B(0) * arm_B(2);
+    shift_B(2) += e_B(0) * arm_B(1) - e_B(1) * arm_B(0);
     for (int i = 0; i < 3; ++i) turn_B(i) += e_B(i);
   }
 };

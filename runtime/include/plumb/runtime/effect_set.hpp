@@ -41,7 +41,6 @@ class EffectSet {
     Apply apply = nullptr;
     EffectShape shape;
     std::span<const double> theta;
-    std::span<const format::ContextNeed> needs;
     int temperature = -1;                                          // sensor
     std::array<std::uint8_t, format::kMaxTemperatures> sensors{};  // of all its temperatures
     std::size_t sensor_count = 0;
@@ -60,46 +59,46 @@ class EffectSet {
     Loads loads;
     bool stood_in = false;  // a fallback was needed
   };
-  void survey(const Chain& chain, const ChainFrames<double>& frames, const Context& context,
+  void survey(const Chain& chain, const ChainFrames& frames, const Context& context,
               Surroundings& out) const noexcept;
 
   /// Adds the motion of effect i with parameters theta instead of the model's.
   template <class S>
   void apply_one(int i, std::span<const S> theta, std::span<const double> q, const Chain& chain,
-                 const ChainFrames<double>& frames, const Surroundings& around,
-                 Motion<S>& out) const {
+                 const ChainFrames& frames, const Surroundings& around, Motion<S>& out) const {
     const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    apply_effect<S>(bound.law, theta, bound.shape, situation(bound, q, chain, frames, around), out);
+    Situation at{
+        .q = q, .chain = chain, .frames = frames, .loads = around.loads, .context = around.context};
+    show(bound, at);
+    apply_effect<S>(bound.law, theta, bound.shape, at, out);
   }
 
-  /// Motion of the arm at one pose. `chain` is the calibrated one, `frames` its frames at q without
-  /// any effect. True if a fallback stood in for an input that was unknown, or if a formula has no
-  /// value here and moved nothing.
-  /// Cost: fixed for a given model. Wait-free, any thread.
-  bool apply(std::span<const double> q, const Chain& chain, const ChainFrames<double>& frames,
-             const Context& context, Motion<double>& out) const noexcept;
+  /// Motion of the arm at one pose. `chain` is the calibrated one. True if a fallback stood in for
+  /// an input that was unknown, or if a formula has no value here and moved nothing. Cost: fixed
+  /// for a given model. Wait-free, any thread.
+  bool apply(std::span<const double> q, const Chain& chain, const Context& context,
+             Motion<double>& out) const noexcept;
 
  private:
-  static bool fill_in(const Bound& bound, Context& context) noexcept;
+  /// An input that effects need, and what stands for it when it is unknown. The first effect that
+  /// needs it says what.
+  struct StandIn {
+    std::size_t input = 0;  // place in Context, counted in numbers
+    double value = 0.0;
+  };
+  static constexpr std::size_t kInputs = sizeof(Context) / sizeof(double);
+
+  void bind(const format::Model& model, const format::Effect& effect, int law) noexcept;
+  void stand_in(const format::ContextNeed& need, const Bound& bound, std::size_t& sensor) noexcept;
+  void stand_in(std::size_t input, double value) noexcept;
   bool fill_in(Context& context) const noexcept;
-  static Situation situation(const Bound& bound, std::span<const double> q, const Chain& chain,
-                             const ChainFrames<double>& frames,
-                             const Surroundings& around) noexcept {
-    const auto sensor = static_cast<std::size_t>(bound.temperature);
-    return {.q = q,
-            .chain = chain,
-            .frames = frames,
-            .loads = around.loads,
-            .context = around.context,
-            .temperature_degC =
-                bound.temperature < 0 ? kUnknown : around.context.temperature_degC[sensor],
-            .sensors = std::span(bound.sensors).first(bound.sensor_count)};
-  }
+  static void show(const Bound& bound, Situation& at) noexcept;
 
   std::array<Bound, format::kMaxEffects> effects_;
+  std::array<StandIn, kInputs> stand_ins_;
+  std::size_t stand_in_count_ = 0;
   int count_ = 0;
-  const format::Model* model_ = nullptr;
-  Transformd X_TF_;  // flange in the tool frame
+  Weights weights_;
 };
 
 }  // namespace plumb

@@ -22,9 +22,8 @@ struct Prediction {
 /// How the arm at one pose departs from its calibrated chain: effects and tree. It changes little
 /// from pose to pose, so that near by it may stand for what it would be there.
 struct Deviation {
-  std::array<double, kMaxJoints> dq{};   // of the joints [rad] or [m]
-  Vector3 shift_B = Vector3::Zero();     // of the tip [m]
-  Matrix3 turn_B = Matrix3::Identity();  // of the tip
+  Motion<double> motion;                 // of joints and tip, by the effects
+  Matrix3 turn_B = Matrix3::Identity();  // the tip's part of it that turns
   Vector3 tree_B = Vector3::Zero();      // [m]
   Status status = Status::kOk;
 };
@@ -47,13 +46,13 @@ class ForwardModel {
   /// The same, with the frame behind every joint of the calibrated chain: joint effects move it,
   /// the twists and the tree do not.
   Prediction predict(std::span<const double> q, const Context& context,
-                     ChainFrames<double>& frames) const noexcept;
+                     ChainFrames& frames) const noexcept;
 
   /// The same in two parts: the second costs no more than the chain alone, and takes what the first
   /// said of this pose or of one near by.
   Deviation deviation_at(std::span<const double> q, const Context& context) const noexcept;
   Prediction predict(std::span<const double> q, const Deviation& deviation,
-                     ChainFrames<double>& frames) const noexcept;
+                     ChainFrames& frames) const noexcept;
 
   /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
@@ -68,7 +67,8 @@ class ForwardModel {
   bool bend(std::span<const double> q, const Deviation& deviation,
             JointPositions& out) const noexcept;
   Prediction finished(const Transformd& X_BT, const Deviation& deviation) const noexcept;
-  Vector3 tree_at(std::span<const double> q) const noexcept;
+  Vector3 tree_at(std::span<const double> q, double& weight) const noexcept;
+  Vector3 trees_at(std::span<const double> u) const noexcept;
 
   Chain chain_;
   EffectSet effects_;

@@ -78,6 +78,9 @@ class Guard {
   Offset wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept;
   void ramp_towards(double goal, double dt) noexcept;
   bool approach(const Offset& goal, double dt) noexcept;
+  static bool approach(const Vector3& goal, double gain, double size, double step,
+                       Vector3& applied) noexcept;
+  bool turns() const noexcept;
   GuardOutput applied_to(const Transformd& X_BD, Status status) noexcept;
 
   format::GuardLimits limits_;

@@ -15,8 +15,8 @@ namespace plumb {
 /// weighed.
 struct Loads {
   struct Behind {
-    double mass;           // of links j … n - 1 and the payload [kg]
-    Vector3 first_moment;  // of those masses about the base [kg m]
+    Vector3 first_moment;  // of links j … n - 1 and the payload about the base [kg m]
+    double mass;           // of the same [kg]
   };
   std::array<Behind, kMaxJoints> joint;
   Vector3 payload_force;           // weight of the payload
@@ -24,45 +24,85 @@ struct Loads {
   Vector3 gravity;                 // [m/s^2]
   Vector3 wrench = {0, 0, 0};      // external, on the tip
   Vector3 tip_moment = {0, 0, 0};  // of the same, about the tip
+  bool pushed = false;             // there is an external wrench
 
-  Vector3 force(int j) const noexcept { return gravity * joint[j].mass + wrench; }
+  Vector3 force(int j) const noexcept {
+    const Vector3 weight = gravity * joint[j].mass;
+    return pushed ? Vector3(weight + wrench) : weight;
+  }
 
   /// About the origin of joint j.
-  Vector3 moment(int j, const ChainFrames<double>& frames) const noexcept {
+  Vector3 moment(int j, const ChainFrames& frames) const noexcept {
     const Vector3& origin = frames.joint[j].p;
     const Vector3 arm = joint[j].first_moment - origin * joint[j].mass;
-    return cross<double>(arm, gravity) + wrench_moment(j, frames);
+    const Vector3 weight = cross<double>(arm, gravity);
+    return pushed ? Vector3(weight + wrench_moment(j, frames)) : weight;
+  }
+
+  /// About the origin of the base, of all there is.
+  Vector3 base_moment(const ChainFrames& frames) const noexcept {
+    const Vector3 weight = cross<double>(joint[0].first_moment, gravity);
+    if (!pushed) return weight;
+    return weight + cross<double>(frames.tip.p, wrench) + tip_moment;
   }
 
   /// About the axis of joint j [N m]; along it [N] if it slides: of all it carries, of the payload
   /// alone, of the external wrench alone.
-  double torque(int j, const Chain& chain, const ChainFrames<double>& frames) const noexcept {
-    return along(j, chain, frames, force(j), moment(j, frames));
+  double torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
+    return dot(frames.joint[j].R.col(2), chain.revolute(j) ? moment(j, frames) : force(j));
   }
-  double payload_torque(int j, const Chain& chain,
-                        const ChainFrames<double>& frames) const noexcept {
+  double payload_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
     return along(j, chain, frames, payload_force,
                  cross<double>(payload_at - frames.joint[j].p, payload_force));
   }
-  double wrench_torque(int j, const Chain& chain,
-                       const ChainFrames<double>& frames) const noexcept {
+  double wrench_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
     return along(j, chain, frames, wrench, wrench_moment(j, frames));
   }
 
  private:
-  Vector3 wrench_moment(int j, const ChainFrames<double>& frames) const noexcept {
+  Vector3 wrench_moment(int j, const ChainFrames& frames) const noexcept {
+    if (!pushed) return Vector3::Zero();
     return cross<double>(frames.tip.p - frames.joint[j].p, wrench) + tip_moment;
   }
-  static double along(int j, const Chain& chain, const ChainFrames<double>& frames,
-                      const Vector3& force, const Vector3& moment) noexcept {
+  static double along(int j, const Chain& chain, const ChainFrames& frames, const Vector3& force,
+                      const Vector3& moment) noexcept {
     return dot(frames.joint[j].R.col(2), chain.revolute(j) ? moment : force);
   }
 };
 
-/// masses: of link j, centre of mass in the frame P_j behind its joint; the payload's in the flange
-/// frame. An unknown payload is the nominal one. Cost: fixed for given mechanics.
-void weigh(const Chain& chain, const ChainFrames<double>& frames,
-           const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
-           const Transformd& X_TF, const Context& context, Loads& out) noexcept;
+/// The masses of a model, ready for the cycle.
+class Weights {
+ public:
+  Weights() = default;
+
+  /// X_TF: the flange in the tool frame, where the payload's centre is given.
+  Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
+          const Transformd& X_TF, int joints) noexcept;
+
+  /// Where the masses hang: of link j in the frame P_j behind its joint, the payload in the tool
+  /// frame. An unknown payload is the nominal one.
+  void hang(const Context& context, ChainPoints& of_frames) const noexcept;
+
+  /// Loads with those points in the base frame, or with the frames they hang in. Cost: fixed.
+  void weigh(const ChainPoints& points_B, const Context& context, Loads& out) const noexcept;
+  void weigh(const Chain& chain, const ChainFrames& frames, const Context& context,
+             Loads& out) const noexcept;
+
+ private:
+  double payload_kg(const Context& context) const noexcept;
+
+  ChainPoints centres_{};  // without the payload
+  std::array<double, kMaxJoints> mass_{};
+  Vector3 gravity_ = Vector3::Zero();
+  Transformd X_TF_;
+  double payload_kg_ = 0.0;
+  Vector3 payload_com_F_ = Vector3::Zero();
+  std::size_t joints_ = 0;
+};
+
+/// The same for masses that are weighed once.
+void weigh(const Chain& chain, const ChainFrames& frames, const format::Mechanics& mechanics,
+           const std::array<double, 3>& gravity, const Transformd& X_TF, const Context& context,
+           Loads& out) noexcept;
 
 }  // namespace plumb

@@ -81,6 +81,12 @@ using Transformd = Transform<double>;
 /// Exp of a twist (d, e): rotation exp([e]x), translation V(e) d. Exact for any |e|, also zero.
 Transformd exp(const format::Twist& xi) noexcept;
 
+/// A B, each column summed in a fixed order.
+Matrix3 product(const Matrix3& A, const Matrix3& B) noexcept;
+
+/// Exp of a rotation vector [rad].
+Matrix3 rotation_of(const Vector3& e) noexcept;
+
 /// Rotation vector of R [rad], |r| <= pi; the inverse of exp for pure rotations.
 Vector3 rotation_vector(const Matrix3& R) noexcept;
 

@@ -16,12 +16,14 @@ class TrainedDomain {
   explicit TrainedDomain(const format::Domain& domain) noexcept;
 
   /// u_i in [-1, 1] inside the box; clamped to the box outside. Shape (n,) each.
-  void normalise(std::span<const double> q, std::span<double> u) const noexcept;
-
-  /// 1 inside the box, falling linearly to 0 at `fade` spans outside it (worst joint counts).
-  double weight(std::span<const double> q) const noexcept;
+  /// Returns how far to trust the trees: 1 inside the box, falling linearly to 0 at `fade` spans
+  /// outside it (worst joint counts).
+  double normalise(std::span<const double> q, std::span<double> u) const noexcept;
 
  private:
+  template <int kJoints>
+  double normalise(const double* q, double* u) const noexcept;
+
   int joints_ = 0;
   double fade_inverse_ = 0.0;
   std::array<double, format::kMaxJoints> mid_{};
@@ -120,6 +122,7 @@ class TreeView {
   int degree_ = 1;
   int depth_ = 0;
   int leaves_ = 0;
+  int sure_depth_ = 0;  // compares that every walk needs
 };
 
 /// What a leaf's coefficients multiply: 1, u_i, and for degree 2 the products u_i u_k, i <= k.

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "plumb/runtime/plain.hpp"
 #include "plumb/runtime/tree.hpp"
@@ -21,51 +22,46 @@ struct OpenNode {
 /// Beyond this share of a ramp from its end a side's weight is lost in rounding: it has no say.
 inline constexpr double kRampEnd = 0x1p-26;
 
-/// Unsigned integers in the order of the numbers. Integers compare and choose in a third of the
-/// time that floating-point numbers take, and a walk waits for every compare.
-constexpr std::uint64_t order_key(std::uint64_t bits) noexcept {
-  const auto sign = static_cast<std::uint64_t>(static_cast<std::int64_t>(bits) >> 63);
-  return bits ^ (sign | std::uint64_t{1} << 63);
-}
-
-/// Of an input: 0 counts as -0, which is greater than neither zero.
-inline std::uint64_t input_key(double x) noexcept {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  return order_key(bits | static_cast<std::uint64_t>(bits == 0) << 63);
-}
-
-using InputKeys = std::array<std::uint64_t, format::kMaxJoints>;
-
-inline InputKeys input_keys(std::span<const double> u) noexcept {
-  InputKeys out;
-  for (std::size_t i = 0; i < u.size(); ++i) out[i] = input_key(u[i]);
-  return out;
-}
-
 /// What a walk reads where there is no node.
 inline constexpr format::TreeNode kNoNode{};
 
-/// A walk down a crisp tree. Masks, because compilers make branches of choices. Behind a leaf it
-/// starts again at the root, which does no harm, and the first leaf stays the one found.
+/// The child on either side, read without a choice: compilers make branches of choices, and these
+/// cannot be foreseen.
+inline std::int64_t child(const format::TreeNode& node, bool is_high) noexcept {
+  static_assert(offsetof(format::TreeNode, high) ==
+                offsetof(format::TreeNode, low) + sizeof(node.low));
+  std::int16_t out;
+  std::memcpy(&out,
+              reinterpret_cast<const std::byte*>(&node) + offsetof(format::TreeNode, low) +
+                  sizeof out * static_cast<std::size_t>(is_high),
+              sizeof out);
+  return out;
+}
+
+/// A walk down a crisp tree.
 class HardWalk {
  public:
   HardWalk(const format::TreeNode* nodes, int leaves) noexcept
-      : nodes_(nodes), found_(leaves > 1 ? 0 : ~0), at_(found_) {}
+      : nodes_(nodes), at_(leaves > 1 ? 0 : ~0) {}
 
-  void step(const InputKeys& keys) noexcept {
-    const format::TreeNode& node = nodes_[at_ & ~(at_ >> 63)];
-    const std::uint64_t threshold = order_key(std::bit_cast<std::uint64_t>(node.threshold));
-    const std::int64_t is_high = -static_cast<std::int64_t>(threshold < keys[node.input]);
-    const std::int64_t low = node.low, high = node.high;
-    at_ = low ^ ((low ^ high) & is_high);
-    found_ ^= (found_ ^ at_) & ~(found_ >> 63);
+  /// One compare, where there is no leaf yet.
+  void step_down(const double* u) noexcept {
+    const format::TreeNode& node = nodes_[at_];
+    at_ = child(node, u[node.input] > node.threshold);
   }
 
-  int leaf() const noexcept { return static_cast<int>(~found_); }
+  /// One compare. In a leaf the walk stands still: the root is read again and its answer dropped.
+  void step(const double* u) noexcept {
+    const std::int64_t stays = at_ >> 63;
+    const format::TreeNode& node = nodes_[at_ & ~stays];
+    at_ = (at_ & stays) | (child(node, u[node.input] > node.threshold) & ~stays);
+  }
+
+  int leaf() const noexcept { return static_cast<int>(~at_); }
 
  private:
   const format::TreeNode* nodes_;
-  std::int64_t found_, at_;
+  std::int64_t at_;
 };
 
 /// Identity in [low, high], C1 beyond it, never further out than kSoftShare of the range:

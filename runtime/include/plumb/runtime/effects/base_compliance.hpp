@@ -24,12 +24,11 @@ struct BaseCompliance {
 
   template <class S>
   static void apply(std::span<const S> k, const EffectShape&, const Situation& at, Motion<S>& out) {
-    const Vector3 moment =
-        at.loads.moment(0, at.frames) + cross<double>(at.frames.joint[0].p, at.loads.force(0));
-    out.twist(Transformd{}, at.frames.tip.p, Vec3<S>(S(0.0), S(0.0), S(0.0)),
-              Vec3<S>(k[0] * moment(0) + k[3] * moment(1) + k[4] * moment(2),
-                      k[3] * moment(0) + k[1] * moment(1) + k[5] * moment(2),
-                      k[4] * moment(0) + k[5] * moment(1) + k[2] * moment(2)));
+    const Vector3 moment = at.loads.base_moment(at.frames);
+    out.rotate(Vec3<S>(k[0] * moment(0) + k[3] * moment(1) + k[4] * moment(2),
+                       k[3] * moment(0) + k[1] * moment(1) + k[5] * moment(2),
+                       k[4] * moment(0) + k[5] * moment(1) + k[2] * moment(2)),
+               at.frames.tip.p);
   }
 };
 

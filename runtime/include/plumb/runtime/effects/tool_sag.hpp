@@ -27,11 +27,9 @@ struct ToolSag {
   template <class S>
   static void apply(std::span<const S> c, const EffectShape&, const Situation& at, Motion<S>& out) {
     const Vector3 pull = transpose_times<double>(at.frames.tip.R, at.loads.payload_force);
-    out.twist(at.frames.tip, at.frames.tip.p,
-              Vec3<S>(c[0] * pull(0) + c[1] * pull(1) + c[2] * pull(2),
-                      c[3] * pull(0) + c[4] * pull(1) + c[5] * pull(2),
-                      c[6] * pull(0) + c[7] * pull(1) + c[8] * pull(2)),
-              Vec3<S>(S(0.0), S(0.0), S(0.0)));
+    out.displace(at.frames.tip.R, Vec3<S>(c[0] * pull(0) + c[1] * pull(1) + c[2] * pull(2),
+                                          c[3] * pull(0) + c[4] * pull(1) + c[5] * pull(2),
+                                          c[6] * pull(0) + c[7] * pull(1) + c[8] * pull(2)));
   }
 };
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "plumb/runtime/transform.hpp"
+
+namespace plumb {
+
+/// As many numbers as the machine works on at once, lane by lane; the bits are the same everywhere.
+#ifdef __AVX__
+inline constexpr std::size_t kPackedLanes = 4;
+#else
+inline constexpr std::size_t kPackedLanes = 2;
+#endif
+using Packed = double __attribute__((vector_size(kPackedLanes * sizeof(double))));
+using PackedBits = std::int64_t __attribute__((vector_size(kPackedLanes * sizeof(double))));
+
+/// Four numbers worked on together: one register, or two. (GCC would take a vector that is longer
+/// than its registers through memory.)
+#ifdef __AVX__
+using Lanes = Packed;
+#else
+struct Lanes {
+  Packed low, high;
+
+  Lanes() = default;
+  Lanes(double a, double b, double c, double d) : low{a, b}, high{c, d} {}
+  Lanes(const Packed& first, const Packed& last) : low(first), high(last) {}
+  double operator[](std::size_t i) const { return i < 2 ? low[i] : high[i - 2]; }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) {
+    return {a.low * b.low, a.high * b.high};
+  }
+  friend Lanes operator*(const Lanes& a, double b) { return {a.low * b, a.high * b}; }
+};
+#endif
+
+inline Packed load(const double* from) {
+  Packed out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+
+inline void store(const Packed& numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
+
+/// The first `count` numbers from there, and zeros; all of them if there are more.
+inline Packed load_some(const double* from, std::size_t count) {
+  if (count >= kPackedLanes) return load(from);
+#ifdef __AVX__
+  return Packed{from[0], count > 1 ? from[1] : 0.0, count > 2 ? from[2] : 0.0, 0.0};
+#else
+  return Packed{from[0], 0.0};
+#endif
+}
+
+/// A pose X_AB by its columns: the axes of B and its origin, in A; the fourth lane is 0 in an axis
+/// and 1 in the origin.
+class Columns {
+ public:
+  explicit Columns(const Transformd& X)
+      : x_{X.R(0, 0), X.R(1, 0), X.R(2, 0), 0.0},
+        y_{X.R(0, 1), X.R(1, 1), X.R(2, 1), 0.0},
+        z_{X.R(0, 2), X.R(1, 2), X.R(2, 2), 0.0},
+        p_{X.p(0), X.p(1), X.p(2), 1.0} {}
+
+  /// X_AB <- X_AB Rz.
+  void turn(double sin, double cos) {
+    const Lanes before = x_;
+    x_ = before * cos + y_ * sin;
+    y_ = y_ * cos - before * sin;
+  }
+
+  /// X_AB <- X_AB Tz.
+  void slide(double length) { p_ = p_ + z_ * length; }
+
+  /// X_AB <- X_AB X_BC.
+  void append(const Transformd& X_BC) {
+    const double* c = X_BC.R.data();
+    const Lanes bx = x_, by = y_, bz = z_;
+    x_ = bx * c[0] + by * c[1] + bz * c[2];
+    y_ = bx * c[3] + by * c[4] + bz * c[5];
+    z_ = bx * c[6] + by * c[7] + bz * c[8];
+    p_ = (bx * X_BC.p(0) + by * X_BC.p(1) + bz * X_BC.p(2)) + p_;
+  }
+
+  /// X_AB <- X_AB Tz(d) Tx(a) Rx(alpha): the same numbers as by its matrix, without the zeros.
+  void append_link(double d, double a, double sin_alpha, double cos_alpha) {
+    const Lanes by = y_, bz = z_;
+    p_ = (x_ * a + bz * d) + p_;
+    y_ = by * cos_alpha + bz * sin_alpha;
+    z_ = bz * cos_alpha - by * sin_alpha;
+  }
+
+  /// The point c of frame B, in A.
+  Lanes point(const double* c) const { return x_ * c[0] + y_ * c[1] + z_ * c[2] + p_; }
+
+  /// Whole registers: each is written over the end of the one before.
+  void store(Transformd& out) const {
+    static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
+    const Lanes end{z_[2], p_[0], p_[1], p_[2]};
+    auto* bytes = reinterpret_cast<std::byte*>(&out);
+    std::memcpy(bytes, &x_, sizeof x_);
+    std::memcpy(bytes + 3 * sizeof(double), &y_, sizeof y_);
+    std::memcpy(bytes + 6 * sizeof(double), &z_, sizeof z_);
+    std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
+  }
+
+  Transformd pose() const {
+    Transformd out;
+    store(out);
+    return out;
+  }
+
+ private:
+  Lanes x_, y_, z_, p_;
+};
+
+}  // namespace plumb
