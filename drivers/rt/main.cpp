@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "rt/verb_control.hpp"
 #include "rt/verb_doctor.hpp"
+#include "rt/verb_replay.hpp"
+#include "rt/verb_run.hpp"
 
 int main(int argc, char** argv) {
+  using namespace plumb::drivers;
   plumb::Program program(
       {.name = "plumb-rt",
        .about = "The controller-side program: the real-time cycle between a target source and the "
@@ -10,6 +14,11 @@ int main(int argc, char** argv) {
                    "  plumb-rt doctor --cycle-us 1000   # and for 1 kHz?",
        .first = "plumb-rt doctor"},
       plumb::WorksIn::kAnywhere);
-  plumb::drivers::rt::add_doctor(program);
+  rt::add_run(program);
+  rt::add_status(program);
+  rt::add_monitor(program);
+  rt::add_swap(program);
+  rt::add_replay(program);
+  rt::add_doctor(program);
   return program.run(argc, argv);
 }

@@ -264,6 +264,90 @@ constexpr Explanation kCodes[] = {
      "nothing "
      "of it is left when geometry has been fitted."},
     {"E-SIM-JOINT", "A joint of a hidden effect does not exist in this cell, or has no size."},
+    {"E-CELL-BUS",
+     "The bus layout of [deploy.bus], or the default one with this cycle_us, cannot be used: "
+     "identifiers or registers out of range or shared, a scale, period or bit rate of 0, a number "
+     "too small for the arm, or more than 70 % of the bus at worst. Nothing was written."},
+    {"W-DEPLOY-TEMPERATURES",
+     "The compiled model listens to more temperatures than message context holds, so in the cycle "
+     "it goes by their declared fallbacks. [deploy.bus] temperatures = N makes room; the "
+     "controller sends them in the order of the message."},
+    {"E-RT-KEY",
+     "rt.toml has a key that plumb-rt does not know; nothing was sent. Rename it as proposed."},
+    {"E-RT-TYPE", "A value of rt.toml is of the wrong type. The message says what is expected."},
+    {"E-RT-RANGE", "A value of rt.toml is out of its range. The message says which is allowed."},
+    {"E-RT-MISSING",
+     "rt.toml lacks a key without which plumb-rt does not start; plumb deploy writes a complete "
+     "one."},
+    {"E-RT-BUS",
+     "The bus layout in rt.toml cannot be used, for the same reasons as E-CELL-BUS. Nothing was "
+     "sent."},
+    {"E-RT-MODEL",
+     "The model file is damaged, is none, or needs an effect that this plumb-rt does not know. "
+     "Nothing was sent; plumb inspect says more."},
+    {"E-RT-SERIAL",
+     "The model was made for another robot than rt.toml or the running model names. A correction "
+     "of one arm makes another worse, so it is refused."},
+    {"E-RT-SUMS",
+     "A file of the folder is not what SHA256SUMS lists. Deploy again, or find out who changed "
+     "it."},
+    {"E-RT-CSV",
+     "The file of targets has a wrong column or number. It is read as plumb correct reads its "
+     "targets."},
+    {"E-RT-LINK",
+     "The bus cannot be opened: interface, port, device or rights. Nothing was sent. plumb-rt "
+     "doctor lists the CAN interfaces."},
+    {"E-RT-RIGHTS",
+     "The machine denies SCHED_FIFO or the processor that rt.toml asks for. plumb-rt doctor says "
+     "how to grant it; priority = 0 runs without, for trying only."},
+    {"W-RT-RIGHTS",
+     "The machine denies something that a real-time process should have; cycles may be missed. "
+     "plumb-rt doctor says how to grant it."},
+    {"E-RT-RUNNING",
+     "Another plumb-rt runs from this folder; two would be two senders of one identifier. plumb-rt "
+     "status shows it."},
+    {"E-RT-NOT-RUNNING", "No plumb-rt runs from this folder, so there is none to ask."},
+    {"E-RT-CONTROL",
+     "There is no place for the socket over which status, monitor and swap speak to plumb-rt, or "
+     "what came over it was no answer."},
+    {"E-RT-METRICS",
+     "The port for the metrics cannot be listened on; it is taken, or needs a right. It is on the "
+     "loopback address only."},
+    {"E-RT-RECORD", "The record cannot be made: folder, space or rights."},
+    {"E-RT-SINK", "The file of answers cannot be made: folder, space or rights."},
+    {"E-RT-SWAP",
+     "The new model has another nominal arm or other sensors than the running one, or a swap is "
+     "under way. The running model runs on."},
+    {"E-RT-LOST",
+     "The bus was down for longer than give_up_s of rt.toml; without that key plumb-rt waits for "
+     "ever."},
+    {"E-RT-CLOCK", "The system's clock cannot sleep, so there is no cycle."},
+    {"E-RT-REPLAY", "The file holds no cycle that plumb-rt recorded."},
+    {"E-RT-REPLAY-DIFFERS",
+     "With this folder the session decides otherwise than it did when it was recorded: another "
+     "model, other limits, or another version of plumb-rt."},
+    {"E-TWIN-BUS",
+     "The bus of the twin cannot be opened, or its layout cannot be used. The message gives the "
+     "system's reason."},
+    {"E-TWIN-KEY", "twin.toml has a key that plumb-twin does not know."},
+    {"E-TWIN-TYPE", "A value of twin.toml is of the wrong type."},
+    {"E-TWIN-RANGE", "A value of twin.toml is out of its range."},
+    {"E-TWIN-MISSING", "twin.toml lacks a key; plumb-twin new writes a complete one."},
+    {"E-TWIN-SILENT",
+     "Nothing was heard of plumb-rt in time. Is it running, on the same bus and layout? plumb-rt "
+     "status shows it."},
+    {"E-TWIN-INACTIVE",
+     "plumb-rt answers, but sent no correction in time: rt.toml says mode = \"shadow\", or its "
+     "state is not active. plumb-rt status says why."},
+    {"E-TWIN-PATH",
+     "A station of the path cannot be reached by the nominal arm, or too few lie away from "
+     "singular poses."},
+    {"E-TWIN-FRAME",
+     "The cell fits the tracker's frame or target, so an absolute error has no frame to be stated "
+     "in. Give both, as plumb-twin new does."},
+    {"E-TWIN-FAULT",
+     "--fault names no fault, or gives it no size or time. plumb-twin run --list-faults shows "
+     "them."},
     {"E-EXPLAIN",
      "plumb explain knows messages, effects, status texts and terms; without a word it lists "
      "them."},

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "plumb/drivers/bus_layout.hpp"
 #include "plumb/format/model.hpp"
 #include "program/problem.hpp"
 
@@ -77,6 +78,10 @@ struct FitSettings {
 struct DeploySettings {
   double cycle_s = 0.004;
   double max_correction_m = 0.003;
+  drivers::BusUse link = drivers::BusUse::kCan;
+  std::string interface = "can0";              // of CAN
+  std::string address = "127.0.0.1";           // of a controller that speaks Modbus TCP
+  std::optional<drivers::BusLayout> bus = {};  // none: the default one
 };
 
 /// A cell file, read and checked. SI inside: [m], [rad]; places keep the text for messages.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "bus_text/layout_toml.hpp"
 #include "cell/cell.hpp"
 #include "cell/cell_sections.hpp"
 #include "cell/effects_edit.hpp"
@@ -168,6 +169,13 @@ class CellWriter {
   void deploy() {
     line("[deploy]\ncycle_us = {}", text_in(us_, cell_.deploy.cycle_s));
     line("max_correction_mm = {}", text_in(mm_, cell_.deploy.max_correction_m));
+    const DeploySettings standard;
+    if (cell_.deploy.link == drivers::BusUse::kModbus) line("link = \"modbus\"");
+    if (cell_.deploy.interface != standard.interface)
+      line("interface = {}", toml_string(cell_.deploy.interface));
+    if (cell_.deploy.address != standard.address)
+      line("address = {}", toml_string(cell_.deploy.address));
+    if (cell_.deploy.bus) out_ += "\n" + drivers::write_bus(*cell_.deploy.bus, "deploy.bus");
   }
 
   const Unit mm_ = *unit_of("mm"), um_ = *unit_of("um"), us_ = *unit_of("us");

@@ -80,18 +80,4 @@ void read_fit(TomlTable& t, CellDraft& draft) {
   t.done();
 }
 
-void read_deploy(TomlTable& t, CellDraft& draft) {
-  DeploySettings& deploy = draft.cell.deploy;
-  if (const auto cycle = t.number("cycle_us")) {
-    deploy.cycle_s = unit_of("us")->to_si(*cycle);
-    if (*cycle < 100.0 || *cycle > 1e6) t.out_of_range("cycle_us", "between 100 and 1000000");
-  }
-  if (const auto most = t.number("max_correction_mm")) {
-    deploy.max_correction_m = unit_of("mm")->to_si(*most);
-    if (*most <= 0.0 || *most > 50.0)
-      t.out_of_range("max_correction_mm", "greater than 0, at most 50");
-  }
-  t.done();
-}
-
 }  // namespace plumb::offline

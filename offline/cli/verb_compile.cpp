@@ -5,15 +5,13 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
+#include "cli/compiled.hpp"
 #include "cli/model_file.hpp"
 #include "cli/output_files.hpp"
-#include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "compile/audit.hpp"
-#include "compile/compiler.hpp"
 #include "compile/emit_c.hpp"
 #include "show/audit_view.hpp"
-#include "show/units.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -27,46 +25,6 @@ struct Options {
   bool gate = false;
   WriteOptions write;
 };
-
-/// With --refit-all the numbers come from every pose; the run stays the evidence behind them.
-format::Model compiled(const Options& options, const Cell& cell, const Measurements& measured,
-                       Run run) {
-  const std::string kept = run.number > 0 ? fmt::format("{:04}", run.number) : "not kept";
-  if (options.refit_all) {
-    const Progress progress("calibrating on every pose");
-    run = draft_run(cell, measured, fit_all(cell, measured));
-  }
-  format::Model model = compile(cell, run);
-  model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
-  return model;
-}
-
-/// What --gate asks: no warning of the audit, and 95 % of the held-out poses within tolerance.
-void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
-                Outcome& outcome) {
-  const auto fail = [&](const std::string& why) {
-    outcome.exit = Exit::kGateFailed;
-    outcome.errors.push_back({.code = "E-GATE",
-                              .message = "--gate: " + why + "; nothing was written",
-                              .help = "to write it nevertheless, leave out --gate"});
-  };
-  for (const auto& remark : audit.remarks)
-    if (remark.severity == Severity::kWarning) fail(remark.message);
-  const auto& held = model.provenance.held_out;
-  if (held.poses > 0 && held.p95_m > tolerance_m)
-    fail(fmt::format("the held-out error at 95 %, {} mm, exceeds the tolerance of {} mm",
-                     show::mm(held.p95_m), show::mm(tolerance_m)));
-}
-
-std::string headline(const format::Model& model) {
-  const auto& held = model.provenance.held_out;
-  const std::string error = held.poses == 0
-                                ? "no held-out figure"
-                                : fmt::format("held-out mean {} mm, 95 % {} mm",
-                                              show::mm(held.mean_m), show::mm(held.p95_m));
-  return fmt::format("Compiled {} for {} (serial {}): {}.\n\n", model.cell_name, model.robot_name,
-                     model.serial, error);
-}
 
 Json result_of(const format::Model& model, const Audit& audit, const std::string& file) {
   const auto& held = model.provenance.held_out;
@@ -113,13 +71,14 @@ void compile_cell(const Options& options, const Globals& globals, Outcome& outco
   const Measurements measured = open_measurements(cell, outcome);
   Run run = current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
                                outcome);
-  const format::Model model = compiled(options, cell, measured, std::move(run));
+  const format::Model model = compiled(cell, measured, std::move(run),
+                                       options.refit_all ? Poses::kEveryPose : Poses::kOfTheRun);
   const OutputFiles files = files_of(options, file, model);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   outcome.result = result_of(model, found, file.string());
   if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
-  const std::string text = headline(model) + show::audit_text(found, model);
+  const std::string text = compiled_headline(model) + show::audit_text(found, model);
   if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;

@@ -134,6 +134,11 @@ TEST(CellMessage, OfSettingsOutOfRange) {
   EXPECT_EQ(with("payload = { mass_kg = -1 }"), Summary{"E-CELL-RANGE 5:23"});
   EXPECT_EQ(with("[deploy]\ncycle_us = 1"), Summary{"E-CELL-RANGE 6:12"});
   EXPECT_EQ(with("[deploy]\nmax_correction_mm = 0"), Summary{"E-CELL-RANGE 6:21"});
+  EXPECT_EQ(with("[deploy]\nlink = \"cam\""), Summary{"E-CELL-RANGE 6:8"});
+  EXPECT_EQ(with("[deploy]\ninterface = \"\""), Summary{"E-CELL-RANGE 6:13"});
+  EXPECT_EQ(with("[deploy.bus]\nbit_rate = 0"), Summary{"E-CELL-BUS 6:12"});
+  EXPECT_EQ(with("[deploy.bus.target]\ncan_id = 0x800"), Summary{"E-CELL-BUS 6:10"});
+  EXPECT_EQ(with("[deploy.bus]\nbitrate = 1"), Summary{"E-CELL-KEY 6:1"});
   EXPECT_EQ(with("[effects.local_tree]\nmin_gain = \"2\""), Summary{"E-CELL-RANGE 6:12"});
   EXPECT_EQ(with("[effects.local_tree]\nform = \"smooth\""), Summary{"E-CELL-RANGE 6:8"});
   EXPECT_EQ(with("[effects.local_tree]\nsplits = \"both\""), Summary{"E-CELL-RANGE 6:10"});

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <random>
 
+#include "bus_text/bus_arm.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "support.hpp"
@@ -86,6 +87,15 @@ HeldOutRule random_rule(Dice& dice, const std::filesystem::path& folder) {
   }
 }
 
+/// Wide enough for any joint; the numbers of a layout are compared in tests/drivers/wire.
+drivers::BusLayout random_bus(Dice& dice, const Cell& cell) {
+  const auto arm = drivers::bus_arm(cell.nominal, cell.deploy.cycle_s);
+  auto out = drivers::arm_layout(arm, dice.below(4), drivers::CorrectionForm::kPose);
+  out.can_format = drivers::CanFrame::Format::kFd;
+  if (dice.coin()) out.byte_order = drivers::ByteOrder::kBig;
+  return out;
+}
+
 Cell random_cell(Dice& dice, const std::filesystem::path& folder) {
   const char* const lengths[] = {"mm", "m", "um", "in"};
   const char* const angles[] = {"deg", "rad", "mrad"};
@@ -123,7 +133,12 @@ Cell random_cell(Dice& dice, const std::filesystem::path& folder) {
   c.fit.model = dice.coin() ? FitSettings::Model::kDh : FitSettings::Model::kComplete;
   if (dice.coin()) c.fit.fixed = {c.nominal.joints[0].name + ".d", "frame.x"};
   if (dice.coin()) c.fit.priors = {{c.nominal.joints[0].name + ".a", dice.uniform(1e-5, 1e-3)}};
-  c.deploy = {dice.uniform(1e-3, 1e-2), dice.uniform(1e-3, 1e-2)};
+  c.deploy.cycle_s = dice.uniform(4e-3, 1e-2);
+  c.deploy.max_correction_m = dice.uniform(1e-3, 1e-2);
+  if (dice.coin()) c.deploy.link = drivers::BusUse::kModbus;
+  if (dice.coin()) c.deploy.interface = "vcan1";
+  if (dice.coin()) c.deploy.address = "192.168.0.7";
+  if (dice.coin()) c.deploy.bus = random_bus(dice, c);
   return c;
 }
 
@@ -202,6 +217,10 @@ void expect_same(const Cell& a, const Cell& b) {
   }
   expect_near(a.deploy.cycle_s, b.deploy.cycle_s);
   expect_near(a.deploy.max_correction_m, b.deploy.max_correction_m);
+  EXPECT_EQ(a.deploy.link, b.deploy.link);
+  EXPECT_EQ(a.deploy.interface, b.deploy.interface);
+  EXPECT_EQ(a.deploy.address, b.deploy.address);
+  EXPECT_EQ(a.deploy.bus.has_value(), b.deploy.bus.has_value());
 }
 
 TEST(RoundTrip, OfACellGivesTheSameCellAndThenTheSameText) {

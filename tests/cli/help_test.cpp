@@ -9,9 +9,9 @@
 
 namespace {
 
-const std::vector<std::string> kVerbs{"demo",    "new",     "simulate", "check",   "fit",
-                                      "compare", "runs",    "diff",     "compile", "inspect",
-                                      "predict", "correct", "bench",    "explain"};
+const std::vector<std::string> kVerbs{
+    "demo",    "new",     "simulate", "check", "fit", "compare", "runs",       "diff",   "compile",
+    "inspect", "predict", "correct",  "bench", "dbc", "deploy",  "modbus-map", "explain"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;

@@ -26,6 +26,9 @@ class Writing : public testing::Test {
         {"new", "cell", "--dh", "dh.csv", "--convention", "standard"},
         {"-C", "cell", "simulate"},
         {"-C", "cell", "compile"},
+        {"-C", "cell", "deploy", "-o", "cell"},
+        {"-C", "cell", "dbc", "-o", "cell/cell.toml"},
+        {"-C", "cell", "modbus-map", "-o", "cell/cell.toml"},
         {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "cell/cell.toml"},
         {"-C", "cell", "predict", "--as-measured", "-o", "cell/cell.toml"},
         {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "cell/cell.toml"},
@@ -63,6 +66,9 @@ TEST_F(Writing, DryRunWritesNothing) {
            {"-C", "cell", "simulate", "-o", "m.csv", "--truth", "t.json", "--dry-run"},
            {"-C", "cell", "fit", "--dry-run"},
            {"-C", "cell", "compile", "-o", "r.plumb", "--dry-run"},
+           {"-C", "cell", "deploy", "-o", "d", "--dry-run"},
+           {"-C", "cell", "dbc", "-o", "b.dbc", "--dry-run"},
+           {"-C", "cell", "modbus-map", "-o", "m.md", "--dry-run"},
            {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "p.csv",
             "--dry-run"},
            {"-C", "cell", "predict", "--as-measured", "-o", "p.csv", "--dry-run"},
@@ -78,6 +84,8 @@ TEST_F(Writing, AFolderThatCannotBeMadeIsExitFive) {
   for (const auto& words : std::vector<std::vector<std::string>>{
            {"demo", "beam", "dh.csv/cell"},
            {"-C", "cell", "compile", "-o", "dh.csv/robot.plumb"},
+           {"-C", "cell", "deploy", "-o", "dh.csv/deploy"},
+           {"-C", "cell", "dbc", "-o", "dh.csv/bus.dbc"},
            {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "dh.csv/p.csv"},
            {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "dh.csv/c.csv"}}) {
     const Ran ran = box.plumb(words);

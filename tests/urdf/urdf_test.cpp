@@ -81,7 +81,7 @@ double worst_difference(const KDL::Chain& kdl, const format::Chain& ours, Random
     for (unsigned j = 0; j < n; ++j) own.push_back(q(j) = dice.uniform(-2, 2));
     KDL::Frame there;
     solver.JntToCart(q, there);
-    const Transformd X = chain.forward<double>(own);
+    const Transformd X = chain.forward(own);
     for (int i = 0; i < 3; ++i) {
       worst = std::max(worst, std::abs(X.p(i) - there.p(i)));
       for (int j = 0; j < 3; ++j) worst = std::max(worst, std::abs(X.R(i, j) - there.M(i, j)));
@@ -130,7 +130,7 @@ TEST(Urdf, WrittenAndReadAgainIsTheSameArm) {
     const Chain a(cell.nominal), b(again.nominal);
     std::vector<double> q;
     for (int j = 0; j < cell.joints(); ++j) q.push_back(dice.uniform(-2, 2));
-    EXPECT_LT((a.forward<double>(q).p - b.forward<double>(q).p).norm(), 1e-9);
+    EXPECT_LT((a.forward(q).p - b.forward(q).p).norm(), 1e-9);
   }
 }
 

@@ -4,9 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "plumb/drivers/bus_message.hpp"
-#include "plumb/format/limits.hpp"
 #include "plumb/runtime/status.hpp"
 #include "plumb/runtime/transform.hpp"
 
@@ -24,7 +25,8 @@ enum class SessionState : std::uint8_t {
 
 enum class CorrectionMode : std::uint8_t { kShadow = 0, kLimited = 1, kFull = 2 };
 
-/// What the controller says of itself. Flags not known count as the safe side.
+/// What the controller says of itself. If a value of the message is none that can be, all of it
+/// counts as the safe side.
 struct ControllerState {
   bool drives_on = false;
   bool automatic = false;  // operating mode automatic
@@ -34,6 +36,15 @@ struct ControllerState {
   std::uint8_t tool = 0;            // active tool, frame, payload as the controller numbers them
   std::uint8_t frame = 0;
   std::uint8_t payload = 0;
+};
+
+/// The value "flags" of kController.
+enum ControllerFlag : unsigned {
+  kDrivesOn = 1,
+  kAutomatic = 2,
+  kProtectiveStop = 4,
+  kCorrectionEnabled = 8,
+  kAcknowledge = 16,
 };
 
 struct SessionStatus {
@@ -46,7 +57,9 @@ struct SessionStatus {
   std::uint16_t stale = 0;
 };
 
-/// Positions [m] and rotation vectors [rad]; joints [rad] or [m].
+/// Positions [m] and rotation vectors [rad] in the base frame; joints [rad] or [m]. An offset is
+/// added to the position, and its rotation is about the axes of the base frame: R = exp(r) R_D. One
+/// with a value that is not finite adds nothing.
 BusMessage pose_message(MessageKind kind, const Transformd& pose, std::uint16_t counter);
 std::optional<Transformd> pose_in(const BusMessage& message);  // none: not finite
 BusMessage offset_message(const Transformd& desired, const Transformd& corrected,
@@ -58,8 +71,8 @@ ControllerState controller_in(const BusMessage& message);
 BusMessage status_message(const SessionStatus& status, std::uint16_t counter);
 SessionStatus status_in(const BusMessage& message);
 
-/// 24 bits (exact in every number the bus has) that stand for a robot's serial number, and for the
-/// bytes of a model file.
+/// 1 to 2^23 - 1, exact in every number the bus has: stands for a robot's serial number, and for
+/// the bytes of a model file.
 std::uint32_t fingerprint(std::string_view text);
 BusMessage robot_message(std::uint32_t fingerprint, std::uint16_t counter);
 BusMessage signature_message(std::uint32_t model, std::uint32_t robot, std::uint16_t counter);

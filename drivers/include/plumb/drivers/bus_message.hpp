@@ -25,7 +25,7 @@ enum class MessageKind : std::uint8_t {
 };
 inline constexpr std::size_t kMessageKinds = 11;
 
-inline constexpr std::size_t kMaxMessageValues = 12;
+inline constexpr std::size_t kMaxMessageValues = 14;  // what one frame of CAN FD can hold
 
 /// One message, complete and checked, with its values in SI (m, rad, kg, degC, s); NaN: not known.
 struct BusMessage {

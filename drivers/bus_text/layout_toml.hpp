@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "bus_text/bus_arm.hpp"
+#include "plumb/drivers/bus_layout.hpp"
+#include "program/toml_table.hpp"
+
+namespace plumb::drivers {
+
+/// The table [bus] of rt.toml and [deploy.bus] of cell.toml. What it does not say is as in
+/// default_layout.
+///
+///   can_format = "classic"        # or "fd"
+///   id_kind = "standard"          # or "extended"
+///   byte_order = "little"         # of CAN values, counters and check sums; or "big"
+///   word_order = "big"            # of the two registers of a Modbus value; or "little"
+///   correction = "pose"           # or "offset": the difference to the target
+///   bit_rate = 1000000
+///   data_bit_rate = 4000000       # of CAN FD
+///   temperatures = 0              # sensors that the controller reports
+///   [bus.target]                  # a table a message; also adds commanded to six joints and fewer
+///   can_id = 0x118
+///   register = 1048
+///   period_us = 4000
+///   count_um = 1                  # what a count of its lengths and angles is
+///   count_urad = 1
+///
+/// Problems go to the table's source, unknown keys and every fault of the layout (code BUS) among
+/// them; the result then is not to be used.
+BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use);
+
+/// Reports a fault at its key, its message's table or the whole table (code BUS).
+void report_fault(TomlTable& bus, const LayoutFault& fault);
+
+/// The same table with everything said, so that nothing hangs on a default. `path`: "bus".
+std::string write_bus(const BusLayout& layout, const std::string& path);
+
+}  // namespace plumb::drivers

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus_text/reach.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plumb/drivers/can_form.hpp"
+
+namespace plumb::drivers {
+namespace {
+
+/// The largest count of a value.
+double most_counts(const BusLayout& layout, const MessageLayout& message) {
+  return std::ldexp(1.0, 8 * can_form(layout, message).value_bytes - 1) - 1.0;
+}
+
+/// Counts of `needed`, in whole micrometres or microradians, that fit.
+double count_for(double needed, double most) {
+  return std::ceil(needed / most * 1e6 * 10.0) / 10.0;
+}
+
+void check_joints(const BusLayout& layout, const MessageLayout& message, const format::Chain& chain,
+                  std::vector<LayoutFault>& out) {
+  const double most = most_counts(layout, message);
+  for (std::size_t i = 0; i < std::min(message.signals.size(), chain.joints.size()); ++i) {
+    const auto& row = chain.joints[i];
+    const Signal& signal = message.signals[i];
+    const double needed = std::max(std::abs(row.q_min), std::abs(row.q_max));
+    if (needed <= most * signal.scale) continue;
+    out.push_back({message.name, "count_" + signal.unit,
+                   fmt::format("{} of {} reaches {:.4g} {unit}, but the joint {:.4g} {unit}",
+                               signal.name, message.name, most * signal.scale, needed,
+                               fmt::arg("unit", signal.unit == "um" ? "m" : "rad")),
+                   fmt::format("[deploy.bus.{}] count_{} = {:.10g}", message.name, signal.unit,
+                               count_for(needed, most))});
+  }
+}
+
+void check_offset(const BusLayout& layout, const MessageLayout& message, double needed,
+                  std::vector<LayoutFault>& out) {
+  const double most = most_counts(layout, message);
+  const double reach = most * message.signals.front().scale;
+  if (needed <= reach) return;
+  out.push_back({message.name, "count_um",
+                 fmt::format("an offset reaches {:.4g} mm, but a correction {:.4g} mm", reach * 1e3,
+                             needed * 1e3),
+                 fmt::format("[deploy.bus.offset] count_um = {:.10g}", count_for(needed, most))});
+}
+
+}  // namespace
+
+std::vector<LayoutFault> find_short_reach(const BusLayout& layout, const format::Chain& chain,
+                                          double max_correction_m) {
+  std::vector<LayoutFault> out;
+  if (layout.can_format == CanFrame::Format::kFd) return out;
+  for (const MessageLayout& message : layout.messages)
+    if (message.kind == MessageKind::kJoints || message.kind == MessageKind::kCommanded)
+      check_joints(layout, message, chain, out);
+    else if (message.kind == MessageKind::kOffset)
+      check_offset(layout, message, max_correction_m, out);
+  return out;
+}
+
+}  // namespace plumb::drivers

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plumb/drivers/bus_layout.hpp"
+#include "plumb/drivers/modbus_codec.hpp"
+#include "plumb/drivers/modbus_exchange.hpp"
+
+namespace plumb::drivers {
+
+/// The registers of a server: which there are, who may write them, and what they hold.
+///
+/// Heap: only in the constructor. Thread: one, that of the link.
+class ModbusRegisters {
+ public:
+  ModbusRegisters(const BusLayout& layout, Sender self, std::int64_t stale_after_ns,
+                  ModbusExchange& exchange);
+
+  /// first .. first + count - 1 lie between the layout's first register and its last; those of no
+  /// message are 0.
+  bool readable(std::uint16_t first, std::uint16_t count) const noexcept;
+  /// They all belong to messages of the peer.
+  bool writable(std::uint16_t first, std::uint16_t count) const noexcept;
+
+  /// readable(first, count) holds. Ours are renewed first; the result is good until the next call.
+  std::span<const std::uint16_t> read(std::uint16_t first, std::uint16_t count,
+                                      std::int64_t now_ns) noexcept;
+
+  /// writable(first, 1) holds. Delivers a message when the last register of its block is written.
+  void write(std::uint16_t address, std::uint16_t value, std::int64_t now_ns) noexcept;
+
+ private:
+  static constexpr std::size_t kAddresses = 65536;
+  struct Message {
+    MessageKind kind = MessageKind::kJoints;
+    std::uint16_t first = 0;
+    std::uint16_t count = 0;
+    std::int64_t stale_after_ns = 0;
+    std::int64_t time_ns = 0;  // ours: when the cycle sent it
+    bool sound = false;        // ours: there is one, and its check sum fits
+  };
+
+  std::span<std::uint16_t> block(const Message& message) noexcept;
+  void renew(Message& message, std::int64_t now_ns) noexcept;
+  void hear(const Message& message, std::int64_t now_ns) noexcept;
+
+  ModbusCodec codec_;
+  ModbusExchange* exchange_;
+  std::vector<std::uint16_t> values_;
+  std::vector<bool> peers_;  // whose messages have the register
+  std::size_t begin_ = kAddresses;
+  std::size_t end_ = 0;
+  std::vector<Message> ours_;
+  std::vector<Message> theirs_;
+};
+
+}  // namespace plumb::drivers

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/answer_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "plumb/drivers/bus_content.hpp"
+#include "program/file.hpp"
+#include "program/problem.hpp"
+
+namespace plumb::drivers::rt {
+
+AnswerFile::AnswerFile(const std::filesystem::path& file) : file_(std::fopen(file.c_str(), "wxe")) {
+  if (file_ == nullptr)
+    throw Failure(
+        Exit::kEnvironment,
+        {.code = "E-RT-SINK",
+         .message = fmt::format("cannot write {}: {}", display_name(file), std::strerror(errno)),
+         .help = "choose another file in rt.toml, [sink] file"});
+  std::fputs("t_s,counter,cx_mm,cy_mm,cz_mm,cqw,cqx,cqy,cqz\n", file_);
+}
+
+AnswerFile::~AnswerFile() { std::fclose(file_); }
+
+void AnswerFile::add(const BusMessage& corrected) {
+  if (corrected.kind != MessageKind::kCorrected) return;
+  const auto X_BC = pose_in(corrected);
+  if (!X_BC) return;
+  const format::Pose pose = to_pose(*X_BC);
+  const std::string line =
+      fmt::format("{:.6f},{},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}\n",
+                  1e-9 * static_cast<double>(corrected.time_ns), corrected.counter, 1e3 * pose.p[0],
+                  1e3 * pose.p[1], 1e3 * pose.p[2], pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
+  sound_ = std::fputs(line.c_str(), file_) >= 0 && sound_;
+}
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/deployment.hpp"
+
+#include <algorithm>
+
+#include "bus_text/layout_toml.hpp"
+#include "plumb/drivers/bus_content.hpp"
+#include "program/file.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+/// A file carries what Modbus carries.
+BusUse use_of(const SourceConfig& source) {
+  return source.kind == SourceConfig::Kind::kCan ? BusUse::kCan : BusUse::kModbus;
+}
+
+void complete(Deployment& out) {
+  SessionSettings& session = out.session = out.config.session;
+  const double cycle_s = 1e-6 * out.config.cycle_us;
+  session.robot = fingerprint(out.model.loaded->model().serial);
+  session.form = out.config.sink.kind == SinkConfig::Kind::kCsv ? CorrectionForm::kPose
+                                                                : out.layout.correction;
+  session.target.period_s = cycle_s;
+  if (const auto* target = out.layout.find(MessageKind::kTarget))
+    session.target.period_s = target->period_s;
+  session.cycle_s = cycle_s;
+  session.answer_s = std::max(session.answer_s, 3.0 * cycle_s);
+  if (const auto* status = out.layout.find(MessageKind::kStatus))
+    session.status_s = status->period_s;
+  if (const auto* signature = out.layout.find(MessageKind::kSignature))
+    session.signature_s = signature->period_s;
+}
+
+}  // namespace
+
+Deployment load_deployment(const std::filesystem::path& folder) {
+  Deployment out;
+  out.folder = folder;
+  const std::filesystem::path file = folder / "rt.toml";
+  TomlSource source(display_name(file), read_file(file), "E-RT");
+  const toml::table parsed = source.parse();
+  TomlTable top(parsed, "", source);
+  out.config = read_rt_config(top, folder);
+  auto bus = top.table("bus");
+  top.done();
+  source.stop_on_errors();
+  verify_sums(folder);
+  out.model = load_model(out.config.model, out.config.serial);
+  const BusArm arm = bus_arm(out.model.loaded->model().nominal, 1e-6 * out.config.cycle_us);
+  const toml::table nothing;
+  TomlTable absent(nothing, "bus", source);
+  out.layout = read_bus(bus ? *bus : absent, arm, use_of(out.config.source));
+  source.stop_on_errors();
+  complete(out);
+  return out;
+}
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "plumb/drivers/bus_layout.hpp"
+#include "rt/rt_config.hpp"
+#include "rt/running_model.hpp"
+
+namespace plumb::drivers::rt {
+
+/// A folder that `plumb deploy` wrote, read and found good: rt.toml, the model, and the layout.
+struct Deployment {
+  std::filesystem::path folder;
+  RtConfig config;
+  RunningModel model;
+  BusLayout layout;
+  SessionSettings session;  // of the configuration, completed by model and layout
+};
+
+/// Throws Failure (kInput) with everything that is wrong: codes E-RT-..., E-TOML. Sends nothing,
+/// opens no bus. Slow.
+Deployment load_deployment(const std::filesystem::path& folder);
+
+}  // namespace plumb::drivers::rt

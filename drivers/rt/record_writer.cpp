@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/record_writer.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "program/file.hpp"
+#include "program/problem.hpp"
+#include "rt/record_line.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+constexpr std::size_t kBlock = 64 << 10;
+
+std::filesystem::path free_name(const std::filesystem::path& file) {
+  std::filesystem::path out = file;
+  for (int i = 1; std::filesystem::exists(out); ++i) out = fmt::format("{}.{}", file.string(), i);
+  return out;
+}
+
+}  // namespace
+
+RecordWriter::RecordWriter(const std::filesystem::path& file, const BusLayout& layout,
+                           std::string bus)
+    : file_(free_name(file)), codec_(layout), bus_(std::move(bus)) {
+  fd_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd_ >= 0) return;
+  throw Failure(Exit::kEnvironment,
+                {.code = "E-RT-RECORD",
+                 .message = fmt::format("cannot write the record {}: {}", display_name(file_),
+                                        std::strerror(errno)),
+                 .help = "choose another file in rt.toml, [log] record, or leave it out"});
+}
+
+RecordWriter::~RecordWriter() {
+  flush();
+  ::close(fd_);
+}
+
+void RecordWriter::add_line(const std::string& interface, const CanFrame& frame) {
+  text_ += to_line({interface, frame}) + "\n";
+  last_ns_ = frame.time_ns;
+  if (text_.size() >= kBlock) flush();
+}
+
+void RecordWriter::add(const RecordEntry& entry) {
+  using What = RecordEntry::What;
+  if (!failure_.empty()) return;
+  if (entry.what == What::kTick) return add_line(kTickName, tick_frame(entry.tick));
+  for (CanFrame frame : codec_.encode(entry.message)) {
+    frame.time_ns = entry.message.time_ns;
+    add_line(entry.what == What::kNotSent ? kUnsentName : bus_, frame);
+  }
+}
+
+void RecordWriter::note_lost(std::uint64_t lost) {
+  if (lost == lost_ || !failure_.empty()) return;
+  CanFrame frame{.length = 8, .time_ns = last_ns_};
+  for (unsigned i = 0; i < 8; ++i)
+    frame.data[i] = static_cast<std::uint8_t>((lost - lost_) >> (8 * i));
+  add_line(kGapName, frame);
+  lost_ = lost;
+}
+
+void RecordWriter::flush() {
+  while (!text_.empty() && failure_.empty()) {
+    const auto written = ::write(fd_, text_.data(), text_.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      failure_ = fmt::format("{}: {}", file_.string(), std::strerror(errno));
+      std::ignore = ::ftruncate(fd_, static_cast<off_t>(length_));
+      text_.clear();
+      return;
+    }
+    const auto taken = static_cast<std::size_t>(written);
+    const std::size_t last_end = text_.rfind('\n', taken - 1);
+    if (last_end != std::string::npos && last_end < taken) length_ = end_ + last_end + 1;
+    end_ += taken;
+    text_.erase(0, taken);
+  }
+}
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <fstream>
+#include <memory>
+
+#include "plumb/drivers/can_codec.hpp"
+#include "program/file.hpp"
+#include "program/problem.hpp"
+#include "rt/open_bus.hpp"
+#include "rt/record_line.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+/// id#data alone: which time and interface are not the session's business.
+std::string said(const CanFrame& frame) {
+  const std::string line = to_line({"x", frame});
+  return line.substr(line.rfind(' ') + 1);
+}
+
+class Player {
+ public:
+  explicit Player(const Deployment& deployment)
+      : model_(deployment.model.fingerprint),
+        slot_(*deployment.model.loaded),
+        session_(std::make_unique<Session>(slot_, deployment.session)),
+        heard_(record_layout(deployment)),
+        sent_(record_layout(deployment)),
+        layout_(record_layout(deployment)) {}
+
+  void take(const std::string& text) {
+    ++out_.lines;
+    const auto line = parse_line(text);
+    if (!line) {
+      ++out_.unreadable;
+    } else if (line->interface == kTickName) {
+      step(tick_in(line->frame));
+    } else if (line->interface == kGapName) {
+      ++out_.gaps;
+    } else if (is_ours(line->frame)) {
+      compare(line->frame);
+    } else {
+      hear(line->frame);
+    }
+  }
+
+  bool goes_on() const { return !out_.model_changed; }
+
+  Replayed result() && {
+    flush();
+    out_.report = session_->report();
+    return std::move(out_);
+  }
+
+ private:
+  bool is_ours(const CanFrame& frame) const {
+    for (const MessageLayout& message : layout_.messages)
+      if (message.sender == Sender::kPlumb && frame.id >= message.can_id &&
+          frame.id < message.can_id + can_frames(layout_, message))
+        return true;
+    return false;
+  }
+
+  void hear(const CanFrame& frame) {
+    BusMessage message;
+    if (heard_.hear(frame, message) != Heard::kComplete) return;
+    message.time_ns = frame.time_ns;
+    ++out_.messages;
+    session_->hear(message);
+  }
+
+  void step(const SessionTick& tick) {
+    flush();
+    out_.model_changed = tick.model != model_;
+    if (out_.model_changed) return;
+    ++out_.cycles;
+    for (const BusMessage& message : session_->step(tick).sent())
+      for (const CanFrame& frame : sent_.encode(message)) expected_.push_back(said(frame));
+    out_.frames += expected_.size();
+  }
+
+  void compare(const CanFrame& frame) {
+    const std::string now = expected_.empty() ? "nothing" : expected_.front();
+    if (!expected_.empty()) expected_.pop_front();
+    if (now != said(frame)) differ(said(frame), now);
+  }
+
+  /// What was expected of the last cycle and is not in the record.
+  void flush() {
+    for (const auto& now : expected_) differ("nothing", now);
+    expected_.clear();
+  }
+
+  void differ(const std::string& recorded, const std::string& now) {
+    if (++out_.different == 1)
+      out_.first_difference =
+          fmt::format("line {}: recorded {}, now {}", out_.lines, recorded, now);
+  }
+
+  std::uint32_t model_;
+  ModelSlot slot_;
+  std::unique_ptr<Session> session_;
+  CanCodec heard_;
+  CanCodec sent_;
+  BusLayout layout_;
+  std::deque<std::string> expected_;
+  Replayed out_;
+};
+
+}  // namespace
+
+Replayed replay(const std::filesystem::path& record, const Deployment& deployment) {
+  Player player(deployment);
+  std::ifstream in(record);
+  for (std::string line; player.goes_on() && std::getline(in, line);) player.take(line);
+  Replayed out = std::move(player).result();
+  if (out.cycles > 0 || out.model_changed) return out;
+  throw Failure(Exit::kInput,
+                {.code = "E-RT-REPLAY",
+                 .message = fmt::format("{} holds no cycle of plumb-rt", display_name(record)),
+                 .help = "record one: rt.toml, [log] record = \"record.log\""});
+}
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/rt_config.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace plumb::drivers::rt {
+namespace {
+
+constexpr double kMilli = 1e-3, kMicro = 1e-6, kDegree = std::numbers::pi / 180.0;
+
+struct Range {
+  int least, most;
+};
+
+void read_whole(TomlTable& table, const char* key, Range range, int& out) {
+  const auto value = table.number(key);
+  if (!value) return;
+  if (*value != std::floor(*value) || *value < range.least || *value > range.most)
+    return table.out_of_range(key,
+                              fmt::format("a whole number, {} to {}", range.least, range.most));
+  out = static_cast<int>(*value);
+}
+
+void read_positive(TomlTable& table, const char* key, double unit, double& out) {
+  if (const auto value = table.positive(key)) out = *value * unit;
+}
+
+void read_number_of(TomlTable& table, const char* key, std::optional<std::uint8_t>& out) {
+  int value = -1;
+  read_whole(table, key, {0, 255}, value);
+  if (value >= 0) out = static_cast<std::uint8_t>(value);
+}
+
+std::filesystem::path in(const std::filesystem::path& folder, const std::string& file) {
+  return file.empty() ? std::filesystem::path{} : folder / file;
+}
+
+void read_model(TomlTable table, const std::filesystem::path& folder, RtConfig& out) {
+  out.model = in(folder, table.text_or("file", "robot.plumb"));
+  out.serial = table.text_or("serial", "");
+  table.done();
+}
+
+void read_cycle(TomlTable table, RtConfig& out) {
+  read_whole(table, "cycle_us", {100, 1'000'000}, out.cycle_us);
+  read_whole(table, "priority", {0, 99}, out.priority);
+  read_whole(table, "cpu", {-1, 1023}, out.cpu);
+  if (const auto seconds = table.not_negative("give_up_s")) out.give_up_s = *seconds;
+  table.done();
+}
+
+void read_modbus(TomlTable& table, SourceConfig& out) {
+  out.role = table.choice("role", {"client", "server"}) == "client" ? SourceConfig::Role::kClient
+                                                                    : SourceConfig::Role::kServer;
+  out.address = table.text_or("address", out.address);
+  read_whole(table, "port", {1, 65535}, out.port);
+  read_whole(table, "unit", {0, 255}, out.unit);
+  for (const auto& peer : table.texts("peers")) out.peers.push_back(peer.text);
+  out.device = table.text_or("device", "");
+  read_whole(table, "baud", {300, 4'000'000}, out.baud);
+  out.interface = table.text_or("interface", "");
+}
+
+SourceConfig read_source(TomlTable table, const std::filesystem::path& folder) {
+  SourceConfig out;
+  const std::string kind = table.choice("kind", {"can", "modbus", "csv"});
+  if (kind == "can") {
+    out.interface = table.text_or("interface", out.interface);
+    if (out.interface.empty() || out.interface.size() > 15)
+      table.out_of_range("interface", "the name of a CAN interface, 1 to 15 characters");
+  } else if (kind == "modbus") {
+    out.kind = SourceConfig::Kind::kModbus;
+    read_modbus(table, out);
+  } else {
+    out.kind = SourceConfig::Kind::kCsv;
+    out.file = in(folder, table.text_or("file", ""));
+    if (out.file.empty()) table.missing("file", "file = \"targets.csv\"");
+  }
+  table.done();
+  return out;
+}
+
+SinkConfig read_sink(TomlTable table, const std::filesystem::path& folder) {
+  SinkConfig out;
+  if (table.choice("kind", {"same", "csv"}) == "csv") {
+    out.kind = SinkConfig::Kind::kCsv;
+    out.file = in(folder, table.text_or("file", ""));
+    if (out.file.empty()) table.missing("file", "file = \"corrected.csv\"");
+  }
+  table.done();
+  return out;
+}
+
+void read_limits(TomlTable table, SessionSettings& out) {
+  const std::string mode = table.choice("mode", {"shadow", "limited", "full"});
+  out.mode = mode == "full"      ? CorrectionMode::kFull
+             : mode == "limited" ? CorrectionMode::kLimited
+                                 : CorrectionMode::kShadow;
+  read_positive(table, "target_speed_mm_s", kMilli, out.target.speed_m_s);
+  read_positive(table, "target_speed_deg_s", kDegree, out.target.speed_rad_s);
+  read_positive(table, "target_step_mm", kMilli, out.target.step_m);
+  read_positive(table, "target_step_deg", kDegree, out.target.step_rad);
+  read_positive(table, "limited_mm", kMilli, out.share.limited_m);
+  read_positive(table, "limited_scale", 1.0, out.share.limited_scale);
+  if (out.share.limited_scale > 1.0)
+    table.out_of_range("limited_scale", "greater than 0, 1 at most");
+  table.done();
+}
+
+void read_expect(TomlTable table, InputSettings& out) {
+  read_number_of(table, "tool", out.tool);
+  read_number_of(table, "frame", out.frame);
+  read_number_of(table, "payload", out.payload);
+  table.done();
+}
+
+void read_sync(TomlTable table, SyncSettings& out) {
+  read_whole(table, "poses", {1, 100'000}, out.poses);
+  read_positive(table, "position_um", kMicro, out.position_m);
+  read_positive(table, "rotation_urad", kMicro, out.rotation_rad);
+  table.done();
+}
+
+void read_log(TomlTable table, const std::filesystem::path& folder, RtConfig& out) {
+  out.record = in(folder, table.text_or("record", ""));
+  read_whole(table, "metrics_port", {0, 65535}, out.metrics_port);
+  table.done();
+}
+
+}  // namespace
+
+RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder) {
+  RtConfig out;
+  out.model = folder / out.model;
+  if (!top.text("schema")) top.missing("schema", "schema = \"rt/1\"");
+  top.choice("schema", {"rt/1"});
+  if (auto table = top.table("model")) read_model(*table, folder, out);
+  if (auto table = top.table("cycle")) read_cycle(*table, out);
+  if (auto table = top.table("source")) out.source = read_source(*table, folder);
+  if (auto table = top.table("sink")) out.sink = read_sink(*table, folder);
+  if (auto table = top.table("limits")) read_limits(*table, out.session);
+  if (auto table = top.table("expect")) read_expect(*table, out.session.inputs);
+  if (auto table = top.table("sync")) read_sync(*table, out.session.sync);
+  if (auto table = top.table("log")) read_log(*table, folder, out);
+  return out;
+}
+
+}  // namespace plumb::drivers::rt

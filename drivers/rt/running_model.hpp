@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "plumb/runtime/loaded_model.hpp"
+
+namespace plumb::drivers::rt {
+
+/// A model that may run, and the fingerprint of its file.
+struct RunningModel {
+  std::unique_ptr<const LoadedModel> loaded;
+  std::uint32_t fingerprint = 0;
+  std::string sha256;
+};
+
+/// Reads and verifies a model file. Throws Failure (kInput): E-RT-MODEL, or E-RT-SERIAL if
+/// `serial` is not empty and not the model's. Slow.
+RunningModel load_model(const std::filesystem::path& file, const std::string& serial);
+
+/// If the folder holds SHA256SUMS, every file it names is what it says, or Failure (kInput,
+/// E-RT-SUMS). A file that the list does not name is not looked at.
+void verify_sums(const std::filesystem::path& folder);
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "rt/status_text.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+const char* to_string(LinkState state) {
+  switch (state) {
+    case LinkState::kUp:
+      return "up";
+    case LinkState::kDegraded:
+      return "degraded";
+    case LinkState::kDown:
+      return "down";
+  }
+  return "unknown";
+}
+
+Json lost_json(Lost lost) {
+  Json out = Json::array();
+  for (int i = 0; i < kLostBits; ++i) {
+    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
+    if (has(lost, one)) out.push_back(drivers::to_string(one));
+  }
+  return out;
+}
+
+Json ages_json(const SessionReport& report) {
+  Json out;
+  const auto add = [&out](const char* key, double age_s) {
+    put(out, key, 1e3 * age_s, "never heard");
+  };
+  add("target_ms", report.target_age_s);
+  add("joints_ms", report.joints_age_s);
+  add("controller_ms", report.controller_age_s);
+  add("robot_ms", report.robot_age_s);
+  return out;
+}
+
+Json sync_json(const SyncCounters& sync) {
+  return {{"agreed", sync.agreed},          {"distinct", sync.distinct},
+          {"compared", sync.compared},      {"mismatched", sync.mismatched},
+          {"last_um", 1e6 * sync.last_m},   {"last_urad", 1e6 * sync.last_rad},
+          {"worst_um", 1e6 * sync.worst_m}, {"worst_urad", 1e6 * sync.worst_rad}};
+}
+
+Json counters_json(const SessionReport& report) {
+  const SessionCounters& c = report.counters;
+  const GuardCounters& g = report.guard;
+  return {{"cycles", c.cycles},
+          {"targets", c.targets},
+          {"answered", c.answered},
+          {"repeated", c.repeated},
+          {"out_of_order", c.out_of_order},
+          {"no_pose", c.no_pose},
+          {"too_far", c.too_far},
+          {"too_fast", c.too_fast},
+          {"too_old", c.too_old},
+          {"holds", c.holds},
+          {"faults", c.faults},
+          {"refused", g.refused},
+          {"limited", g.limited},
+          {"stale", g.stale},
+          {"swaps", g.swaps}};
+}
+
+Json link_json(const RunSnapshot& snapshot, const std::string& bus) {
+  const PortCounters& p = snapshot.port;
+  return {{"bus", bus},
+          {"state", to_string(snapshot.link)},
+          {"received", p.received},
+          {"sent", p.sent},
+          {"corrupt", p.corrupt},
+          {"repeated", p.repeated},
+          {"skipped", p.skipped},
+          {"overflowed", p.overflowed},
+          {"not_sent", p.not_sent},
+          {"reconnects", p.reconnects},
+          {"foreign_senders", p.foreign_senders}};
+}
+
+Json histogram_json(const LatencyHistogram& histogram) {
+  const auto us = [&](double share) {
+    return 1e-3 * static_cast<double>(histogram.percentile_ns(share));
+  };
+  Json bins = Json::array();
+  constexpr std::size_t kOctave = LatencyHistogram::kBinsPerOctave;
+  for (std::size_t i = 0; i < LatencyHistogram::kBins; i += kOctave) {
+    std::uint64_t count = 0;
+    for (std::size_t k = i; k < i + kOctave; ++k) count += histogram.in_bin(k);
+    if (count > 0)
+      bins.push_back({{"from_us", 1e-3 * static_cast<double>(LatencyHistogram::lower_ns(i))},
+                      {"count", count}});
+  }
+  return {{"median_us", us(0.5)}, {"p99_us", us(0.99)}, {"worst_us", us(1.0)}, {"bins", bins}};
+}
+
+}  // namespace
+
+Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
+  const SessionReport& report = snapshot.session;
+  return {
+      {"state", drivers::to_string(report.state)},
+      {"mode", drivers::to_string(report.mode)},
+      {"fault", drivers::to_string(report.cause)},
+      {"status", plumb::to_string(report.status)},
+      {"lost", lost_json(report.lost)},
+      {"has_output", report.has_output},
+      {"correction",
+       {{"wanted_um", 1e6 * report.wanted_m},
+        {"wanted_urad", 1e6 * report.wanted_rad},
+        {"applied_um", 1e6 * report.applied_m},
+        {"applied_urad", 1e6 * report.applied_rad}}},
+      {"ages", ages_json(report)},
+      {"sync", sync_json(report.sync)},
+      {"counters", counters_json(report)},
+      {"link", link_json(snapshot, facts.bus)},
+      {"clock",
+       {{"ticks", snapshot.clock.ticks},
+        {"missed", snapshot.clock.missed},
+        {"overruns", snapshot.clock.overruns},
+        {"late_wakes", snapshot.clock.late_wakes}}},
+      {"wake", histogram_json(snapshot.wake)},
+      {"work", histogram_json(snapshot.work)},
+      {"model",
+       {{"file", facts.model_file},
+        {"sha256", facts.model_sha256},
+        {"fingerprint", snapshot.model}}},
+      {"record",
+       {{"file", facts.record}, {"failure", facts.record_failure}, {"lost", facts.record_lost}}}};
+}
+
+}  // namespace plumb::drivers::rt

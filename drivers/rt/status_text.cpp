@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/status_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace plumb::drivers::rt {
+namespace {
+
+double number(const Json& json, const char* key) {
+  return json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0.0;
+}
+
+std::string age(const Json& ages, const char* key) {
+  return ages[key].is_number() ? fmt::format("{:.1f} ms", ages[key].get<double>()) : "never";
+}
+
+std::string all(const Json& object) {
+  std::string out;
+  for (const auto& [key, value] : object.items())
+    if (value.is_number())
+      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", value.dump(), key);
+  return out;
+}
+
+std::string latency(const Json& histogram) {
+  return fmt::format("median {:.1f} us, p99 {:.1f} us, worst {:.1f} us",
+                     number(histogram, "median_us"), number(histogram, "p99_us"),
+                     number(histogram, "worst_us"));
+}
+
+std::string bars(const Json& histogram) {
+  double most = 1.0;
+  for (const auto& bin : histogram["bins"]) most = std::max(most, number(bin, "count"));
+  std::string out;
+  for (const auto& bin : histogram["bins"])
+    out +=
+        fmt::format("  {:>10.1f} us {:>10} {}\n", number(bin, "from_us"), bin["count"].dump(),
+                    std::string(static_cast<std::size_t>(40.0 * number(bin, "count") / most), '#'));
+  return out;
+}
+
+std::string reasons(const Json& status) {
+  std::string out;
+  for (const auto& one : status["lost"])
+    out += (out.empty() ? ", waits for: " : ", ") + one.get<std::string>();
+  const auto fault = status["fault"].get<std::string>();
+  return out + (fault == "none" ? "" : ", fault: " + fault);
+}
+
+}  // namespace
+
+std::string status_text(const Json& status) {
+  const Json& correction = status["correction"];
+  std::string out = fmt::format("{}, mode {}, {}{}\n", status["state"].get<std::string>(),
+                                status["mode"].get<std::string>(),
+                                status["status"].get<std::string>(), reasons(status));
+  out += fmt::format(
+      "correction  {:.1f} um, {:.1f} urad on the target; the model asks for {:.1f} um\n",
+      number(correction, "applied_um"), number(correction, "applied_urad"),
+      number(correction, "wanted_um"));
+  const Json& ages = status["ages"];
+  out += fmt::format("ages        target {}, joints {}, controller {}, robot {}\n",
+                     age(ages, "target_ms"), age(ages, "joints_ms"), age(ages, "controller_ms"),
+                     age(ages, "robot_ms"));
+  const Json& sync = status["sync"];
+  out += fmt::format("poses       {} agreed, {} of them apart; last {:.1f} um, worst {:.1f} um\n",
+                     sync["agreed"].dump(), sync["distinct"].dump(), number(sync, "last_um"),
+                     number(sync, "worst_um"));
+  out += fmt::format("counters    {}\n", all(status["counters"]));
+  out += fmt::format("link        {} {}: {}\n", status["link"]["bus"].get<std::string>(),
+                     status["link"]["state"].get<std::string>(), all(status["link"]));
+  out += fmt::format("clock       {}\n", all(status["clock"]));
+  out += fmt::format("model       {} {}\n", status["model"]["file"].get<std::string>(),
+                     status["model"]["sha256"].get<std::string>().substr(0, 12));
+  const Json& record = status["record"];
+  if (!record["failure"].get<std::string>().empty())
+    out += fmt::format("record      ENDED: {}\n", record["failure"].get<std::string>());
+  out += fmt::format("wake-up     {}\n{}", latency(status["wake"]), bars(status["wake"]));
+  out += fmt::format("cycle       {}\n{}", latency(status["work"]), bars(status["work"]));
+  return out;
+}
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "program/json.hpp"
+#include "rt/run_shared.hpp"
+
+namespace plumb::drivers::rt {
+
+/// What there is besides the cycle's own snapshot.
+struct RunFacts {
+  std::string bus;  // "can0"
+  std::string model_file;
+  std::string model_sha256;
+  std::string record;          // file; empty: none
+  std::string record_failure;  // empty: none
+  std::uint64_t record_lost = 0;
+};
+
+/// {state, mode, cause, status, lost[], has_output, correction{}, ages{}, sync{}, counters{},
+/// link{}, clock{}, latency_us{}, model{}, record{}}; times in the unit of the key.
+Json status_json(const RunSnapshot& snapshot, const RunFacts& facts);
+
+/// For people, from status_json.
+std::string status_text(const Json& status);
+
+/// Prometheus text exposition format 0.0.4.
+std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts);
+
+}  // namespace plumb::drivers::rt

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/verb_run.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "plumb/drivers/rt_process.hpp"
+#include "rt/rt_probe.hpp"
+#include "rt/run_loop.hpp"
+#include "rt/service.hpp"
+#include "rt/stop_signal.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+struct RunOptions {
+  std::string dir;
+  int priority = -1;
+  bool check = false;
+};
+
+RtRequest request_of(const RtConfig& config, const int& cpu) {
+  RtRequest out{.priority = config.priority};
+  if (cpu >= 0) out.processors = {&cpu, 1};
+  if (config.priority == 0) {
+    out.lock = RtRequest::Lock::kNone;
+    out.idle_latency_us = -1;
+  }
+  return out;
+}
+
+/// What a real-time cycle cannot do without, asked for in a child, so that a refusal comes before
+/// anything is opened.
+void need_rights(const RtConfig& config, Outcome& outcome) {
+  for (const RtStep& step : try_rt_process(request_of(config, config.cpu))) {
+    if (step.grant != Grant::kDenied) continue;
+    const Finding finding = describe(step);
+    const bool needed = step.kind == RtStepKind::kPriority || step.kind == RtStepKind::kAffinity;
+    Problem problem{.severity = needed ? Severity::kError : Severity::kWarning,
+                    .code = needed ? "E-RT-RIGHTS" : "W-RT-RIGHTS",
+                    .message = fmt::format("{}: {}", finding.what, finding.why),
+                    .help = finding.remedy};
+    if (needed) throw Failure(Exit::kEnvironment, problem);
+    outcome.remarks.push_back(problem);
+  }
+}
+
+using Loop = RunLoop<MonotonicTime>;
+
+Loop::Next go(Loop& loop, CycleClock<MonotonicTime>& clock) {
+  Loop::Next next = Loop::Next::kGoOn;
+  while (next == Loop::Next::kGoOn) next = loop.cycle();
+  loop.publish(MonotonicTime::now_ns());
+  std::ignore = clock;
+  return next;
+}
+
+void refuse_end(Loop::Next next, const Deployment& deployment, Outcome& outcome) {
+  if (next == Loop::Next::kBusLost) {
+    outcome.exit = Exit::kBusLost;
+    outcome.errors = {
+        {.code = "E-RT-LOST",
+         .message = fmt::format("{} was down for {} s", bus_name(deployment.config.source),
+                                deployment.config.give_up_s),
+         .help = "plumb-rt doctor"}};
+  } else if (next == Loop::Next::kClockFailed) {
+    outcome.exit = Exit::kEnvironment;
+    outcome.errors = {
+        {.code = "E-RT-CLOCK", .message = "the clock cannot sleep", .help = "plumb-rt doctor"}};
+  }
+}
+
+Loop::Next cycle_until_told(Deployment& deployment, OpenBus& bus, ModelSlot& slot,
+                            RunShared& shared) {
+  auto session = std::make_unique<Session>(slot, deployment.session);
+  const RtConfig& config = deployment.config;
+  const bool to_port = config.sink.kind == SinkConfig::Kind::kSame;
+  const RunSettings settings{
+      .give_up_ns = static_cast<std::int64_t>(1e9 * config.give_up_s),
+      .answers = to_port ? RunSettings::Answers::kToPort : RunSettings::Answers::kRecordOnly};
+  auto clock = std::make_unique<CycleClock<MonotonicTime>>(1000LL * config.cycle_us);
+  auto loop =
+      std::make_unique<Loop>(*session, bus.port(), shared, *clock, MonotonicTime{}, settings);
+  const RtProcess process(request_of(config, config.cpu));
+  return go(*loop, *clock);
+}
+
+/// Stops the service even if the cycle throws while it is set up.
+void run(const RunOptions& options, Outcome& outcome) {
+  Deployment deployment = load_deployment(options.dir);
+  if (options.priority >= 0) deployment.config.priority = options.priority;
+  outcome.inputs.push_back({deployment.config.model.string(), deployment.model.sha256});
+  need_rights(deployment.config, outcome);
+  static RunShared shared;  // the signal's handler keeps its address
+  shared.model = deployment.model.fingerprint;
+  const auto bus = open_bus(deployment);
+  ModelSlot slot(*deployment.model.loaded);
+  Service service(deployment, *bus, slot, shared);
+  if (options.check) {
+    outcome.text = fmt::format("{}: sound, nothing was sent\n", options.dir);
+    outcome.result = {{"checked", true}};
+    return;
+  }
+  stop_on_signal(shared.stop);
+  service.start();
+  std::cerr << fmt::format("plumb-rt: {} on {}, cycle {} us, mode {}\n",
+                           deployment.config.model.string(), bus_name(deployment.config.source),
+                           deployment.config.cycle_us, to_string(deployment.session.mode));
+  const Loop::Next next = cycle_until_told(deployment, *bus, slot, shared);
+  service.stop();
+  outcome.result = status_json(service.snapshot(), service.facts());
+  outcome.text = status_text(outcome.result);
+  refuse_end(next, deployment, outcome);
+}
+
+}  // namespace
+
+void add_run(Program& program) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App& verb = program.verb(
+      {.name = "run",
+       .summary = "The real-time cycle with the model and the bus of a folder, until SIGTERM",
+       .examples = "  plumb-rt run /etc/plumb/cell4              # as rt.toml says\n"
+                   "  plumb-rt run deployed --check              # is all of it usable? sends "
+                   "nothing"},
+      [options](const Globals&, Outcome& outcome) { run(*options, outcome); });
+  verb.add_option("DIR", options->dir, "The folder that 'plumb deploy' wrote")->required();
+  verb.add_option("--priority", options->priority,
+                  "SCHED_FIFO priority instead of that in rt.toml; 0: an ordinary thread")
+      ->check(CLI::Range(0, 99));
+  verb.add_flag("--check", options->check, "Open everything, send nothing, end");
+}
+
+}  // namespace plumb::drivers::rt

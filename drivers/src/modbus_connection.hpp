@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <modbus/modbus.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "link_thread.hpp"
+#include "plumb/drivers/modbus_client.hpp"
+#include "plumb/drivers/modbus_frame.hpp"
+
+namespace plumb::drivers {
+
+struct ModbusClosed {
+  void operator()(modbus_t* context) const noexcept {
+    ::modbus_close(context);
+    ::modbus_free(context);
+  }
+};
+using ModbusContext = std::unique_ptr<modbus_t, ModbusClosed>;
+
+/// Opens a serial line; none: errno says why. Whole frames are awaited for `timeout_s`, without a
+/// time limit between bytes: libmodbus takes that instead of the limit for the frame.
+ModbusContext open_serial(const SerialLine& line, int unit, double timeout_s);
+
+/// One connection of a client, until its first error.
+///
+/// libmodbus reads answers; it would accept a foreign unit, protocol, length or write echo, and
+/// modbus_send_raw_request numbers no transactions, so over TCP the header is written here, and
+/// every field of an answer is checked here. It aborts on a descriptor of FD_SETSIZE or above:
+/// such a one is refused.
+class ModbusConnection {
+ public:
+  enum class Result : std::uint8_t {
+    kDone,
+    kRefused,  // an exception answer, sound as such
+    kLate,     // no whole answer in time
+    kBad,      // an answer that is none to the request, or bytes that nobody asked for
+    kLost,     // the peer, or the device
+  };
+
+  /// None: errno says why, ECANCELED if the thread is to stop.
+  static std::unique_ptr<ModbusConnection> open(const ModbusClientSettings& settings,
+                                                const LinkThread& thread);
+
+  Result read(std::uint16_t first, std::span<std::uint16_t> registers);         // <= kMostRead
+  Result write(std::uint16_t first, std::span<const std::uint16_t> registers);  // <= kMostWrite
+
+  /// What the last exception answer said.
+  ModbusException exception() const noexcept { return ModbusException{answer_pdu_[1]}; }
+
+ private:
+  ModbusConnection(ModbusContext context, std::uint8_t unit, bool tcp)
+      : context_(std::move(context)), unit_(unit), tcp_(tcp) {}
+
+  bool unasked_bytes() const;
+  bool send_request(std::size_t pdu_size);
+  Result exchange(std::size_t pdu_size);
+  bool is_framed_well(std::size_t size) const;
+
+  ModbusContext context_;
+  std::uint8_t unit_;
+  bool tcp_;
+  std::uint16_t transaction_ = 0;
+  std::array<std::uint8_t, kMostTcpFrame> request_{};
+  std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> answer_{};
+  std::span<const std::uint8_t> answer_pdu_;
+};
+
+}  // namespace plumb::drivers

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "plumb/drivers/modbus_client.hpp"
+#include "plumb/drivers/modbus_server.hpp"
+
+namespace plumb::drivers {
+
+/// What no link can be started with.
+std::optional<LinkFault> find_fault(const ModbusClientSettings& settings);
+std::optional<LinkFault> find_fault(const ModbusServerSettings& settings);
+
+/// The system gives no thread.
+LinkFault cannot_run(int error);
+
+}  // namespace plumb::drivers

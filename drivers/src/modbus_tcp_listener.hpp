@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <poll.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "link_thread.hpp"
+#include "plumb/drivers/modbus_server.hpp"
+#include "plumb/drivers/modbus_service.hpp"
+
+namespace plumb::drivers {
+
+/// A descriptor that is closed with its owner.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) noexcept : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(other.number_) { other.number_ = -1; }
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  ~Descriptor();
+  int get() const noexcept { return number_; }
+
+ private:
+  int number_;
+};
+
+/// The TCP side of a server: connections, their bounds, and bytes to requests.
+class ModbusTcpListener {
+ public:
+  ModbusTcpListener(const ModbusServerSettings& settings, ModbusService& service,
+                    ModbusExchange& exchange);
+
+  std::optional<LinkFault> open();
+  std::uint16_t port() const noexcept { return port_; }
+  void run(const LinkThread& thread);
+
+ private:
+  struct Peer {
+    Descriptor socket;
+    std::uint64_t number = 0;  // of the connection, from 1
+    ModbusFramer framer;
+    std::int64_t part_since_ns = 0;  // when the request under way began
+    std::int64_t request_ns = 0;     // the last whole one, or the connection
+    bool served = false;
+    bool over = false;
+  };
+
+  std::optional<LinkFault> find_address(SocketAddress& out) const;
+  std::optional<LinkFault> listen(const SocketAddress& address);
+  void await(const LinkThread& thread);
+  std::int64_t next_deadline_ns() const;
+  void accept_new(std::int64_t now_ns);
+  void admit(Descriptor socket, const SocketAddress& from, std::int64_t now_ns);
+  bool is_allowed(const SocketAddress& from) const;
+  void serve(Peer& peer, std::int64_t now_ns);
+  void serve_requests(Peer& peer, std::int64_t now_ns);
+  bool answer(Peer& peer, std::int64_t now_ns);
+  void judge_times(Peer& peer, std::int64_t now_ns);
+  void drop_those_over();
+
+  ModbusServerSettings settings_;
+  ModbusService* service_;
+  ModbusExchange* exchange_;
+  std::vector<SocketAddress> allowed_;
+  std::string interface_;  // if it was asked for by name
+  Descriptor socket_;
+  std::uint16_t port_ = 0;
+  std::uint64_t connections_ = 0;
+  std::int64_t accept_again_ns_ = 0;  // no descriptors were left
+  std::vector<Peer> peers_;
+  std::vector<pollfd> events_;  // stop, new connections, peers
+};
+
+}  // namespace plumb::drivers

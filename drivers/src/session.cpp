@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plumb/drivers/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::drivers {
+namespace {
+
+constexpr std::size_t kFirstTemperature = 5;  // of kContext: payload, com x y z, time before it
+
+/// A value of a message, and nothing if it is not known.
+Reading reading(double value, double age_s) noexcept {
+  return std::isfinite(value) ? Reading{.value = value, .age_s = age_s} : Reading{};
+}
+
+void count(TargetVerdict verdict, SessionCounters& counters) noexcept {
+  switch (verdict) {
+    case TargetVerdict::kAccepted:
+      ++counters.targets;
+      return;
+    case TargetVerdict::kRepeated:
+      ++counters.repeated;
+      return;
+    case TargetVerdict::kOutOfOrder:
+      ++counters.out_of_order;
+      return;
+    case TargetVerdict::kNoPose:
+      ++counters.no_pose;
+      return;
+    case TargetVerdict::kTooFar:
+      ++counters.too_far;
+      return;
+    case TargetVerdict::kTooFast:
+      ++counters.too_fast;
+      return;
+  }
+}
+
+bool is_finite(const BusMessage& message) noexcept {
+  for (std::size_t i = 0; i < message.size; ++i)
+    if (!std::isfinite(message.values[i])) return false;
+  return true;
+}
+
+/// True when `due_s` has run out; it then begins anew.
+bool is_due(double& due_s, double ageing_s, double period_s) noexcept {
+  due_s -= ageing_s;
+  if (due_s > 0.0) return false;
+  due_s = std::max(due_s + period_s, 0.5 * period_s);
+  return true;
+}
+
+}  // namespace
+
+Session::Session(ModelSlot& slot, const SessionSettings& settings) noexcept
+    : settings_(settings),
+      cycle_(slot, settings.cycle),
+      sync_(settings.sync),
+      gate_(settings.target),
+      share_(settings.share) {
+  report_.mode = settings.mode;
+}
+
+void Session::hear(const BusMessage& message) noexcept {
+  switch (message.kind) {
+    case MessageKind::kTarget:
+      return hear_target(message);
+    case MessageKind::kController:
+      hear_controller(message);
+      break;
+    case MessageKind::kRobot:
+      if (!std::isfinite(message.values[0])) return;
+      break;
+    default:
+      sync_.hear(message, cycle_.model().corrector().nominal());
+  }
+  inbox_.hear(message);
+}
+
+void Session::hear_target(const BusMessage& message) noexcept {
+  Transformd X_BD;
+  const TargetVerdict verdict = gate_.judge(message, X_BD);
+  count(verdict, report_.counters);
+  if (verdict == TargetVerdict::kTooFar || verdict == TargetVerdict::kTooFast)
+    target_misbehaved_ = true;
+  if (verdict != TargetVerdict::kAccepted) return;
+  target_ = message;
+  inbox_.hear(message);
+}
+
+/// An acknowledgement counts when it goes on under our eyes: a button that hangs is none.
+void Session::hear_controller(const BusMessage& message) noexcept {
+  const bool on = controller_in(message).acknowledge;
+  if (on && !acknowledge_was_on_) acknowledged_ = true;
+  acknowledge_was_on_ = on;
+}
+
+/// A target that waited too long is as if it had not come.
+void Session::take_target() noexcept {
+  target_came_ = inbox_.came(MessageKind::kTarget);
+  if (target_came_ && !inbox_.within(MessageKind::kTarget, settings_.answer_s)) {
+    ++report_.counters.too_old;
+    target_came_ = false;
+  }
+  if (target_misbehaved_) target_came_ = false;
+  if (target_came_) X_BD_ = pose_in(target_).value_or(X_BD_);
+}
+
+void Session::read_context(CycleInput& input) const noexcept {
+  if (!inbox_.came(MessageKind::kContext)) return;
+  const BusMessage& message = inbox_.last(MessageKind::kContext);
+  const double age_s = inbox_.age_s(MessageKind::kContext);
+  ContextReadings& out = input.context;
+  out.payload_kg = reading(message.values[0], age_s);
+  std::copy_n(message.values.begin() + 1, out.payload_com_m.size(), out.payload_com_m.begin());
+  out.time_s = reading(message.values[4], age_s);
+  const std::size_t sensors =
+      std::min(out.temperature_degC.size(), kMaxMessageValues - kFirstTemperature);
+  for (std::size_t k = 0; k < sensors && kFirstTemperature + k < message.size; ++k)
+    out.temperature_degC[k] = reading(message.values[kFirstTemperature + k], age_s);
+}
+
+CycleInput Session::cycle_input(std::int64_t now_ns) const noexcept {
+  CycleInput out{.now_ns = now_ns};
+  if (target_came_) {
+    out.target = Arrival::kArrived;
+    out.X_BD = X_BD_;
+  }
+  const auto take = [this](MessageKind kind, auto& q) {
+    const auto& values = inbox_.last(kind).values;
+    std::copy_n(values.begin(), std::min(q.size(), values.size()), q.begin());
+  };
+  const bool measured = inbox_.came(MessageKind::kJoints) &&
+                        inbox_.within(MessageKind::kJoints, settings_.inputs.limit_s);
+  const bool commanded = target_came_ && inbox_.came(MessageKind::kCommanded) &&
+                         inbox_.last(MessageKind::kCommanded).counter == target_.counter;
+  if (measured || commanded) out.joints = Arrival::kArrived;
+  if (measured) take(MessageKind::kJoints, out.q_measured);
+  if (commanded) take(MessageKind::kCommanded, out.q_commanded);
+  read_context(out);
+  return out;
+}
+
+void Session::note_permission(double ageing_s) noexcept {
+  lost_ =
+      find_lost(inbox_, settings_.inputs) | (target_misbehaved_ ? Lost::kMotion : Lost::kNothing);
+  permitted_s_ = lost_ == Lost::kNothing ? permitted_s_ + ageing_s : 0.0;
+  // An acknowledgement that goes on unseen, while the controller is silent, is none.
+  if (has(lost_, Lost::kController)) acknowledge_was_on_ = true;
+}
+
+void Session::note_foreign(const SessionTick& tick, double ageing_s) noexcept {
+  foreign_age_s_ = tick.foreign_senders == foreign_senders_ ? foreign_age_s_ + ageing_s : 0.0;
+  foreign_senders_ = tick.foreign_senders;
+}
+
+FaultCause Session::fault() const noexcept {
+  if (foreign_age_s_ < settings_.foreign_s) return FaultCause::kForeignSender;
+  const BusMessage& robot = inbox_.last(MessageKind::kRobot);
+  if (robot.size > 0 && robot.values[0] != static_cast<double>(settings_.robot))
+    return FaultCause::kOtherRobot;
+  return sync_.mismatched() ? FaultCause::kPoseMismatch : FaultCause::kNone;
+}
+
+SessionFacts Session::facts(const SessionTick& tick) const noexcept {
+  return {.fault = fault(),
+          .heard = is_heard(inbox_, settings_.inputs),
+          .synced = sync_.agreed(),
+          .permitted = permitted_s_ >= settings_.rearm_s,
+          .lost = lost_ != Lost::kNothing,
+          .at_zero = share_.at_zero(),
+          .acknowledged = acknowledged_,
+          .stopping = tick.run == SessionTick::Run::kStop,
+          .mode = settings_.mode};
+}
+
+void Session::change_state(const SessionTick& tick) noexcept {
+  const SessionFacts now = facts(tick);
+  const SessionState next = next_state(state_, now);
+  if (next == state_) return;
+  if (next == SessionState::kFault) {
+    report_.cause = now.fault;
+    ++report_.counters.faults;
+  }
+  enter(next);
+}
+
+void Session::enter(SessionState state) noexcept {
+  if (state == SessionState::kHold) ++report_.counters.holds;
+  if (state == SessionState::kInit) {
+    sync_.restart();
+    report_.cause = FaultCause::kNone;
+  }
+  state_ = state;
+}
+
+bool Session::answering() const noexcept {
+  if (state_ == SessionState::kFault) return !share_.at_zero();
+  return state_ == SessionState::kActive || state_ == SessionState::kHold;
+}
+
+GuardOutput Session::correct(std::int64_t now_ns, double dt_s) noexcept {
+  cycle_.enable(computes(state_) ? Guard::Enable::kOn : Guard::Enable::kOff);
+  const GuardOutput guarded = cycle_.step(cycle_input(now_ns)).output;
+  const format::GuardLimits& limits = cycle_.model().limits();
+  if (answering()) {
+    const double most_s = 2.0 * limits.cycle_s;
+    X_BC_ = share_.step(X_BD_, guarded.X_BC, settings_.mode, limits, std::min(dt_s, most_s));
+  } else {
+    share_.reset();
+  }
+  has_output_ = guarded.has_output;
+  return guarded;
+}
+
+void Session::answer(SessionOutput& out) noexcept {
+  if (!answering() || !target_came_ || !has_output_) return;
+  const BusMessage said = settings_.form == CorrectionForm::kOffset
+                              ? offset_message(X_BD_, X_BC_, target_.counter)
+                              : pose_message(MessageKind::kCorrected, X_BC_, target_.counter);
+  if (!is_finite(said)) return;
+  ++report_.counters.answered;
+  out.messages[out.size++] = said;
+}
+
+void Session::tell(const SessionTick& tick, double ageing_s, SessionOutput& out) noexcept {
+  if (is_due(status_due_s_, ageing_s, settings_.status_s))
+    out.messages[out.size++] =
+        status_message({.state = state_,
+                        .mode = settings_.mode,
+                        .status = report_.status,
+                        .has_output = report_.has_output,
+                        .refused = static_cast<std::uint16_t>(report_.guard.refused),
+                        .limited = static_cast<std::uint16_t>(report_.guard.limited),
+                        .stale = static_cast<std::uint16_t>(report_.guard.stale)},
+                       ++counter_);
+  if (is_due(signature_due_s_, ageing_s, settings_.signature_s))
+    out.messages[out.size++] = signature_message(tick.model, settings_.robot, ++signature_counter_);
+}
+
+void Session::fill_report(const GuardOutput& guarded) noexcept {
+  report_.state = state_;
+  report_.mode = settings_.mode;
+  report_.status = guarded.status;
+  report_.lost = lost_;
+  report_.has_output = answering() && guarded.has_output;
+  report_.target_age_s = inbox_.age_s(MessageKind::kTarget);
+  report_.joints_age_s = inbox_.age_s(MessageKind::kJoints);
+  report_.controller_age_s = inbox_.age_s(MessageKind::kController);
+  report_.robot_age_s = inbox_.age_s(MessageKind::kRobot);
+  report_.wanted_m = (guarded.X_BC.p - X_BD_.p).norm();
+  report_.wanted_rad = rotation_vector(times_transposed<double>(guarded.X_BC.R, X_BD_.R)).norm();
+  report_.applied_m = share_.translation_m();
+  report_.applied_rad = share_.rotation_rad();
+  report_.sync = sync_.counters();
+  report_.guard = cycle_.counters();
+  ++report_.counters.cycles;
+}
+
+SessionOutput Session::step(const SessionTick& tick) noexcept {
+  const CycleTime::Tick time = time_.tick(tick.now_ns, settings_.cycle_s);
+  inbox_.step(tick.now_ns, time.ageing_s);
+  take_target();
+  note_permission(time.ageing_s);
+  note_foreign(tick, time.ageing_s);
+  change_state(tick);
+  fill_report(correct(tick.now_ns, time.dt_s));
+  SessionOutput out;
+  answer(out);
+  tell(tick, time.ageing_s, out);
+  inbox_.close();
+  target_came_ = target_misbehaved_ = acknowledged_ = false;
+  return out;
+}
+
+}  // namespace plumb::drivers

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plumb/drivers/session_inputs.hpp"
+
+namespace plumb::drivers {
+namespace {
+
+constexpr Lost unless(bool good, Lost lost) noexcept { return good ? Lost::kNothing : lost; }
+
+bool as_expected(const std::optional<std::uint8_t>& expected, std::uint8_t active) noexcept {
+  return !expected || *expected == active;
+}
+
+}  // namespace
+
+Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcept {
+  const bool controller = inbox.within(MessageKind::kController, settings.limit_s);
+  const ControllerState said = controller_in(inbox.last(MessageKind::kController));
+  const Lost silent = unless(inbox.within(MessageKind::kTarget, settings.limit_s), Lost::kTarget) |
+                      unless(inbox.within(MessageKind::kJoints, settings.limit_s), Lost::kJoints);
+  if (!controller) return silent | Lost::kController;
+  return silent | unless(said.drives_on, Lost::kDrives) | unless(said.automatic, Lost::kManual) |
+         unless(!said.protective_stop, Lost::kStop) |
+         unless(said.correction_enabled, Lost::kDisabled) |
+         unless(as_expected(settings.tool, said.tool), Lost::kTool) |
+         unless(as_expected(settings.frame, said.frame), Lost::kFrame) |
+         unless(as_expected(settings.payload, said.payload), Lost::kPayload);
+}
+
+bool is_heard(const SessionInbox& inbox, const InputSettings& settings) noexcept {
+  return inbox.within(MessageKind::kJoints, settings.limit_s) &&
+         inbox.within(MessageKind::kController, settings.limit_s) &&
+         inbox.within(MessageKind::kActual, settings.robot_s) &&
+         inbox.within(MessageKind::kRobot, settings.robot_s);
+}
+
+const char* to_string(Lost one) noexcept {
+  switch (one) {
+    case Lost::kNothing:
+      return "nothing";
+    case Lost::kTarget:
+      return "target";
+    case Lost::kJoints:
+      return "joints";
+    case Lost::kController:
+      return "controller";
+    case Lost::kDrives:
+      return "drives";
+    case Lost::kManual:
+      return "manual";
+    case Lost::kStop:
+      return "stop";
+    case Lost::kDisabled:
+      return "disabled";
+    case Lost::kTool:
+      return "tool";
+    case Lost::kFrame:
+      return "frame";
+    case Lost::kPayload:
+      return "payload";
+    case Lost::kMotion:
+      return "motion";
+  }
+  return "several";
+}
+
+}  // namespace plumb::drivers

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plumb/drivers/session_share.hpp"
+
+#include <algorithm>
+
+namespace plumb::drivers {
+namespace {
+
+/// Below these nothing is left: less than a count of any layout.
+constexpr double kZero_m = 1e-9, kZero_rad = 1e-9;
+
+double towards(double from, double to, double step) noexcept {
+  return to > from ? std::min(to, from + step) : std::max(to, from - step);
+}
+
+/// `from` moved to `to`, by `most` at most; arriving gives `to` itself.
+Vector3 slewed(const Vector3& from, const Vector3& to, double most) noexcept {
+  const Vector3 way = to - from;
+  const double length = way.norm();
+  return length <= most ? to : Vector3(from + way * (most / length));
+}
+
+}  // namespace
+
+bool CorrectionShare::at_zero() const noexcept {
+  return translation_.norm() <= kZero_m && rotation_.norm() <= kZero_rad;
+}
+
+void CorrectionShare::move_share(CorrectionMode mode, double step) noexcept {
+  const double scale = mode == CorrectionMode::kShadow    ? 0.0
+                       : mode == CorrectionMode::kLimited ? settings_.limited_scale
+                                                          : 1.0;
+  scale_ = towards(scale_, scale, step);
+  cap_ = towards(cap_, mode == CorrectionMode::kFull ? 1.0 : 0.0, step);
+}
+
+CorrectionShare::Goal CorrectionShare::goal(const Transformd& X_BD,
+                                            const Transformd& X_BG) const noexcept {
+  Goal out{.translation = X_BG.p - X_BD.p,
+           .rotation = rotation_vector(times_transposed<double>(X_BG.R, X_BD.R))};
+  double factor = scale_;
+  const double length = out.translation.norm() * factor;
+  if (cap_ < 1.0 && length > settings_.limited_m)
+    factor *= cap_ + (1.0 - cap_) * settings_.limited_m / length;
+  out.translation *= factor;
+  out.rotation *= factor;
+  return out;
+}
+
+Transformd CorrectionShare::step(const Transformd& X_BD, const Transformd& X_BG,
+                                 CorrectionMode mode, const format::GuardLimits& limits,
+                                 double dt_s) noexcept {
+  move_share(mode, limits.ramp_s > 0.0 ? dt_s / limits.ramp_s : 1.0);
+  const Goal to = goal(X_BD, X_BG);
+  translation_ = slewed(translation_, to.translation, limits.slew_m_per_s * dt_s);
+  rotation_ = slewed(rotation_, to.rotation, limits.slew_rad_per_s * dt_s);
+  const bool whole =
+      scale_ == 1.0 && cap_ == 1.0 && translation_ == to.translation && rotation_ == to.rotation;
+  if (whole) return X_BG;
+  Transformd X_BC = exp(format::Twist{.d = {}, .e = {rotation_(0), rotation_(1), rotation_(2)}});
+  X_BC.R = (X_BC * Transformd{.R = X_BD.R, .p = Vector3::Zero()}).R;
+  X_BC.p = X_BD.p + translation_;
+  return X_BC;
+}
+
+}  // namespace plumb::drivers

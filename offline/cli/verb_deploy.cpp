@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bus_text/dbc.hpp"
+#include "bus_text/modbus_map.hpp"
+#include "cli/bus_output.hpp"
+#include "cli/cell_data.hpp"
+#include "cli/compiled.hpp"
+#include "cli/model_file.hpp"
+#include "cli/verbs.hpp"
+#include "deploy/bus_of_cell.hpp"
+#include "deploy/deploy_folder.hpp"
+#include "deploy/rt_toml.hpp"
+#include "plumb/drivers/bus_content.hpp"
+#include "plumb/runtime/effect_set.hpp"
+#include "program/shell_word.hpp"
+#include "show/audit_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder;
+  bool refit_all = false;
+  bool gate = false;
+  WriteOptions write;
+};
+
+void refuse_existing(const Options& options) {
+  if (!fs::exists(options.folder)) return;
+  if (!fs::is_directory(options.folder))
+    throw Failure(Exit::kUsage, {.code = "E-EXISTS",
+                                 .message = fmt::format("{} is a file", options.folder),
+                                 .help = "name a folder, for example: plumb deploy -o deploy"});
+  if (!options.write.force)
+    throw Failure(Exit::kUsage, {.code = "E-EXISTS",
+                                 .message = fmt::format("{} is already there", options.folder),
+                                 .help = "to replace its files, rt.toml too, add --force"});
+}
+
+/// What the layout does not bring to the model.
+void warn_of_temperatures(const format::Model& model, const drivers::BusLayout& layout,
+                          Outcome& outcome) {
+  int needed = 0;
+  std::string names;
+  for (; const std::string* name = temperature_name(model, needed); ++needed)
+    names += (needed == 0 ? "" : ", ") + *name;
+  int brought = 0;
+  if (const auto* context = layout.find(drivers::MessageKind::kContext))
+    for (const auto& signal : context->signals) brought += signal.unit == "degC" ? 1 : 0;
+  if (needed <= brought) return;
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-DEPLOY-TEMPERATURES",
+       .message = fmt::format("the model listens to {} (in this order), but the bus brings {} of "
+                              "them: it will use its fallback",
+                              names, brought),
+       .help = fmt::format("[deploy.bus] temperatures = {}", needed)});
+}
+
+std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
+                                 const std::string& model) {
+  return {{"robot.plumb", model},
+          {"bus.dbc", drivers::write_dbc(layout, about(cell))},
+          {"modbus-map.md", drivers::modbus_map_markdown(layout, about(cell))},
+          {"rt.toml", write_rt_toml(cell, layout), DeployFile::Summed::kNo}};
+}
+
+void put_result(const Options& options, const Cell& cell, const drivers::BusLayout& layout,
+                const std::vector<DeployFile>& files, const std::string& model, Outcome& outcome) {
+  Json names = Json::array();
+  for (const auto& file : files) names.push_back((fs::path(options.folder) / file.name).string());
+  names.push_back((fs::path(options.folder) / "SHA256SUMS").string());
+  outcome.result["folder"] = options.folder;
+  outcome.result["files"] = names;
+  outcome.result["dry_run"] = options.write.dry_run;
+  outcome.result["robot_number"] = drivers::fingerprint(cell.serial);
+  outcome.result["model_number"] = drivers::fingerprint(model);
+  put(outcome.result, "worst_bus_load_pct", 100.0 * drivers::worst_bus_load(layout));
+}
+
+std::string next_steps(const Options& options, const Cell& cell) {
+  return fmt::format(
+      "The controller sends {} in message robot: it stands for serial {}.\n\n{}\n\n"
+      "Then, on the controller-side PC:\n  plumb-rt run {}\n",
+      drivers::fingerprint(cell.serial), cell.serial.empty() ? "\"\"" : cell.serial,
+      wrote(options.folder, options.write), shell_word(options.folder));
+}
+
+void deploy(const Options& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  refuse_existing(options);
+  const drivers::BusLayout layout = bus_of(cell, cell.deploy.link);
+  const Measurements measured = open_measurements(cell, outcome);
+  Run run = current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
+                               outcome);
+  const format::Model model = compiled(cell, measured, std::move(run),
+                                       options.refit_all ? Poses::kEveryPose : Poses::kOfTheRun);
+  const Audit found = audit(model);
+  outcome.remark(found.remarks);
+  warn_of_temperatures(model, layout, outcome);
+  outcome.result = {{"run", model.provenance.run}, {"audit", show::audit_json(found, model)}};
+  outcome.text = compiled_headline(model) + show::audit_text(found, model);
+  if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
+  if (!outcome.errors.empty()) return;
+  const std::string bytes = model_bytes(model);
+  const auto files = files_of(cell, layout, bytes);
+  put_result(options, cell, layout, files, bytes, outcome);
+  if (!options.write.dry_run) write_deploy_folder(options.folder, files);
+  outcome.text += "\n" + next_steps(options, cell);
+}
+
+}  // namespace
+
+void add_deploy(Program& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& verb = program.verb(
+      {.name = "deploy",
+       .summary = "Everything plumb-rt needs in one folder: model, rt.toml, DBC, Modbus map, sums",
+       .examples = "  plumb deploy -o deploy\n  plumb -C mycell deploy -o deploy --gate --force"},
+      [options](const Globals& g, Outcome& o) { deploy(*options, g, o); });
+  verb.add_option("-o,--output", options->folder, "Folder to write")->type_name("DIR")->required();
+  verb.add_flag("--refit-all", options->refit_all,
+                "Use every pose; the model then carries no held-out figure");
+  verb.add_flag("--gate", options->gate,
+                "Exit 1 and write nothing if the audit warns or 95 % of the held-out poses are not "
+                "within tolerance");
+  options->write.add_to(verb);
+}
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/deploy_folder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "program/file.hpp"
+#include "program/interrupt.hpp"
+
+namespace plumb::offline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSums = "SHA256SUMS";
+
+void write_into(const fs::path& folder, const std::vector<DeployFile>& files) {
+  for (const DeployFile& file : files) write_file_atomically(folder / file.name, file.bytes);
+  write_file_atomically(folder / kSums, check_sums(files));
+}
+
+void write_new_folder(const fs::path& folder, const std::vector<DeployFile>& files) {
+  if (folder.has_parent_path()) fs::create_directories(folder.parent_path());
+  const fs::path draft =
+      folder.parent_path() / fmt::format(".{}.{}.tmp", folder.filename().string(), ::getpid());
+  try {
+    fs::create_directory(draft);
+    write_into(draft, files);
+    fs::rename(draft, folder);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(draft, ignored);
+    throw;
+  }
+}
+
+}  // namespace
+
+std::string check_sums(const std::vector<DeployFile>& files) {
+  std::string out;
+  for (const DeployFile& file : files)
+    if (file.summed == DeployFile::Summed::kYes)
+      out += fmt::format("{}  {}\n", sha256(file.bytes), file.name);
+  return out;
+}
+
+void write_deploy_folder(const fs::path& folder, const std::vector<DeployFile>& files) {
+  const fs::path whole = fs::absolute(folder / "").lexically_normal().parent_path();
+  const Writing writing;
+  if (!fs::exists(whole)) return write_new_folder(whole, files);
+  fs::remove(whole / kSums);
+  write_into(whole, files);
+}
+
+}  // namespace plumb::offline

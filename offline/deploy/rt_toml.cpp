@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/rt_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "bus_text/layout_toml.hpp"
+#include "cell/toml_text.hpp"
+#include "plumb/drivers/session.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kMilli = 1e-3, kMicro = 1e-6, kDegree = std::numbers::pi / 180.0;
+
+std::string head(const Cell& cell) {
+  return fmt::format(
+      "schema = \"rt/1\"   # read by plumb-rt run; may be edited, and is not in SHA256SUMS\n\n"
+      "[model]\nfile = \"robot.plumb\"\nserial = {}   # the robot's; refused if the model is of "
+      "another\n\n"
+      "[cycle]\ncycle_us = {:.10g}\npriority = 80   # of SCHED_FIFO; 0: an ordinary thread\n"
+      "cpu = -1   # to stay on; -1: any\n"
+      "give_up_s = 0   # end with exit code 6 when the bus is down for so long; 0: never\n\n",
+      toml_string(cell.serial), cell.deploy.cycle_s / kMicro);
+}
+
+/// The other kind stands beside as a comment.
+std::string source(const DeploySettings& deploy) {
+  const bool can = deploy.link == drivers::BusUse::kCan;
+  const std::string on_can =
+      fmt::format("kind = \"can\"\ninterface = {}\n", toml_string(deploy.interface));
+  const std::string on_modbus = fmt::format(
+      "kind = \"modbus\"\nrole = \"client\"   # or \"server\": the controller polls us\n"
+      "address = {}   # of the controller; role server: to listen on\nport = 502\nunit = 1\n",
+      toml_string(deploy.address));
+  return "[source]   # of desired targets: kind = \"can\", \"modbus\" or \"csv\"\n" +
+         (can ? on_can : on_modbus) +
+         "# CSV: kind = \"csv\", file = \"targets.csv\"; Modbus RTU: device = \"/dev/ttyUSB0\", "
+         "baud = 115200;\n# Modbus server: peers = [\"192.168.0.10\"], who may connect\n\n"
+         "[sink]\nkind = \"same\"   # where the targets came from; or \"csv\" with file = "
+         "\"corrected.csv\"\n\n";
+}
+
+std::string limits() {
+  const drivers::SessionSettings s;
+  return fmt::format(
+      "[limits]\nmode = \"shadow\"   # computes and reports, sends no correction; then "
+      "\"limited\", "
+      "then \"full\"\n"
+      "target_speed_mm_s = {:.10g}   # of desired targets; faster ones are refused\n"
+      "target_speed_deg_s = {:.10g}\n"
+      "target_step_mm = {:.10g}   # from one target to the next\ntarget_step_deg = {:.10g}\n"
+      "limited_mm = {:.10g}   # largest correction of mode limited\n"
+      "limited_scale = {:.10g}   # and its share of the whole\n\n",
+      s.target.speed_m_s / kMilli, s.target.speed_rad_s / kDegree, s.target.step_m / kMilli,
+      s.target.step_rad / kDegree, s.share.limited_m / kMilli, s.share.limited_scale);
+}
+
+std::string checks() {
+  const drivers::SyncSettings sync;
+  return fmt::format(
+      "[expect]   # the controller's numbers; others hold the correction\n"
+      "# tool = 1\n# frame = 0\n# payload = 1\n\n"
+      "[sync]   # before any correction: does the controller compute poses as the nominal model?\n"
+      "poses = {}\nposition_um = {:.10g}\nrotation_urad = {:.10g}\n\n"
+      "[log]\n# record = \"record.log\"   # every frame, in the format of candump\n"
+      "metrics_port = 0   # for Prometheus on 127.0.0.1; 0: none\n\n",
+      sync.poses, sync.position_m / kMicro, sync.rotation_rad / kMicro);
+}
+
+}  // namespace
+
+std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout) {
+  return head(cell) + source(cell.deploy) + limits() + checks() + drivers::write_bus(layout, "bus");
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cell/cell.hpp"
+#include "plumb/drivers/bus_layout.hpp"
+
+namespace plumb::offline {
+
+/// rt.toml for a cell: every table and key with what it is for, so nothing need be looked up on the
+/// machine. Its reader is that of plumb-rt.
+std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout);
+
+}  // namespace plumb::offline

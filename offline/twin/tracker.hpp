@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "program/json.hpp"
+#include "twin/controller.hpp"
+#include "twin/twin_file.hpp"
+
+namespace plumb::offline::twin {
+
+/// Errors of the tool centre point in the base frame [m]: distances in three dimensions.
+struct ErrorFigures {
+  int n = 0;
+  double mean_m = 0.0, rms_m = 0.0, p95_m = 0.0, max_m = 0.0;
+};
+ErrorFigures figures_of(std::vector<double> errors_m);
+
+/// What the true arm did at the stops of a path, as nobody else can know it, and as the tracker
+/// saw it.
+struct TrueErrors {
+  ErrorFigures truth;
+  ErrorFigures measured;  // with the tracker's noise
+};
+
+/// Throws Failure (kInput) if the cell does not state where tracker and reflector stand: then the
+/// error has no frame to be stated in.
+TrueErrors true_errors(const Cell& cell, const Hidden& hidden, const HiddenTruth& truth,
+                       const std::vector<Stop>& stops);
+
+/// What the noise alone would be seen as: mean sigma sqrt(8/pi), RMS sigma sqrt(3).
+struct NoiseFloor {
+  double mean_m = 0.0, rms_m = 0.0;
+};
+NoiseFloor floor_of(double sigma_m);
+
+/// The chain of the true arm, without its effects.
+format::Chain true_chain(const Cell& cell, const HiddenTruth& truth);
+
+/// A path driven without corrections and with them. Either may be missing (n = 0).
+struct Comparison {
+  TrueErrors off, on;
+  NoiseFloor floor;
+  int unsettled = 0;  // stops at which the correction still moved
+
+  double ratio() const;  // of the mean true errors
+  /// At least five times better, and what the tracker sees below 1.3 times its noise.
+  bool reached() const;
+};
+inline constexpr double kLeastRatio = 5.0;
+inline constexpr double kMostOverFloor = 1.3;
+
+Json to_json(const Comparison& comparison);
+std::string to_text(const Comparison& comparison);
+
+}  // namespace plumb::offline::twin

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "twin/twin_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "program/file.hpp"
+#include "program/toml_table.hpp"
+
+namespace plumb::offline::twin {
+namespace {
+
+constexpr double kMicro = 1e-6;
+constexpr const char* kSchema = "twin/1";
+
+void read_arm(TomlTable& file, Hidden& out) {
+  auto arm = file.table("arm");
+  if (!arm) return;
+  for (const auto& effect : arm->texts("effects")) out.effects.push_back(effect.text);
+  if (const auto value = arm->not_negative("geometry_um")) out.geometry_m = *value * kMicro;
+  if (const auto value = arm->not_negative("geometry_urad")) out.geometry_rad = *value * kMicro;
+  arm->done();
+}
+
+void read_tracker(TomlTable& file, Hidden& out) {
+  auto tracker = file.table("tracker");
+  if (!tracker) return;
+  if (const auto value = tracker->positive("noise_um")) out.noise_m = *value * kMicro;
+  tracker->done();
+}
+
+void read_seed(TomlTable& file, Hidden& out) {
+  const auto seed = file.not_negative("seed");
+  if (!seed) return;
+  if (*seed != std::floor(*seed) || *seed > 0x1p53)
+    return file.out_of_range("seed", "a whole number");
+  out.seed = static_cast<std::uint64_t>(*seed);
+}
+
+}  // namespace
+
+std::string write_hidden(const Hidden& hidden) {
+  std::string effects;
+  for (const auto& effect : hidden.effects)
+    effects += fmt::format("{}\"{}\"", effects.empty() ? "" : ", ", effect);
+  return fmt::format(
+      "# What the twin's arm hides. No program but plumb-twin reads this file.\n"
+      "schema = \"{}\"\n"
+      "seed = {}\n\n"
+      "[arm]\n"
+      "effects = [{}]   # see: plumb simulate --list\n"
+      "geometry_um = {}     # 1 sigma of every length error\n"
+      "geometry_urad = {}   # 1 sigma of every angle error\n\n"
+      "[tracker]\n"
+      "noise_um = {}   # 1 sigma per axis\n",
+      kSchema, hidden.seed, effects, hidden.geometry_m / kMicro, hidden.geometry_rad / kMicro,
+      hidden.noise_m / kMicro);
+}
+
+Hidden parse_hidden(std::string text, const std::string& file_name) {
+  TomlSource source(file_name, std::move(text), "E-TWIN");
+  const toml::table root = source.parse();
+  TomlTable file(root, "", source);
+  Hidden out;
+  file.choice("schema", {kSchema});
+  read_seed(file, out);
+  read_arm(file, out);
+  read_tracker(file, out);
+  file.done();
+  source.stop_on_errors();
+  return out;
+}
+
+Hidden read_hidden(const std::filesystem::path& file) {
+  return parse_hidden(read_file(file), display_name(file));
+}
+
+HiddenTruth truth_of(const Cell& cell, const Hidden& hidden) {
+  SimulationPlan plan;
+  plan.seed = hidden.seed;
+  plan.noise_m = hidden.noise_m;
+  plan.truth.geometry_m = hidden.geometry_m;
+  plan.truth.geometry_rad = hidden.geometry_rad;
+  plan.truth.effects = hidden.effects;
+  plan.truth.seed = hidden.seed;
+  HiddenTruth out = plan.truth;
+  if (hidden.effects.empty()) return out;
+  out.sized = simulate(cell, plan).effects;
+  out.effects.clear();
+  return out;
+}
+
+}  // namespace plumb::offline::twin

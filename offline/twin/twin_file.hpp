@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "simulate/simulate.hpp"
+
+namespace plumb::offline::twin {
+
+/// What the twin's arm hides and how well its tracker reads; `twin.toml` beside `cell.toml`. No
+/// other program of ours reads it.
+struct Hidden {
+  std::uint64_t seed = 1;                 // of arm, poses and noise
+  std::vector<std::string> effects = {};  // as for plumb simulate: "joint_compliance:J2=150urad"
+  double geometry_m = 0.3e-3;             // 1 sigma of every length error
+  double geometry_rad = 0.3e-3;           // and of every angle error
+  double noise_m = 10e-6;                 // of the tracker, 1 sigma per axis
+};
+
+std::string write_hidden(const Hidden& hidden);
+
+/// Throws Failure (kInput) with all problems, unknown keys included.
+Hidden parse_hidden(std::string text, const std::string& file_name);
+Hidden read_hidden(const std::filesystem::path& file);
+
+/// The same arm every time: sizes in sigma become those that 150 poses of the cell make visible.
+HiddenTruth truth_of(const Cell& cell, const Hidden& hidden);
+
+}  // namespace plumb::offline::twin

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "sandbox.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Deploy : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    box = new Sandbox;
+    ASSERT_EQ(box->plumb({"demo", "clean", "cell"}).exit, 0);
+    ASSERT_EQ(box->plumb({"-C", "cell", "fit"}).exit, 0);
+  }
+  static void TearDownTestSuite() { delete box; }
+  void TearDown() override { fs::remove_all(box->path() / "out"); }
+
+  static bool sums_hold(const std::string& folder) {
+    const std::string command =
+        "cd '" + (box->path() / folder).string() + "' && sha256sum --quiet -c SHA256SUMS 2>&1";
+    return std::system(command.c_str()) == 0;
+  }
+  static Sandbox* box;
+};
+Sandbox* Deploy::box = nullptr;
+
+TEST_F(Deploy, WritesAllThatPlumbRtNeeds) {
+  const Ran ran = box->plumb({"-C", "cell", "deploy", "-o", "out/cell4"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(box->path() / "out/cell4"))
+    names.insert(entry.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"SHA256SUMS", "bus.dbc", "modbus-map.md", "robot.plumb",
+                                          "rt.toml"}));
+  EXPECT_EQ(std::distance(fs::directory_iterator(box->path() / "out"), {}), 1);  // no draft
+  EXPECT_EQ(box->plumb({"inspect", "out/cell4/robot.plumb"}).exit, 0);
+  EXPECT_EQ(box->read("out/cell4/bus.dbc"), box->plumb({"-C", "cell", "dbc"}).out);
+  EXPECT_EQ(box->read("out/cell4/modbus-map.md"), box->plumb({"-C", "cell", "modbus-map"}).out);
+}
+
+TEST_F(Deploy, TheSumsHoldAndBreakWithAByte) {
+  ASSERT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out"}).exit, 0);
+  EXPECT_TRUE(sums_hold("out"));
+  box->write("out/bus.dbc", box->read("out/bus.dbc") + " ");
+  EXPECT_FALSE(sums_hold("out"));
+}
+
+TEST_F(Deploy, TheModelIsTheOneThatCompileMakes) {
+  ASSERT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out"}).exit, 0);
+  ASSERT_EQ(box->plumb({"-C", "cell", "compile", "-o", "same.plumb", "--force"}).exit, 0);
+  EXPECT_EQ(box->read("out/robot.plumb"), box->read("same.plumb"));
+}
+
+TEST_F(Deploy, TheConfigurationSaysEverythingAndStartsInShadow) {
+  ASSERT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out"}).exit, 0);
+  const std::string toml = box->read("out/rt.toml");
+  for (const char* line :
+       {"schema = \"rt/1\"", "file = \"robot.plumb\"", "cycle_us = 4000", "kind = \"can\"",
+        "interface = \"can0\"", "mode = \"shadow\"", "poses = 50", "position_um = 50",
+        "rotation_urad = 50", "can_format = \"classic\"", "[bus.target]", "can_id = 0x118"})
+    EXPECT_NE(("\n" + toml).find("\n" + std::string(line)), std::string::npos) << line;
+}
+
+TEST_F(Deploy, NothingIsReplacedWithoutForceAndOtherFilesStay) {
+  ASSERT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out"}).exit, 0);
+  box->write("out/rt.toml", "edited");
+  box->write("out/record.log", "precious");
+  const Ran refused = box->plumb({"-C", "cell", "deploy", "-o", "out"});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_NE(refused.err.find("error[E-EXISTS]"), std::string::npos);
+  EXPECT_EQ(box->read("out/rt.toml"), "edited");
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out/", "--force"}).exit, 0);
+  EXPECT_NE(box->read("out/rt.toml"), "edited");
+  EXPECT_EQ(box->read("out/record.log"), "precious");
+  EXPECT_TRUE(sums_hold("out"));
+}
+
+TEST_F(Deploy, AFolderIsThereWholeOrNotAtAll) {
+  box->write("file", "");
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "file"}).exit, 2);
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "file/out"}).exit, 5);
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out", "--dry-run"}).exit, 0);
+  EXPECT_FALSE(fs::exists(box->path() / "out"));
+}
+
+TEST_F(Deploy, AGateThatFailsWritesNothing) {
+  const std::string cell = box->read("cell/cell.toml");
+  box->write("cell/cell.toml", cell.substr(0, cell.find("tolerance_mm")) + "tolerance_mm = 1e-6" +
+                                   cell.substr(cell.find('\n', cell.find("tolerance_mm"))));
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out", "--gate"}).exit, 1);
+  EXPECT_FALSE(fs::exists(box->path() / "out"));
+  box->write("cell/cell.toml", cell);
+}
+
+TEST_F(Deploy, JsonNamesTheNumbersThatTheControllerSends) {
+  const auto result =
+      box->plumb({"-C", "cell", "deploy", "-o", "out", "--json"}).json().at("result");
+  EXPECT_EQ(result.at("files").size(), 5U);
+  EXPECT_GT(result.at("robot_number"), 0);
+  EXPECT_GT(result.at("model_number"), 0);
+  EXPECT_LT(result.at("worst_bus_load_pct"), 70.0);
+}
+
+}  // namespace

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cycle's thread on a bus in memory, in scripted time; every malloc of this program is counted.
+#include "rt/run_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "tests/drivers/in_memory_port.hpp"
+#include "tests/drivers/scripted_time.hpp"
+#include "tests/drivers/session_rig.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+}
+
+namespace plumb::tests {
+namespace {
+
+using namespace drivers::rt;
+using Loop = RunLoop<ScriptedTime>;
+
+/// A run whose controller is SessionRig's, put on the bus before each tick.
+struct Bench {
+  explicit Bench(CorrectionMode mode, RunSettings how = {})
+      : rig(settings(mode)), shared(std::make_unique<RunShared>()) {
+    script.now_ns = rig.now_ns;
+    clock = std::make_unique<CycleClock<ScriptedTime>>(kCycle_ns, ScriptedTime{&script});
+    loop = std::make_unique<Loop>(*rig.session, port, *shared, *clock, ScriptedTime{&script}, how);
+  }
+  static SessionSettings settings(CorrectionMode mode) {
+    SessionSettings out;
+    out.mode = mode;
+    return out;
+  }
+
+  Loop::Next cycle() {
+    rig.now_ns = script.now_ns + kCycle_ns;
+    for (const auto& message : rig.controller_says()) port.coming.push_back(message);
+    ++rig.counter;
+    rig.swing();
+    return loop->cycle();
+  }
+  /// As candump's reader would: so the ring does not fill.
+  void empty_ring() {
+    for (RecordEntry entry; shared->record.take(entry);) {
+    }
+  }
+
+  SessionRig rig;
+  InMemoryPort port;
+  Script script;
+  std::unique_ptr<RunShared> shared;
+  std::unique_ptr<CycleClock<ScriptedTime>> clock;
+  std::unique_ptr<Loop> loop;
+};
+
+TEST(RunLoop, AnswersOnTheBusWhatTheSessionSays) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(run.cycle(), Loop::Next::kGoOn);
+  EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
+  long answers = 0;
+  for (const auto& message : run.port.sent)
+    answers += message.kind == MessageKind::kCorrected ? 1 : 0;
+  EXPECT_EQ(static_cast<std::uint64_t>(answers), run.rig.session->report().counters.answered);
+  EXPECT_GT(answers, 500);
+}
+
+TEST(RunLoop, StopsOnlyWhenTheCorrectionIsOut) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 1000; ++i) run.cycle();
+  run.shared->stop = true;
+  int cycles = 0;
+  while (run.cycle() == Loop::Next::kGoOn && cycles < 1000) ++cycles;
+  EXPECT_NEAR(cycles, 250, 20);
+  EXPECT_TRUE(run.rig.session->at_rest());
+}
+
+TEST(RunLoop, GivesUpADeadBusOnlyWhenTold) {
+  Bench patient(CorrectionMode::kFull);
+  patient.port.link = LinkState::kDown;
+  for (int i = 0; i < 2000; ++i) ASSERT_EQ(patient.cycle(), Loop::Next::kGoOn);
+  Bench told(CorrectionMode::kFull, {.give_up_ns = 1'000'000'000});
+  told.port.link = LinkState::kDown;
+  int cycles = 0;
+  while (told.cycle() == Loop::Next::kGoOn && cycles < 2000) ++cycles;
+  EXPECT_NEAR(cycles, 250, 1);
+}
+
+TEST(RunLoop, ASecondStoppedIsOneTickAndNoStep) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 1000; ++i) run.cycle();
+  run.script.now_ns += 1'000'000'000;
+  for (int i = 0; i < 1000; ++i) run.cycle();
+  EXPECT_GE(run.clock->counters().missed, 249U);
+  EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
+}
+
+TEST(RunLoop, AFullRecordCostsTheCycleNothing) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 5000; ++i) run.cycle();  // nobody empties the ring
+  EXPECT_GT(run.shared->record.lost(), 0U);
+  EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
+}
+
+TEST(RunLoop, ASnapshotIsOfTheWholeRun) {
+  Bench run(CorrectionMode::kShadow);
+  for (int i = 0; i < 100; ++i) run.cycle();
+  RunSnapshot snapshot;
+  ASSERT_TRUE(run.shared->snapshots.take(snapshot));
+  EXPECT_EQ(snapshot.session.state, SessionState::kShadow);
+  EXPECT_GT(snapshot.wake.count(), 80U);
+  EXPECT_FALSE(run.shared->snapshots.take(snapshot));
+}
+
+TEST(RunLoop, NeverAllocates) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 100; ++i) run.cycle();
+  long counted = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    run.rig.now_ns = run.script.now_ns + kCycle_ns;
+    for (const auto& message : run.rig.controller_says()) run.port.coming.push_back(message);
+    ++run.rig.counter;
+    run.rig.swing();
+    const long before = allocations;
+    run.loop->cycle();
+    counted += allocations - before;
+    run.port.sent.clear();
+    if (i % 100 == 0) run.empty_ring();
+  }
+  EXPECT_EQ(counted, 0);
+  EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
+  const long before = allocations;
+  const auto planted = std::make_unique<double>(1.0);
+  EXPECT_EQ(*planted, 1.0);
+  EXPECT_EQ(allocations - before, 1) << "the guard is asleep";
+}
+
+}  // namespace
+}  // namespace plumb::tests

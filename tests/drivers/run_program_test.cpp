@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// plumb-rt run as a user meets it, on targets from a file.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <algorithm>
+
+#include "tests/drivers/deployed.hpp"
+#include "tests/drivers/rt_program.hpp"
+
+namespace plumb::tests {
+namespace {
+
+/// Targets that go on for longer than a test.
+void write_long_targets(const Deployed& folder) {
+  std::string rows;
+  const std::string first = folder.text("targets.csv");
+  const std::size_t header = first.find('\n') + 1;
+  const std::string row = first.substr(header, first.find('\n', header) + 1 - header);
+  for (int i = 0; i < 30'000; ++i) rows += row;
+  folder.write("targets.csv", first.substr(0, header) + rows);
+}
+
+nlohmann::json status(const Deployed& folder) {
+  return plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json();
+}
+
+bool is_active(const Deployed& folder) {
+  const auto json = status(folder);
+  return json.is_object() && json["result"].is_object() && json["result"]["state"] == "active";
+}
+
+TEST(Run, PlaysAFileToItsEndAndReplaysToTheBit) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
+  const RtRan ran = plumb_rt({"run", folder.folder.string(), "--json"}, folder.folder);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json()["result"]["counters"]["faults"], 0);
+  EXPECT_GT(ran.json()["result"]["counters"]["answered"], Deployed::kTargets);
+  const std::string answers = folder.text("corrected.csv");
+  EXPECT_EQ(answers.rfind("t_s,counter,cx_mm", 0), 0U);
+  EXPECT_GT(std::count(answers.begin(), answers.end(), '\n'), Deployed::kTargets);
+  const std::string record = (folder.folder / "record.log").string();
+  const RtRan replayed =
+      plumb_rt({"replay", record, "--dir", folder.folder.string(), "--json"}, folder.folder);
+  EXPECT_EQ(replayed.exit, 0) << replayed.err;
+  EXPECT_EQ(replayed.json()["result"]["same"], true) << replayed.out;
+  EXPECT_GT(replayed.json()["result"]["frames"], 100);
+}
+
+TEST(Run, AReplayWithAnotherModeDiffers) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
+  ASSERT_EQ(plumb_rt({"run", folder.folder.string()}, folder.folder).exit, 0);
+  std::string toml = folder.text("rt.toml");
+  toml.replace(toml.find("\"full\""), 6, "\"limited\"");
+  folder.write("rt.toml", toml);
+  const std::string record = (folder.folder / "record.log").string();
+  const RtRan replayed =
+      plumb_rt({"replay", record, "--dir", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(replayed.exit, 1);
+  EXPECT_NE(replayed.err.find("E-RT-REPLAY-DIFFERS"), std::string::npos) << replayed.err;
+}
+
+TEST(Run, RampsOutOnTheFirstSignal) {
+  const Deployed folder;
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  run.kill(SIGTERM);
+  const RtRan ran = run.wait();
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_GT(ran.json()["result"]["counters"]["answered"], 50);
+  EXPECT_EQ(ran.json()["result"]["correction"]["applied_um"], 0.0);
+  const RtRan gone = plumb_rt({"status", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(gone.exit, 5);
+  EXPECT_NE(gone.err.find("E-RT-NOT-RUNNING"), std::string::npos) << gone.err;
+}
+
+TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
+  const Deployed folder;
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  const auto swap = [&](const std::string& file) {
+    return plumb_rt({"swap", (folder.folder / file).string(), "--dir", folder.folder.string()},
+                    folder.folder);
+  };
+  format::Model better = Deployed::arm();
+  for (auto& joint : better.calibrated.joints) joint.a -= 2e-4;
+  folder.write_model("better.plumb", better);
+  better.nominal.joints[0].a += 0.1;
+  folder.write_model("set-up.plumb", better);
+  better.serial = "UR-2";
+  folder.write_model("other.plumb", better);
+  EXPECT_NE(swap("targets.csv").err.find("E-RT-MODEL"), std::string::npos);
+  EXPECT_NE(swap("other.plumb").err.find("E-RT-SERIAL"), std::string::npos);
+  EXPECT_NE(swap("set-up.plumb").err.find("E-RT-SWAP"), std::string::npos);
+  EXPECT_EQ(swap("missing.plumb").exit, 3);
+  EXPECT_EQ(status(folder)["result"]["counters"]["swaps"], 0);
+  EXPECT_EQ(swap("better.plumb").exit, 0);
+  EXPECT_EQ(swap("robot.plumb").exit, 0);
+  EXPECT_TRUE(becomes([&] { return status(folder)["result"]["counters"]["swaps"] == 2; }));
+  EXPECT_EQ(status(folder)["result"]["state"], "active");
+  const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(second.exit, 5);
+  EXPECT_NE(second.err.find("E-RT-RUNNING"), std::string::npos) << second.err;
+  const RtRan seen = plumb_rt({"monitor", folder.folder.string(), "--once"}, folder.folder);
+  EXPECT_EQ(seen.exit, 0);
+  EXPECT_NE(seen.out.find("cycles/s"), std::string::npos) << seen.out;
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+}
+
+TEST(Run, AFullDiskEndsTheRecordAndNotTheRun) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
+  const RtRan ran = tests::RtProgram({"run", folder.folder.string(), "--json"}, folder.folder, [] {
+                      const rlimit limit{20'000, 20'000};
+                      ::setrlimit(RLIMIT_FSIZE, &limit);
+                      ::signal(SIGXFSZ, SIG_IGN);
+                    }).wait();
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const std::string failure = ran.json()["result"]["record"]["failure"];
+  EXPECT_NE(failure.find("File too large"), std::string::npos) << failure;
+  const std::string record = folder.text("record.log");
+  EXPECT_GT(record.size(), 10'000U);
+  EXPECT_EQ(record.back(), '\n') << "the last line is whole";
+  EXPECT_GT(ran.json()["result"]["counters"]["answered"], Deployed::kTargets);
+}
+
+TEST(Run, MetricsAreForPrometheusAndHostilePeersDoNotHoldItUp) {
+  const int port = 20'000 + static_cast<int>(::getpid() % 20'000);
+  const Deployed folder(Deployed::csv("[log]\nmetrics_port = " + std::to_string(port) + "\n"));
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  const auto ask = [&](const std::string& request) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+    if (::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
+      return std::string();
+    std::ignore = ::send(fd, request.data(), request.size(), MSG_NOSIGNAL);
+    std::string out;
+    char block[4096];
+    for (ssize_t got; (got = ::recv(fd, block, sizeof(block), 0)) > 0;)
+      out.append(block, static_cast<std::size_t>(got));
+    ::close(fd);
+    return out;
+  };
+  const std::string page = ask("GET /metrics HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_EQ(page.rfind("HTTP/1.0 200 OK\r\n", 0), 0U) << page;
+  EXPECT_NE(page.find("\nplumb_state 3\n"), std::string::npos) << page;
+  EXPECT_NE(page.find("\n# TYPE plumb_answered_total counter\n"), std::string::npos);
+  EXPECT_EQ(ask("GET / HTTP/1.1\r\n\r\n").rfind("HTTP/1.0 404", 0), 0U);
+  EXPECT_EQ(ask("GET /metr"), "") << "a request that does not end";
+  EXPECT_EQ(ask(std::string(100'000, 'A')), "") << "one that is too long";
+  EXPECT_NE(ask("GET /metrics HTTP/1.1\r\n\r\n"), "") << "and the next is served";
+  EXPECT_TRUE(is_active(folder));
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+}
+
+TEST(Run, TellsTheServiceManagerThatItBeats) {
+  const Deployed folder;
+  write_long_targets(folder);
+  const std::string path = (folder.folder / "notify").string();
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, path.size());
+  const int fd = ::socket(AF_UNIX, SOCK_DGRAM, 0);
+  ASSERT_EQ(::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  RtProgram run({"run", folder.folder.string()}, folder.folder, [&] {
+    ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
+    ::setenv("WATCHDOG_USEC", "200000", 1);
+  });
+  const auto told = [&] {
+    char text[256];
+    const ssize_t size = ::recv(fd, text, sizeof(text), 0);
+    return std::string(text, static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  };
+  EXPECT_EQ(told(), "READY=1");
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(told().rfind("WATCHDOG=1\nSTATUS=", 0), 0U);
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+  ::close(fd);
+}
+
+}  // namespace
+}  // namespace plumb::tests

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a bad bus, a stopped process and a wild planner do to a session: never a step, never an
+// answer to an old target. SessionRig checks the first at every cycle.
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <limits>
+
+#include "tests/drivers/session_rig.hpp"
+#include "tests/random_numbers.hpp"
+
+namespace plumb::tests {
+namespace {
+
+using enum SessionState;
+
+SessionSettings full() {
+  SessionSettings out;
+  out.mode = CorrectionMode::kFull;
+  return out;
+}
+
+TEST(SessionFaults, ThirtyPercentLossCostsAnswersAndNothingElse) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  Random random(1);
+  const long before = rig.answers;
+  for (int i = 0; i < 5000; ++i) {
+    auto messages = rig.controller_says();
+    std::erase_if(messages, [&](const BusMessage&) { return random.below(10) < 3; });
+    rig.cycle(messages);
+  }
+  EXPECT_EQ(rig.session->state(), kActive);
+  EXPECT_NEAR(static_cast<double>(rig.answers - before), 3500.0, 150.0);
+  EXPECT_GT(rig.last_correction.norm(), 1e-4);
+}
+
+TEST(SessionFaults, TwentyMillisecondsInAQueueOfOursAreTooOldToAnswer) {
+  SessionSettings settings = full();
+  settings.answer_s = 0.015;
+  SessionRig rig(settings);
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  std::deque<std::vector<BusMessage>> queue;
+  const long before = rig.answers;
+  for (int i = 0; i < 400; ++i) {
+    queue.push_back(rig.controller_says());  // with the time of their reception
+    if (queue.size() > 5) {
+      rig.cycle(queue.front());
+      queue.pop_front();
+    } else {
+      rig.cycle({});
+    }
+  }
+  EXPECT_EQ(rig.answers, before);
+  EXPECT_GT(rig.session->report().counters.too_old, 300U);
+}
+
+TEST(SessionFaults, DelayOnTheWayIsAnsweredUnderTheOldCounter) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  std::deque<std::vector<BusMessage>> way;
+  const long before = rig.answers;
+  for (int i = 0; i < 1000; ++i) {
+    way.push_back(rig.controller_says());
+    if (way.size() <= 5) {
+      rig.cycle({});
+      continue;
+    }
+    for (auto& message : way.front()) message.time_ns = rig.now_ns;
+    rig.cycle(way.front());
+    way.pop_front();
+  }
+  EXPECT_EQ(rig.session->state(), kActive);
+  EXPECT_EQ(rig.answers - before, 995);
+}
+
+TEST(SessionFaults, RepeatsAndOvertakenTargetsAreNotAnswered) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  const BusMessage old = rig.controller_says().back();
+  rig.cycle();
+  for (int i = 0; i < 8; ++i) {
+    BusMessage late = old;
+    late.time_ns = rig.now_ns;
+    EXPECT_FALSE(SessionRig::answer_in(rig.cycle(std::span(&late, 1))).has_value());
+    rig.cycle();
+  }
+  EXPECT_EQ(rig.session->report().counters.out_of_order, 7U);
+  EXPECT_EQ(rig.session->report().counters.repeated, 1U);
+}
+
+TEST(SessionFaults, OfABurstOnlyTheNewestTargetIsAnswered) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<BusMessage> burst;
+    for (int i = 0; i < 3; ++i) {
+      for (auto& message : rig.controller_says()) burst.push_back(message);
+      rig.cycle({});
+    }
+    for (auto& message : burst) message.time_ns = rig.now_ns;
+    const auto answer = SessionRig::answer_in(rig.cycle(burst));
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_EQ(answer->counter, burst.back().counter);
+  }
+  EXPECT_EQ(rig.session->state(), kActive);
+  EXPECT_EQ(rig.session->report().counters.too_fast, 0U);
+}
+
+TEST(SessionFaults, ASecondStoppedAnswersNothingOldAndRampsBackIn) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  std::vector<BusMessage> queued;  // what the kernel kept meanwhile
+  for (int i = 0; i < 250; ++i) {
+    for (auto& message : rig.controller_says()) queued.push_back(message);
+    rig.now_ns += kCycle_ns;
+    ++rig.counter;
+    rig.swing();
+  }
+  const std::uint16_t newest = queued.back().counter;
+  const auto answer = SessionRig::answer_in(rig.cycle(queued));
+  if (answer) {
+    EXPECT_EQ(answer->counter, newest);
+  }
+  EXPECT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  EXPECT_GT(rig.last_correction.norm(), 1e-4);
+}
+
+TEST(SessionFaults, ClockJumpsAreNoSteps) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  for (const std::int64_t jump_s : {3600, -3600, 1, -1, -3600 * 24}) {
+    rig.now_ns += jump_s * 1'000'000'000;
+    rig.run(600);
+    EXPECT_TRUE(rig.run_to(kActive));
+  }
+  rig.now_ns -= 1'000'000'000;
+  const std::int64_t stands = rig.now_ns;
+  int cycles = 0;
+  for (; cycles < 100 && rig.session->state() == kActive; ++cycles) {
+    rig.now_ns = stands;  // a clock that stands does not hide that nothing comes
+    rig.cycle({});
+  }
+  EXPECT_LT(cycles, 30);
+}
+
+TEST(SessionFaults, ATargetThatJumpsIsNotAnsweredAndHolds) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  rig.jump = Vector3(0.06, 0, 0);
+  EXPECT_FALSE(SessionRig::answer_in(rig.cycle()).has_value());
+  EXPECT_EQ(rig.session->state(), kHold);
+  EXPECT_EQ(rig.session->report().lost, Lost::kMotion);
+  EXPECT_EQ(rig.session->report().counters.too_far, 1U);
+  EXPECT_TRUE(SessionRig::answer_in(rig.cycle()).has_value()) << "it stays there: ramping out";
+  EXPECT_TRUE(rig.run_to(kActive));
+  rig.jump = Vector3(0.06 + 0.02, 0, 0);  // 20 mm in 4 ms: 5 m/s
+  EXPECT_FALSE(SessionRig::answer_in(rig.cycle()).has_value());
+  EXPECT_EQ(rig.session->report().counters.too_fast, 1U);
+  EXPECT_TRUE(rig.run_to(kActive));
+}
+
+TEST(SessionFaults, NumbersThatAreNoneAreNotAnswered) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  const double kBad[] = {std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::infinity(), -1e308};
+  for (const double bad : kBad)
+    for (std::size_t value = 0; value < 6; ++value) {
+      auto messages = rig.controller_says();
+      messages.back().values[value] = bad;
+      EXPECT_FALSE(SessionRig::answer_in(rig.cycle(messages)).has_value());
+    }
+  for (const double bad : kBad)  // and everywhere at once
+    for (int i = 0; i < 100; ++i) {
+      auto messages = rig.controller_says();
+      for (auto& message : messages) message.values.fill(bad);
+      EXPECT_FALSE(SessionRig::answer_in(rig.cycle(messages)).has_value());
+    }
+}
+
+TEST(SessionFaults, RandomMessagesNeverMakeAStep) {
+  const int count = static_cast<int>(scaled(20'000));
+  Random random(7);
+  const auto rarely = [&] { return random.below(50) == 0; };
+  SessionRig rig(full());
+  for (int i = 0; i < count; ++i) {
+    auto messages = rig.controller_says();
+    if (rarely()) {
+      BusMessage wild;
+      wild.kind = static_cast<MessageKind>(random.below(static_cast<int>(kMessageKinds)));
+      wild.size = kMaxMessageValues;
+      wild.counter = static_cast<std::uint16_t>(random.bits());
+      wild.time_ns = rig.now_ns;
+      for (double& x : wild.values) x = random.uniform(-10.0, 10.0);
+      messages.push_back(wild);
+      if (wild.kind == MessageKind::kTarget) rig.targets[wild.counter] = pose_in(wild).value();
+    }
+    if (rarely()) rig.now_ns += random.below(2'000'000'000);
+    rig.state.acknowledge = random.below(2) == 0;
+    rig.cycle(messages);
+  }
+  std::printf("%d cycles, seed 7, %ld answers, %llu faults, %llu holds\n", count, rig.answers,
+              static_cast<unsigned long long>(rig.session->report().counters.faults),
+              static_cast<unsigned long long>(rig.session->report().counters.holds));
+  EXPECT_GT(rig.answers, 100);
+  EXPECT_GT(rig.session->report().counters.holds, 5U);
+}
+
+}  // namespace
+}  // namespace plumb::tests
