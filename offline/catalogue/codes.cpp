@@ -272,6 +272,12 @@ constexpr Explanation kCodes[] = {
      "The compiled model listens to more temperatures than message context holds, so in the cycle "
      "it goes by their declared fallbacks. [deploy.bus] temperatures = N makes room; the "
      "controller sends them in the order of the message."},
+    {"E-ROOT",
+     "plumb-rt doctor --root takes a folder that holds a machine's /proc and /sys; this one holds "
+     "no proc."},
+    {"E-UNFIT",
+     "plumb-rt doctor --strict: the machine denies something that a cycle of this period needs. "
+     "Without --strict the checks are listed with what to change."},
     {"E-RT-KEY",
      "rt.toml has a key that plumb-rt does not know; nothing was sent. Rename it as proposed."},
     {"E-RT-TYPE", "A value of rt.toml is of the wrong type. The message says what is expected."},

@@ -172,7 +172,7 @@ drivers::ControllerState Controller::state() const {
           .automatic = !fault(FaultKind::kManual),
           .protective_stop = fault(FaultKind::kStop),
           .correction_enabled = !fault(FaultKind::kDisable),
-          .acknowledge = false,
+          .acknowledge = fault(FaultKind::kAcknowledge),
           .tool = static_cast<std::uint8_t>(settings_.tool + (fault(FaultKind::kTool) ? 1 : 0)),
           .frame = settings_.frame,
           .payload = settings_.payload};

@@ -40,6 +40,8 @@ constexpr Entry kEntries[] = {
     {"manual", FaultKind::kManual, Size::kNone, "operating mode not automatic: manual@5+1"},
     {"drives-off", FaultKind::kDrivesOff, Size::kNone, "the drives are off: drives-off@5+1"},
     {"disable", FaultKind::kDisable, Size::kNone, "correction is not enabled: disable@5+1"},
+    {"acknowledge", FaultKind::kAcknowledge, Size::kNone,
+     "no fault: an operator acknowledges one: acknowledge@9+1"},
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why, const std::string& help) {

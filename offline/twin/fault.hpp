@@ -7,7 +7,7 @@
 
 namespace plumb::offline::twin {
 
-/// What can be wrong with a controller and its line.
+/// What can be wrong with a controller and its line, and what an operator does about it.
 enum class FaultKind {
   kLate,          // every frame comes later; seconds
   kLose,          // share of the frames that never arrive
@@ -23,7 +23,8 @@ enum class FaultKind {
   kStop,          // protective stop
   kManual,        // operating mode not automatic
   kDrivesOff,
-  kDisable,  // the cell's own enable is taken away
+  kDisable,      // the cell's own enable is taken away
+  kAcknowledge,  // no fault: the operator's button is pressed
 };
 
 /// One fault and when: for ever, or `for_s` from `from_s` on after the path began [s].

@@ -4,34 +4,16 @@
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <memory>
 
 #include "plumb/drivers/can_port.hpp"
+#include "tests/drivers/counted_malloc.hpp"
 #include "tests/drivers/socket_pair.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
 
 namespace plumb::drivers {
 namespace {
 
-template <class F>
-long allocations_of(F work) {
-  const long before = allocations;
-  work();
-  return allocations - before;
-}
+using tests::allocations_of;
 
 TEST(CanAllocation, IsCaughtWhenPlanted) {
   EXPECT_EQ(1, allocations_of([] {

@@ -2,34 +2,16 @@
 // No allocation in a tick: every malloc of this program is counted, operator new included.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <memory>
 
 #include "plumb/drivers/cycle_clock.hpp"
+#include "tests/drivers/counted_malloc.hpp"
 #include "tests/drivers/scripted_time.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
 
 namespace plumb::drivers {
 namespace {
 
-template <class F>
-long allocations_of(F work) {
-  const long before = allocations;
-  work();
-  return allocations - before;
-}
+using tests::allocations_of;
 
 TEST(ClockAllocation, IsCaughtWhenPlanted) {
   EXPECT_EQ(1, allocations_of([] {

@@ -3,29 +3,18 @@
 // this program is counted, operator new included.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <memory>
 
 #include "plumb/drivers/modbus_client.hpp"
 #include "plumb/drivers/modbus_port.hpp"
 #include "plumb/drivers/modbus_server.hpp"
+#include "tests/drivers/counted_malloc.hpp"
 #include "tests/drivers/modbus_support.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
 
 namespace plumb::drivers {
 namespace {
+
+using tests::allocations;
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "a mailbox has no lock");
 

@@ -4,24 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-
+#include "tests/drivers/counted_malloc.hpp"
 #include "tests/drivers/in_memory_port.hpp"
 #include "tests/drivers/scripted_time.hpp"
 #include "tests/drivers/session_rig.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
 
 namespace plumb::tests {
 namespace {

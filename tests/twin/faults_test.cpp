@@ -150,6 +150,36 @@ TEST(Faults, AControllerThatCorrectsItselfIsNotCorrectedTwice) {
   }
 }
 
+/// A controller that begins to correct itself while it is corrected, or repeats old joints.
+TEST(Faults, AFaultOnTheWayStaysUntilAnOperatorAcknowledges) {
+  for (const char* fault : {"absolute@3+1", "freeze@3+1"}) {
+    SCOPED_TRACE(fault);
+    Case left_alone({fault});
+    left_alone.controller().knows(Case::twin().model().model().calibrated);
+    EXPECT_TRUE(left_alone.run());
+    left_alone.expect_no_step();
+    EXPECT_EQ(left_alone.loop().session().state(), SessionState::kFault);
+    EXPECT_EQ(left_alone.controller().receiver().present().translation.norm(), 0.0);
+
+    Case acknowledged({fault, "acknowledge@6+0.2"});
+    acknowledged.controller().knows(Case::twin().model().model().calibrated);
+    EXPECT_TRUE(course_of(acknowledged).came_back);
+    acknowledged.expect_no_step();
+    EXPECT_EQ(acknowledged.loop().session().state(), SessionState::kActive);
+  }
+}
+
+TEST(Faults, AProtectiveStopAndDrivesOffLeaveTheArmWhereItIsAndItGoesOn) {
+  for (const char* fault : {"stop@3+2", "drives-off@3+2"}) {
+    SCOPED_TRACE(fault);
+    Case now({fault});
+    EXPECT_TRUE(course_of(now).came_back);
+    now.expect_no_step();
+    EXPECT_TRUE(now.controller().done());
+    EXPECT_EQ(now.loop().session().state(), SessionState::kActive);
+  }
+}
+
 TEST(Faults, InShadowNothingIsCorrected) {
   Case now({}, {.mode = drivers::CorrectionMode::kShadow});
   EXPECT_FALSE(now.run());
