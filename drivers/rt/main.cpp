@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
       {.name = "plumb-rt",
        .about = "The controller-side program: the real-time cycle between a target source and the "
                 "robot controller.",
-       .examples = "  plumb-rt doctor                   # is this machine fit for a 4 ms cycle?\n"
-                   "  plumb-rt doctor --cycle-us 1000   # and for 1 kHz?",
+       .examples = "  plumb-rt doctor --cycle-us 1000   # is this machine fit for 1 kHz?\n"
+                   "  plumb-rt run mycell/deploy        # what plumb deploy wrote, until SIGTERM",
        .first = "plumb-rt doctor"},
       plumb::WorksIn::kAnywhere);
   rt::add_run(program);
