@@ -78,7 +78,8 @@ class Player {
     out_.model_changed = tick.model != model_;
     if (out_.model_changed) return;
     ++out_.cycles;
-    for (const BusMessage& message : session_->step(tick).sent())
+    const SessionOutput output = session_->step(tick);
+    for (const BusMessage& message : output.sent())
       for (const CanFrame& frame : sent_.encode(message)) expected_.push_back(said(frame));
     out_.frames += expected_.size();
   }

@@ -19,13 +19,15 @@ TEST(Session, SendsNothingButStatusAndSignatureInShadow) {
   SessionRig rig;
   ASSERT_TRUE(rig.run_to(kShadow));
   int status = 0, signature = 0;
-  for (int i = 0; i < 500; ++i)
-    for (const auto& message : rig.cycle().sent()) {
+  for (int i = 0; i < 500; ++i) {
+    const SessionOutput out = rig.cycle();
+    for (const auto& message : out.sent()) {
       status += message.kind == MessageKind::kStatus ? 1 : 0;
       signature += message.kind == MessageKind::kSignature ? 1 : 0;
       if (message.kind != MessageKind::kStatus) continue;
       EXPECT_FALSE(status_in(message).has_output);
     }
+  }
   EXPECT_EQ(rig.session->state(), kShadow);
   EXPECT_EQ(rig.answers, 0);
   EXPECT_NEAR(status, 100, 1);                      // every 20 ms of 2 s

@@ -49,7 +49,9 @@ struct SessionOutput {
   std::array<BusMessage, 3> messages;
   std::size_t size = 0;
 
-  std::span<const BusMessage> sent() const noexcept { return std::span(messages).first(size); }
+  /// Of an output that stays: a range-for over a temporary one would outlive it.
+  std::span<const BusMessage> sent() const& noexcept { return std::span(messages).first(size); }
+  std::span<const BusMessage> sent() const&& = delete;
 };
 
 /// Monotone.
