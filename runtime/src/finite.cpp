@@ -21,7 +21,8 @@ std::uint64_t shear_key(const Vector3& x, const Vector3& y, const Vector3& z) no
 bool is_pose(const Transformd& X) noexcept {
   const Vector3 x = X.R.col(0), y = X.R.col(1), z = X.R.col(2);
   const bool proper = dot(cross<double>(x, y), z) > 0.0;
-  return is_finite(X.p) & (shear_key(x, y, z) <= magnitude_key(kMaxShear)) & proper;
+  const bool square = shear_key(x, y, z) <= magnitude_key(kMaxShear);
+  return square && proper && is_finite(X.p);
 }
 
 }  // namespace plumb::internal

@@ -15,7 +15,7 @@ Prediction refusal() noexcept {
 }  // namespace
 
 ForwardModel::ForwardModel(const format::Model& model) noexcept
-    : chain_(model.calibrated), effects_(model), domain_(model.domain) {
+    : effects_(model), domain_(model.domain), chain_(model.calibrated) {
   for (int axis = 0; axis < format::kTreeAxes; ++axis) {
     trees_[axis] = TreeView(model.trees[axis], chain_.joints());
     has_tree_ = has_tree_ || !trees_[axis].empty();

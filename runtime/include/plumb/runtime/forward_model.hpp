@@ -70,14 +70,14 @@ class ForwardModel {
   Vector3 tree_at(std::span<const double> q, double& weight) const noexcept;
   Vector3 trees_at(std::span<const double> u) const noexcept;
 
-  Chain chain_;
   EffectSet effects_;
+  TreeView walked_;  // the first that is not empty
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
+  Chain chain_;
   bool has_tree_ = false;
   bool all_hard_ = false;  // so all are walked side by side
-  TreeView walked_;        // the first that is not empty
-  bool one_walk_ = false;  // the others differ from it in their numbers only
+  bool one_walk_ = false;  // the others differ from `walked_` in their numbers only
 };
 
 }  // namespace plumb

@@ -41,7 +41,7 @@ struct Loads {
 
   /// About the origin of the base, of all there is.
   Vector3 base_moment(const ChainFrames& frames) const noexcept {
-    const Vector3 weight = cross<double>(joint[0].first_moment, gravity);
+    Vector3 weight = cross<double>(joint[0].first_moment, gravity);
     if (!pushed) return weight;
     return weight + cross<double>(frames.tip.p, wrench) + tip_moment;
   }
