@@ -60,8 +60,7 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
   ChainFrames frames;
   Loads loads;
   for (Eigen::Index i = 0; i < measured.q.rows(); ++i) {
-    chain.frames({measured.q.row(i).data(), static_cast<std::size_t>(cell.joints())},
-                         frames);
+    chain.frames({measured.q.row(i).data(), static_cast<std::size_t>(cell.joints())}, frames);
     weigh(chain, frames, mechanics, cell.gravity, X_TF, context_at(measured.context, i, {}), loads);
     for (int j = 0; j < cell.joints(); ++j)
       out[j] = std::max(out[j], std::abs(loads.torque(j, chain, frames)));

@@ -43,8 +43,7 @@ std::span<const double> joints(std::size_t i) {
 
 void forward_kinematics(benchmark::State& state) {
   const Chain chain(model().calibrated);
-  for (std::size_t i = 0; auto _ : state)
-    benchmark::DoNotOptimize(chain.forward(joints(i++)));
+  for (std::size_t i = 0; auto _ : state) benchmark::DoNotOptimize(chain.forward(joints(i++)));
 }
 BENCHMARK(forward_kinematics);
 

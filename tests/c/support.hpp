@@ -60,8 +60,7 @@ inline plumb_pose pose_of(const Transformd& X) {
 
 /// Everything arrived, everything sound.
 inline plumb_input sound_input() {
-  static const plumb_pose X_BD =
-      pose_of(Chain(one_arm().nominal).forward(std::span(home(), 6)));
+  static const plumb_pose X_BD = pose_of(Chain(one_arm().nominal).forward(std::span(home(), 6)));
   plumb_input in;
   EXPECT_EQ(plumb_input_init(&in), PLUMB_OK);
   in.arrived = PLUMB_TARGET | PLUMB_MEASURED | PLUMB_PAYLOAD | PLUMB_TIME | PLUMB_TEMPERATURE(0);

@@ -72,8 +72,7 @@ TEST(Audit, WorstCorrectionIsNotExceededOnFreshPosesByMuchAndItsPlaceIsInTheBox)
   for (int i = 0; i < line.simulation.measured.size(); ++i) {
     const auto row = line.simulation.measured.q.row(i);
     const std::span<const double> q(row.data(), 6);
-    EXPECT_LT((arm.predict(q).X_BT.p - nominal.forward(q).p).norm(),
-              1.1 * a.worst_correction_m);
+    EXPECT_LT((arm.predict(q).X_BT.p - nominal.forward(q).p).norm(), 1.1 * a.worst_correction_m);
   }
   ASSERT_EQ(a.worst_q.size(), 6u);
   for (int k = 0; k < 6; ++k) {

@@ -8,9 +8,8 @@ namespace plumb::tests {
 
 /// A refusal is of the user's input, and says what and how.
 inline void require_helpful(const Failure& failure) {
-  require(
-      failure.exit_code() == Exit::kInput || failure.exit_code() == Exit::kUsage,
-      "a bad file is exit 3 or 2");
+  require(failure.exit_code() == Exit::kInput || failure.exit_code() == Exit::kUsage,
+          "a bad file is exit 3 or 2");
   require(!failure.problems().empty(), "a refusal has a reason");
   for (const auto& problem : failure.problems()) {
     require(!problem.code.empty() && !problem.message.empty(), "a reason has a code and words");

@@ -40,8 +40,7 @@ TEST(Chain, AgreesWithKdlOverRandomArmsAndPoses) {
     const auto parameters = random.anything();
     const auto q = anywhere(random, parameters);
     const Chain chain(parameters);
-    worst =
-        std::max(worst, difference(chain.forward(q), test::KdlArm(parameters).forward(q)));
+    worst = std::max(worst, difference(chain.forward(q), test::KdlArm(parameters).forward(q)));
   }
   std::printf("worst difference %.2e\n", worst);
   EXPECT_LT(worst, 1e-12);

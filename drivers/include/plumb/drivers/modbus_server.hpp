@@ -19,7 +19,7 @@ struct ModbusServerSettings {
 
   ModbusAddress at = TcpAddress{};  // host: an address of this machine or an interface ("eth1")
   Wildcard wildcard = Wildcard::kRefused;  // 0.0.0.0 and ::
-  std::vector<std::string> peers = {};          // addresses that may connect; empty: this machine only
+  std::vector<std::string> peers = {};     // addresses that may connect; empty: this machine only
   Sender self = Sender::kPlumb;
   std::uint8_t unit = 1;  // TCP: 0 and 255 are answered too
 
