@@ -143,17 +143,17 @@ bool EffectSet::fill_in(Context& context) const noexcept {
   return any;
 }
 
-/// The temperatures that are this effect's own.
+/// The temperatures that are this effect's own, and none of the one before.
 void EffectSet::show(const Bound& bound, Situation& at) noexcept {
-  if (bound.temperature < 0) return;
-  at.temperature_degC = at.context.temperature_degC[static_cast<std::size_t>(bound.temperature)];
+  const auto sensor = static_cast<std::size_t>(bound.temperature);
+  at.temperature_degC = bound.temperature < 0 ? kUnknown : at.context.temperature_degC[sensor];
   at.sensors = std::span(bound.sensors).first(bound.sensor_count);
 }
 
 void EffectSet::survey(const Chain& chain, const ChainFrames& frames, const Context& context,
                        Surroundings& out) const noexcept {
   out.context = context;
-  out.stood_in = fill_in(out.context);
+  fill_in(out.context);
   weights_.weigh(chain, frames, out.context, out.loads);
 }
 

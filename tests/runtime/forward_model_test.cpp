@@ -69,6 +69,24 @@ TEST(ForwardModel, ReportsTheTreesPartOfThePosition) {
   }
 }
 
+TEST(ForwardModel, ShowsAnEffectNoTemperatureOfAnother) {
+  test::RandomArm random(kSeed);
+  auto model = with_trees(random, test::ur10());
+  const format::Effect growth{.name = "thermal_growth",
+                              .joints = {1, 2},
+                              .parameters = {1e-5, 1e-5, 0.0, 0.0},
+                              .context = {{format::ContextInput::kTemperature, "arm", 20.0}},
+                              .constants = {20.0}};
+  model.effects = {growth};
+  const std::vector<double> q(6, 0.3);
+  Context warm;
+  warm.temperature_degC[0] = 40.0;
+  const Vector3 one = ForwardModel(model).predict(q, warm).X_BT.p;
+  model.effects.push_back(growth);
+  model.effects.back().context.clear();  // it has no sensor, so it stays as it was
+  EXPECT_EQ(ForwardModel(model).predict(q, warm).X_BT.p, one);
+}
+
 TEST(ForwardModel, RefusesWhatIsNoJointStateAndStaysFinite) {
   test::RandomArm random(kSeed);
   const auto model = with_trees(random, test::ur10());
