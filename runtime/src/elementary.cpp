@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "sin_cos_packed.hpp"
@@ -171,17 +170,6 @@ SinCos<double> sin_cos(double x) noexcept {
   const double cos_magnitude = swap ? s : c;
   return {(quadrant & 2U) != 0 ? -sin_magnitude : sin_magnitude,
           ((quadrant + 1U) & 2U) != 0 ? -cos_magnitude : cos_magnitude};
-}
-
-void sin_cos(std::span<const double> x, double* sin, double* cos) noexcept {
-  static_assert(kSinCosLanes % kPackedLanes == 0);
-  Packed in, s, c;
-  for (std::size_t i = 0; i < x.size(); i += kPackedLanes) {
-    std::memcpy(&in, x.data() + i, sizeof in);
-    sin_cos_packed(in, s, c);
-    std::memcpy(sin + i, &s, sizeof s);
-    std::memcpy(cos + i, &c, sizeof c);
-  }
 }
 
 double atan2(double y, double x) noexcept {

@@ -57,7 +57,6 @@ class EffectSet {
   struct Surroundings {
     Context context;  // fallbacks filled in
     Loads loads;
-    bool stood_in = false;  // a fallback was needed
   };
   void survey(const Chain& chain, const ChainFrames& frames, const Context& context,
               Surroundings& out) const noexcept;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <span>
-
 /// Elementary functions that give the same bits on every machine.
 ///
 /// Made of +, -, *, / and integer operations only, in a fixed order; never libm, never a fused
@@ -20,22 +17,6 @@ struct SinCos {
 
 /// Sine and cosine of x [rad]; |x| <= 1e5, NaN beyond.
 SinCos<double> sin_cos(double x) noexcept;
-
-/// Of several x at once, a third of the time each and the same bits. sin, cos: shape (n,); all
-/// three with room for n rounded up to kSinCosLanes, and what stands behind the n numbers means
-/// nothing.
-inline constexpr std::size_t kSinCosLanes = 4;
-void sin_cos(std::span<const double> x, double* sin, double* cos) noexcept;
-
-/// The same for numbers with derivatives, one by one.
-template <class S>
-void sin_cos(std::span<const S> x, S* sin, S* cos) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto t = sin_cos(x[i]);
-    sin[i] = t.sin;
-    cos[i] = t.cos;
-  }
-}
 
 /// Angle of (x, y) in [-pi, pi] [rad]; atan2(0, 0) = 0 with the sign of y.
 double atan2(double y, double x) noexcept;
