@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cell/cell.hpp"
-#include "cli/output_files.hpp"
 #include "plumb/drivers/bus_layout.hpp"
+#include "program/output_files.hpp"
 
 namespace plumb::offline::cli {
 

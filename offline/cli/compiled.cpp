@@ -9,14 +9,26 @@
 
 namespace plumb::offline::cli {
 
-format::Model compiled(const Cell& cell, const Measurements& measured, Run run, Poses poses) {
+void CompileOptions::add_to(CLI::App& verb) {
+  verb.add_flag("--refit-all", refit_all,
+                "Use every pose; the model then carries no held-out figure");
+  verb.add_flag("--gate", gate,
+                "Exit 1 and write nothing if the audit warns or 95 % of the held-out poses are not "
+                "within tolerance");
+}
+
+format::Model compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
+                       Outcome& outcome) {
+  const Measurements measured = open_measurements(cell, outcome);
+  Run run =
+      current_or_new_run(cell, measured, write.dry_run ? Keep::kNothing : Keep::kRun, outcome);
   const std::string kept = run.number > 0 ? fmt::format("{:04}", run.number) : "not kept";
-  if (poses == Poses::kEveryPose) {
+  if (options.refit_all) {
     const Progress progress("calibrating on every pose");
     run = draft_run(cell, measured, fit_all(cell, measured));
   }
   format::Model model = compile(cell, run);
-  model.provenance.run = poses == Poses::kEveryPose ? kept + ", refitted on all poses" : kept;
+  model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
   return model;
 }
 

@@ -4,13 +4,22 @@
 #include "cli/cell_data.hpp"
 #include "compile/audit.hpp"
 #include "plumb/format/model.hpp"
+#include "program/output_files.hpp"
 
 namespace plumb::offline::cli {
 
-/// The model of a run. With kEveryPose its numbers come from every pose; the run stays the evidence
-/// behind them.
-enum class Poses { kOfTheRun, kEveryPose };
-format::Model compiled(const Cell& cell, const Measurements& measured, Run run, Poses poses);
+/// --refit-all and --gate of the verbs that compile.
+struct CompileOptions {
+  bool refit_all = false;
+  bool gate = false;
+  void add_to(CLI::App& verb);
+};
+
+/// The model of the cell's current run, or of a new one that is kept unless nothing is to be
+/// written. With refit_all its numbers come from every pose; the run stays the evidence behind
+/// them.
+format::Model compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
+                       Outcome& outcome);
 
 /// What --gate asks: no warning of the audit, and 95 % of the held-out poses within tolerance.
 /// What fails becomes an error of `outcome`, exit kGateFailed.

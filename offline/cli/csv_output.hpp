@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/output_files.hpp"
 #include "plumb/runtime/status.hpp"
 #include "program/outcome.hpp"
+#include "program/output_files.hpp"
 #include "show/csv_columns.hpp"
 
 namespace plumb::offline::cli {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "check/check.hpp"
-#include "cli/output_files.hpp"
+#include "program/output_files.hpp"
 
 namespace plumb::offline::cli {
 

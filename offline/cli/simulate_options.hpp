@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/output_files.hpp"
+#include "program/output_files.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline::cli {

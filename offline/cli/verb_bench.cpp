@@ -6,9 +6,9 @@
 
 #include "bench/benchmark.hpp"
 #include "cli/model_file.hpp"
-#include "cli/output_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
+#include "program/output_files.hpp"
 #include "show/latency_view.hpp"
 
 namespace plumb::offline::cli {

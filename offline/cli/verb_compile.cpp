@@ -7,10 +7,10 @@
 #include "cli/cell_data.hpp"
 #include "cli/compiled.hpp"
 #include "cli/model_file.hpp"
-#include "cli/output_files.hpp"
 #include "cli/verbs.hpp"
 #include "compile/audit.hpp"
 #include "compile/emit_c.hpp"
+#include "program/output_files.hpp"
 #include "show/audit_view.hpp"
 
 namespace plumb::offline::cli {
@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string output;
   std::string c_output;
-  bool refit_all = false;
-  bool gate = false;
+  CompileOptions compile;
   WriteOptions write;
 };
 
@@ -68,18 +67,14 @@ std::string wrote_text(const Options& options, const fs::path& file) {
 void compile_cell(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const fs::path file = model_file(options, cell);
-  const Measurements measured = open_measurements(cell, outcome);
-  Run run = current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
-                               outcome);
-  const format::Model model = compiled(cell, measured, std::move(run),
-                                       options.refit_all ? Poses::kEveryPose : Poses::kOfTheRun);
+  const format::Model model = compiled(cell, options.compile, options.write, outcome);
   const OutputFiles files = files_of(options, file, model);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   outcome.result = result_of(model, found, file.string());
   if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
   const std::string text = compiled_headline(model) + show::audit_text(found, model);
-  if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
+  if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;
     return;
@@ -104,11 +99,7 @@ void add_compile(Program& program) {
           "Also write the tree as one C99 header that needs nothing else; its symbols begin "
           "with the file's name")
       ->type_name("FILE");
-  verb.add_flag("--refit-all", options->refit_all,
-                "Use every pose; the model then carries no held-out figure");
-  verb.add_flag("--gate", options->gate,
-                "Exit 1 and write nothing if the audit warns or 95 % of the held-out poses are not "
-                "within tolerance");
+  options->compile.add_to(verb);
   options->write.add_to(verb);
 }
 

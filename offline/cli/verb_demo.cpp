@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cli/demo_targets.hpp"
-#include "cli/output_files.hpp"
 #include "cli/verbs.hpp"
+#include "program/output_files.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline::cli {

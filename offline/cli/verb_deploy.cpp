@@ -25,8 +25,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string folder;
-  bool refit_all = false;
-  bool gate = false;
+  CompileOptions compile;
   WriteOptions write;
 };
 
@@ -95,17 +94,13 @@ void deploy(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   refuse_existing(options);
   const drivers::BusLayout layout = bus_of(cell, cell.deploy.link);
-  const Measurements measured = open_measurements(cell, outcome);
-  Run run = current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
-                               outcome);
-  const format::Model model = compiled(cell, measured, std::move(run),
-                                       options.refit_all ? Poses::kEveryPose : Poses::kOfTheRun);
+  const format::Model model = compiled(cell, options.compile, options.write, outcome);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   warn_of_temperatures(model, layout, outcome);
   outcome.result = {{"run", model.provenance.run}, {"audit", show::audit_json(found, model)}};
   outcome.text = compiled_headline(model) + show::audit_text(found, model);
-  if (options.gate) check_gate(found, model, cell.tolerance_m, outcome);
+  if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
   const auto files = files_of(cell, layout, bytes);
@@ -124,11 +119,7 @@ void add_deploy(Program& program) {
        .examples = "  plumb deploy -o deploy\n  plumb -C mycell deploy -o deploy --gate --force"},
       [options](const Globals& g, Outcome& o) { deploy(*options, g, o); });
   verb.add_option("-o,--output", options->folder, "Folder to write")->type_name("DIR")->required();
-  verb.add_flag("--refit-all", options->refit_all,
-                "Use every pose; the model then carries no held-out figure");
-  verb.add_flag("--gate", options->gate,
-                "Exit 1 and write nothing if the audit warns or 95 % of the held-out poses are not "
-                "within tolerance");
+  options->compile.add_to(verb);
   options->write.add_to(verb);
 }
 

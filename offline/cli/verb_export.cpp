@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
-#include "cli/output_files.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "program/output_files.hpp"
 #include "urdf/urdf_writer.hpp"
 
 namespace plumb::offline::cli {

@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
-#include "cli/output_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "import/importer.hpp"
 #include "import/joining.hpp"
 #include "program/file.hpp"
+#include "program/output_files.hpp"
 #include "show/text_table.hpp"
 
 namespace plumb::offline::cli {

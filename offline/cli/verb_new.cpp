@@ -6,9 +6,9 @@
 
 #include "cell/cell.hpp"
 #include "cli/dh_file.hpp"
-#include "cli/output_files.hpp"
 #include "cli/verbs.hpp"
 #include "program/file.hpp"
+#include "program/output_files.hpp"
 #include "urdf/urdf_reader.hpp"
 
 namespace plumb::offline::cli {

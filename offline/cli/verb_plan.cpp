@@ -6,10 +6,10 @@
 
 #include "cli/cell_data.hpp"
 #include "cli/effect_argument.hpp"
-#include "cli/output_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "plan/pose_plan.hpp"
+#include "program/output_files.hpp"
 #include "show/plan_view.hpp"
 
 namespace plumb::offline::cli {

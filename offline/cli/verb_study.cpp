@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "cli/output_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
+#include "program/output_files.hpp"
 #include "show/study_figures.hpp"
 #include "show/study_view.hpp"
 #include "study/planar_physics.hpp"

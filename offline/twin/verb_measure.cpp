@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "cli/output_files.hpp"
+#include "program/output_files.hpp"
 #include "twin/twin_file.hpp"
 #include "twin/verbs.hpp"
 
@@ -16,7 +16,7 @@ struct Options {
   std::string directory, output;
   int poses = 200;
   int repeats = 3;
-  cli::WriteOptions write;
+  WriteOptions write;
 };
 
 void measure(const Options& options, Outcome& outcome) {
@@ -33,14 +33,14 @@ void measure(const Options& options, Outcome& outcome) {
   const Simulation simulation = simulate(cell, plan);
   const fs::path file =
       options.output.empty() ? folder / "measurements.csv" : fs::path(options.output);
-  cli::OutputFiles files;
+  OutputFiles files;
   files.add(file, simulated_csv(cell, simulation));
   outcome.result = {{"rows", simulation.measured.size()}, {"poses", options.poses}};
   put(outcome.result, "noise_um", hidden.noise_m * 1e6);
   files.commit(options.write, outcome);
   outcome.text = fmt::format(
       "The tracker read {} poses {} times in all, noise {} um per axis.\n\n  {}\n", options.poses,
-      simulation.measured.size(), hidden.noise_m * 1e6, cli::wrote(file, options.write));
+      simulation.measured.size(), hidden.noise_m * 1e6, wrote(file, options.write));
   outcome.text += fmt::format("\nNext, type\n  plumb -C {} diagnose --apply\n", folder.string());
 }
 

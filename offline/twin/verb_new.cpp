@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "cli/output_files.hpp"
+#include "program/output_files.hpp"
 #include "twin/twin_file.hpp"
 #include "twin/verbs.hpp"
 
@@ -19,7 +19,7 @@ struct Options {
   std::uint64_t seed = 1;
   double noise_um = 10.0;
   double geometry_um = 300.0, geometry_urad = 300.0;
-  cli::WriteOptions write;
+  WriteOptions write;
 };
 
 /// A sample cell of plumb demo lends its arm, and usually something to hide.
@@ -88,7 +88,7 @@ void make(const Options& options, Outcome& outcome) {
   if (hidden.effects.empty()) hidden.effects = {robot.hides};
   for (const auto& effect : hidden.effects) (void)parse_hidden_effect(effect, cell);
   const fs::path folder = options.directory;
-  cli::OutputFiles files;
+  OutputFiles files;
   files.add(folder / "cell.toml", write_cell(cell));
   files.add(folder / "twin.toml", write_hidden(hidden));
   outcome.result = {{"directory", folder.string()},
@@ -97,7 +97,7 @@ void make(const Options& options, Outcome& outcome) {
                     {"seed", hidden.seed}};
   files.commit(options.write, outcome);
   outcome.text = fmt::format("{}: what it hides stands in twin.toml.\n\n  {}\n", cell.name,
-                             cli::wrote(folder / "{cell.toml,twin.toml}", options.write));
+                             wrote(folder / "{cell.toml,twin.toml}", options.write));
   outcome.text += next_steps(folder.string());
 }
 

@@ -9,7 +9,7 @@
 
 #include "program/outcome.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 
 /// --force and --dry-run of the verbs that write.
 struct WriteOptions {
@@ -36,4 +36,4 @@ class OutputFiles {
 /// "wrote x.csv" or, with --dry-run, "would write x.csv".
 std::string wrote(const std::filesystem::path& file, const WriteOptions& options);
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/output_files.hpp"
+#include "program/output_files.hpp"
 
 #include <fmt/format.h>
 
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb {
 
 namespace fs = std::filesystem;
 
@@ -47,4 +47,4 @@ std::string wrote(const fs::path& file, const WriteOptions& options) {
   return fmt::format("{} {}", options.dry_run ? "would write" : "wrote", file.string());
 }
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb
