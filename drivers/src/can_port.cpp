@@ -58,6 +58,7 @@ bool CanPort::takes(const CanFrame& frame, BusMessage& message) noexcept {
       return false;
     case Heard::kPart:
     case Heard::kNotOurs:
+    case Heard::kNothing:
       return false;
   }
   return false;

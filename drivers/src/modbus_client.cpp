@@ -62,6 +62,8 @@ class ModbusClient::Work {
   bool write_run(std::int64_t now_ns);
   bool read_back();
   bool passed(Result result);
+  bool serial() const { return std::holds_alternative<SerialLine>(settings.server); }
+  void met();
   void back_off();
 
   ModbusCodec codec_;
@@ -79,6 +81,7 @@ class ModbusClient::Work {
 
   std::int64_t read_back_due_ns_ = 0;
   double back_off_s_ = 0;
+  bool met_ = false;   // the server, on this connection
   bool clean_ = true;  // this round
 };
 
@@ -109,7 +112,8 @@ void ModbusClient::Work::run() {
 bool ModbusClient::Work::connect() {
   connection_ = ModbusConnection::open(settings, thread);
   if (!connection_) return false;
-  ++exchange.counters.connects;
+  met_ = false;
+  if (!serial()) met();  // a serial device opens whether or not anyone is at its other end
   read_back_due_ns_ = 0;
   for (Poll& poll : polls_) poll.due_ns = 0;
   return true;
@@ -232,9 +236,11 @@ bool ModbusClient::Work::passed(Result result) {
   switch (result) {
     case Result::kDone:
       ++counters.transactions;
+      met();
       return true;
     case Result::kRefused:
       ++counters.refusals;
+      met();
       clean_ = false;
       return true;
     case Result::kLate:
@@ -249,10 +255,14 @@ bool ModbusClient::Work::passed(Result result) {
   return false;
 }
 
+void ModbusClient::Work::met() {
+  if (!met_) ++exchange.counters.connects;
+  met_ = true;
+}
+
 void ModbusClient::Work::back_off() {
   // On a serial line nothing but time tells a late answer from the next one.
-  const bool serial = std::holds_alternative<SerialLine>(settings.server);
-  const double wait_s = std::max(back_off_s_, serial ? settings.response_timeout_s : 0.0);
+  const double wait_s = std::max(back_off_s_, serial() ? settings.response_timeout_s : 0.0);
   back_off_s_ = std::min(2 * back_off_s_, settings.longest_back_off_s);
   thread.sleep_until_ns(MonotonicTime::now_ns() + to_ns(wait_s));
 }

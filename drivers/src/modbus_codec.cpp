@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/drivers/modbus_codec.hpp"
 
+#include <algorithm>
+
 #include "crc.hpp"
 #include "wire_number.hpp"
 
@@ -8,6 +10,7 @@ namespace plumb::drivers {
 namespace {
 
 constexpr int kValueBytes = 4;
+constexpr std::size_t kCheckSumWords = 2;
 
 std::uint32_t check_sum(std::uint16_t address, std::span<const std::uint16_t> registers) noexcept {
   Crc32P4 crc;
@@ -17,6 +20,10 @@ std::uint32_t check_sum(std::uint16_t address, std::span<const std::uint16_t> re
     crc.add(static_cast<std::uint8_t>(word));
   }
   return crc.value();
+}
+
+bool is_blank(std::span<const std::uint16_t> registers) noexcept {
+  return std::all_of(registers.begin(), registers.end(), [](std::uint16_t w) { return w == 0; });
 }
 
 }  // namespace
@@ -58,15 +65,21 @@ bool ModbusCodec::encode(const BusMessage& message,
   return true;
 }
 
+void ModbusCodec::withdraw(std::span<std::uint16_t> registers) noexcept {
+  for (std::uint16_t& word : registers.last(kCheckSumWords))
+    word = static_cast<std::uint16_t>(~word);
+}
+
 Heard ModbusCodec::decode(MessageKind kind, std::span<const std::uint16_t> registers,
                           BusMessage& out) noexcept {
   Known& entry = known_[static_cast<std::size_t>(kind)];
   if (!entry.present) return Heard::kNotOurs;
   if (registers.size() != entry.block.count) return Heard::kCorrupt;
   const std::size_t counter = 2U * entry.size;
-  if (get_pair(&registers[counter + 1]) !=
-      check_sum(entry.block.first, registers.first(counter + 1)))
-    return Heard::kCorrupt;
+  const std::uint32_t found = get_pair(&registers[counter + 1]);
+  const std::uint32_t right = check_sum(entry.block.first, registers.first(counter + 1));
+  if (found == ~right || (!entry.heard && is_blank(registers))) return Heard::kNothing;
+  if (found != right) return Heard::kCorrupt;
   if (entry.heard && entry.last == registers[counter]) return Heard::kRepeated;
   entry.heard = true;
   entry.last = registers[counter];

@@ -68,8 +68,7 @@ void ModbusRegisters::renew(Message& message, std::int64_t now_ns) noexcept {
     ++exchange_->counters.sent;
   }
   if (!message.sound || now_ns - message.time_ns <= message.stale_after_ns) return;
-  const auto check_sum = block(message).last(2);
-  for (std::uint16_t& word : check_sum) word = static_cast<std::uint16_t>(~word);
+  ModbusCodec::withdraw(block(message));
   message.sound = false;
   ++exchange_->counters.stale;
 }

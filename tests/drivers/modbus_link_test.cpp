@@ -34,7 +34,8 @@ class Talker {
   void cycle() {
     ++counter;
     for (const auto& message : layout_->messages)
-      if (message.sender == self_) port.send(lawful(*layout_, message.kind, counter));
+      if (message.sender == self_ && message.kind != silent)
+        port.send(lawful(*layout_, message.kind, counter));
     BusMessage heard_now;
     while (port.receive(heard_now)) {
       if (!is_lawful(*layout_, heard_now)) ++unlawful;
@@ -52,6 +53,7 @@ class Talker {
 
  public:
   ModbusPort port;
+  std::optional<MessageKind> silent;  // is not sent
   std::uint16_t counter = 0;
   int heard = 0;
   int unlawful = 0;
@@ -190,6 +192,58 @@ TEST(ModbusLinkRate, RunsAThousandCyclesASecondOnOneMachine) {
   std::printf("%.0f round trips/s, %.0f requests/s\n", best, best_requests);
   EXPECT_GE(best_requests, 1000);
   EXPECT_GE(best, 1000);
+}
+
+/// A controller need not send every message of the layout, and comes when it comes.
+void expect_clean_without(MessageKind kind, Pair& pair) {
+  ASSERT_FALSE(pair.fault) << words(pair.fault);
+  pair.far.silent = kind;
+  ASSERT_TRUE(soon([&] {
+    pair.cycle();
+    return pair.near.heard > 200;
+  }));
+  EXPECT_FALSE(pair.near.newest(kind));
+  EXPECT_EQ(pair.near.port.state(), LinkState::kUp);
+  EXPECT_EQ(pair.near.port.counters().corrupt, 0U);
+  EXPECT_EQ(pair.near.port.counters().reconnects, 0U);
+}
+
+TEST(ModbusLinkFaults, AMessageThatIsNeverSentIsNotTakenForACorruptOne) {
+  BusLayout layout = default_layout(6, 0.001);
+  for (auto& message : layout.messages) message.period_s = 0.001;
+  Pair pair(layout, kAnyPort, {}, Sender::kPlumb);
+  ASSERT_FALSE(pair.client.start());
+  expect_clean_without(MessageKind::kContext, pair);
+}
+
+TEST(ModbusLinkFaults, OnASerialCableWaitingForTheFirstAnswerIsNoReconnection) {
+  PtyPair cable;
+  const ModbusServerSettings at{.at = SerialLine{.device = cable.device(0)}};
+  ModbusClientSettings to{.server = SerialLine{.device = cable.device(1)},
+                          .response_timeout_s = 0.02};
+  cable.cut();
+  Pair pair(default_layout(6, 0.004), at, to, Sender::kPlumb);
+  ASSERT_FALSE(pair.client.start());
+  ASSERT_TRUE(soon([&] { return pair.client.exchange().counters.timeouts >= 3U; }));
+  EXPECT_EQ(pair.client.exchange().counters.connects, 0U);
+  cable.mend();
+  expect_clean_without(MessageKind::kContext, pair);
+}
+
+TEST(ModbusLinkFaults, WhatTheServerWithdrewAsOldIsNotTakenForCorrupt) {
+  BusLayout layout = default_layout(6, 0.001);
+  for (auto& message : layout.messages) message.period_s = 0.001;
+  Pair pair(layout, kAnyPort, {}, Sender::kPlumb);
+  ASSERT_FALSE(pair.fault) << words(pair.fault);
+  ASSERT_FALSE(pair.client.start());
+  ASSERT_TRUE(soon([&] {
+    pair.cycle();
+    return pair.near.heard > 50;
+  }));
+  ASSERT_TRUE(soon([&] { return pair.server.exchange().counters.stale > 3U; }));
+  const std::uint64_t before = pair.client.exchange().counters.transactions;
+  ASSERT_TRUE(soon([&] { return pair.client.exchange().counters.transactions > before + 10; }));
+  EXPECT_EQ(pair.client.exchange().counters.corrupt, 0U);
 }
 
 TEST(ModbusLinkFaults, APeerThatGoesAndComesBackIsFoundAgain) {

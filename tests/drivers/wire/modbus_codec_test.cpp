@@ -103,7 +103,7 @@ TEST(ModbusCodec, FlipsOfUpToTwoBitsAndRandomThreeAreRefused) {
     }
 }
 
-TEST(ModbusCodec, ABlockOfZerosOrOnesIsCorrupt) {
+TEST(ModbusCodec, ABlockOfZerosHoldsNothingUntilTheFirstMessageAndOneOfOnesIsCorrupt) {
   for (int joints = 1; joints <= 9; ++joints) {
     const BusLayout layout = default_layout(joints, 0.004, 8);
     ModbusCodec codec(layout);
@@ -111,9 +111,28 @@ TEST(ModbusCodec, ABlockOfZerosOrOnesIsCorrupt) {
     for (const MessageLayout& m : layout.messages)
       for (const int word : {0x0000, 0xFFFF}) {
         const Words words(codec.block(m.kind).count, static_cast<std::uint16_t>(word));
-        EXPECT_EQ(codec.decode(m.kind, words, out), Heard::kCorrupt) << m.name;
+        EXPECT_EQ(codec.decode(m.kind, words, out), word == 0 ? Heard::kNothing : Heard::kCorrupt)
+            << m.name;
       }
+    EXPECT_EQ(codec.decode(MessageKind::kTarget, encoded(layout, target()), out), Heard::kComplete);
+    const Words zeros(codec.block(MessageKind::kTarget).count);
+    EXPECT_EQ(codec.decode(MessageKind::kTarget, zeros, out), Heard::kCorrupt);
   }
+}
+
+TEST(ModbusCodec, AWithdrawnMessageIsNoneWithoutBeingCorruptAndBendsLikeAnyOther) {
+  const BusLayout layout = default_layout(6, 0.004);
+  ModbusCodec codec(layout);
+  Words words = encoded(layout, target());
+  ModbusCodec::withdraw(words);
+  BusMessage out;
+  EXPECT_EQ(codec.decode(MessageKind::kTarget, words, out), Heard::kNothing);
+  for (std::size_t bit = 0; bit < 16 * words.size(); ++bit) {
+    Words wrong = words;
+    wrong[bit / 16] = static_cast<std::uint16_t>(wrong[bit / 16] ^ (1U << bit % 16));
+    EXPECT_EQ(codec.decode(MessageKind::kTarget, wrong, out), Heard::kCorrupt) << bit;
+  }
+  EXPECT_EQ(codec.decode(MessageKind::kTarget, encoded(layout, target()), out), Heard::kComplete);
 }
 
 TEST(ModbusCodec, ABlockReadFromAnotherAddressIsCorrupt) {

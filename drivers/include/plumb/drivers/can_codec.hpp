@@ -22,6 +22,7 @@ enum class Heard : std::uint8_t {
   kComplete,  // the message is in `out`
   kRepeated,  // a counter that was complete before or overtaken, or a part that is there already
   kCorrupt,   // check sum, length, format or padding
+  kNothing,   // Modbus: the block holds no message, as its owner left it
 };
 
 /// Messages to frames and back, by the layout.

@@ -32,9 +32,12 @@ class ModbusCodec {
   /// Fills the block of `message.kind`; false if the span is not of its size.
   bool encode(const BusMessage& message, std::span<std::uint16_t> registers) const noexcept;
 
+  /// Makes the block of an encoded message one that holds none: its check sum is inverted.
+  static void withdraw(std::span<std::uint16_t> registers) noexcept;
+
   /// The message in a block that was read; its time is the caller's to set. A counter that was
-  /// decoded last is kRepeated, a kind that the layout lacks kNotOurs. A block of zeros is corrupt:
-  /// nothing was written yet.
+  /// decoded last is kRepeated, a kind that the layout lacks kNotOurs. A block of zeros
+  /// before the first message was not written yet, and one that was withdrawn holds none: kNothing.
   Heard decode(MessageKind kind, std::span<const std::uint16_t> registers,
                BusMessage& out) noexcept;
 

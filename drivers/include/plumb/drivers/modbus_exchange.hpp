@@ -36,7 +36,7 @@ struct ModbusCounters {
   Count refusals;         // client: exception answers got; server: exception answers given
   Count timeouts;         // client: no whole answer in time; server: no whole request in time
   Count bad_frames;       // answers or requests that were not what they must be
-  Count connects;         // client: connections made; server: connections taken
+  Count connects;         // client: connections made (serial: that were answered); server: taken
   Count disconnects;      // connections given up, whatever for
   Count foreign_peers;    // server: connections refused by the allow-list
   Count crowded_out;      // server: connections refused because there were too many
