@@ -266,8 +266,10 @@ constexpr Explanation kCodes[] = {
     {"E-SIM-JOINT", "A joint of a hidden effect does not exist in this cell, or has no size."},
     {"E-CELL-BUS",
      "The bus layout of [deploy.bus], or the default one with this cycle_us, cannot be used: "
-     "identifiers or registers out of range or shared, a scale, period or bit rate of 0, a number "
-     "too small for the arm, or more than 70 % of the bus at worst. Nothing was written."},
+     "identifiers or registers out of range or shared, a scale, period or bit rate of 0, a period "
+     "so long that its sender counts as silent (50 ms for target, joints, controller and status, "
+     "500 ms for actual and robot), a number too small for the arm, or more than 70 % of the bus "
+     "at worst. Nothing was written."},
     {"W-DEPLOY-TEMPERATURES",
      "The compiled model listens to more temperatures than message context holds, so in the cycle "
      "it goes by their declared fallbacks. [deploy.bus] temperatures = N makes room; the "
@@ -322,8 +324,8 @@ constexpr Explanation kCodes[] = {
     {"E-RT-RECORD", "The record cannot be made: folder, space or rights."},
     {"E-RT-SINK", "The file of answers cannot be made: folder, space or rights."},
     {"E-RT-SWAP",
-     "The new model has another nominal arm or other sensors than the running one, or a swap is "
-     "under way. The running model runs on."},
+     "The new model has another nominal arm or other sensors than the running one, or wants larger "
+     "numbers than the layout of the bus has, or a swap is under way. The running model runs on."},
     {"E-RT-LOST",
      "The bus was down for longer than give_up_s of rt.toml; without that key plumb-rt waits for "
      "ever."},
@@ -351,6 +353,9 @@ constexpr Explanation kCodes[] = {
     {"E-TWIN-FRAME",
      "The cell fits the tracker's frame or target, so an absolute error has no frame to be stated "
      "in. Give both, as plumb-twin new does."},
+    {"E-TWIN-SENSOR",
+     "twin.toml lists a temperature that the simulated arm does not measure. It has temp, "
+     "temp_room and temp_elbow."},
     {"E-TWIN-FAULT",
      "--fault names no fault, or gives it no size or time. plumb-twin run --list-faults shows "
      "them."},

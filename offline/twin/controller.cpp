@@ -47,6 +47,7 @@ Controller::Controller(const Cell& cell, const Path& path, const ControllerSetti
   for (const auto& message : layout.messages)
     every_.emplace_back(message.kind, static_cast<std::uint64_t>(std::max(
                                           1.0, std::round(message.period_s / settings.cycle_s))));
+  if (const auto* context = layout.find(MessageKind::kContext)) context_ = *context;
   if (corrections_ == Corrections::kIgnore || settings.wait_s == 0.0) phase_ = Phase::kPath;
 }
 
@@ -83,13 +84,18 @@ void Controller::hear(drivers::BusPort& port) {
   BusMessage message;
   while (port.receive(message)) {
     receiver_.hear(message, time_.now_ns);
-    if (message.kind != MessageKind::kStatus) continue;
-    session_ = drivers::status_in(message);
-    status_ns_ = time_.now_ns;
-    has_status_ = true;
-    if (session_.state == drivers::SessionState::kActive && counters_.first_active_s < 0.0)
-      counters_.first_active_s = seconds(time_.now_ns - start_ns_);
+    if (message.kind == MessageKind::kStatus) hear_status(message);
   }
+}
+
+void Controller::hear_status(const BusMessage& message) {
+  session_ = drivers::status_in(message);
+  status_ns_ = time_.now_ns;
+  has_status_ = true;
+  if (states_.empty() || states_.back().state != session_.state)
+    states_.push_back({session_.state, time_.path_s});
+  if (session_.state == drivers::SessionState::kActive && counters_.first_active_s < 0.0)
+    counters_.first_active_s = seconds(time_.now_ns - start_ns_);
 }
 
 bool Controller::corrections_are_there() const {
@@ -123,7 +129,7 @@ void Controller::arrive() {
     to_and_fro_ = !to_and_fro_;
     return set_out(row(path_, to_and_fro_ ? 1 : 0));
   }
-  stops_.push_back({station_, q_measured_, X_BD_, receiver_.present(), !waited});
+  stops_.push_back({station_, q_measured_, X_BD_, receiver_.present(), !waited, time_.path_s});
   if (++station_ < path_.stations()) set_out(row(path_, station_));
 }
 
@@ -183,6 +189,12 @@ void Controller::say(drivers::BusPort& port, const BusMessage& message) {
     if (kind == message.kind && counter_ % cycles == 0) (void)port.send(message);
 }
 
+void Controller::say_context(drivers::BusPort& port) {
+  if (!context_ || along_.empty() || fault(FaultKind::kNoContext)) return;
+  const auto at = std::min(static_cast<std::size_t>(station_), along_.size() - 1);
+  say(port, context_message(*context_, along_[at], counter_));
+}
+
 void Controller::say(drivers::BusPort& port) {
   receiver_.sent(counter_, X_BD_, time_.now_ns);
   const auto joints = [this](MessageKind kind, const VectorXd& q) {
@@ -194,6 +206,7 @@ void Controller::say(drivers::BusPort& port) {
   say(port, drivers::pose_message(MessageKind::kTarget, to_transform(X_BD_), counter_));
   say(port, drivers::pose_message(MessageKind::kActual, to_transform(shown_pose()), counter_));
   say(port, drivers::robot_message(serial_, counter_));
+  say_context(port);
   if (!fault(FaultKind::kSecondSender)) return;
   Isometry3d foreign = X_BD_;
   foreign.translation().x() += kForeign_m;

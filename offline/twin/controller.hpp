@@ -12,6 +12,7 @@
 #include "twin/nominal_arm.hpp"
 #include "twin/path.hpp"
 #include "twin/receiver.hpp"
+#include "twin/surroundings.hpp"
 #include "twin/twin_time.hpp"
 
 namespace plumb::offline::twin {
@@ -35,6 +36,13 @@ struct Stop {
   Isometry3d X_BD;  // where the tool is meant to be
   Offset offset;    // the correction that was applied
   bool settled = true;
+  double path_s = 0.0;  // since the path began
+};
+
+/// plumb-rt went into a state.
+struct StateSeen {
+  drivers::SessionState state = drivers::SessionState::kInit;
+  double path_s = -1.0;  // since the path began; negative before
 };
 
 /// Monotone, of one run.
@@ -63,6 +71,9 @@ class Controller {
   /// What an option for absolute accuracy would know of the arm; for FaultKind::kAbsolute.
   void knows(const format::Chain& own) { own_.emplace(own); }
 
+  /// What its sensors read at each station; without it, it sends no context.
+  void feels(std::vector<Readings> along) { along_ = std::move(along); }
+
   /// One cycle; `port` may be null if corrections are ignored.
   void cycle(std::int64_t now_ns, drivers::BusPort* port);
 
@@ -73,6 +84,7 @@ class Controller {
   const ControllerCounters& counters() const { return counters_; }
   const Receiver& receiver() const { return receiver_; }
   const drivers::SessionStatus& session() const { return session_; }
+  const std::vector<StateSeen>& states() const { return states_; }
   double session_age_s() const;  // since plumb-rt's status last came; infinite: never
 
  private:
@@ -81,6 +93,7 @@ class Controller {
   bool fault(FaultKind kind) const { return faults_.active(kind, time_.path_s); }
   void reboot();
   void hear(drivers::BusPort& port);
+  void hear_status(const drivers::BusMessage& message);
   void advance();
   void arrive();
   void set_out(const VectorXd& to);
@@ -88,6 +101,7 @@ class Controller {
   bool at_rest() const;
   void drive();
   void say(drivers::BusPort& port);
+  void say_context(drivers::BusPort& port);
   void say(drivers::BusPort& port, const drivers::BusMessage& message);
   Isometry3d shown_pose() const;
   drivers::ControllerState state() const;
@@ -101,6 +115,8 @@ class Controller {
   std::optional<NominalArm> own_;
   std::uint32_t serial_;
   std::vector<std::pair<drivers::MessageKind, std::uint64_t>> every_;  // cycles between messages
+  std::optional<drivers::MessageLayout> context_;
+  std::vector<Readings> along_;  // by station
 
   Phase phase_ = Phase::kApproach;
   Move move_;
@@ -119,6 +135,7 @@ class Controller {
   std::int64_t start_ns_ = 0, path_ns_ = 0, status_ns_ = 0;
   bool has_status_ = false;
   drivers::SessionStatus session_;
+  std::vector<StateSeen> states_;
   std::vector<Stop> stops_;
   ControllerCounters counters_;
 };

@@ -34,6 +34,8 @@ constexpr Entry kEntries[] = {
     {"absolute", FaultKind::kAbsolute, Size::kNone,
      "the controller corrects its poses by itself already"},
     {"tool", FaultKind::kTool, Size::kNone, "another tool is active than the model's: tool@5"},
+    {"no-context", FaultKind::kNoContext, Size::kNone,
+     "payload, temperatures and time are not sent: no-context@5"},
     {"second-sender", FaultKind::kSecondSender, Size::kNone,
      "someone else sends corrections: second-sender@5+1"},
     {"stop", FaultKind::kStop, Size::kNone, "protective stop: stop@5+1"},

@@ -19,6 +19,7 @@ enum class FaultKind {
   kFreeze,        // it repeats old joint positions
   kAbsolute,      // it corrects its poses by itself: an absolute-accuracy option
   kTool,          // another tool is active: its poses are those of another point
+  kNoContext,     // payload, temperatures and time are not sent
   kSecondSender,  // someone else sends corrections under plumb-rt's identifier
   kStop,          // protective stop
   kManual,        // operating mode not automatic

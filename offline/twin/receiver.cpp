@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "twin/receiver.hpp"
 
+#include <algorithm>
+
 #include "plumb/drivers/bus_content.hpp"
 #include "twin/transforms.hpp"
 
@@ -61,6 +63,7 @@ void Receiver::hear(const drivers::BusMessage& message, std::int64_t now_ns) {
   goal_ns_ = target.time_ns;
   has_goal_ = true;
   ++counters_.used;
+  counters_.oldest_s = std::max(counters_.oldest_s, age_s);
 }
 
 bool Receiver::fresh(std::int64_t now_ns) const {

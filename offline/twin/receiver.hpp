@@ -49,6 +49,7 @@ class Receiver {
     std::uint64_t stale = 0;      // for an old target, or one never sent
     std::uint64_t too_large = 0;  // or not finite
     std::uint64_t overtaken = 0;  // for a target before the one used last
+    double oldest_s = 0.0;        // age of a used one when it came, at most
   };
 
   explicit Receiver(const Settings& settings) : settings_(settings) {}

@@ -32,7 +32,21 @@ Json receiver_json(const Receiver::Counters& heard) {
   return {{"used", heard.used},
           {"stale", heard.stale},
           {"overtaken", heard.overtaken},
+          {"oldest_ms", heard.oldest_s * 1e3},
           {"too_large", heard.too_large}};
+}
+
+Json states_json(const std::vector<StateSeen>& states) {
+  Json out = Json::array();
+  for (const StateSeen& seen : states) {
+    Json one{{"state", drivers::to_string(seen.state)}};
+    if (seen.path_s >= 0.0)
+      put(one, "path_s", seen.path_s);
+    else
+      put_null(one, "path_s", "before the path began");
+    out.push_back(one);
+  }
+  return out;
 }
 
 void complain(const Controller& controller, Outcome& outcome) {
@@ -52,6 +66,17 @@ void complain(const Controller& controller, Outcome& outcome) {
 
 }  // namespace
 
+void add_stops(const std::vector<Stop>& stops, const TrueErrors& errors, Outcome& outcome) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < stops.size(); ++k)
+    out.push_back({{"station", stops[k].station},
+                   {"path_s", stops[k].path_s},
+                   {"settled", stops[k].settled},
+                   {"correction_mm", stops[k].offset.translation.norm() * 1e3},
+                   {"true_mm", errors.each_m[k] * 1e3}});
+  outcome.result["stops"] = out;
+}
+
 void add_loop(const Controller& controller, const drivers::PortCounters& port, std::uint64_t missed,
               Outcome& outcome) {
   const ControllerCounters& counted = controller.counters();
@@ -59,11 +84,16 @@ void add_loop(const Controller& controller, const drivers::PortCounters& port, s
   Json loop{{"cycles", counted.cycles},
             {"missed", missed},
             {"state", state_of(controller)},
+            {"states", states_json(controller.states())},
             {"corrections", receiver_json(heard)},
             {"no_inverse", counted.no_inverse},
             {"largest_step_um", counted.largest_step_m * 1e6},
             {"largest_correction_mm", counted.largest_offset_m * 1e3},
             {"port", port_json(port)}};
+  if (was_heard(controller))
+    loop["status"] = to_string(controller.session().status);
+  else
+    put_null(loop, "status", "plumb-rt was never heard");
   if (counted.first_active_s >= 0.0)
     put(loop, "first_active_s", counted.first_active_s);
   else

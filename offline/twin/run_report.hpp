@@ -4,6 +4,7 @@
 #include "plumb/drivers/bus_port.hpp"
 #include "program/outcome.hpp"
 #include "twin/controller.hpp"
+#include "twin/tracker.hpp"
 
 namespace plumb::offline::twin {
 
@@ -11,5 +12,8 @@ namespace plumb::offline::twin {
 /// the bus. An error (kBusLost) if it waited for corrections in vain.
 void add_loop(const Controller& controller, const drivers::PortCounters& port, std::uint64_t missed,
               Outcome& outcome);
+
+/// Adds `stops` to the result: when, how far from where it should be, with which correction.
+void add_stops(const std::vector<Stop>& stops, const TrueErrors& errors, Outcome& outcome);
 
 }  // namespace plumb::offline::twin

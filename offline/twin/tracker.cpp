@@ -8,36 +8,12 @@
 #include <numbers>
 #include <numeric>
 
-#include "simulate/law.hpp"
+#include "twin/surroundings.hpp"
 
 namespace plumb::offline::twin {
 namespace {
 
-using Domain = sim::LawEntry::Domain;
-
-constexpr double kSecondsPerStop = 1.0;
 constexpr std::uint64_t kOtherNoise = 0x7ac4e2;  // than that of the measurements
-
-/// What moves the arm itself, not its measurement.
-HiddenTruth of_the_arm(HiddenTruth truth) {
-  std::erase_if(truth.sized, [](const HiddenEffect& effect) {
-    const Domain domain = sim::find_law(effect.name)->domain;
-    return domain != Domain::kRobot && domain != Domain::kEnvironment;
-  });
-  return truth;
-}
-
-SimulationPlan session(const HiddenTruth& truth, const RowsN& q, double noise_m,
-                       std::uint64_t seed) {
-  SimulationPlan plan;
-  plan.q = q;
-  plan.noise_m = noise_m;
-  plan.seconds_per_pose = kSecondsPerStop;
-  plan.climate = SimulationPlan::Climate::kConstant;
-  plan.seed = seed;
-  plan.truth = truth;
-  return plan;
-}
 
 RowsN joints_of(const std::vector<Stop>& stops) {
   RowsN q(static_cast<Eigen::Index>(stops.size()), stops.front().q.size());
@@ -88,15 +64,16 @@ ErrorFigures figures_of(std::vector<double> errors_m) {
 }
 
 TrueErrors true_errors(const Cell& cell, const Hidden& hidden, const HiddenTruth& truth,
-                       const std::vector<Stop>& stops) {
+                       int stations, const std::vector<Stop>& stops) {
   check_frame(cell);
   if (stops.empty()) return {};
-  const RowsN q = joints_of(stops);
-  const Simulation arm = simulate(cell, session(of_the_arm(truth), q, 0.0, hidden.seed));
-  const Simulation seen =
-      simulate(cell, session(of_the_arm(truth), q, hidden.noise_m, hidden.seed ^ kOtherNoise));
-  return {figures_of(misses(stops, arm, arm.true_p_M)),
-          figures_of(misses(stops, seen, seen.measured.p_M))};
+  SimulationPlan plan = visits_of(truth, joints_of(stops), stations);
+  const Simulation arm = simulate(cell, plan);
+  plan.noise_m = hidden.noise_m;
+  plan.seed = hidden.seed ^ kOtherNoise;
+  const Simulation seen = simulate(cell, plan);
+  const auto each_m = misses(stops, arm, arm.true_p_M);
+  return {figures_of(each_m), figures_of(misses(stops, seen, seen.measured.p_M)), each_m};
 }
 
 NoiseFloor floor_of(double sigma_m) {
@@ -108,7 +85,7 @@ format::Chain true_chain(const Cell& cell, const HiddenTruth& truth) {
   HiddenTruth bare = truth;
   bare.sized.clear();
   bare.effects.clear();
-  return simulate(cell, session(bare, q, 0.0, 1)).true_chain;
+  return simulate(cell, visits_of(bare, q, 1)).true_chain;
 }
 
 double Comparison::ratio() const {

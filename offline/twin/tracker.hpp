@@ -17,16 +17,17 @@ struct ErrorFigures {
 ErrorFigures figures_of(std::vector<double> errors_m);
 
 /// What the true arm did at the stops of a path, as nobody else can know it, and as the tracker
-/// saw it.
+/// saw it. A path that was not driven to its end has fewer stops than stations.
 struct TrueErrors {
   ErrorFigures truth;
-  ErrorFigures measured;  // with the tracker's noise
+  ErrorFigures measured;       // with the tracker's noise
+  std::vector<double> each_m;  // true, in the order of the stops
 };
 
 /// Throws Failure (kInput) if the cell does not state where tracker and reflector stand: then the
 /// error has no frame to be stated in.
 TrueErrors true_errors(const Cell& cell, const Hidden& hidden, const HiddenTruth& truth,
-                       const std::vector<Stop>& stops);
+                       int stations, const std::vector<Stop>& stops);
 
 /// What the noise alone would be seen as: mean sigma sqrt(8/pi), RMS sigma sqrt(3).
 struct NoiseFloor {

@@ -30,6 +30,14 @@ void read_tracker(TomlTable& file, Hidden& out) {
   tracker->done();
 }
 
+void read_controller(TomlTable& file, Hidden& out) {
+  auto controller = file.table("controller");
+  if (!controller) return;
+  if (controller->node("temperatures") != nullptr) out.sensors.clear();
+  for (const auto& sensor : controller->texts("temperatures")) out.sensors.push_back(sensor.text);
+  controller->done();
+}
+
 void read_seed(TomlTable& file, Hidden& out) {
   const auto seed = file.not_negative("seed");
   if (!seed) return;
@@ -38,12 +46,16 @@ void read_seed(TomlTable& file, Hidden& out) {
   out.seed = static_cast<std::uint64_t>(*seed);
 }
 
+/// "a", "b"
+std::string quoted(const std::vector<std::string>& words) {
+  std::string out;
+  for (const auto& word : words) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", word);
+  return out;
+}
+
 }  // namespace
 
 std::string write_hidden(const Hidden& hidden) {
-  std::string effects;
-  for (const auto& effect : hidden.effects)
-    effects += fmt::format("{}\"{}\"", effects.empty() ? "" : ", ", effect);
   return fmt::format(
       "# What the twin's arm hides. No program but plumb-twin reads this file.\n"
       "schema = \"{}\"\n"
@@ -53,9 +65,11 @@ std::string write_hidden(const Hidden& hidden) {
       "geometry_um = {}     # 1 sigma of every length error\n"
       "geometry_urad = {}   # 1 sigma of every angle error\n\n"
       "[tracker]\n"
-      "noise_um = {}   # 1 sigma per axis\n",
-      kSchema, hidden.seed, effects, hidden.geometry_m / kMicro, hidden.geometry_rad / kMicro,
-      hidden.noise_m / kMicro);
+      "noise_um = {}   # 1 sigma per axis\n\n"
+      "[controller]\n"
+      "temperatures = [{}]   # sensors it reports, in the order of the bus\n",
+      kSchema, hidden.seed, quoted(hidden.effects), hidden.geometry_m / kMicro,
+      hidden.geometry_rad / kMicro, hidden.noise_m / kMicro, quoted(hidden.sensors));
 }
 
 Hidden parse_hidden(std::string text, const std::string& file_name) {
@@ -67,6 +81,7 @@ Hidden parse_hidden(std::string text, const std::string& file_name) {
   read_seed(file, out);
   read_arm(file, out);
   read_tracker(file, out);
+  read_controller(file, out);
   file.done();
   source.stop_on_errors();
   return out;

@@ -16,6 +16,8 @@ struct Hidden {
   double geometry_m = 0.3e-3;             // 1 sigma of every length error
   double geometry_rad = 0.3e-3;           // and of every angle error
   double noise_m = 10e-6;                 // of the tracker, 1 sigma per axis
+  /// Temperatures that the controller reports, in the order of the bus.
+  std::vector<std::string> sensors = {"temp", "temp_room", "temp_elbow"};
 };
 
 std::string write_hidden(const Hidden& hidden);

@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "bus_text/bus_arm.hpp"
 #include "program/output_files.hpp"
+#include "twin/surroundings.hpp"
 #include "twin/twin_file.hpp"
 #include "twin/verbs.hpp"
 
@@ -77,16 +79,26 @@ std::string next_steps(const std::string& folder) {
       folder);
 }
 
+/// The default layout has room for none. Throws Failure (kUsage) for an effect that is none.
+void report_temperatures(const Hidden& hidden, Cell& cell) {
+  std::vector<HiddenEffect> effects;
+  for (const auto& effect : hidden.effects) effects.push_back(parse_hidden_effect(effect, cell));
+  if (!needs_temperatures(effects)) return;
+  cell.deploy.bus =
+      drivers::arm_layout(drivers::bus_arm(cell.nominal, cell.deploy.cycle_s),
+                          static_cast<int>(hidden.sensors.size()), drivers::CorrectionForm::kPose);
+}
+
 void make(const Options& options, Outcome& outcome) {
   const Robot& robot = find_robot(options.robot);
-  const Cell cell = cell_of(robot, options);
+  Cell cell = cell_of(robot, options);
   Hidden hidden{.seed = options.seed,
                 .effects = options.hidden,
                 .geometry_m = options.geometry_um * 1e-6,
                 .geometry_rad = options.geometry_urad * 1e-6,
                 .noise_m = options.noise_um * 1e-6};
   if (hidden.effects.empty()) hidden.effects = {robot.hides};
-  for (const auto& effect : hidden.effects) (void)parse_hidden_effect(effect, cell);
+  report_temperatures(hidden, cell);
   const fs::path folder = options.directory;
   OutputFiles files;
   files.add(folder / "cell.toml", write_cell(cell));

@@ -86,6 +86,7 @@ std::vector<Stop> drive_corrected(const Options& options, const Twin& twin, Outc
   Controller controller(twin.cell, twin.path, settings, Controller::Corrections::kUse, layout,
                         faults, time);
   controller.knows(true_chain(twin.cell, twin.truth));
+  controller.feels(readings_along(twin.cell, twin.hidden, twin.truth, twin.path));
   const auto missed = drive_in_real_time(controller, *link, settings.cycle_s, options.duration_s,
                                          [] { return false; });
   add_loop(controller, link->port().counters(), missed, outcome);
@@ -114,7 +115,7 @@ void run(const Options& options, Outcome& outcome) {
   Comparison found;
   found.floor = floor_of(twin.hidden.noise_m);
   const auto errors = [&](const std::vector<Stop>& stops) {
-    return true_errors(twin.cell, twin.hidden, twin.truth, stops);
+    return true_errors(twin.cell, twin.hidden, twin.truth, twin.path.stations(), stops);
   };
   outcome.result = Json::object();
   if (options.correction != "on")
@@ -123,6 +124,7 @@ void run(const Options& options, Outcome& outcome) {
     const auto stops = drive_corrected(options, twin, outcome);
     found.unsettled = unsettled(stops);
     found.on = errors(stops);
+    add_stops(stops, found.on, outcome);
   }
   outcome.result.update(to_json(found));
   outcome.text = to_text(found) + outcome.text;

@@ -14,8 +14,11 @@ namespace {
 constexpr int kStations = 500;
 constexpr double kLongest_s = 3600.0;
 
-drivers::BusLayout layout_of(const Cell& cell, drivers::CanFrame::Format format) {
-  auto out = drivers::default_layout(cell.joints(), cell.deploy.cycle_s);
+using drivers::CorrectionForm;
+
+drivers::BusLayout layout_of(const Cell& cell, drivers::CanFrame::Format format,
+                             CorrectionForm form) {
+  auto out = drivers::default_layout(cell.joints(), cell.deploy.cycle_s, 0, form);
   out.can_format = format;
   return out;
 }
@@ -23,18 +26,20 @@ drivers::BusLayout layout_of(const Cell& cell, drivers::CanFrame::Format format)
 Comparison compare(const CalibratedTwin& twin, const Path& path, const ControllerSettings& settings,
                    const std::vector<Stop>& corrected) {
   Comparison out;
-  out.off = true_errors(twin.cell(), twin.hidden(), twin.truth(),
+  out.off = true_errors(twin.cell(), twin.hidden(), twin.truth(), path.stations(),
                         drive_uncorrected(twin.cell(), path, settings));
-  out.on = true_errors(twin.cell(), twin.hidden(), twin.truth(), corrected);
+  out.on = true_errors(twin.cell(), twin.hidden(), twin.truth(), path.stations(), corrected);
   out.floor = floor_of(twin.hidden().noise_m);
   for (const Stop& stop : corrected) out.unsettled += stop.settled ? 0 : 1;
   return out;
 }
 
-void expect_true(const CalibratedTwin& twin, drivers::CanFrame::Format format) {
+void expect_true(const CalibratedTwin& twin, drivers::CanFrame::Format format,
+                 CorrectionForm form = CorrectionForm::kPose) {
   const Path path = generated_path(twin.cell(), kStations, 0.5, 7);
   const ControllerSettings settings;
-  Loop loop(twin.cell(), twin.model(), path, {}, layout_of(twin.cell(), format), {}, settings);
+  Loop loop(twin.cell(), twin.model(), path, {}, layout_of(twin.cell(), format, form), {},
+            settings);
   ASSERT_TRUE(loop.run(kLongest_s)) << to_string(loop.session().state());
   const Comparison found = compare(twin, path, settings, loop.controller().stops());
   std::cout << to_text(found) << "  " << loop.now_s() << " s of virtual time\n";
@@ -58,6 +63,15 @@ TEST(EndToEnd, OverCanFdTheTrueErrorFallsFiveTimesAndToTheTrackersNoise) {
   expect_true(CalibratedTwin::usual(), drivers::CanFrame::Format::kFd);
 }
 
+TEST(EndToEnd, AsOffsetsOverClassicCanTheTrueErrorKeepsTheSameBounds) {
+  expect_true(CalibratedTwin::usual(), drivers::CanFrame::Format::kClassic,
+              CorrectionForm::kOffset);
+}
+
+TEST(EndToEnd, AsOffsetsOverCanFdTheTrueErrorKeepsTheSameBounds) {
+  expect_true(CalibratedTwin::usual(), drivers::CanFrame::Format::kFd, CorrectionForm::kOffset);
+}
+
 TEST(EndToEnd, AModelOfAnotherArmDoesNotPassForATrueOne) {
   const auto& twin = CalibratedTwin::usual();
   const CalibratedTwin other("--seed 2");
@@ -65,7 +79,7 @@ TEST(EndToEnd, AModelOfAnotherArmDoesNotPassForATrueOne) {
   cell.serial = other.cell().serial;  // or it would not even be let in
   const Path path = generated_path(cell, 40, 0.5, 7);
   const ControllerSettings settings;
-  const auto layout = layout_of(cell, drivers::CanFrame::Format::kFd);
+  const auto layout = layout_of(cell, drivers::CanFrame::Format::kFd, CorrectionForm::kPose);
   Loop loop(cell, other.model(), path, {}, layout, {}, settings);
   ASSERT_TRUE(loop.run(kLongest_s));
   EXPECT_FALSE(compare(twin, path, settings, loop.controller().stops()).reached());

@@ -6,6 +6,8 @@
 namespace plumb::offline::twin {
 namespace {
 
+constexpr int kStations = 300;
+
 TEST(Tracker, FiguresAreThoseOfTheTextbook) {
   const ErrorFigures figures = figures_of({3.0, 4.0, 0.0, 5.0});
   EXPECT_EQ(figures.n, 4);
@@ -24,7 +26,7 @@ Cell placed() {
 }
 
 std::vector<Stop> stops_of(const Cell& cell, const NominalArm& aims) {
-  const Path path = generated_path(cell, 300, 0.6, 2);
+  const Path path = generated_path(cell, kStations, 0.6, 2);
   std::vector<Stop> out;
   for (int k = 0; k < path.stations(); ++k) {
     const VectorXd q = path.q.row(k).transpose();
@@ -36,8 +38,8 @@ std::vector<Stop> stops_of(const Cell& cell, const NominalArm& aims) {
 TEST(Tracker, AnArmThatHidesNothingHasNoErrorButTheNoise) {
   const Cell cell = placed();
   const Hidden hidden{.geometry_m = 0.0, .geometry_rad = 0.0};
-  const TrueErrors found =
-      true_errors(cell, hidden, truth_of(cell, hidden), stops_of(cell, NominalArm(cell.nominal)));
+  const TrueErrors found = true_errors(cell, hidden, truth_of(cell, hidden), kStations,
+                                       stops_of(cell, NominalArm(cell.nominal)));
   EXPECT_LT(found.truth.max_m, 1e-9);
   const NoiseFloor floor = floor_of(hidden.noise_m);
   EXPECT_NEAR(found.measured.mean_m, floor.mean_m, 0.1 * floor.mean_m);
@@ -50,8 +52,8 @@ TEST(Tracker, WhoeverKnowsTheTrueChainMissesByTheHiddenEffectOnly) {
   const Hidden bent{.effects = {"joint_compliance:J2=150urad"}};
   const NominalArm knows(true_chain(cell, truth_of(cell, plain)));
   const auto stops = stops_of(cell, knows);
-  EXPECT_LT(true_errors(cell, plain, truth_of(cell, plain), stops).truth.max_m, 1e-9);
-  const double bent_m = true_errors(cell, bent, truth_of(cell, bent), stops).truth.max_m;
+  EXPECT_LT(true_errors(cell, plain, truth_of(cell, plain), kStations, stops).truth.max_m, 1e-9);
+  const double bent_m = true_errors(cell, bent, truth_of(cell, bent), kStations, stops).truth.max_m;
   EXPECT_GT(bent_m, 20e-6);
   EXPECT_LT(bent_m, 150e-6 * 1.5);  // the angle times the reach
 }
@@ -60,7 +62,7 @@ TEST(Tracker, ACellThatFitsItsFrameIsRefused) {
   Cell cell = placed();
   cell.measurement.fit_frame = true;
   const Hidden hidden;
-  EXPECT_THROW(true_errors(cell, hidden, truth_of(cell, hidden), {}), Failure);
+  EXPECT_THROW(true_errors(cell, hidden, truth_of(cell, hidden), kStations, {}), Failure);
 }
 
 TEST(Comparison, IsReachedOnlyIfBothAreTrue) {

@@ -11,10 +11,12 @@ TEST(TwinFile, ReadsBackWhatWasWritten) {
                       .effects = {"gear_ripple:J2=40urad", "drift=100um"},
                       .geometry_m = 0.1e-3,
                       .geometry_rad = 0.2e-3,
-                      .noise_m = 25e-6};
+                      .noise_m = 25e-6,
+                      .sensors = {"temp_elbow", "temp"}};
   const Hidden back = parse_hidden(write_hidden(hidden), "twin.toml");
   EXPECT_EQ(back.seed, hidden.seed);
   EXPECT_EQ(back.effects, hidden.effects);
+  EXPECT_EQ(back.sensors, hidden.sensors);
   EXPECT_NEAR(back.geometry_m, hidden.geometry_m, 1e-15);
   EXPECT_NEAR(back.geometry_rad, hidden.geometry_rad, 1e-15);
   EXPECT_NEAR(back.noise_m, hidden.noise_m, 1e-15);
