@@ -84,10 +84,6 @@ std::optional<Descriptor> listening(Descriptor fd, const sockaddr* address, sock
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 void serve_one(int listening, const std::string& end_of_request, const Patience& patience,
                const std::function<std::string(const std::string&)>& answer) {
   const Descriptor peer(::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));

@@ -6,26 +6,10 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
+
+#include "plumb/drivers/descriptor.hpp"
 
 namespace plumb::drivers::rt {
-
-/// A file descriptor that is closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) noexcept : fd_(fd) {}
-  ~Descriptor();
-  Descriptor(Descriptor&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  int get() const noexcept { return fd_; }
-  bool open() const noexcept { return fd_ >= 0; }
-
- private:
-  int fd_;
-};
 
 /// How much of a peer is borne: a request has a length and a time in which it must be whole, and
 /// its answer a time in which it must be taken.

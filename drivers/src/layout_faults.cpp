@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "plumb/drivers/bus_layout.hpp"
+#include "plumb/drivers/session_inputs.hpp"
 
 namespace plumb::drivers {
 namespace {
@@ -17,6 +18,12 @@ std::string hex(std::uint32_t id) {
 std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.0f", std::ceil(100.0 * share));
+  return text;
+}
+
+std::string whole(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f", number);
   return text;
 }
 
@@ -70,14 +77,27 @@ class Faults {
       add(m.name, "scale",
           "the scale of " + m.name + "." + bad->name + " is not above 0, or above 1000",
           "a micrometre or microradian a count is usual: 1");
-    if (!is_period(m.period_s))
-      add(m.name, "period_us", "the period of " + m.name + " is not between 10 us and 1000 s",
-          "every cycle is usual");
+    check_period(m);
     if (use_ == BusUse::kCan) check_id(m);
     if (const Span span = registers(m); span.last > 0xFFFF)
       add(m.name, "register",
           m.name + " ends at register " + std::to_string(span.last) + ", beyond 65535",
           "the last that fits is " + std::to_string(0xFFFF - (span.last - span.first)));
+  }
+
+  /// One message may be lost, and its sender does not count as silent.
+  void check_period(const MessageLayout& m) {
+    if (!is_period(m.period_s))
+      return add(m.name, "period_us",
+                 "the period of " + m.name + " is not between 10 us and 1000 s",
+                 "every cycle is usual");
+    const double most_us = 0.5e6 * longest_silence_s(m.kind);
+    const double period_us = 1e6 * m.period_s;
+    if (period_us <= most_us * (1.0 + 1e-9)) return;
+    add(m.name, "period_us",
+        "every " + whole(period_us) + " us is too seldom for " + m.name + ": after " +
+            whole(2.0 * most_us) + " us without one its sender counts as silent",
+        "at most " + whole(most_us) + ", of period_us or, without one, of cycle_us");
   }
 
   void check_id(const MessageLayout& m) {

@@ -66,8 +66,7 @@ ModbusService::Bytes ModbusService::write_single(Bytes pdu, std::uint64_t peer,
                                                  std::int64_t now_ns) noexcept {
   if (pdu.size() != kWriteSingleSize) return refuse(pdu[0], ModbusException::kIllegalValue);
   const std::uint16_t address = word_at(pdu, 1);
-  if (!registers_->writable(address, 1)) return refuse(pdu[0], ModbusException::kIllegalAddress);
-  if (!may_write(peer, now_ns)) return refuse(pdu[0], ModbusException::kBusy);
+  if (const auto why = objection(address, 1, peer, now_ns)) return refuse(pdu[0], *why);
   registers_->write(address, word_at(pdu, 3), now_ns);
   std::copy(pdu.begin(), pdu.end(), answer_.begin());
   return served(kWriteSingleSize);
@@ -80,8 +79,7 @@ ModbusService::Bytes ModbusService::write_multiple(Bytes pdu, std::uint64_t peer
   const std::uint16_t count = word_at(pdu, 3);
   if (!holds_words(pdu, kWriteMultipleHead, count, kMostWrite))
     return refuse(pdu[0], ModbusException::kIllegalValue);
-  if (!registers_->writable(first, count)) return refuse(pdu[0], ModbusException::kIllegalAddress);
-  if (!may_write(peer, now_ns)) return refuse(pdu[0], ModbusException::kBusy);
+  if (const auto why = objection(first, count, peer, now_ns)) return refuse(pdu[0], *why);
   store(first, pdu.subspan(kWriteMultipleHead), now_ns);
   std::copy_n(pdu.begin(), kReadSize, answer_.begin());
   return served(kReadSize);
@@ -97,10 +95,10 @@ ModbusService::Bytes ModbusService::read_write(Bytes pdu, std::uint64_t peer,
   if (read_count < 1 || read_count > kMostRead ||
       !holds_words(pdu, kReadWriteHead, write_count, kMostReadWriteWrite))
     return refuse(pdu[0], ModbusException::kIllegalValue);
-  if (!registers_->readable(read_first, read_count) ||
-      !registers_->writable(write_first, write_count))
+  if (!registers_->readable(read_first, read_count))
     return refuse(pdu[0], ModbusException::kIllegalAddress);
-  if (!may_write(peer, now_ns)) return refuse(pdu[0], ModbusException::kBusy);
+  if (const auto why = objection(write_first, write_count, peer, now_ns))
+    return refuse(pdu[0], *why);
   store(write_first, pdu.subspan(kReadWriteHead), now_ns);
   return registers_answer(pdu[0], read_first, read_count, now_ns);
 }
@@ -115,14 +113,17 @@ ModbusService::Bytes ModbusService::registers_answer(std::uint8_t function, std:
   return served(2 + 2 * words.size());
 }
 
-bool ModbusService::may_write(std::uint64_t peer, std::int64_t now_ns) noexcept {
+std::optional<ModbusException> ModbusService::objection(std::uint16_t first, std::uint16_t count,
+                                                        std::uint64_t peer,
+                                                        std::int64_t now_ns) noexcept {
+  if (!registers_->writable(first, count)) return ModbusException::kIllegalAddress;
   if (writer_ != 0 && writer_ != peer && now_ns - written_ns_ < writer_hold_ns_) {
     ++counters_->foreign_senders;
-    return false;
+    return ModbusException::kBusy;
   }
   writer_ = peer;
   written_ns_ = now_ns;
-  return true;
+  return std::nullopt;
 }
 
 void ModbusService::store(std::uint16_t first, Bytes words, std::int64_t now_ns) noexcept {

@@ -2,11 +2,9 @@
 #include "modbus_tcp_listener.hpp"
 
 #include <netinet/tcp.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -19,31 +17,7 @@ constexpr std::size_t kBeforePeers = 2;  // events of the thread and of new conn
 constexpr std::int64_t kPauseWithoutDescriptors_ns = 100'000'000;
 constexpr std::uint8_t kAnyUnit[] = {0, 255};  // what controllers without units send
 
-LinkFault cannot_listen(const SocketAddress& address, int error) {
-  const std::string where = text_of(address);
-  switch (error) {
-    case EADDRINUSE:
-      return {"port", "something listens on " + where + " already", "ss -ltnp", error};
-    case EACCES:
-      return {"port", "no right to listen on " + where,
-              "use a port above 1023, or grant CAP_NET_BIND_SERVICE", error};
-    case EADDRNOTAVAIL:
-      return {"host", where + " is no address of this machine", "ip -brief address", error};
-    default:
-      return {"host", "cannot listen on " + where + ": " + std::strerror(error), "ss -ltnp", error};
-  }
-}
-
 }  // namespace
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(number_, other.number_);
-  return *this;
-}
-
-Descriptor::~Descriptor() {
-  if (number_ >= 0) ::close(number_);
-}
 
 ModbusTcpListener::ModbusTcpListener(const ModbusServerSettings& settings, ModbusService& service,
                                      ModbusExchange& exchange)
@@ -53,46 +27,7 @@ ModbusTcpListener::ModbusTcpListener(const ModbusServerSettings& settings, Modbu
   peers_.reserve(settings.most_connections);
 }
 
-std::optional<LinkFault> ModbusTcpListener::open() {
-  SocketAddress address;
-  if (auto fault = find_address(address)) return fault;
-  return listen(address);
-}
-
-std::optional<LinkFault> ModbusTcpListener::find_address(SocketAddress& out) const {
-  const auto& tcp = std::get<TcpAddress>(settings_.at);
-  auto address = socket_address(tcp.host, tcp.port);
-  if (!address) address = interface_address(tcp.host, tcp.port);
-  if (!address)
-    return LinkFault{"host", "'" + tcp.host + "' is neither an address nor an interface with one",
-                     "ip -brief address"};
-  if (is_wildcard(*address) && settings_.wildcard == ModbusServerSettings::Wildcard::kRefused)
-    return LinkFault{"host", tcp.host + " would listen on every interface",
-                     "name the interface or the address that the controller is on"};
-  out = *address;
-  return std::nullopt;
-}
-
-std::optional<LinkFault> ModbusTcpListener::listen(const SocketAddress& address) {
-  socket_ = Descriptor(::socket(address.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  const int on = 1;
-  ::setsockopt(socket_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  const std::string& host = std::get<TcpAddress>(settings_.at).host;
-  // An address alone does not keep out what comes to it through another interface.
-  if (!socket_address(host, 0) &&
-      ::setsockopt(socket_.get(), SOL_SOCKET, SO_BINDTODEVICE, host.c_str(),
-                   static_cast<socklen_t>(host.size())) != 0)
-    return LinkFault{"host", "cannot bind to interface " + host + ": " + std::strerror(errno),
-                     "write its address, or grant CAP_NET_RAW", errno};
-  SocketAddress bound;
-  bound.size = sizeof bound.storage;
-  if (::bind(socket_.get(), address.get(), address.size) != 0 ||
-      ::listen(socket_.get(), static_cast<int>(settings_.most_connections)) != 0 ||
-      ::getsockname(socket_.get(), bound.get(), &bound.size) != 0)
-    return cannot_listen(address, errno);
-  port_ = port_of(bound);
-  return std::nullopt;
-}
+std::optional<LinkFault> ModbusTcpListener::open() { return open_tcp_socket(settings_, socket_); }
 
 void ModbusTcpListener::run(const LinkThread& thread) {
   while (!thread.stopping()) {
@@ -111,14 +46,15 @@ void ModbusTcpListener::run(const LinkThread& thread) {
   for (Peer& peer : peers_) peer.over = true;
   drop_those_over();
   exchange_->state = LinkState::kDown;
-  socket_ = Descriptor();
+  socket_.descriptor = Descriptor();
 }
 
 void ModbusTcpListener::await(const LinkThread& thread) {
   const bool accepting = MonotonicTime::now_ns() >= accept_again_ns_;
   events_.clear();
   events_.push_back({.fd = thread.stop_event(), .events = POLLIN, .revents = 0});
-  events_.push_back({.fd = accepting ? socket_.get() : -1, .events = POLLIN, .revents = 0});
+  events_.push_back(
+      {.fd = accepting ? socket_.descriptor.get() : -1, .events = POLLIN, .revents = 0});
   for (const Peer& peer : peers_)
     events_.push_back({.fd = peer.socket.get(), .events = POLLIN, .revents = 0});
   const std::int64_t deadline_ns = next_deadline_ns();
@@ -144,7 +80,7 @@ void ModbusTcpListener::accept_new(std::int64_t now_ns) {
     SocketAddress from;
     from.size = sizeof from.storage;
     Descriptor socket(
-        ::accept4(socket_.get(), from.get(), &from.size, SOCK_NONBLOCK | SOCK_CLOEXEC));
+        ::accept4(socket_.descriptor.get(), from.get(), &from.size, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (socket.get() >= 0) {
       admit(std::move(socket), from, now_ns);
     } else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {

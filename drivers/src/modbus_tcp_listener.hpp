@@ -8,23 +8,11 @@
 #include <vector>
 
 #include "link_thread.hpp"
+#include "modbus_tcp_socket.hpp"
 #include "plumb/drivers/modbus_server.hpp"
 #include "plumb/drivers/modbus_service.hpp"
 
 namespace plumb::drivers {
-
-/// A descriptor that is closed with its owner.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) noexcept : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(other.number_) { other.number_ = -1; }
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  ~Descriptor();
-  int get() const noexcept { return number_; }
-
- private:
-  int number_;
-};
 
 /// The TCP side of a server: connections, their bounds, and bytes to requests.
 class ModbusTcpListener {
@@ -33,7 +21,7 @@ class ModbusTcpListener {
                     ModbusExchange& exchange);
 
   std::optional<LinkFault> open();
-  std::uint16_t port() const noexcept { return port_; }
+  std::uint16_t port() const noexcept { return socket_.port; }
   void run(const LinkThread& thread);
 
  private:
@@ -47,8 +35,6 @@ class ModbusTcpListener {
     bool over = false;
   };
 
-  std::optional<LinkFault> find_address(SocketAddress& out) const;
-  std::optional<LinkFault> listen(const SocketAddress& address);
   void await(const LinkThread& thread);
   std::int64_t next_deadline_ns() const;
   void accept_new(std::int64_t now_ns);
@@ -64,9 +50,7 @@ class ModbusTcpListener {
   ModbusService* service_;
   ModbusExchange* exchange_;
   std::vector<SocketAddress> allowed_;
-  std::string interface_;  // if it was asked for by name
-  Descriptor socket_;
-  std::uint16_t port_ = 0;
+  ModbusTcpSocket socket_;
   std::uint64_t connections_ = 0;
   std::int64_t accept_again_ns_ = 0;  // no descriptors were left
   std::vector<Peer> peers_;

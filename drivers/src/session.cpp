@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/drivers/session_context.hpp"
+
 namespace plumb::drivers {
 namespace {
-
-constexpr std::size_t kFirstTemperature = 5;  // of kContext: payload, com x y z, time before it
-
-/// A value of a message, and nothing if it is not known.
-Reading reading(double value, double age_s) noexcept {
-  return std::isfinite(value) ? Reading{.value = value, .age_s = age_s} : Reading{};
-}
 
 void count(TargetVerdict verdict, SessionCounters& counters) noexcept {
   switch (verdict) {
@@ -107,20 +102,6 @@ void Session::take_target() noexcept {
   if (target_came_) X_BD_ = pose_in(target_).value_or(X_BD_);
 }
 
-void Session::read_context(CycleInput& input) const noexcept {
-  if (!inbox_.came(MessageKind::kContext)) return;
-  const BusMessage& message = inbox_.last(MessageKind::kContext);
-  const double age_s = inbox_.age_s(MessageKind::kContext);
-  ContextReadings& out = input.context;
-  out.payload_kg = reading(message.values[0], age_s);
-  std::copy_n(message.values.begin() + 1, out.payload_com_m.size(), out.payload_com_m.begin());
-  out.time_s = reading(message.values[4], age_s);
-  const std::size_t sensors =
-      std::min(out.temperature_degC.size(), kMaxMessageValues - kFirstTemperature);
-  for (std::size_t k = 0; k < sensors && kFirstTemperature + k < message.size; ++k)
-    out.temperature_degC[k] = reading(message.values[kFirstTemperature + k], age_s);
-}
-
 CycleInput Session::cycle_input(std::int64_t now_ns) const noexcept {
   CycleInput out{.now_ns = now_ns};
   if (target_came_) {
@@ -132,13 +113,14 @@ CycleInput Session::cycle_input(std::int64_t now_ns) const noexcept {
     std::copy_n(values.begin(), std::min(q.size(), values.size()), q.begin());
   };
   const bool measured = inbox_.came(MessageKind::kJoints) &&
-                        inbox_.within(MessageKind::kJoints, settings_.inputs.limit_s);
+                        inbox_.within(MessageKind::kJoints,
+                                      longest_silence_s(MessageKind::kJoints, settings_.inputs));
   const bool commanded = target_came_ && inbox_.came(MessageKind::kCommanded) &&
                          inbox_.last(MessageKind::kCommanded).counter == target_.counter;
   if (measured || commanded) out.joints = Arrival::kArrived;
   if (measured) take(MessageKind::kJoints, out.q_measured);
   if (commanded) take(MessageKind::kCommanded, out.q_commanded);
-  read_context(out);
+  out.context = context_in(inbox_);
   return out;
 }
 

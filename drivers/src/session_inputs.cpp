@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/drivers/session_inputs.hpp"
 
+#include <limits>
+
 namespace plumb::drivers {
 namespace {
 
@@ -10,13 +12,32 @@ bool as_expected(const std::optional<std::uint8_t>& expected, std::uint8_t activ
   return !expected || *expected == active;
 }
 
+bool comes(MessageKind kind, const SessionInbox& inbox, const InputSettings& settings) noexcept {
+  return inbox.within(kind, longest_silence_s(kind, settings));
+}
+
 }  // namespace
 
+double longest_silence_s(MessageKind kind, const InputSettings& settings) noexcept {
+  switch (kind) {
+    case MessageKind::kTarget:
+    case MessageKind::kJoints:
+    case MessageKind::kController:
+    case MessageKind::kStatus:
+      return settings.limit_s;
+    case MessageKind::kActual:
+    case MessageKind::kRobot:
+      return settings.robot_s;
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
 Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcept {
-  const bool controller = inbox.within(MessageKind::kController, settings.limit_s);
+  const bool controller = comes(MessageKind::kController, inbox, settings);
   const ControllerState said = controller_in(inbox.last(MessageKind::kController));
-  const Lost silent = unless(inbox.within(MessageKind::kTarget, settings.limit_s), Lost::kTarget) |
-                      unless(inbox.within(MessageKind::kJoints, settings.limit_s), Lost::kJoints);
+  const Lost silent = unless(comes(MessageKind::kTarget, inbox, settings), Lost::kTarget) |
+                      unless(comes(MessageKind::kJoints, inbox, settings), Lost::kJoints);
   if (!controller) return silent | Lost::kController;
   return silent | unless(said.drives_on, Lost::kDrives) | unless(said.automatic, Lost::kManual) |
          unless(!said.protective_stop, Lost::kStop) |
@@ -27,10 +48,10 @@ Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcep
 }
 
 bool is_heard(const SessionInbox& inbox, const InputSettings& settings) noexcept {
-  return inbox.within(MessageKind::kJoints, settings.limit_s) &&
-         inbox.within(MessageKind::kController, settings.limit_s) &&
-         inbox.within(MessageKind::kActual, settings.robot_s) &&
-         inbox.within(MessageKind::kRobot, settings.robot_s);
+  return comes(MessageKind::kJoints, inbox, settings) &&
+         comes(MessageKind::kController, inbox, settings) &&
+         comes(MessageKind::kActual, inbox, settings) &&
+         comes(MessageKind::kRobot, inbox, settings);
 }
 
 const char* to_string(Lost one) noexcept {

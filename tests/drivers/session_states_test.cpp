@@ -93,6 +93,32 @@ TEST(Session, ChangesOfModeAreNoSteps) {
   EXPECT_TRUE(rig.run_to(kShadow));
 }
 
+/// Every message at the longest period that a layout may have, and every fifth of them lost.
+TEST(Session, ComesAboutAndStaysAtTheSlowestPeriodsOfALayout) {
+  SessionRig rig(in_mode(CorrectionMode::kFull));
+  const auto due = [](MessageKind kind, long cycle) {
+    const double most_s = 0.5 * longest_silence_s(kind);
+    const long every = most_s > 0.1 ? 120 : 12;  // cycles of 4 ms; actual belongs to its joints
+    EXPECT_LE(0.004 * static_cast<double>(every), most_s);
+    return cycle % every == 0 && cycle / every % 5 != 4;
+  };
+  long cycle = 0;
+  const auto run = [&](long cycles) {
+    for (const long end = cycle + cycles; cycle < end; ++cycle) {
+      std::vector<BusMessage> said = rig.controller_says();
+      std::erase_if(said, [&](const BusMessage& m) { return !due(m.kind, cycle); });
+      rig.cycle(said);
+    }
+  };
+  for (int i = 0; i < 100 && rig.session->state() != kActive; ++i) run(100);
+  ASSERT_EQ(rig.session->state(), kActive);
+  for (int i = 0; i < 20; ++i) {
+    run(100);
+    ASSERT_EQ(rig.session->state(), kActive);
+  }
+  EXPECT_EQ(rig.session->report().counters.holds, 0U);
+}
+
 struct OffInput {
   const char* name;
   void (*off)(ControllerState&);

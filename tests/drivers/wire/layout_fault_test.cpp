@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "plumb/drivers/bus_layout.hpp"
+#include "plumb/drivers/session_inputs.hpp"
 
 namespace plumb::drivers {
 namespace {
@@ -104,6 +105,24 @@ TEST(LayoutFaults, ScalesPeriodsAndRatesAreAboveZero) {
               })),
               Names{".data_bit_rate"});
   }
+}
+
+TEST(LayoutFaults, NoMessageIsSoSeldomThatItsSenderCountsAsSilent) {
+  for (const MessageLayout& message : default_layout(6, 0.004).messages) {
+    const auto every = [&](double period_s) {
+      return faults(with([&](auto& l) { at(l, message.name).period_s = period_s; }),
+                    BusUse::kModbus);
+    };
+    const double most_s = std::min(100.0, 0.5 * longest_silence_s(message.kind));
+    EXPECT_EQ(every(most_s), Names{}) << message.name;
+    const bool ever = std::isinf(longest_silence_s(message.kind));
+    EXPECT_EQ(every(1.01 * most_s), ever ? Names{} : Names{message.name + ".period_us"});
+  }
+  // a cycle that is too slow is one of every message that has the cycle's period
+  EXPECT_EQ(faults(default_layout(6, 0.05), BusUse::kModbus), Names{});
+  EXPECT_EQ(
+      faults(default_layout(6, 0.0501), BusUse::kModbus),
+      (Names{"controller.period_us", "target.period_us", "joints.period_us", "status.period_us"}));
 }
 
 TEST(LayoutFaults, AMessageHoldsNoMoreThanAFrameOfCanFd) {

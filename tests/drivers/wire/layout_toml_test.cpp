@@ -81,7 +81,7 @@ TEST(LayoutToml, WhatIsWrittenReadsBackTheSame) {
       for (MessageLayout& m : layout.messages) {
         m.can_id += 0x10000;
         m.first_register = static_cast<std::uint16_t>(m.first_register + 100);
-        m.period_s *= 3;
+        m.period_s *= 2;
         for (Signal& signal : m.signals)
           if (signal.unit == "um" || signal.unit == "urad") signal.scale *= 2.5;
       }
@@ -155,6 +155,8 @@ TEST(LayoutToml, BadTablesAreRefusedAtTheirPlace) {
       {"[bus.offset]\ncan_id = 1", {"E-RT-BUS 1:1"}},
       {"[bus]\ncorrection = \"offset\"\n[bus.corrected]\ncan_id = 1", {"E-RT-BUS 3:1"}},
       {"[bus.target]\nperiod_us = 500", {"E-RT-BUS 1:1"}},  // too much load
+      {"[bus.robot]\nperiod_us = 500000", {}},
+      {"[bus.robot]\nperiod_us = 500001", {"E-RT-BUS 2:13"}},  // silent half of the time
   };
   for (const auto& [text, errors] : kCases) EXPECT_EQ(read(text).errors, errors) << text;
 }
@@ -171,18 +173,18 @@ TEST(Reach, NumbersThatAreTooSmallForTheArmAreToldWithACountThatFits) {
   chain.joints.resize(6);
   for (auto& row : chain.joints) row.q_min = -3.0, row.q_max = 3.0;
   BusLayout layout = default_layout(6, 0.004);
-  EXPECT_TRUE(find_short_reach(layout, chain, 0.05).empty());
+  EXPECT_TRUE(find_short_reach(layout, chain, 0.05, "deploy.bus").empty());
   chain.joints[5].q_max = 8.4;  // 8.388607 is the most
-  const auto faults = find_short_reach(layout, chain, 0.05);
+  const auto faults = find_short_reach(layout, chain, 0.05, "deploy.bus");
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].key, "count_urad");
   EXPECT_EQ(faults[0].help, "[deploy.bus.joints] count_urad = 1.1");
   layout.can_format = CanFrame::Format::kFd;
-  EXPECT_TRUE(find_short_reach(layout, chain, 0.05).empty());
+  EXPECT_TRUE(find_short_reach(layout, chain, 0.05, "deploy.bus").empty());
   chain.joints[5].q_max = 3.0;
   layout = default_layout(6, 0.004, 0, CorrectionForm::kOffset);
-  EXPECT_TRUE(find_short_reach(layout, chain, 0.0032767).empty());
-  EXPECT_EQ(find_short_reach(layout, chain, 0.0033).at(0).help,
+  EXPECT_TRUE(find_short_reach(layout, chain, 0.0032767, "deploy.bus").empty());
+  EXPECT_EQ(find_short_reach(layout, chain, 0.0033, "deploy.bus").at(0).help,
             "[deploy.bus.offset] count_um = 0.2");
 }
 

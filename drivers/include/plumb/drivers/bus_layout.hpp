@@ -75,7 +75,8 @@ double worst_bus_load(const BusLayout& layout);
 inline constexpr double kMostBusLoad = 0.70;
 
 /// What is wrong with a layout: identifiers out of range or twice, registers that overlap or do not
-/// fit, a scale or period of 0; for CAN also bit rates and too much load. Empty: usable.
+/// fit, a scale or period of 0, a period longer than half of longest_silence_s(), with which no
+/// session comes about; for CAN also bit rates and too much load. Empty: usable.
 struct LayoutFault {
   std::string message;  // of which message; empty: of the layout
   std::string key;      // "can_id", "register", "scale", "period_us", "bit_rate", "load"

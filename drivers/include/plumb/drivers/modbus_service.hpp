@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "plumb/drivers/modbus_frame.hpp"
@@ -35,7 +36,9 @@ class ModbusService {
   Bytes served(std::size_t size) noexcept;
   Bytes registers_answer(std::uint8_t function, std::uint16_t first, std::uint16_t count,
                          std::int64_t now_ns) noexcept;
-  bool may_write(std::uint64_t peer, std::int64_t now_ns) noexcept;
+  /// Why a connection may not write these registers; none: it may, and is their writer from now on.
+  std::optional<ModbusException> objection(std::uint16_t first, std::uint16_t count,
+                                           std::uint64_t peer, std::int64_t now_ns) noexcept;
   void store(std::uint16_t first, Bytes words, std::int64_t now_ns) noexcept;
 
   ModbusRegisters* registers_;

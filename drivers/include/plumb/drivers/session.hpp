@@ -122,7 +122,6 @@ class Session {
   void hear_target(const BusMessage& message) noexcept;
   void hear_controller(const BusMessage& message) noexcept;
   CycleInput cycle_input(std::int64_t now_ns) const noexcept;
-  void read_context(CycleInput& input) const noexcept;
   void take_target() noexcept;
   void note_permission(double ageing_s) noexcept;
   void note_foreign(const SessionTick& tick, double ageing_s) noexcept;

@@ -37,12 +37,16 @@ constexpr bool has(Lost set, Lost one) noexcept {
 const char* to_string(Lost one) noexcept;
 
 struct InputSettings {
-  double limit_s = 0.1;                   // age of target, joints and controller state
+  double limit_s = 0.1;                   // age of target, joints, controller; also of the status
   double robot_s = 1.0;                   // age of the robot's name and of the actual pose
   std::optional<std::uint8_t> tool = {};  // the controller's numbers; none: any
   std::optional<std::uint8_t> frame = {};
   std::optional<std::uint8_t> payload = {};
 };
+
+/// For how long a message may not come before the session goes without it [s]; infinite: for ever.
+/// `status` counts too: the receiver at the other end waits as long for it. Pure; any thread.
+double longest_silence_s(MessageKind kind, const InputSettings& settings = {}) noexcept;
 
 /// What the messages say against a correction now. Pure.
 Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcept;

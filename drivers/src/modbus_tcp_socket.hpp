@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "plumb/drivers/descriptor.hpp"
+#include "plumb/drivers/modbus_server.hpp"
+
+namespace plumb::drivers {
+
+/// The socket on which a server waits for connections.
+struct ModbusTcpSocket {
+  Descriptor descriptor;
+  std::uint16_t port = 0;  // also if 0 was asked for
+};
+
+/// Binds and listens where the settings say, on an address or on all that comes through an
+/// interface. A fault: the system's reason and what to do.
+std::optional<LinkFault> open_tcp_socket(const ModbusServerSettings& settings,
+                                         ModbusTcpSocket& out);
+
+}  // namespace plumb::drivers
