@@ -22,7 +22,7 @@ double count_for(double needed, double most) {
 }
 
 void check_joints(const BusLayout& layout, const MessageLayout& message, const format::Chain& chain,
-                  std::vector<LayoutFault>& out) {
+                  const std::string& path, std::vector<LayoutFault>& out) {
   const double most = most_counts(layout, message);
   for (std::size_t i = 0; i < std::min(message.signals.size(), chain.joints.size()); ++i) {
     const auto& row = chain.joints[i];
@@ -33,33 +33,33 @@ void check_joints(const BusLayout& layout, const MessageLayout& message, const f
                    fmt::format("{} of {} reaches {:.4g} {unit}, but the joint {:.4g} {unit}",
                                signal.name, message.name, most * signal.scale, needed,
                                fmt::arg("unit", signal.unit == "um" ? "m" : "rad")),
-                   fmt::format("[deploy.bus.{}] count_{} = {:.10g}", message.name, signal.unit,
+                   fmt::format("[{}.{}] count_{} = {:.10g}", path, message.name, signal.unit,
                                count_for(needed, most))});
   }
 }
 
 void check_offset(const BusLayout& layout, const MessageLayout& message, double needed,
-                  std::vector<LayoutFault>& out) {
+                  const std::string& path, std::vector<LayoutFault>& out) {
   const double most = most_counts(layout, message);
   const double reach = most * message.signals.front().scale;
   if (needed <= reach) return;
   out.push_back({message.name, "count_um",
                  fmt::format("an offset reaches {:.4g} mm, but a correction {:.4g} mm", reach * 1e3,
                              needed * 1e3),
-                 fmt::format("[deploy.bus.offset] count_um = {:.10g}", count_for(needed, most))});
+                 fmt::format("[{}.offset] count_um = {:.10g}", path, count_for(needed, most))});
 }
 
 }  // namespace
 
 std::vector<LayoutFault> find_short_reach(const BusLayout& layout, const format::Chain& chain,
-                                          double max_correction_m) {
+                                          double max_correction_m, const std::string& path) {
   std::vector<LayoutFault> out;
   if (layout.can_format == CanFrame::Format::kFd) return out;
   for (const MessageLayout& message : layout.messages)
     if (message.kind == MessageKind::kJoints || message.kind == MessageKind::kCommanded)
-      check_joints(layout, message, chain, out);
+      check_joints(layout, message, chain, path, out);
     else if (message.kind == MessageKind::kOffset)
-      check_offset(layout, message, max_correction_m, out);
+      check_offset(layout, message, max_correction_m, path, out);
   return out;
 }
 

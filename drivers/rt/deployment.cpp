@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bus_text/layout_toml.hpp"
+#include "bus_text/reach.hpp"
 #include "plumb/drivers/bus_content.hpp"
 #include "program/file.hpp"
 
@@ -34,6 +35,12 @@ void complete(Deployment& out) {
 
 }  // namespace
 
+std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const LoadedModel& model) {
+  if (use_of(deployment.config.source) != BusUse::kCan) return {};
+  return drivers::find_short_reach(deployment.layout, model.model().nominal,
+                                   model.limits().max_correction_m, "bus");
+}
+
 Deployment load_deployment(const std::filesystem::path& folder) {
   Deployment out;
   out.folder = folder;
@@ -50,7 +57,11 @@ Deployment load_deployment(const std::filesystem::path& folder) {
   const BusArm arm = bus_arm(out.model.loaded->model().nominal, 1e-6 * out.config.cycle_us);
   const toml::table nothing;
   TomlTable absent(nothing, "bus", source);
-  out.layout = read_bus(bus ? *bus : absent, arm, use_of(out.config.source));
+  TomlTable& table = bus ? *bus : absent;
+  out.layout = read_bus(table, arm, use_of(out.config.source));
+  source.stop_on_errors();
+  for (const LayoutFault& fault : find_short_reach(out, *out.model.loaded))
+    report_fault(table, fault);
   source.stop_on_errors();
   complete(out);
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "plumb/drivers/bus_layout.hpp"
 #include "rt/rt_config.hpp"
@@ -17,6 +18,10 @@ struct Deployment {
   BusLayout layout;
   SessionSettings session;  // of the configuration, completed by model and layout
 };
+
+/// What the numbers of the deployment's bus are too small for with a model: its own, or one that is
+/// to take its place. Empty: fits. Slow.
+std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const LoadedModel& model);
 
 /// Throws Failure (kInput) with everything that is wrong: codes E-RT-..., E-TOML. Sends nothing,
 /// opens no bus. Slow.

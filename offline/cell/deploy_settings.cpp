@@ -35,8 +35,8 @@ void read_bus_table(TomlTable& t, Cell& cell) {
                                       cell.deploy.link);
   if (cell.deploy.link != drivers::BusUse::kCan || t.source().problems().errors().size() != before)
     return;
-  for (const auto& fault :
-       drivers::find_short_reach(*cell.deploy.bus, cell.nominal, cell.deploy.max_correction_m))
+  for (const auto& fault : drivers::find_short_reach(*cell.deploy.bus, cell.nominal,
+                                                     cell.deploy.max_correction_m, "deploy.bus"))
     drivers::report_fault(*bus, fault);
 }
 

@@ -12,7 +12,8 @@ std::vector<drivers::LayoutFault> faults_of(const Cell& cell, const drivers::Bus
                                             drivers::BusUse use) {
   auto out = drivers::find_faults(layout, use);
   if (!out.empty() || use != drivers::BusUse::kCan) return out;
-  return drivers::find_short_reach(layout, cell.nominal, cell.deploy.max_correction_m);
+  return drivers::find_short_reach(layout, cell.nominal, cell.deploy.max_correction_m,
+                                   "deploy.bus");
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A model whose numbers do not fit into those of the bus is refused, when plumb-rt starts and when
+// it runs.
+#include <gtest/gtest.h>
+
+#include "rt/service.hpp"
+#include "tests/drivers/deployed.hpp"
+#include "tests/drivers/in_memory_port.hpp"
+#include "tests/drivers/rt_program.hpp"
+
+namespace plumb::tests {
+namespace {
+
+using namespace drivers;
+
+const std::string kOffsets =
+    "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"can\"\ninterface = \"nocan9\"\n"
+    "[bus]\ncorrection = \"offset\"\n";
+
+/// Corrections of 5 mm, where an offset of a classic frame reaches 3.2767 mm.
+format::Model with_large_corrections() {
+  format::Model out = Deployed::arm();
+  out.guard.max_correction_m = 0.005;
+  return out;
+}
+
+/// Joints of 10 rad, where a count of 24 bits reaches 8.388607 rad.
+format::Model with_wide_joints() {
+  format::Model out = Deployed::arm();
+  out.nominal.joints[5].q_max = 10.0;
+  return out;
+}
+
+class MemoryBus final : public rt::OpenBus {
+ public:
+  BusPort& port() noexcept override { return port_; }
+
+ private:
+  InMemoryPort port_;
+};
+
+RtRan start(const Deployed& folder) {
+  return plumb_rt({"run", folder.folder.string()}, folder.folder);
+}
+
+TEST(RunReach, AModelThatTheBusCutsOffIsRefusedWhenItIsLoaded) {
+  const Deployed folder(kOffsets);
+  EXPECT_NE(start(folder).err.find("error[E-RT-LINK]"), std::string::npos) << "it fits as it is";
+  folder.write_model("robot.plumb", with_large_corrections());
+  RtRan ran = start(folder);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("error[E-RT-BUS]: an offset reaches 3.277 mm, but a correction 5 mm"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_NE(ran.err.find("= help: [bus.offset] count_um = 0.2"), std::string::npos) << ran.err;
+  folder.write("rt.toml", kOffsets + "[bus.offset]\ncount_um = 0.2\n");
+  EXPECT_EQ(start(folder).exit, 5) << "the help helps: only the interface is missing";
+  folder.write_model("robot.plumb", with_wide_joints());
+  ran = start(folder);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("q6 of joints reaches 8.389 rad, but the joint 10 rad"), std::string::npos)
+      << ran.err;
+  EXPECT_NE(ran.err.find("= help: [bus.joints] count_urad = 1.2"), std::string::npos) << ran.err;
+}
+
+TEST(RunReach, ModbusAndCanFdHaveRoomForAll) {
+  const Deployed folder(kOffsets + "can_format = \"fd\"\n");
+  folder.write_model("robot.plumb", with_large_corrections());
+  EXPECT_EQ(start(folder).exit, 5);
+  std::string toml = kOffsets;
+  toml.replace(toml.find("\"can\"\ninterface = \"nocan9\""), 26, "\"modbus\"\naddress = \"x y\"");
+  folder.write("rt.toml", toml);
+  EXPECT_EQ(start(folder).exit, 5);
+}
+
+TEST(RunReach, AModelThatTheBusCutsOffIsRefusedInASwap) {
+  const Deployed folder(kOffsets);
+  rt::Deployment deployment = rt::load_deployment(folder.folder);
+  ModelSlot slot(*deployment.model.loaded);
+  MemoryBus bus;
+  const auto shared = std::make_unique<rt::RunShared>();
+  rt::Service service(deployment, bus, slot, *shared);
+  service.start();
+  for (const auto& model : {with_large_corrections(), with_wide_joints()}) {
+    folder.write_model("next.plumb", model);
+    const RtRan ran =
+        plumb_rt({"swap", (folder.folder / "next.plumb").string(), "--dir", folder.folder.string()},
+                 folder.folder);
+    EXPECT_EQ(ran.exit, 3);
+    EXPECT_NE(ran.err.find("error[E-RT-SWAP]"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("reaches"), std::string::npos) << ran.err;
+    EXPECT_TRUE(slot.settled());
+    EXPECT_EQ(shared->model, 0U) << "nothing was published";
+  }
+  service.stop();
+}
+
+}  // namespace
+}  // namespace plumb::tests
