@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/check.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <iterator>
 
 namespace plumb::drivers::rt {
 namespace {
-
-constexpr const char* kArphrdCan = "280";  // linux/if_arp.h
 
 void append(std::vector<Check>& all, std::vector<Check> more) {
   std::move(more.begin(), more.end(), std::back_inserter(all));
@@ -36,23 +31,6 @@ const char* to_string(Need need) {
   return "advice";
 }
 
-std::vector<std::string> can_interfaces(const MachineFiles& files) {
-  std::vector<std::string> out = files.names("sys/class/net");
-  std::erase_if(out, [&](const std::string& name) {
-    return files.read(fmt::format("sys/class/net/{}/type", name)) != kArphrdCan;
-  });
-  return out;
-}
-
-Check can_check(const MachineFiles& files) {
-  const auto names = can_interfaces(files);
-  Check out{.id = "can", .need = Need::kAdvice, .finding = {.what = "CAN interfaces"}};
-  out.finding.grant = names.empty() ? Grant::kSkipped : Grant::kGranted;
-  out.finding.why =
-      names.empty() ? "none; not needed with Modbus" : fmt::format("{}", fmt::join(names, ", "));
-  return out;
-}
-
 Check step_check(std::string id, Need need, std::span<const RtStep> steps, RtStepKind kind) {
   const auto it = std::find_if(steps.begin(), steps.end(),
                                [kind](const RtStep& step) { return step.kind == kind; });
@@ -63,11 +41,12 @@ Check step_check(std::string id, Need need, std::span<const RtStep> steps, RtSte
   return out;
 }
 
-std::vector<Check> examine(const MachineFiles& files, std::span<const RtStep> steps) {
+std::vector<Check> examine(const MachineFiles& files, std::span<const RtStep> steps,
+                           std::span<const CanInterface> can) {
   std::vector<Check> out = kernel_checks(files);
   append(out, process_checks(files, steps));
   append(out, processor_checks(files, steps));
-  out.push_back(can_check(files));
+  append(out, can_checks(can));
   return out;
 }
 

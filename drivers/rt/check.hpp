@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/drivers/can_interface.hpp"
 #include "plumb/drivers/finding.hpp"
 #include "plumb/drivers/rt_step.hpp"
 #include "rt/machine_files.hpp"
@@ -31,16 +32,29 @@ struct Check {
 /// A cycle of this or less is a short one.
 inline constexpr int kShortCycle_us = 1000;
 
-/// What `files` and the steps that were tried tell, in the order in which it is shown.
-std::vector<Check> examine(const MachineFiles& files, std::span<const RtStep> steps);
+/// What `files`, the steps that were tried and the CAN interfaces tell, in the order in which it is
+/// shown.
+std::vector<Check> examine(const MachineFiles& files, std::span<const RtStep> steps,
+                           std::span<const CanInterface> can);
 
 std::vector<Check> kernel_checks(const MachineFiles& files);
 std::vector<Check> process_checks(const MachineFiles& files, std::span<const RtStep> steps);
 std::vector<Check> processor_checks(const MachineFiles& files, std::span<const RtStep> steps);
 
-/// CAN interfaces present: network interfaces of type ARPHRD_CAN.
-std::vector<std::string> can_interfaces(const MachineFiles& files);
-Check can_check(const MachineFiles& files);
+/// A check an interface, "can:NAME": its state, frames and bit rates. One, skipped, if there is
+/// none.
+std::vector<Check> can_checks(std::span<const CanInterface> interfaces);
+
+/// CAN interfaces as files tell of them, network interfaces of type ARPHRD_CAN: without their kind
+/// and bit rates, which no file holds. For a copy of another machine; of this one,
+/// read_can_interfaces() knows more.
+std::vector<CanInterface> can_interfaces(const MachineFiles& files);
+
+enum class CanState : std::uint8_t { kUp, kDown, kBusOff };
+CanState state_of(const CanInterface& interface);
+
+/// "up", "down", "bus-off".
+const char* to_string(CanState state);
 
 /// The check that one step of an RtProcess is.
 Check step_check(std::string id, Need need, std::span<const RtStep> steps, RtStepKind kind);

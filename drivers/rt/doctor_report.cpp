@@ -11,6 +11,31 @@ std::string cycle(int cycle_us) {
                               : fmt::format("{} us", cycle_us);
 }
 
+/// null with "<key>_reason", as elsewhere, but whole.
+void put_whole(Json& out, const std::string& key, const std::optional<std::uint32_t>& value,
+               const char* reason) {
+  out[key] = value ? Json(*value) : Json(nullptr);
+  if (!value) out[key + "_reason"] = reason;
+}
+
+Json can_json(const CanInterface& one) {
+  const char* const reason = one.kind == "can"  ? "not set"
+                             : one.kind.empty() ? "not in the files of a machine"
+                                                : "a virtual interface has none";
+  Json out{
+      {"name", one.name}, {"kind", one.kind}, {"state", to_string(state_of(one))}, {"fd", one.fd}};
+  put_whole(out, "bit_rate", one.bit_rate, reason);
+  put_whole(out, "data_bit_rate", one.data_bit_rate, reason);
+  put_whole(out, "restart_ms", one.restart_ms, reason);
+  return out;
+}
+
+Json can_json(const std::vector<CanInterface>& interfaces) {
+  Json out = Json::array();
+  for (const CanInterface& one : interfaces) out.push_back(can_json(one));
+  return out;
+}
+
 }  // namespace
 
 std::string verdict(const Examination& examination) {
@@ -45,7 +70,7 @@ Json to_json(const Examination& examination) {
           {"cycle_us", examination.cycle_us},
           {"verdict", verdict(examination)},
           {"checks", checks},
-          {"can_interfaces", examination.can}};
+          {"can_interfaces", can_json(examination.can)}};
 }
 
 }  // namespace plumb::drivers::rt

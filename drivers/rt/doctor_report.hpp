@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/drivers/can_interface.hpp"
 #include "program/outcome.hpp"
 #include "rt/check.hpp"
 
@@ -13,7 +14,7 @@ namespace plumb::drivers::rt {
 struct Examination {
   int cycle_us = 4000;
   std::vector<Check> checks;
-  std::vector<std::string> can;  // names of CAN interfaces
+  std::vector<CanInterface> can;
 
   bool fit() const { return obstacles(checks, cycle_us).empty(); }
 };
@@ -24,8 +25,9 @@ std::string verdict(const Examination& examination);
 /// A line a check, its remedy below, and the verdict at the end.
 std::string to_text(const Examination& examination);
 
-/// {fit, cycle_us, verdict, checks[{check, what, grant, needed, decides, why, remedy}],
-/// can_interfaces[]}
+/// {fit, cycle_us, verdict, checks[{check, what, grant, needed, why, remedy}],
+/// can_interfaces[{name, kind, state, fd, bit_rate, data_bit_rate, restart_ms}]}; bit rates in
+/// [bit/s], null with a reason where there is none or it is not known.
 Json to_json(const Examination& examination);
 
 }  // namespace plumb::drivers::rt

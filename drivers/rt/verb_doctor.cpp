@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "plumb/drivers/can_interface.hpp"
 #include "rt/doctor_report.hpp"
 #include "rt/rt_probe.hpp"
 
@@ -33,9 +34,11 @@ void look(const DoctorOptions& options, Outcome& outcome) {
   if (!std::filesystem::is_directory(root / "proc", ignored))
     return refuse_root(options.root, outcome);
   const MachineFiles files(root);
-  const auto steps = options.root == "/" ? try_rt_process({}) : std::vector<RtStep>{};
+  const bool this_machine = options.root == "/";
+  const auto steps = this_machine ? try_rt_process({}) : std::vector<RtStep>{};
+  const auto can = this_machine ? read_can_interfaces() : can_interfaces(files);
   const Examination seen{
-      .cycle_us = options.cycle_us, .checks = examine(files, steps), .can = can_interfaces(files)};
+      .cycle_us = options.cycle_us, .checks = examine(files, steps, can), .can = can};
   outcome.result = to_json(seen);
   outcome.text = to_text(seen);
   if (!options.strict || seen.fit()) return;

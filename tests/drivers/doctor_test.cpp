@@ -20,9 +20,8 @@ const std::vector<RtStep> kAllGranted = {
 
 Examination examined(const FakeMachine& machine, int cycle_us = 4000,
                      const std::vector<RtStep>& steps = kAllGranted) {
-  return {.cycle_us = cycle_us,
-          .checks = examine(machine.files(), steps),
-          .can = can_interfaces(machine.files())};
+  const auto can = can_interfaces(machine.files());
+  return {.cycle_us = cycle_us, .checks = examine(machine.files(), steps, can), .can = can};
 }
 
 Finding finding(const Examination& seen, const std::string& id) {
@@ -125,14 +124,72 @@ TEST(Doctor, TakesALimitLightlyWhenWhatItLimitsWasGranted) {
   EXPECT_EQ(finding(seen, "rlimit_memlock").why, "8192 kB, yet what it limits was granted");
 }
 
-TEST(Doctor, NamesOnlyCanInterfaces) {
+TEST(Doctor, ReadsOfAnotherMachineEveryCanInterfaceAndNothingElse) {
   const FakeMachine machine;
-  machine.write("sys/class/net/vcan0/type", "280\n");
+  machine.write_can("can1", "0x40080", "16", "0");
+  machine.write_can("can2", "0x40041", "16", "0");
   machine.write("sys/class/net/canal/type", "1\n");
-  EXPECT_EQ(examined(machine).can, (std::vector<std::string>{"can0", "vcan0"}));
-  EXPECT_EQ(finding(examined(machine), "can").why, "can0, vcan0");
+  const Examination seen = examined(machine);
+  ASSERT_EQ(seen.can.size(), 3U);
+  EXPECT_EQ(finding(seen, "can:can0").why, "up, CAN FD, bit rate unknown");
+  EXPECT_EQ(finding(seen, "can:can1").why, "down, classic CAN, bit rate unknown");
+  EXPECT_EQ(finding(seen, "can:can2").why, "bus-off, classic CAN, bit rate unknown");
+  EXPECT_TRUE(seen.fit()) << "no interface decides";
   machine.remove("sys/class/net");
   EXPECT_EQ(finding(examined(machine), "can").grant, Grant::kSkipped);
+}
+
+/// As the kernel tells of them.
+const std::vector<CanInterface> kInterfaces = {
+    {.name = "can0",
+     .kind = "can",
+     .up = true,
+     .carrier = true,
+     .fd = true,
+     .bit_rate = 500'000,
+     .data_bit_rate = 2'000'000,
+     .restart_ms = 100},
+    {.name = "can1", .kind = "can"},
+    {.name = "can2", .kind = "can", .up = true, .bit_rate = 125'000, .restart_ms = 0},
+    {.name = "vcan0", .kind = "vcan", .up = true, .carrier = true, .fd = true}};
+
+TEST(Doctor, SaysOfEveryCanInterfaceItsStateFramesAndBitRates) {
+  const auto checks = can_checks(kInterfaces);
+  ASSERT_EQ(checks.size(), 4U);
+  const auto is = [&](std::size_t i, Grant grant, const char* why, const char* remedy) {
+    EXPECT_EQ(checks[i].finding.grant, grant) << i;
+    EXPECT_EQ(checks[i].finding.why, why);
+    EXPECT_EQ(checks[i].finding.remedy, remedy);
+    EXPECT_EQ(checks[i].need, Need::kAdvice);
+  };
+  is(0, Grant::kGranted,
+     "up, CAN FD, 500000 bit/s, data 2000000 bit/s, restarts 100 ms after bus-off", "");
+  is(1, Grant::kDenied, "down, classic CAN, no bit rate set",
+     "sudo ip link set can1 down && sudo ip link set can1 up type can bitrate 1000000 restart-ms "
+     "100");
+  is(2, Grant::kDenied,
+     "bus-off, classic CAN, 125000 bit/s, stays bus-off until someone restarts it",
+     "sudo ip link set can2 type can restart");
+  is(3, Grant::kGranted, "up, CAN FD, vcan, without a bit rate", "");
+}
+
+TEST(Doctor, ShowsCanInterfacesInTextAndJson) {
+  const Examination seen{.checks = can_checks(kInterfaces), .can = kInterfaces};
+  EXPECT_NE(to_text(seen).find("granted  can0            up, CAN FD, 500000 bit/s, data 2000000"),
+            std::string::npos)
+      << to_text(seen);
+  const Json json = to_json(seen)["can_interfaces"];
+  EXPECT_EQ(json[0], (Json{{"name", "can0"},
+                           {"kind", "can"},
+                           {"state", "up"},
+                           {"fd", true},
+                           {"bit_rate", 500'000},
+                           {"data_bit_rate", 2'000'000},
+                           {"restart_ms", 100}}));
+  EXPECT_EQ(json[1]["state"], "down");
+  EXPECT_EQ(json[2]["state"], "bus-off");
+  EXPECT_EQ(json[3]["bit_rate"], nullptr);
+  EXPECT_EQ(json[3]["bit_rate_reason"], "a virtual interface has none");
 }
 
 TEST(Doctor, DoesNotCallAMachineFitOfWhichItSawNothing) {

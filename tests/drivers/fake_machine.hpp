@@ -32,7 +32,7 @@ class FakeMachine {
     write("sys/devices/system/cpu/isolated", "1\n");
     write("sys/devices/system/cpu/nohz_full", "1\n");
     write("sys/devices/system/cpu/smt/active", "0\n");
-    write("sys/class/net/can0/type", "280\n");
+    write_can("can0", "0x40041", "72");
     write("sys/class/net/eth0/type", "1\n");
   }
   ~FakeMachine() {
@@ -54,6 +54,15 @@ class FakeMachine {
               "              bytes     \n"
               "Max realtime priority     " +
               priority + "                    " + priority + "                    \n");
+  }
+  /// A CAN interface: flags as ifconfig has them (0x40041: up), and 72 bytes a frame for CAN FD.
+  void write_can(const std::string& name, const std::string& flags, const std::string& mtu,
+                 const std::string& carrier = "1") const {
+    const std::string folder = "sys/class/net/" + name;
+    write(folder + "/type", "280\n");
+    write(folder + "/flags", flags + "\n");
+    write(folder + "/carrier", carrier + "\n");
+    write(folder + "/mtu", mtu + "\n");
   }
   void remove(const std::string& file) const { std::filesystem::remove_all(root_ / file); }
 

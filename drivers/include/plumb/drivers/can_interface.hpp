@@ -16,11 +16,11 @@ struct CanInterface {
   std::string name;
   std::string kind;  // "can": a controller; "vcan", "vxcan": no wire and no bit rate
   bool up = false;
-  bool carrier = false;                   // not bus-off
-  bool fd = false;                        // CAN FD frames fit (MTU 72)
-  std::optional<std::uint32_t> bit_rate;  // [bit/s]; none: not set, or there is none
-  std::optional<std::uint32_t> data_bit_rate;
-  std::optional<std::uint32_t> restart_ms;  // 0: stays bus-off
+  bool carrier = false;                        // not bus-off
+  bool fd = false;                             // CAN FD frames fit (MTU 72)
+  std::optional<std::uint32_t> bit_rate = {};  // [bit/s]; none: not set, or there is none
+  std::optional<std::uint32_t> data_bit_rate = {};
+  std::optional<std::uint32_t> restart_ms = {};  // 0: stays bus-off
 };
 
 /// All CAN interfaces of this machine, by their index; asks the kernel (rtnetlink). Slow, needs no
