@@ -74,7 +74,8 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   out.counter("cycles", "Ticks of the clock", snapshot.clock.ticks);
   out.counter("cycles_missed", "Points of the grid skipped", snapshot.clock.missed);
   out.counter("record_lost", "Entries that the record had no room for", facts.record_lost);
-  out.gauge("record_failed", "1: the disk ended the record", facts.record_failure.empty() ? 0 : 1);
+  out.gauge("record_failed", "1: the disk or record_max_mb ended the record",
+            facts.record_failure.empty() ? 0 : 1);
   out.histogram("wake_up_seconds", "How late the cycle began", snapshot.wake);
   out.histogram("cycle_seconds", "How long the cycle took", snapshot.work);
   return std::move(out).text();

@@ -16,6 +16,7 @@ namespace plumb::drivers::rt {
 namespace {
 
 constexpr std::size_t kBlock = 64 << 10;
+constexpr std::uint64_t kMega = 1'000'000;
 
 std::filesystem::path free_name(const std::filesystem::path& file) {
   std::filesystem::path out = file;
@@ -26,8 +27,8 @@ std::filesystem::path free_name(const std::filesystem::path& file) {
 }  // namespace
 
 RecordWriter::RecordWriter(const std::filesystem::path& file, const BusLayout& layout,
-                           std::string bus)
-    : file_(free_name(file)), codec_(layout), bus_(std::move(bus)) {
+                           std::string bus, int most_mb)
+    : file_(free_name(file)), codec_(layout), bus_(std::move(bus)), most_mb_(most_mb) {
   fd_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (fd_ >= 0) return;
   throw Failure(Exit::kEnvironment,
@@ -42,8 +43,20 @@ RecordWriter::~RecordWriter() {
   ::close(fd_);
 }
 
+bool RecordWriter::fits(std::size_t bytes) const noexcept {
+  return most_mb_ == 0 || end_ + text_.size() + bytes <= kMega * static_cast<unsigned>(most_mb_);
+}
+
 void RecordWriter::add_line(const std::string& interface, const CanFrame& frame) {
-  text_ += to_line({interface, frame}) + "\n";
+  if (!failure_.empty()) return;
+  const std::string line = to_line({interface, frame}) + "\n";
+  if (!fits(line.size())) {
+    flush();
+    if (failure_.empty())
+      failure_ = fmt::format("{}: reached record_max_mb = {}", file_.string(), most_mb_);
+    return;
+  }
+  text_ += line;
   last_ns_ = frame.time_ns;
   if (text_.size() >= kBlock) flush();
 }

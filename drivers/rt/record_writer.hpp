@@ -11,13 +11,15 @@ namespace plumb::drivers::rt {
 
 /// Writes what the cycle did as candump would, outside the cycle's thread.
 ///
-/// When the disk says no (full, gone) the record ends there, for good: failure() says why, the
-/// last line that is whole stays whole, and the cycle never notices.
+/// When the disk says no (full, gone), or the record would grow beyond its limit, it ends there,
+/// for good: failure() says why, the last line that is whole stays whole, and the cycle never
+/// notices.
 class RecordWriter {
  public:
-  /// An existing file is kept: the new one gets a number behind its name. Throws Failure
-  /// (kEnvironment, E-RT-RECORD) if it cannot be made.
-  RecordWriter(const std::filesystem::path& file, const BusLayout& layout, std::string bus);
+  /// An existing file is kept: the new one gets a number behind its name. `most_mb`: 0: no limit.
+  /// Throws Failure (kEnvironment, E-RT-RECORD) if it cannot be made.
+  RecordWriter(const std::filesystem::path& file, const BusLayout& layout, std::string bus,
+               int most_mb);
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
@@ -31,11 +33,13 @@ class RecordWriter {
 
  private:
   void add_line(const std::string& interface, const CanFrame& frame);
+  bool fits(std::size_t bytes) const noexcept;
 
   std::filesystem::path file_;
   int fd_ = -1;
   CanCodec codec_;
   std::string bus_;
+  int most_mb_;
   std::string text_;  // not written yet
   std::uint64_t lost_ = 0;
   std::int64_t last_ns_ = 0;

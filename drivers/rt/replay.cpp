@@ -50,8 +50,8 @@ class Player {
 
   bool goes_on() const { return !out_.model_changed; }
 
+  /// A record may end anywhere (limit, disk, power): what its last cycle lacks was cut off.
   Replayed result() && {
-    flush();
     out_.report = session_->report();
     return std::move(out_);
   }

@@ -43,6 +43,7 @@ struct RtConfig {
   SinkConfig sink = {};
   SessionSettings session = {};
   std::filesystem::path record = {};  // empty: none
+  int record_max_mb = 1000;           // where the record ends [1e6 bytes]; 0: nowhere
   int metrics_port = 0;               // on 127.0.0.1; 0: none
 };
 

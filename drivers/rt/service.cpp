@@ -58,7 +58,8 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
   facts_.model_file = config.model.string();
   facts_.model_sha256 = deployment.model.sha256;
   if (!config.record.empty()) {
-    record_ = std::make_unique<RecordWriter>(config.record, record_layout(deployment), facts_.bus);
+    record_ = std::make_unique<RecordWriter>(config.record, record_layout(deployment), facts_.bus,
+                                             config.record_max_mb);
     facts_.record = record_->file().string();
   }
   if (config.sink.kind == SinkConfig::Kind::kCsv)
@@ -159,6 +160,8 @@ std::string Service::swap(const std::string& file) {
   } catch (const std::exception& error) {
     return refusal("E-RT-MODEL", error.what());
   }
+  if (const auto short_of = find_short_reach(deployment_, *next.loaded); !short_of.empty())
+    return refusal("E-RT-SWAP", short_of.front().what);
   const LoadedModel& running = *deployment_.model.loaded;
   const auto published = slot_.publish(*next.loaded);
   if (published == ModelSlot::Published::kBusy)

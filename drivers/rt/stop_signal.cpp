@@ -11,9 +11,18 @@ namespace {
 
 std::atomic<std::atomic<bool>*> flag{nullptr};
 std::atomic<bool> told{false};
+struct sigaction before {};  // of the program: it says its last words
 
-void heard(int) {
-  if (told.exchange(true)) ::_exit(static_cast<int>(Exit::kInterrupted));
+[[noreturn]] void end_at_once(int signal) {
+  const char message[] =
+      "\nplumb-rt: ended at once; it is the receiver that takes the correction away now";
+  [[maybe_unused]] const auto said = ::write(STDERR_FILENO, message, sizeof(message) - 1);
+  if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) before.sa_handler(signal);
+  ::_exit(static_cast<int>(Exit::kInterrupted));
+}
+
+void heard(int signal) {
+  if (told.exchange(true)) end_at_once(signal);
   if (auto* const stop = flag.load()) stop->store(true);
 }
 
@@ -25,7 +34,7 @@ void stop_on_signal(std::atomic<bool>& stop) {
   action.sa_handler = heard;
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGTERM, &action, &before);
 }
 
 }  // namespace plumb::drivers::rt

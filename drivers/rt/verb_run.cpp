@@ -49,11 +49,10 @@ void need_rights(const RtConfig& config, Outcome& outcome) {
 
 using Loop = RunLoop<MonotonicTime>;
 
-Loop::Next go(Loop& loop, CycleClock<MonotonicTime>& clock) {
+Loop::Next go(Loop& loop) {
   Loop::Next next = Loop::Next::kGoOn;
   while (next == Loop::Next::kGoOn) next = loop.cycle();
   loop.publish(MonotonicTime::now_ns());
-  std::ignore = clock;
   return next;
 }
 
@@ -84,7 +83,7 @@ Loop::Next cycle_until_told(Deployment& deployment, OpenBus& bus, ModelSlot& slo
   auto loop =
       std::make_unique<Loop>(*session, bus.port(), shared, *clock, MonotonicTime{}, settings);
   const RtProcess process(request_of(config, config.cpu));
-  return go(*loop, *clock);
+  return go(*loop);
 }
 
 /// Stops the service even if the cycle throws while it is set up.

@@ -65,6 +65,7 @@ std::string checks() {
       "[sync]   # before any correction: does the controller compute poses as the nominal model?\n"
       "poses = {}\nposition_um = {:.10g}\nrotation_urad = {:.10g}\n\n"
       "[log]\n# record = \"record.log\"   # every frame, in the format of candump\n"
+      "record_max_mb = 1000   # where a record ends; 0: when the disk is full\n"
       "metrics_port = 0   # for Prometheus on 127.0.0.1; 0: none\n\n",
       sync.poses, sync.position_m / kMicro, sync.rotation_rad / kMicro);
 }

@@ -84,6 +84,7 @@ TEST(RtToml, SaysWhatAnEmptyFileWouldMean) {
   EXPECT_NEAR(a.session.sync.position_m, b.session.sync.position_m, 1e-15);
   EXPECT_NEAR(a.session.sync.rotation_rad, b.session.sync.rotation_rad, 1e-15);
   EXPECT_EQ(a.record, b.record);
+  EXPECT_EQ(a.record_max_mb, b.record_max_mb);
   EXPECT_EQ(a.metrics_port, b.metrics_port);
 }
 

@@ -78,6 +78,43 @@ TEST(Run, RampsOutOnTheFirstSignal) {
   EXPECT_NE(gone.err.find("E-RT-NOT-RUNNING"), std::string::npos) << gone.err;
 }
 
+TEST(Run, ASecondSignalEndsAtOnceAndTheNextRunStartsAsEver) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
+  format::Model slow = Deployed::arm();
+  slow.guard.ramp_s = 10.0;
+  folder.write_model("robot.plumb", slow);
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
+  const auto is = [&](const char* state) {
+    const auto json = status(folder);
+    return json.is_object() && json["ok"] == true && json["result"]["state"] == state &&
+           json["result"]["correction"]["applied_um"] > 100.0;
+  };
+  ASSERT_TRUE(becomes([&] { return is("active"); }));
+  run.kill(SIGTERM);
+  ASSERT_TRUE(becomes([&] { return is("hold"); })) << "it ramps out, for seconds";
+  const auto begin = std::chrono::steady_clock::now();
+  run.kill(SIGTERM);
+  const RtRan ran = run.wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_EQ(ran.exit, 130);
+  EXPECT_NE(ran.err.find("ended at once; it is the receiver that takes the correction away"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_EQ(ran.json()["ok"], false) << "one object all the same: " << ran.out;
+  EXPECT_EQ(ran.json()["error"]["code"], "E-INTERRUPTED");
+  const std::string record = folder.text("record.log");
+  EXPECT_EQ(record.back(), '\n') << "the last line is whole";
+  const RtRan replayed =
+      plumb_rt({"replay", (folder.folder / "record.log").string(), "--dir", folder.folder.string()},
+               folder.folder);
+  EXPECT_EQ(replayed.exit, 0) << replayed.err;
+  EXPECT_EQ(plumb_rt({"status", folder.folder.string()}, folder.folder).exit, 5);
+  std::filesystem::remove(folder.folder / "corrected.csv");  // which is never replaced
+  const RtRan again = plumb_rt({"run", folder.folder.string(), "--check"}, folder.folder);
+  EXPECT_EQ(again.exit, 0) << again.err;
+}
+
 TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
   const Deployed folder;
   write_long_targets(folder);
@@ -127,6 +164,38 @@ TEST(Run, AFullDiskEndsTheRecordAndNotTheRun) {
   EXPECT_GT(record.size(), 10'000U);
   EXPECT_EQ(record.back(), '\n') << "the last line is whole";
   EXPECT_GT(ran.json()["result"]["counters"]["answered"], Deployed::kTargets);
+}
+
+TEST(Run, ARecordEndsAtItsLimitAndReplaysAsFarAsItGoes) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\nrecord_max_mb = 1\n"));
+  std::string targets = folder.text("targets.csv");
+  const std::string rows = targets.substr(targets.find('\n') + 1);
+  for (int i = 0; i < 100; ++i) targets += rows;
+  folder.write("targets.csv", targets);
+  const RtRan ran = plumb_rt({"run", folder.folder.string(), "--json"}, folder.folder);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const std::string failure = ran.json()["result"]["record"]["failure"];
+  EXPECT_NE(failure.find("record.log: reached record_max_mb = 1"), std::string::npos) << failure;
+  EXPECT_GT(ran.json()["result"]["counters"]["answered"], 1500) << "the run went on";
+  const std::string record = folder.text("record.log");
+  EXPECT_LE(record.size(), 1'000'000U);
+  EXPECT_GT(record.size(), 999'000U);
+  EXPECT_EQ(record.back(), '\n');
+  const std::string file = (folder.folder / "record.log").string();
+  const auto replayed = [&] {
+    return plumb_rt({"replay", file, "--dir", folder.folder.string()}, folder.folder);
+  };
+  EXPECT_EQ(replayed().exit, 0) << replayed().err;
+  // cut off between a tick and its answer, as a limit, a full disk or a loss of power may
+  const std::size_t answer = record.rfind(" csv 130##");
+  ASSERT_NE(answer, std::string::npos);
+  folder.write("record.log", record.substr(0, record.rfind('\n', answer) + 1));
+  EXPECT_EQ(replayed().exit, 0) << replayed().err;
+  // an answer that is missing before that is a difference
+  const std::size_t within = record.rfind('\n', record.rfind(" csv 130##", record.size() / 2)) + 1;
+  folder.write("record.log",
+               std::string(record).erase(within, record.find('\n', within) + 1 - within));
+  EXPECT_EQ(replayed().exit, 1);
 }
 
 TEST(Run, MetricsAreForPrometheusAndHostilePeersDoNotHoldItUp) {
