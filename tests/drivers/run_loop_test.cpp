@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "plumb/drivers/can_port.hpp"
 #include "tests/drivers/counted_malloc.hpp"
 #include "tests/drivers/in_memory_port.hpp"
 #include "tests/drivers/scripted_time.hpp"
 #include "tests/drivers/session_rig.hpp"
+#include "tests/drivers/socket_pair.hpp"
 
 namespace plumb::tests {
 namespace {
@@ -106,6 +108,70 @@ TEST(RunLoop, ASnapshotIsOfTheWholeRun) {
   EXPECT_EQ(snapshot.session.state, SessionState::kShadow);
   EXPECT_GT(snapshot.wake.count(), 80U);
   EXPECT_FALSE(run.shared->snapshots.take(snapshot));
+}
+
+/// A run on a CAN link, whose other end the controller and an intruder share.
+struct CanBench {
+  CanBench()
+      : rig(Bench::settings(CorrectionMode::kFull)),
+        intruder(::dup(sockets.other_end())),
+        plumb(CanLink(sockets.link_end(), can_link_options(layout)), layout, Sender::kPlumb),
+        controller(CanLink(sockets.release(), can_link_options(layout)), layout,
+                   Sender::kController) {
+    script.now_ns = rig.now_ns;
+  }
+  ~CanBench() { ::close(intruder); }
+
+  void cycle() {
+    for (const auto& message : rig.controller_says()) controller.send(message);
+    for (BusMessage answer; controller.receive(answer);) {
+    }
+    loop.cycle();
+    ++rig.counter;
+    rig.swing();
+    for (RecordEntry entry; shared->record.take(entry);) {
+    }
+  }
+  bool run_to(SessionState state) {
+    for (int i = 0; i < 2000 && rig.session->state() != state; ++i) cycle();
+    return rig.session->state() == state;
+  }
+  void intrude(const can_frame& frame) const {
+    ASSERT_EQ(::send(intruder, &frame, sizeof(frame), 0), static_cast<ssize_t>(sizeof(frame)));
+  }
+
+  SessionRig rig;
+  BusLayout layout = default_layout(6, 0.004);
+  SocketPair sockets;
+  int intruder;
+  CanPort plumb, controller;
+  Script script;
+  std::unique_ptr<RunShared> shared = std::make_unique<RunShared>();
+  CycleClock<ScriptedTime> clock{kCycle_ns, ScriptedTime{&script}};
+  Loop loop{*rig.session, plumb, *shared, clock, ScriptedTime{&script}, {}};
+};
+
+TEST(RunLoop, AFrameOfOurOwnIdentifierIsAFaultThatRampsOutAndWaitsForAnOperator) {
+  CanBench run;
+  ASSERT_TRUE(run.run_to(SessionState::kActive));
+  for (int i = 0; i < 500; ++i) run.cycle();
+  const auto applied_m = [&] { return run.rig.session->report().applied_m; };
+  ASSERT_GT(applied_m(), 2e-4);
+  run.intrude(classic(0x700, {1, 2, 3}));
+  run.cycle();
+  ASSERT_EQ(run.rig.session->state(), SessionState::kActive) << "it is none of ours";
+  run.intrude(classic(run.layout.find(MessageKind::kCorrected)->can_id, {}));
+  run.cycle();
+  ASSERT_EQ(run.rig.session->state(), SessionState::kFault);
+  EXPECT_EQ(run.rig.session->report().cause, FaultCause::kForeignSender);
+  EXPECT_GT(applied_m(), 1e-4) << "it ramps out, and does not step";
+  for (int i = 0; i < 1000; ++i) run.cycle();
+  EXPECT_EQ(applied_m(), 0.0);
+  EXPECT_EQ(run.rig.session->state(), SessionState::kFault) << "nobody acknowledged";
+  run.rig.state.acknowledge = true;
+  run.cycle();
+  EXPECT_EQ(run.rig.session->state(), SessionState::kInit);
+  EXPECT_TRUE(run.run_to(SessionState::kActive));
 }
 
 TEST(RunLoop, NeverAllocates) {

@@ -25,6 +25,7 @@ class SocketPair {
   SocketPair& operator=(const SocketPair&) = delete;
 
   int link_end() const { return ends_[0]; }
+  int other_end() const { return ends_[1]; }
 
   /// This end, to whoever closes it.
   int release() { return std::exchange(ends_[1], -1); }
