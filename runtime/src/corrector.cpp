@@ -252,12 +252,13 @@ bool Corrector::far(const JointPositions& q, const JointPositions& seed) const n
 Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
                         const Derivative& N, int seed_sign) const noexcept {
   const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(N.J));
-  if (rank.position < position_rank_ || rank.pose < pose_rank_) return Status::kNearSingular;
-  if (joints() == 6 && N.square.determinant_sign() != seed_sign) return Status::kOtherConfiguration;
-  if (far(q, seed)) return Status::kFarFromSeed;
-  if (!(at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad))
-    return Status::kNotConverged;
-  return Status::kOk;
+  const bool converged = at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad;
+  const bool turned = joints() == 6 && N.square.determinant_sign() != seed_sign;
+  // From the last to the first, so that all cost the same.
+  Status out = converged ? Status::kOk : Status::kNotConverged;
+  out = far(q, seed) ? Status::kFarFromSeed : out;
+  out = turned ? Status::kOtherConfiguration : out;
+  return (rank.position < position_rank_) | (rank.pose < pose_rank_) ? Status::kNearSingular : out;
 }
 
 Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,

@@ -2,6 +2,7 @@
 #include "square_system.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "finite.hpp"
@@ -10,6 +11,16 @@ namespace plumb::internal {
 namespace {
 
 constexpr double kTiny = 1e-7;  // singular values below it are rounding, not geometry
+
+// Choices by masks: what compilers make of a condition may be a branch.
+std::uint64_t all_if(bool yes) noexcept { return -static_cast<std::uint64_t>(yes); }
+double negated_if(bool yes, double x) noexcept {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ static_cast<std::uint64_t>(yes)
+                                                                     << 63);
+}
+double masked(double x, std::uint64_t mask) noexcept {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & mask);
+}
 
 /// Entry of a column, read where it stands.
 double entry(const TipMotion& column, std::size_t row) noexcept {
@@ -21,16 +32,14 @@ double entry(const TipMotion& column, std::size_t row) noexcept {
 
 }  // namespace
 
-/// The column with the largest entry of this row, among those that are left.
+/// The column with the largest entry of this row, among those that are left. Its number stands in
+/// the last bits of what is compared, so entries that agree but for those are as good.
 std::size_t SquareSystem::choose(std::size_t row) noexcept {
-  std::size_t best = row;
-  std::uint64_t largest = magnitude_key(entry(column_[row], row));
-  for (std::size_t j = row + 1; j < 6; ++j) {
-    const std::uint64_t key = magnitude_key(entry(column_[j], row));
-    best = key > largest ? j : best;
-    largest = key > largest ? key : largest;
-  }
-  return best;
+  constexpr std::uint64_t kNumber = 7;
+  std::uint64_t largest = 0;
+  for (std::size_t j = row; j < 6; ++j)
+    largest = std::max(largest, (magnitude_key(entry(column_[j], row)) & ~kNumber) | j);
+  return static_cast<std::size_t>(largest & kNumber);
 }
 
 void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
@@ -44,10 +53,9 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
     column_[best] = column_[k];
     column_[k] = chosen;
     chosen_[k] = best;
-    determinant_ *= best == k ? pivot : -pivot;
-    const bool there = magnitude_key(pivot) > magnitude_key(kTiny);
-    const double inverse = 1.0 / pivot;
-    inverse_[k] = there ? inverse : 0.0;
+    const std::uint64_t there = all_if(magnitude_key(pivot) > magnitude_key(kTiny));
+    determinant_ *= negated_if(best != k, pivot);
+    inverse_[k] = masked(1.0 / pivot, there);
     for (std::size_t j = k + 1; j < 6; ++j) {
       TipMotion& other = column_[j];
       const double share = entry(other, k) * inverse_[k];
