@@ -241,12 +241,12 @@ void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
 }
 
 bool Corrector::far(const JointPositions& q, const JointPositions& seed) const noexcept {
-  bool out = false;
+  int beyond = 0;
   for (std::size_t i = 0; i < q.size(); ++i) {
     const double limit = limits_.max_seed_distance * unit_[i];
-    out |= (q[i] - seed[i] > limit) | (seed[i] - q[i] > limit);
+    beyond += static_cast<int>(q[i] - seed[i] > limit) + static_cast<int>(seed[i] - q[i] > limit);
   }
-  return out;
+  return beyond > 0;
 }
 
 Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
@@ -258,7 +258,8 @@ Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointP
   Status out = converged ? Status::kOk : Status::kNotConverged;
   out = far(q, seed) ? Status::kFarFromSeed : out;
   out = turned ? Status::kOtherConfiguration : out;
-  return (rank.position < position_rank_) | (rank.pose < pose_rank_) ? Status::kNearSingular : out;
+  const bool singular = rank.position < position_rank_ || rank.pose < pose_rank_;
+  return singular ? Status::kNearSingular : out;
 }
 
 Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,
