@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "finite.hpp"
+#include "lanes.hpp"
+#include "normal_equations.hpp"
 #include "priority_step.hpp"
 #include "room.hpp"
 #include "square_system.hpp"
@@ -11,12 +13,17 @@
 namespace plumb {
 namespace {
 
-using internal::JointVector;
+using internal::JointSteps;
+using internal::TipMotion;
 using internal::Vector6;
 
 /// No joint moves farther in one step [rad]: near a singularity a full step would leave the
 /// neighbourhood in which the linearisation means anything.
-constexpr double kMaxStep = 0.25;
+constexpr double kMaxStep = 0.35;
+
+/// Nor does the curvature take more than this of it back: beyond, its order says nothing either.
+/// Of the pairs tried these two refuse the fewest targets near a singularity.
+constexpr double kMaxBack = 0.125;
 
 /// Position errors beyond it [m] are cut: the target is out of reach and the answer a refusal.
 constexpr double kMaxError = 1e6;
@@ -42,16 +49,64 @@ double weyl(int k, int joint) noexcept {
   return x - static_cast<int>(x);
 }
 
-double norm(const Vector3& v) noexcept { return portable::sqrt(dot(v, v)); }
+double length(const Lanes& v) noexcept {
+  return portable::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/// Shortens dq until no joint moves farther than `most`, all in the same proportion.
+void limit(JointSteps& dq, double most) noexcept {
+  double largest = most;
+#pragma GCC unroll 9
+  for (const double x : dq) largest = std::max({largest, x, -x});
+  const double share = most / largest;
+  for (double& x : dq) x *= share;
+}
 
 }  // namespace
 
-/// The step at one q.
+/// The arm of one step.
+struct Corrector::Arm {
+  internal::Room<ChainFrames> moving;   // of the calibrated chain
+  internal::Room<ChainFrames> nominal;  // of the controller's
+  Transformd X_BT;                      // the pose that is corrected
+  Deviation deviation;                  // the one found last
+  Matrix3 to_own;                       // from the true orientation to the controller's own
+  Status status = Status::kOk;
+};
+
+/// One step: what the arm is taken for, and what of it is looked at.
+struct Corrector::Plan {
+  Stage stage;
+  Order order;
+};
+
+std::span<const Corrector::Plan> Corrector::steps() const noexcept {
+  using enum Stage;
+  using enum Order;
+  static constexpr std::array<Plan, kInverseSteps> kSix{
+      {{kSeed, kThird}, {kRough, kThird}, {kHeld, kThird}, {kTrue, kThird}, {kTrue, kSecond}}};
+  static constexpr std::array<Plan, kOtherSteps> kOthers{{{kSeed, kSecond},
+                                                          {kHeld, kSecond},
+                                                          {kHeld, kSecond},
+                                                          {kHeld, kSecond},
+                                                          {kTrue, kSecond},
+                                                          {kHeld, kSecond},
+                                                          {kTrue, kSecond}}};
+  if (joints() == 6) return kSix;
+  return kOthers;
+}
+
+/// How it moves from there.
+struct Corrector::Derivative {
+  internal::ScaledJacobian J;
+  internal::SquareSystem square;  // of J; arms of six joints only
+};
+
+/// The step from there.
 struct Corrector::Iterate {
-  JointVector dq;  // the full step from here, scaled
-  double left_m;   // what that step moves: the controllable residual
+  JointSteps dq;
+  double left_m;  // what the full step moves: the controllable residual
   double left_rad;
-  Status status;  // of the forward model
 };
 
 Corrector::Corrector(const format::Model& model) noexcept
@@ -59,6 +114,9 @@ Corrector::Corrector(const format::Model& model) noexcept
       true_arm_(model),
       limits_(model.guard),
       per_length_(1.0 / model.guard.length_scale_m) {
+  unit_.fill(1.0);
+  for (int i = 0; i < joints(); ++i)
+    if (!nominal_.revolute(i)) unit_[i] = limits_.length_scale_m;
   if (joints() < 6) find_controllable(model.nominal);
 }
 
@@ -67,7 +125,7 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
   pose_rank_ = 0;
   JointPositions q{};
   ChainFrames frames;
-  Jacobian J;
+  internal::ScaledJacobian J;
   for (int k = 0; k < kSamples; ++k) {
     for (int i = 0; i < joints(); ++i) {
       const auto& row = nominal.joints[i];
@@ -76,148 +134,132 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
       q[i] = low + weyl(k, i) * (high - low);
     }
     nominal_.frames(q, frames);
-    scaled_jacobian(nominal_, frames, J);
-    const auto rank = internal::rank_above(kStructuralZero, internal::gram(J, joints()));
+    J.set(nominal_, frames, frames, per_length_);
+    const auto rank = internal::rank_above(kStructuralZero, internal::gram(J));
     position_rank_ = std::max(position_rank_, rank.position);
     pose_rank_ = std::max(pose_rank_, rank.pose);
   }
 }
 
-void Corrector::scaled_jacobian(const Chain& chain, const ChainFrames& frames,
-                                Jacobian& out) const noexcept {
-  jacobian(chain, frames, out);
-  for (int k = 0; k < joints(); ++k) {
-    const double per_length = nominal_.revolute(k) ? per_length_ : 1.0;
-    for (int i = 0; i < 3; ++i) out(i, k) *= per_length;
+/// Position-only cells: the orientation is the controller's own; where roughly, it is turned from
+/// the true one as it was at the seed.
+void Corrector::place(std::span<const double> q, Stage stage, const Context& context, Arm& arm,
+                      Derivative& out) const noexcept {
+  const bool position_only = limits_.corrects == format::Corrects::kPosition;
+  const bool rough = stage == Stage::kRough;
+  const bool at_seed = stage == Stage::kSeed;
+  ChainFrames &moving = arm.moving.value, &nominal = arm.nominal.value;
+  if (at_seed || (position_only && !rough)) nominal_.frames(q, nominal);
+  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, context, arm.deviation);
+  const Prediction found = true_arm_.predict(q, arm.deviation, moving);
+  arm.X_BT = found.X_BT;
+  arm.status = found.status;
+  if (position_only) {
+    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, arm.X_BT.R);
+    arm.X_BT.R = rough ? product(arm.to_own, arm.X_BT.R) : nominal.tip.R;
   }
-}
-
-/// What was found at one q and stands for what it would be at those near by.
-struct Corrector::Held {
-  Deviation deviation;
-  Matrix3 to_own;  // from the true orientation to the controller's own
-};
-
-/// Where the arm is and how it moves, near q.
-struct Corrector::Arm {
-  internal::Room<ChainFrames> moving;   // of the calibrated chain
-  internal::Room<ChainFrames> nominal;  // of the controller's, where the rotation is its own
-  const ChainFrames* turning;           // the one of both whose axes turn the pose
-  Transformd X_BT;
-  Status status;
-};
-
-/// The pose that is corrected. Position-only cells: the orientation is the controller's own;
-/// between the seed and step kHeldSteps it is turned from the true one as it was at the seed.
-void Corrector::place(std::span<const double> q, Detail detail, Held& held,
-                      Arm& out) const noexcept {
-  const Prediction arm = true_arm_.predict(q, held.deviation, out.moving.value);
-  out.status = arm.status;
-  out.X_BT = arm.X_BT;
-  out.turning = &out.moving.value;
-  if (limits_.corrects == format::Corrects::kPose) return;
-  if (detail == Detail::kRough) {
-    out.X_BT.R = product(held.to_own, arm.X_BT.R);
-    return;
-  }
-  nominal_.frames(q, out.nominal.value);
-  out.X_BT.R = out.nominal.value.tip.R;
-  out.turning = &out.nominal.value;
-  held.to_own = times_transposed<double>(out.X_BT.R, arm.X_BT.R);
-}
-
-/// Derivative for arms of other than six joints. Position-only cells: the rotation is the nominal
-/// chain's, whose structural zeros count.
-void Corrector::derivative(const Arm& arm, Jacobian& J) const noexcept {
-  scaled_jacobian(true_arm_.chain(), arm.moving.value, J);
-  if (limits_.corrects == format::Corrects::kPose) return;
-  Jacobian J_N;
-  scaled_jacobian(nominal_, *arm.turning, J_N);
-  J.bottomRows<3>() = J_N.bottomRows<3>();
-}
-
-void Corrector::linearise(const Transformd& X_BD, const JointPositions& q, Detail detail,
-                          Held& held, Iterate& out) const noexcept {
-  const std::span<const double> at = std::span(q).first(static_cast<std::size_t>(joints()));
-  Arm arm;
-  place(at, joints() == 6 ? detail : Detail::kExact, held, arm);
-  out.status = arm.status;
-  Vector6 r;
-  r.head<3>() = clamped(X_BD.p - arm.X_BT.p, kMaxError) * per_length_;
-  r.tail<3>() = rotation_vector(times_transposed<double>(X_BD.R, arm.X_BT.R));
-  if (joints() == 6)
-    step_of_six(arm, r, out);
+  if (at_seed && joints() == 6)
+    differentiate(nominal_, nominal, nominal, out);
   else
-    step_of_others(arm, r, out);
+    differentiate(true_arm_.chain(), moving, position_only && !rough ? nominal : moving, out);
 }
 
-void Corrector::step_of_six(const Arm& arm, const Vector6& r, Iterate& out) const noexcept {
-  internal::SquareSystem J(true_arm_.chain(), arm.moving.value, *arm.turning, per_length_);
-  J.eliminate();
-  Vector6 left;
-  out.dq.head<6>() = J.solve(r, left);
-  measure(r - left, out);
+/// The controller's own arm.
+void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
+  ChainFrames& nominal = arm.nominal.value;
+  nominal_.frames(q, nominal);
+  differentiate(nominal_, nominal, nominal, out);
 }
 
-void Corrector::step_of_others(const Arm& arm, const Vector6& r, Iterate& out) const noexcept {
-  Jacobian J;
-  derivative(arm, J);
-  out.dq = joints() < 6 ? internal::priority_step(J, {position_rank_, pose_rank_}, r)
-                        : internal::minimum_norm_step(J, joints(), r);
-  Vector6 moved = Vector6::Zero();
-  for (int k = 0; k < joints(); ++k)
-    for (int i = 0; i < 6; ++i) moved(i) += J(i, k) * out.dq(k);
-  measure(moved, out);
+void Corrector::differentiate(const Chain& chain, const ChainFrames& moving,
+                              const ChainFrames& turning, Derivative& out) const noexcept {
+  out.J.set(chain, moving, turning, per_length_);
+  if (joints() == 6) out.square.eliminate(out.J);
 }
 
-/// moved: what the step moves, lengths in length_scale_m.
-void Corrector::measure(const Vector6& moved, Iterate& out) const noexcept {
-  out.left_m = norm(moved.head<3>()) * limits_.length_scale_m;
-  out.left_rad = norm(moved.tail<3>());
+/// From the tip to its target. The rotation of six joints is the rotation vector up to the eighth
+/// order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2 y^3/35 + ..).
+/// Others may never reach the orientation, and need it as a whole.
+TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
+                             bool& turned_far) const noexcept {
+  const Vector3 d = clamped(X_BD.p - X_BT.p, kMaxError) * per_length_;
+  const Lanes translation{d(0), d(1), d(2), 0.0};
+  turned_far = false;
+  if (joints() != 6) {
+    const Vector3 e = rotation_vector(times_transposed<double>(X_BD.R, X_BT.R));
+    return {translation, Lanes{e(0), e(1), e(2), 0.0}};
+  }
+  Lanes sine{0.0, 0.0, 0.0, 0.0}, cosine = sine;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Lanes t = axis(X_BT, j), wanted = axis(X_BD, j);
+    sine = sine + cross_turned(t, wanted);
+    cosine = cosine + t * wanted;
+  }
+  const double y = 1.5 - 0.5 * (cosine[0] + cosine[1] + cosine[2]);
+  turned_far = y >= 1.0;
+  return {translation, turned(sine) * (0.5 + y * (1.0 / 6 + y * (1.0 / 15 + y * (1.0 / 35))))};
+}
+
+/// J dq = r, as far as the arm can. left: what of r stays.
+JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
+                               TipMotion& left) const noexcept {
+  if (joints() == 6) return at.square.solve(r, left);
+  Vector6 b;
+  b << r.translation[0], r.translation[1], r.translation[2], r.rotation[0], r.rotation[1],
+      r.rotation[2];
+  internal::JointVector x;
+  if (joints() < 6) {
+    Jacobian rows;
+    at.J.copy_to(rows);
+    x = internal::priority_step(rows, {position_rank_, pose_rank_}, b);
+  } else {
+    x = internal::minimum_norm_step(at.J, b);
+  }
+  JointSteps dq;
+  std::copy_n(x.data(), dq.size(), dq.begin());
+  left = r - at.J.times(dq);
+  return dq;
+}
+
+// Newton's step dq solves J dq = r; along it the tip also moves by c, the curvature, to the second
+// order. Chebyshev's step is dq - J^+ c: a residual leaves its third power instead of its second.
+void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
+                     Iterate& out) const noexcept {
+  TipMotion left;
+  out.dq = solution(at, r, left);
+  out.left_m = length(r.translation - left.translation) * limits_.length_scale_m;
+  out.left_rad = length(r.rotation - left.rotation);
+  limit(out.dq, kMaxStep);
+  if (order == Order::kSecond) return;
+  JointSteps back = solution(at, at.J.curvature(out.dq), left);
+  limit(back, kMaxBack);
+  for (std::size_t i = 0; i < back.size(); ++i) out.dq[i] -= back[i];
 }
 
 void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
-  double largest = kMaxStep;
-  for (int i = 0; i < joints(); ++i) largest = std::max({largest, at.dq(i), -at.dq(i)});
-  const double share = kMaxStep / largest;
-  for (int i = 0; i < joints(); ++i) q[i] += share * at.dq(i) * unit(i);
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += at.dq[i] * unit_[i];
 }
 
 bool Corrector::far(const JointPositions& q, const JointPositions& seed) const noexcept {
-  bool out = false;
-  for (int i = 0; i < joints(); ++i) {
-    const double limit = limits_.max_seed_distance * unit(i);
-    out = out || q[i] - seed[i] > limit || seed[i] - q[i] > limit;
+  int beyond = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const double limit = limits_.max_seed_distance * unit_[i];
+    beyond += static_cast<int>(q[i] - seed[i] > limit) + static_cast<int>(seed[i] - q[i] > limit);
   }
-  return out;
+  return beyond > 0;
 }
-
-/// The controller's own arm at q.
-struct Corrector::Nominal {
-  internal::Room<ChainFrames> room;
-  int sign = 1;  // of det J_N; arms of other than six joints have none
-};
 
 Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-                        const Nominal& N, int seed_sign) const noexcept {
-  if (refused(at.status)) return at.status;
-  Jacobian J_N;
-  scaled_jacobian(nominal_, N.room.value, J_N);
-  const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(J_N, joints()));
-  if (rank.position < position_rank_ || rank.pose < pose_rank_) return Status::kNearSingular;
-  if (N.sign != seed_sign) return Status::kOtherConfiguration;
-  if (far(q, seed)) return Status::kFarFromSeed;
-  if (!(at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad))
-    return Status::kNotConverged;
-  return at.status;
-}
-
-void Corrector::look(const JointPositions& q, Nominal& out) const noexcept {
-  nominal_.frames(std::span(q).first(static_cast<std::size_t>(joints())), out.room.value);
-  if (joints() != 6) return;
-  internal::SquareSystem J(nominal_, out.room.value, out.room.value, per_length_);
-  J.eliminate();
-  out.sign = J.determinant_sign();
+                        const Derivative& N, int seed_sign) const noexcept {
+  const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(N.J));
+  const bool converged = at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad;
+  const bool turned = joints() == 6 && N.square.determinant_sign() != seed_sign;
+  // From the last to the first, so that all cost the same.
+  Status out = converged ? Status::kOk : Status::kNotConverged;
+  out = far(q, seed) ? Status::kFarFromSeed : out;
+  out = turned ? Status::kOtherConfiguration : out;
+  const bool singular = rank.position < position_rank_ || rank.pose < pose_rank_;
+  return singular ? Status::kNearSingular : out;
 }
 
 Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,
@@ -232,26 +274,29 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
 
   // An unusable input costs as much as a good one: its stand-in is solved and the answer dropped.
   JointPositions q = out.q;
-  Nominal N;
-  look(q, N);
-  const int seed_sign = N.sign;
-  Iterate at;
-  Held held;
-  for (; out.steps < kInverseSteps; ++out.steps) {
-    const bool rough = out.steps > 0 && out.steps + 1 < kHeldSteps;
-    if (out.steps == 0 || out.steps == kHeldSteps || out.steps + 1 == kInverseSteps)
-      held.deviation = true_arm_.deviation_at(std::span(q).first(n), context);
-    linearise(out.X_BC, q, rough ? Detail::kRough : Detail::kExact, held, at);
-    advance(at, q);
+  const auto here = std::span<const double>(q).first(n);
+  Arm arm;
+  Derivative at;
+  Iterate next;
+  bool turned_far = false;
+  int seed_sign = 0;
+  for (const auto& [stage, order] : steps()) {
+    place(here, stage, context, arm, at);
+    if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
+    step(at, towards(out.X_BC, arm.X_BT, turned_far), order, next);
+    advance(next, q);
+    ++out.steps;
   }
-  look(q, N);
-  out.residual_m = at.left_m;
-  out.residual_rad = at.left_rad;
-  out.status = judge(at, q, out.q, N, seed_sign);
+  look(here, arm, at);
+  if (turned_far) next.left_rad = kMaxStep;
+  out.residual_m = next.left_m;
+  out.residual_rad = next.left_rad;
+  out.status = refused(arm.status) ? arm.status : judge(next, q, out.q, at, seed_sign);
+  if (out.status == Status::kOk) out.status = arm.status;
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
   if (!pose || !state) out.status = Status::kNotFinite;
   if (refused(out.status)) return out;
-  out.X_BC = N.room.value.tip;
+  out.X_BC = arm.nominal.value.tip;
   out.q = q;
   return out;
 }

@@ -63,13 +63,20 @@ Prediction ForwardModel::predict(std::span<const double> q, const Deviation& dev
 Deviation ForwardModel::deviation_at(std::span<const double> q,
                                      const Context& context) const noexcept {
   Deviation out;
+  find_deviation(q, context, out);
+  return out;
+}
+
+void ForwardModel::find_deviation(std::span<const double> q, const Context& context,
+                                  Deviation& out) const noexcept {
+  out.motion = {};
+  out.status = Status::kOk;
   if (!acceptable(q)) {
     out.status = Status::kNotFinite;
-    return out;
+    return;
   }
   if (has_tree_) add_tree(q, out);
   if (!effects_.empty()) add_effects(q, context, out);
-  return out;
 }
 
 void ForwardModel::add_effects(std::span<const double> q, const Context& context,

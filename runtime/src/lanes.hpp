@@ -62,6 +62,39 @@ inline Packed load_some(const double* from, std::size_t count) {
 #endif
 }
 
+/// Axis j of B in A, column j of the rotation; what is in the fourth lane means nothing.
+inline Lanes axis(const Transformd& X_AB, std::size_t j) {
+  Lanes out;
+  std::memcpy(&out, reinterpret_cast<const std::byte*>(&X_AB) + 3 * j * sizeof(double), sizeof out);
+  return out;
+}
+
+/// The origin of B in A; likewise.
+inline Lanes origin(const Transformd& X_AB) {
+  static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
+  Lanes end;
+  std::memcpy(&end, reinterpret_cast<const std::byte*>(&X_AB) + 8 * sizeof(double), sizeof end);
+#ifdef __AVX__
+  return __builtin_shufflevector(end, end, 1, 2, 3, 0);
+#else
+  return {end[1], end[2], end[3], end[0]};
+#endif
+}
+
+/// (x, y, z) -> (y, z, x).
+inline Lanes turned(const Lanes& a) {
+#ifdef __AVX__
+  return __builtin_shufflevector(a, a, 1, 2, 0, 3);
+#else
+  return {a[1], a[2], a[0], a[3]};
+#endif
+}
+
+/// Its `turned` is a x b; so a sum of cross products need be turned only once.
+inline Lanes cross_turned(const Lanes& a, const Lanes& b) { return a * turned(b) - turned(a) * b; }
+
+inline Lanes cross(const Lanes& a, const Lanes& b) { return turned(cross_turned(a, b)); }
+
 /// A pose X_AB by its columns: the axes of B and its origin, in A; the fourth lane is 0 in an axis
 /// and 1 in the origin.
 class Columns {

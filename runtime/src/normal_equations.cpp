@@ -9,18 +9,18 @@ constexpr double kTinyPivot = 1e-14;
 
 }  // namespace
 
-Matrix6 gram(const Jacobian& J, int n) noexcept {
+Matrix6 gram(const ScaledJacobian& J) noexcept {
   const Lanes zero{0.0, 0.0, 0.0, 0.0};
   Matrix6 A;
-  for (auto& column : A.column) column = {zero, zero};
-  for (int k = 0; k < n; ++k) {
-    const Lanes top{J(0, k), J(1, k), J(2, k), J(3, k)};
-    const Lanes bottom{J(4, k), J(5, k), 0.0, 0.0};
-    for (int j = 0; j < 6; ++j) {
-      auto& column = A.column[static_cast<std::size_t>(j)];
-      column.top = column.top + top * J(j, k);
-      column.bottom = column.bottom + bottom * J(j, k);
+  A.column.fill({zero, zero});
+  for (const TipMotion& column : J.columns()) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      A.column[j].translation =
+          A.column[j].translation + column.translation * column.translation[j];
+      A.column[j].rotation = A.column[j].rotation + column.rotation * column.translation[j];
     }
+    for (std::size_t j = 3; j < 6; ++j)
+      A.column[j].rotation = A.column[j].rotation + column.rotation * column.rotation[j - 3];
   }
   return A;
 }
@@ -28,16 +28,17 @@ Matrix6 gram(const Jacobian& J, int n) noexcept {
 Ldl factor(const Matrix6& A) noexcept {
   Ldl f{.L = A, .d = Vector6::Zero()};
   for (std::size_t k = 0; k < 6; ++k) {
-    auto& pivot = f.L.column[k];
+    TipMotion& pivot = f.L.column[k];
     const double d = f.L(k, k);
     const double inverse = d == 0.0 ? 0.0 : 1.0 / d;
     for (std::size_t j = k + 1; j < 6; ++j) {
       const double l = f.L(j, k) * inverse;
-      f.L.column[j].top = f.L.column[j].top - pivot.top * l;
-      f.L.column[j].bottom = f.L.column[j].bottom - pivot.bottom * l;
+      TipMotion& other = f.L.column[j];
+      if (j < 3) other.translation = other.translation - pivot.translation * l;
+      other.rotation = other.rotation - pivot.rotation * l;
     }
-    pivot.top = pivot.top * inverse;
-    pivot.bottom = pivot.bottom * inverse;
+    if (k < 3) pivot.translation = pivot.translation * inverse;
+    pivot.rotation = pivot.rotation * inverse;
     f.d(static_cast<int>(k)) = d;
   }
   return f;
@@ -65,21 +66,25 @@ int Ldl::positive_pivots(int rows) const noexcept {
 RankAbove rank_above(double s, const Matrix6& JJt) noexcept {
   const double s2 = s * s;
   Matrix6 shifted = JJt;
-  shifted.column[0].top = JJt.column[0].top - Lanes{s2, 0.0, 0.0, 0.0};
-  shifted.column[1].top = JJt.column[1].top - Lanes{0.0, s2, 0.0, 0.0};
-  shifted.column[2].top = JJt.column[2].top - Lanes{0.0, 0.0, s2, 0.0};
-  shifted.column[3].top = JJt.column[3].top - Lanes{0.0, 0.0, 0.0, s2};
-  shifted.column[4].bottom = JJt.column[4].bottom - Lanes{s2, 0.0, 0.0, 0.0};
-  shifted.column[5].bottom = JJt.column[5].bottom - Lanes{0.0, s2, 0.0, 0.0};
+  const std::array<Lanes, 3> unit{Lanes{s2, 0.0, 0.0, 0.0}, Lanes{0.0, s2, 0.0, 0.0},
+                                  Lanes{0.0, 0.0, s2, 0.0}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    shifted.column[i].translation = JJt.column[i].translation - unit[i];
+    shifted.column[i + 3].rotation = JJt.column[i + 3].rotation - unit[i];
+  }
   const Ldl f = factor(shifted);
   return {.position = f.positive_pivots(3), .pose = f.positive_pivots(6)};
 }
 
-JointVector minimum_norm_step(const Jacobian& J, int n, const Vector6& r) noexcept {
-  const Vector6 y = factor(gram(J, n)).solve(r);
+JointVector minimum_norm_step(const ScaledJacobian& J, const Vector6& r) noexcept {
+  const Vector6 y = factor(gram(J)).solve(r);
   JointVector dq = JointVector::Zero();
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < 6; ++i) dq(k) += J(i, k) * y(i);
+  int k = 0;
+  for (const TipMotion& column : J.columns()) {
+    for (std::size_t i = 0; i < 3; ++i) dq(k) += column.translation[i] * y(static_cast<int>(i));
+    for (std::size_t i = 0; i < 3; ++i) dq(k) += column.rotation[i] * y(static_cast<int>(i) + 3);
+    ++k;
+  }
   return dq;
 }
 

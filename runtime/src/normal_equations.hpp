@@ -1,29 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lanes.hpp"
-#include "plumb/runtime/chain.hpp"
+#include "scaled_jacobian.hpp"
 
 /// The 6 x 6 linear algebra of the inverse correction: fixed size, fixed order, fixed cost.
 namespace plumb::internal {
 
 using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 
-/// 6 x 6, its columns padded to two Lanes; what stands behind row 5 means nothing.
+/// 6 x 6, a motion a column.
 struct Matrix6 {
-  struct Column {
-    Lanes top, bottom;
-  };
-  std::array<Column, 6> column;
+  std::array<TipMotion, 6> column;
 
   double operator()(std::size_t i, std::size_t j) const noexcept {
-    return i < 4 ? column[j].top[i] : column[j].bottom[i - 4];
+    return i < 3 ? column[j].translation[i] : column[j].rotation[i - 3];
   }
 };
 using JointVector = Eigen::Matrix<double, kMaxJoints, 1, Eigen::DontAlign>;
 
-/// J J^T of the first n columns.
-Matrix6 gram(const Jacobian& J, int n) noexcept;
+/// The lower triangle of J J^T; above its diagonal stands what means nothing.
+Matrix6 gram(const ScaledJacobian& J) noexcept;
 
 /// A = L D L^T without pivoting: L unit lower triangular in `L`, D in `d`; above the diagonal of L
 /// stands what means nothing.
@@ -51,6 +47,6 @@ struct RankAbove {
 RankAbove rank_above(double s, const Matrix6& JJt) noexcept;
 
 /// Shortest step with J dq = r: J^T (J J^T)^-1 r. n >= 6.
-JointVector minimum_norm_step(const Jacobian& J, int n, const Vector6& r) noexcept;
+JointVector minimum_norm_step(const ScaledJacobian& J, const Vector6& r) noexcept;
 
 }  // namespace plumb::internal

@@ -2,6 +2,7 @@
 #include "square_system.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "finite.hpp"
@@ -11,90 +12,78 @@ namespace {
 
 constexpr double kTiny = 1e-7;  // singular values below it are rounding, not geometry
 
+// Choices by masks: what compilers make of a condition may be a branch.
+std::uint64_t all_if(bool yes) noexcept { return -static_cast<std::uint64_t>(yes); }
+double negated_if(bool yes, double x) noexcept {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ static_cast<std::uint64_t>(yes)
+                                                                     << 63);
+}
+double masked(double x, std::uint64_t mask) noexcept {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & mask);
+}
+
 /// Entry of a column, read where it stands.
-double entry(const Matrix6::Column& column, std::size_t row) noexcept {
+double entry(const TipMotion& column, std::size_t row) noexcept {
+  const std::size_t lane = row < 3 ? row : row + 1;
   double out;
-  std::memcpy(&out, reinterpret_cast<const std::byte*>(&column) + row * sizeof out, sizeof out);
+  std::memcpy(&out, reinterpret_cast<const std::byte*>(&column) + lane * sizeof out, sizeof out);
   return out;
 }
 
 }  // namespace
 
-void SquareSystem::set(std::size_t j, const Vector3& translation,
-                       const Vector3& rotation) noexcept {
-  column_[j].top = Lanes{translation(0), translation(1), translation(2), rotation(0)};
-  column_[j].bottom = Lanes{rotation(1), rotation(2), 0.0, 0.0};
-}
-
-SquareSystem::SquareSystem(const Chain& chain, const ChainFrames& moving,
-                           const ChainFrames& turning, double per_length) noexcept {
-  for (std::size_t j = 0; j < 6; ++j) {
-    const double scale = chain.scale(static_cast<int>(j));
-    const Transformd& X_BP = moving.joint[j];
-    const Vector3 axis = X_BP.R.col(2) * scale;
-    if (chain.revolute(static_cast<int>(j)))
-      set(j, cross<double>(axis, moving.tip.p - X_BP.p) * per_length,
-          turning.joint[j].R.col(2) * scale);
-    else
-      set(j, axis, Vector3::Zero());
-  }
-}
-
-/// Moves the column with the largest entry of this row ahead of the others that are left.
+/// The column with the largest entry of this row, among those that are left. Its number stands in
+/// the last bits of what is compared, so entries that agree but for those are as good.
 std::size_t SquareSystem::choose(std::size_t row) noexcept {
-  std::size_t best = row;
+  constexpr std::uint64_t kNumber = 7;
   std::uint64_t largest = 0;
-  for (std::size_t k = row; k < 6; ++k) {
-    const std::uint64_t key = magnitude_key(entry(column_[order_[k]], row));
-    best = key > largest ? k : best;
-    largest = key > largest ? key : largest;
-  }
-  sign_ = best == row ? sign_ : -sign_;
-  const std::uint8_t chosen = order_[best];
-  order_[best] = order_[row];
-  order_[row] = chosen;
-  return chosen;
+  for (std::size_t j = row; j < 6; ++j)
+    largest = std::max(largest, (magnitude_key(entry(column_[j], row)) & ~kNumber) | j);
+  return static_cast<std::size_t>(largest & kNumber);
 }
 
-void SquareSystem::eliminate() noexcept {
+void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
+  std::copy_n(J.columns().begin(), 6, column_.begin());
+  determinant_ = 1.0;
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
-    const Matrix6::Column chosen = column_[choose(k)];
-    const double pivot = k < 4 ? chosen.top[k] : chosen.bottom[k - 4];
-    const bool there = magnitude_key(pivot) > magnitude_key(kTiny);
-    const double inverse = 1.0 / pivot;
-    inverse_[k] = there ? inverse : 0.0;
-    sign_ = pivot > 0.0 ? sign_ : pivot < 0.0 ? -sign_ : 0;
-    for (std::size_t i = k + 1; i < 6; ++i) {
-      Matrix6::Column& other = column_[order_[i]];
+    const std::size_t best = choose(k);
+    const TipMotion chosen = column_[best];
+    const double pivot = entry(column_[best], k);
+    column_[best] = column_[k];
+    column_[k] = chosen;
+    chosen_[k] = best;
+    const std::uint64_t there = all_if(magnitude_key(pivot) > magnitude_key(kTiny));
+    determinant_ *= negated_if(best != k, pivot);
+    inverse_[k] = masked(1.0 / pivot, there);
+    for (std::size_t j = k + 1; j < 6; ++j) {
+      TipMotion& other = column_[j];
       const double share = entry(other, k) * inverse_[k];
-      factor_[k][order_[i]] = share;
-      if (k < 3) other.top = other.top - chosen.top * share;
-      other.bottom = other.bottom - chosen.bottom * share;
+      factor_[k][j] = share;
+      if (k < 2) other.translation = other.translation - chosen.translation * share;
+      other.rotation = other.rotation - chosen.rotation * share;
     }
   }
 }
 
-Vector6 SquareSystem::solve(const Vector6& r, Vector6& left) const noexcept {
-  Lanes top{r(0), r(1), r(2), r(3)}, bottom{r(4), r(5), 0.0, 0.0};
-  std::array<double, 6> z;  // by joint
+JointSteps SquareSystem::solve(const TipMotion& r, TipMotion& left) const noexcept {
+  left = r;
+  JointSteps z;
+  std::fill(z.begin() + 6, z.end(), 0.0);
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
-    const Matrix6::Column& column = column_[order_[k]];
-    const double share = (k < 4 ? top[k] : bottom[k - 4]) * inverse_[k];
-    z[order_[k]] = share;
-    top = top - column.top * share;
-    bottom = bottom - column.bottom * share;
+    z[k] = (k < 3 ? left.translation[k] : left.rotation[k - 3]) * inverse_[k];
+    if (k < 3) left.translation = left.translation - column_[k].translation * z[k];
+    left.rotation = left.rotation - column_[k].rotation * z[k];
   }
-  left << top[0], top[1], top[2], top[3], bottom[0], bottom[1];
-  for (std::size_t k = 5; k-- > 0;) {
-    double sum = z[order_[k]];
-    for (std::size_t i = k + 1; i < 6; ++i) sum -= factor_[k][order_[i]] * z[order_[i]];
-    z[order_[k]] = sum;
+#pragma GCC unroll 6
+  for (std::size_t k = 6; k-- > 0;) {
+    double sum = z[k];
+    for (std::size_t j = k + 1; j < 6; ++j) sum -= factor_[k][j] * z[j];
+    z[k] = z[chosen_[k]];
+    z[chosen_[k]] = sum;
   }
-  Vector6 out;
-  for (int j = 0; j < 6; ++j) out(j) = z[static_cast<std::size_t>(j)];
-  return out;
+  return z;
 }
 
 }  // namespace plumb::internal

@@ -195,6 +195,22 @@ TEST(CorrectorRefusals, ATargetOutOfReachIsNeverAnsweredAndNeverBlowsUp) {
   }
 }
 
+/// There the sine of the angle is nothing, and no step turns the tool.
+TEST(CorrectorRefusals, AToolHalfATurnFromItsTargetIsNotOnIt) {
+  auto model = model_of(test::ur10());
+  model.guard.corrects = format::Corrects::kPose;
+  model.guard.max_seed_distance = 10.0;
+  const Corrector corrector(model);
+  for (int axis = 0; axis < 3; ++axis) {
+    Transformd X_BD = corrector.forward_model().predict(kPose6).X_BT;
+    for (int j = 0; j < 3; ++j)
+      if (j != axis) X_BD.R.col(j) *= -1.0;
+    const auto correction = corrector.solve(X_BD, kPose6, SeedKind::kMeasured);
+    EXPECT_TRUE(refused(correction.status)) << static_cast<int>(correction.status);
+    EXPECT_GT(correction.residual_rad, 0.1);
+  }
+}
+
 TEST(CorrectorRefusals, AStretchedArmOfTwoJointsIsSingularThoughItCanStillTurn) {
   const Corrector corrector(model_of(test::planar(2)));
   const Joints stretched{0.4, 0.0};

@@ -155,6 +155,35 @@ TEST(Corrector, GivesTheSameBitsAndTheSameStepsEveryTime) {
   }
 }
 
+TEST(Corrector, ConvergesWhereEffectsMoveTheToolByMillimetresAndMilliradians) {
+  test::RandomArm random(kSeed);
+  auto model = exact(test::ur10());
+  const format::Effect compliance{
+      .name = "joint_compliance", .joints = {1, 2}, .parameters = {1e-5, 1.5e-5}, .context = {}};
+  model.effects = {compliance};
+  for (int j = 0; j < 6; ++j) model.mechanics.links.push_back({30.0 - 5.0 * j, {0.1, 0.0, 0.05}});
+  int solved = 0;
+  double moved = 0.0, worst = 0.0;
+  for (const auto corrects : {format::Corrects::kPose, format::Corrects::kPosition}) {
+    model.guard.corrects = corrects;
+    const Corrector corrector(model);
+    for (int k = 0; k < 2'000; ++k) {
+      const Joints q = random.positions(model.nominal);
+      const Transformd X_BD = corrector.nominal().forward(q);
+      const auto correction = corrector.solve(X_BD, near(random, q, 0.05), SeedKind::kCommanded);
+      if (refused(correction.status)) continue;
+      ++solved;
+      const auto found = corrector.forward_model().predict(solution(correction, 6));
+      worst = std::max(worst, (found.X_BT.p - X_BD.p).norm());
+      moved = std::max(moved, (correction.X_BC.p - X_BD.p).norm());
+    }
+  }
+  EXPECT_GT(moved, 4e-3);
+  EXPECT_GT(solved, 3'300);
+  // The last step does not see how the effects change with it: half a per cent of it, here.
+  EXPECT_LT(worst, 1e-8);
+}
+
 TEST(Corrector, SaysWhenTheSolutionLiesOutsideTheTrainedDomain) {
   test::RandomArm random(kSeed);
   auto model = exact(test::ur10());

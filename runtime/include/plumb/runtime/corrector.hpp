@@ -8,6 +8,9 @@
 #include "plumb/runtime/forward_model.hpp"
 
 namespace plumb {
+namespace internal {
+struct TipMotion;
+}  // namespace internal
 
 /// Where a seed comes from. More than six joints need the commanded ones.
 enum class SeedKind : std::uint8_t { kCommanded, kLastSolution, kMeasured };
@@ -17,20 +20,26 @@ struct Correction {
   std::array<double, kMaxJoints> q{};  // joint positions that bring the true arm to the target
   double residual_m = 0.0;             // remaining controllable error: position
   double residual_rad = 0.0;           // and orientation
-  int steps = 0;                       // always kInverseSteps
+  int steps = 0;                       // kInverseSteps, or kOtherSteps
   Status status = Status::kNoModel;
 };
 
 /// Inverse correction: the command x_c with T(N^-1(x_c)) = x_d.
 ///
-/// The controller knows only its nominal chain N. From a seed q, kInverseSteps times
+/// The controller knows only its nominal chain N. From a seed q, a fixed number of steps
 /// q <- q + J(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
 /// position; the orientation in T is then the controller's own, that of N(q).
-/// Effects and tree are worked out at the seed, at step kHeldSteps and at the last; in between
-/// those found last stand for them. J is the derivative of the calibrated chain, not of N: for the
-/// same price the steps converge quadratically, also where J_N^+ is large. Only the refusals look
-/// at J_N. Fewer than six joints: the controllable part of the target, position before orientation.
-/// More: the shortest steps from the seed.
+/// J is the derivative of the calibrated chain, not of N: for the same price the steps converge
+/// faster, also where J_N^+ is large.
+///   six joints    kInverseSteps. All but the last also take back what the tip moves to the second
+///                 order, which the columns of J tell, so that they converge cubically. The first
+///                 takes J_N for J: its elimination also gives the sign of det J_N at the seed.
+///                 Effects and tree are worked out at the seed and at the last two steps; in
+///                 between those of the seed stand for them, and in the second step so does the
+///                 turn from the true orientation to the controller's own
+///   other arms    kOtherSteps of Newton. Effects and tree are worked out at the first, the fifth
+///                 and the last. Fewer than six joints: the controllable part of the target,
+///                 position before orientation. More: the shortest steps from the seed
 ///
 /// Refused (Status < 0), the first of these that holds:
 ///   kNotFinite           an input is not finite, no rotation, or a joint beyond 1e4
@@ -41,7 +50,8 @@ struct Correction {
 ///   kOtherConfiguration  six joints: det J_N has another sign at the solution than at the seed.
 ///                        Not defined for other arms
 ///   kFarFromSeed         |q_i - seed_i| exceeds max_seed_distance (sliding: times length_scale_m)
-///   kNotConverged        before the last step the residual exceeded 1 um or 1 urad
+///   kNotConverged        before the last step the residual exceeded 1 um or 1 urad; six joints:
+///                        or the tool was a quarter turn or more from its target
 /// Then X_BC is the target itself (identity if that is no pose) and q the seed.
 /// Joint limits are not looked at.
 ///
@@ -49,8 +59,8 @@ struct Correction {
 /// Refers to the model's memory: the model must outlive it.
 class Corrector {
  public:
-  static constexpr int kInverseSteps = 7;
-  static constexpr int kHeldSteps = 4;
+  static constexpr int kInverseSteps = 5;
+  static constexpr int kOtherSteps = 7;
   static constexpr double kMaxResidual_m = 1e-6;
   static constexpr double kMaxResidual_rad = 1e-6;
 
@@ -67,34 +77,36 @@ class Corrector {
                    const Context& context = {}) const noexcept;
 
  private:
-  struct Iterate;
-  struct Held;
   struct Arm;
-  struct Nominal;
-  enum class Detail : std::uint8_t { kRough, kExact };
-  using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
+  struct Derivative;
+  struct Iterate;
+  struct Plan;
+  enum class Stage : std::uint8_t { kSeed, kRough, kHeld, kTrue };
+  enum class Order : std::uint8_t { kSecond, kThird };
   using JointPositions = std::array<double, kMaxJoints>;
-
+  std::span<const Plan> steps() const noexcept;
   int joints() const noexcept { return nominal_.joints(); }
-  double unit(int i) const noexcept { return nominal_.revolute(i) ? 1.0 : limits_.length_scale_m; }
   void find_controllable(const format::Chain& nominal) noexcept;
-  void scaled_jacobian(const Chain& chain, const ChainFrames& frames, Jacobian& out) const noexcept;
-  void look(const JointPositions& q, Nominal& out) const noexcept;
-  void place(std::span<const double> q, Detail detail, Held& held, Arm& out) const noexcept;
-  void derivative(const Arm& arm, Jacobian& J) const noexcept;
-  void linearise(const Transformd& X_BD, const JointPositions& q, Detail detail, Held& held,
-                 Iterate& out) const noexcept;
-  void step_of_six(const Arm& arm, const Vector6& r, Iterate& out) const noexcept;
-  void step_of_others(const Arm& arm, const Vector6& r, Iterate& out) const noexcept;
-  void measure(const Vector6& moved, Iterate& out) const noexcept;
+  void place(std::span<const double> q, Stage stage, const Context& context, Arm& arm,
+             Derivative& out) const noexcept;
+  void look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept;
+  void differentiate(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
+                     Derivative& out) const noexcept;
+  internal::TipMotion towards(const Transformd& X_BD, const Transformd& X_BT,
+                              bool& turned_far) const noexcept;
+  JointPositions solution(const Derivative& at, const internal::TipMotion& r,
+                          internal::TipMotion& left) const noexcept;
+  void step(const Derivative& at, const internal::TipMotion& r, Order order,
+            Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
   bool far(const JointPositions& q, const JointPositions& seed) const noexcept;
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-               const Nominal& N, int seed_sign) const noexcept;
+               const Derivative& N, int seed_sign) const noexcept;
 
   Chain nominal_;
   ForwardModel true_arm_;
   format::GuardLimits limits_{};
+  JointPositions unit_{};    // of the steps: 1 rad, or length_scale_m where a joint slides
   double per_length_ = 1.0;  // 1 / length_scale_m
   int position_rank_ = 3;    // generic rank of the nominal Jacobian's position rows
   int pose_rank_ = 6;        // and of all its rows

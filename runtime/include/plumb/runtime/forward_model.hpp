@@ -51,6 +51,8 @@ class ForwardModel {
   /// The same in two parts: the second costs no more than the chain alone, and takes what the first
   /// said of this pose or of one near by.
   Deviation deviation_at(std::span<const double> q, const Context& context) const noexcept;
+  void find_deviation(std::span<const double> q, const Context& context,
+                      Deviation& out) const noexcept;
   Prediction predict(std::span<const double> q, const Deviation& deviation,
                      ChainFrames& frames) const noexcept;
 
