@@ -87,8 +87,14 @@ Hidden parse_hidden(std::string text, const std::string& file_name) {
   return out;
 }
 
-Hidden read_hidden(const std::filesystem::path& file) {
-  return parse_hidden(read_file(file), display_name(file));
+TwinFolder open_folder(const std::filesystem::path& folder, Outcome& outcome) {
+  const std::filesystem::path twin = folder / "twin.toml";
+  Cell cell = read_cell(folder / "cell.toml");
+  outcome.inputs.push_back({cell.file.string(), sha256(cell.text)});
+  outcome.remark(cell.remarks);
+  const std::string text = read_file(twin);
+  outcome.inputs.push_back({display_name(twin), sha256(text)});
+  return {std::move(cell), parse_hidden(text, display_name(twin))};
 }
 
 HiddenTruth truth_of(const Cell& cell, const Hidden& hidden) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "program/outcome.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline::twin {
@@ -24,7 +25,13 @@ std::string write_hidden(const Hidden& hidden);
 
 /// Throws Failure (kInput) with all problems, unknown keys included.
 Hidden parse_hidden(std::string text, const std::string& file_name);
-Hidden read_hidden(const std::filesystem::path& file);
+
+/// What stands in a twin's folder: the cell as its user knows it, and what is hidden from them.
+struct TwinFolder {
+  Cell cell;
+  Hidden hidden;
+};
+TwinFolder open_folder(const std::filesystem::path& folder, Outcome& outcome);
 
 /// The same arm every time: sizes in sigma become those that 150 poses of the cell make visible.
 HiddenTruth truth_of(const Cell& cell, const Hidden& hidden);

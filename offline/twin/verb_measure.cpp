@@ -21,9 +21,7 @@ struct Options {
 
 void measure(const Options& options, Outcome& outcome) {
   const fs::path folder = options.directory;
-  const Cell cell = read_cell(folder / "cell.toml");
-  const Hidden hidden = read_hidden(folder / "twin.toml");
-  outcome.remark(cell.remarks);
+  const auto [cell, hidden] = open_folder(folder, outcome);
   SimulationPlan plan;
   plan.poses = options.poses;
   plan.repeats = options.repeats;

@@ -55,17 +55,13 @@ FaultPlan faults_of(const Options& options) {
 }
 
 /// What there is to drive, and what is hidden from whoever drives it.
-struct Twin {
-  Cell cell;
-  Hidden hidden;
+struct Twin : TwinFolder {
   HiddenTruth truth;
   Path path;
 };
 
 Twin open(const Options& options, Outcome& outcome) {
-  const fs::path folder = options.directory;
-  Twin out{read_cell(folder / "cell.toml"), read_hidden(folder / "twin.toml"), {}, {}};
-  outcome.remark(out.cell.remarks);
+  Twin out{open_folder(options.directory, outcome), {}, {}};
   out.truth = truth_of(out.cell, out.hidden);
   out.path = options.path.empty() ? generated_path(out.cell, options.stations,
                                                    options.range_pct * 0.01, out.hidden.seed)

@@ -40,7 +40,7 @@ class Adapter {
 
   void say(const std::string& line) const {
     EXPECT_EQ(::write(far_, line.c_str(), line.size()), static_cast<ssize_t>(line.size()));
-    wait_ms(30);
+    wait_ms(100);  // the kernel takes it up in its own time
   }
 
   /// What the kernel wrote to the adapter.
@@ -48,7 +48,7 @@ class Adapter {
     std::string out;
     std::array<char, 256> part{};
     pollfd ready{.fd = far_, .events = POLLIN, .revents = 0};
-    while (::poll(&ready, 1, 20) > 0) {
+    while (::poll(&ready, 1, 100) > 0) {
       const ssize_t size = ::read(far_, part.data(), part.size());
       if (size <= 0) break;
       out.append(part.data(), static_cast<std::size_t>(size));

@@ -43,8 +43,10 @@ CalibratedTwin::CalibratedTwin(const std::string& words) : folder_(new_folder())
   must_run(std::string(PLUMB_TWIN_PROGRAM) + " measure" + at);
   must_run(std::string(PLUMB_PROGRAM) + " -C" + at + "diagnose --apply");
   must_run(std::string(PLUMB_PROGRAM) + " -C" + at + "compile");
-  cell_ = read_cell(folder_ / "cell.toml");
-  hidden_ = read_hidden(folder_ / "twin.toml");
+  Outcome outcome;
+  auto opened = open_folder(folder_, outcome);
+  cell_ = std::move(opened.cell);
+  hidden_ = std::move(opened.hidden);
   truth_ = truth_of(cell_, hidden_);
   model_ = load(folder_ / "robot.plumb");
   if (model_ == nullptr) throw std::runtime_error("no model in " + folder_.string());

@@ -47,6 +47,10 @@ TEST_F(TwinCommand, EveryVerbPrintsExactlyOneObjectWithJson) {
     EXPECT_EQ(json.at("command"), words[0]);
     EXPECT_EQ(json.at("ok"), true);
     EXPECT_TRUE(json.at("result").is_object());
+    const auto& inputs = json.at("inputs");
+    const bool reads = words[0] != "new" && words[1] == "cell";
+    EXPECT_EQ(inputs.size(), reads ? 2U : 0U) << "cell.toml and twin.toml";
+    for (const auto& input : inputs) EXPECT_EQ(input.at("sha256").get<std::string>().size(), 64U);
   }
 }
 
