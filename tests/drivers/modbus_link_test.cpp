@@ -220,7 +220,7 @@ TEST(ModbusLinkFaults, OnASerialCableWaitingForTheFirstAnswerIsNoReconnection) {
   PtyPair cable;
   const ModbusServerSettings at{.at = SerialLine{.device = cable.device(0)}};
   ModbusClientSettings to{.server = SerialLine{.device = cable.device(1)},
-                          .response_timeout_s = 0.02};
+                          .response_timeout_s = 0.2};
   cable.cut();
   Pair pair(default_layout(6, 0.004), at, to, Sender::kPlumb);
   ASSERT_FALSE(pair.client.start());
