@@ -139,11 +139,11 @@ class Columns {
   /// Whole registers: each is written over the end of the one before.
   void store(Transformd& out) const {
     static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
-    const Lanes end{z_[2], p_[0], p_[1], p_[2]};
+    const Lanes x = x_, y = y_, z = z_, end{z[2], p_[0], p_[1], p_[2]};
     auto* bytes = reinterpret_cast<std::byte*>(&out);
-    std::memcpy(bytes, &x_, sizeof x_);
-    std::memcpy(bytes + 3 * sizeof(double), &y_, sizeof y_);
-    std::memcpy(bytes + 6 * sizeof(double), &z_, sizeof z_);
+    std::memcpy(bytes, &x, sizeof x);
+    std::memcpy(bytes + 3 * sizeof(double), &y, sizeof y);
+    std::memcpy(bytes + 6 * sizeof(double), &z, sizeof z);
     std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
   }
 
