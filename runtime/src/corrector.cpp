@@ -68,10 +68,9 @@ void limit(JointSteps& dq, double most) noexcept {
 struct Corrector::Arm {
   internal::Room<ChainFrames> moving;   // of the calibrated chain
   internal::Room<ChainFrames> nominal;  // of the controller's
-  Transformd X_BT;                      // the pose that is corrected
-  Deviation deviation;                  // the one found last
-  Matrix3 to_own;                       // from the true orientation to the controller's own
-  Status status = Status::kOk;
+  internal::Room<EffectSet::Scene> scene;
+  Deviation deviation;  // the one found last
+  Matrix3 to_own;       // from the true orientation to the controller's own
 };
 
 /// One step: what the arm is taken for, and what of it is looked at.
@@ -141,27 +140,26 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
   }
 }
 
-/// Position-only cells: the orientation is the controller's own; where roughly, it is turned from
-/// the true one as it was at the seed.
-void Corrector::place(std::span<const double> q, Stage stage, const Context& context, Arm& arm,
-                      Derivative& out) const noexcept {
+/// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
+/// roughly, it is turned from the true one as it was at the seed.
+Prediction Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
+                            Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
   const bool rough = stage == Stage::kRough;
   const bool at_seed = stage == Stage::kSeed;
   ChainFrames &moving = arm.moving.value, &nominal = arm.nominal.value;
   if (at_seed || (position_only && !rough)) nominal_.frames(q, nominal);
-  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, context, arm.deviation);
-  const Prediction found = true_arm_.predict(q, arm.deviation, moving);
-  arm.X_BT = found.X_BT;
-  arm.status = found.status;
+  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, arm.deviation);
+  Prediction found = true_arm_.predict(q, arm.deviation, moving);
   if (position_only) {
-    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, arm.X_BT.R);
-    arm.X_BT.R = rough ? product(arm.to_own, arm.X_BT.R) : nominal.tip.R;
+    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, found.X_BT.R);
+    found.X_BT.R = rough ? product(arm.to_own, found.X_BT.R) : nominal.tip.R;
   }
   if (at_seed && joints() == 6)
     differentiate(nominal_, nominal, nominal, out);
   else
     differentiate(true_arm_.chain(), moving, position_only && !rough ? nominal : moving, out);
+  return found;
 }
 
 /// The controller's own arm.
@@ -280,10 +278,12 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   Iterate next;
   bool turned_far = false;
   int seed_sign = 0;
+  true_arm_.prepare(context, arm.scene.value);
   for (const auto& [stage, order] : steps()) {
-    place(here, stage, context, arm, at);
+    const Prediction found = place(here, stage, arm, at);
+    out.status = found.status;
     if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
-    step(at, towards(out.X_BC, arm.X_BT, turned_far), order, next);
+    step(at, towards(out.X_BC, found.X_BT, turned_far), order, next);
     advance(next, q);
     ++out.steps;
   }
@@ -291,8 +291,8 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   if (turned_far) next.left_rad = kMaxStep;
   out.residual_m = next.left_m;
   out.residual_rad = next.left_rad;
-  out.status = refused(arm.status) ? arm.status : judge(next, q, out.q, at, seed_sign);
-  if (out.status == Status::kOk) out.status = arm.status;
+  const Status judged = judge(next, q, out.q, at, seed_sign);
+  if (!refused(out.status) && judged != Status::kOk) out.status = judged;
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
   if (!pose || !state) out.status = Status::kNotFinite;
   if (refused(out.status)) return out;

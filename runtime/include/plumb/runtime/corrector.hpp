@@ -87,8 +87,8 @@ class Corrector {
   std::span<const Plan> steps() const noexcept;
   int joints() const noexcept { return nominal_.joints(); }
   void find_controllable(const format::Chain& nominal) noexcept;
-  void place(std::span<const double> q, Stage stage, const Context& context, Arm& arm,
-             Derivative& out) const noexcept;
+  Prediction place(std::span<const double> q, Stage stage, Arm& arm,
+                   Derivative& out) const noexcept;
   void look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept;
   void differentiate(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
                      Derivative& out) const noexcept;
