@@ -108,7 +108,13 @@ bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
                         JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (refused(deviation.status) || q.size() < n) return false;
-  for (std::size_t i = 0; i < n; ++i) out[i] = q[i] + deviation.motion.dq[i];
+  const auto add = [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = q[i] + deviation.motion.dq[i];
+  };
+  if (n == 6)
+    add(6);
+  else
+    add(n);
   return internal::is_joint_state(std::span<const double>(out).first(n));
 }
 
