@@ -55,9 +55,15 @@ double length(const Lanes& v) noexcept {
 
 /// Shortens dq until no joint moves farther than `most`, all in the same proportion.
 void limit(JointSteps& dq, double most) noexcept {
+  Packed farthest{};
+  for (std::size_t i = 0; i < dq.size(); i += kPackedLanes) {
+    const Packed x = load(&dq[i]);
+    farthest = x > farthest ? x : farthest;
+    farthest = -x > farthest ? -x : farthest;
+  }
   double largest = most;
-#pragma GCC unroll 9
-  for (const double x : dq) largest = std::max({largest, x, -x});
+  for (std::size_t lane = 0; lane < kPackedLanes; ++lane)
+    largest = std::max(largest, farthest[lane]);
   const double share = most / largest;
   for (double& x : dq) x *= share;
 }
@@ -199,9 +205,13 @@ TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
 }
 
 /// J dq = r, as far as the arm can. left: what of r stays.
-JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
-                               TipMotion& left) const noexcept {
-  if (joints() == 6) return at.square.solve(r, left);
+inline JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
+                                      TipMotion& left) const noexcept {
+  return joints() == 6 ? at.square.solve(r, left) : general_solution(at, r, left);
+}
+
+JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
+                                       TipMotion& left) const noexcept {
   Vector6 b;
   b << r.translation[0], r.translation[1], r.translation[2], r.rotation[0], r.rotation[1],
       r.rotation[2];
@@ -213,8 +223,8 @@ JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
   } else {
     x = internal::minimum_norm_step(at.J, b);
   }
-  JointSteps dq;
-  std::copy_n(x.data(), dq.size(), dq.begin());
+  JointSteps dq{};
+  std::copy_n(x.data(), x.size(), dq.begin());
   left = r - at.J.times(dq);
   return dq;
 }

@@ -9,6 +9,7 @@
 
 namespace plumb {
 namespace internal {
+struct JointSteps;
 struct TipMotion;
 }  // namespace internal
 
@@ -94,8 +95,10 @@ class Corrector {
                      Derivative& out) const noexcept;
   internal::TipMotion towards(const Transformd& X_BD, const Transformd& X_BT,
                               bool& turned_far) const noexcept;
-  JointPositions solution(const Derivative& at, const internal::TipMotion& r,
-                          internal::TipMotion& left) const noexcept;
+  internal::JointSteps solution(const Derivative& at, const internal::TipMotion& r,
+                                internal::TipMotion& left) const noexcept;
+  internal::JointSteps general_solution(const Derivative& at, const internal::TipMotion& r,
+                                        internal::TipMotion& left) const noexcept;
   void step(const Derivative& at, const internal::TipMotion& r, Order order,
             Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
