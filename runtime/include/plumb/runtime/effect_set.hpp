@@ -72,7 +72,7 @@ class EffectSet {
     apply_effect<S>(bound.law, theta, bound.shape, at, out);
   }
 
-  /// What the laws see of the poses of one context.
+  /// What the laws see of the poses of one context. One a thread.
   struct Scene {
     Context context;  // fallbacks filled in
     bool stood_in;    // one of them had to be
