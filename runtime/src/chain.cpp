@@ -108,6 +108,7 @@ class Chain::Walk {
   Columns along(F behind_joint) const noexcept {
     const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : chain_.joints_);
     Columns X(chain_.constant_[0]);
+#pragma GCC unroll 6
     for (std::size_t i = 0; i < n; ++i) {
       if (chain_.revolute_[i])
         X.turn(sin_[i], cos_[i]);

@@ -55,9 +55,15 @@ double length(const Lanes& v) noexcept {
 
 /// Shortens dq until no joint moves farther than `most`, all in the same proportion.
 void limit(JointSteps& dq, double most) noexcept {
+  Packed farthest{};
+  for (std::size_t i = 0; i < dq.size(); i += kPackedLanes) {
+    const Packed x = load(&dq[i]);
+    farthest = x > farthest ? x : farthest;
+    farthest = -x > farthest ? -x : farthest;
+  }
   double largest = most;
-#pragma GCC unroll 9
-  for (const double x : dq) largest = std::max({largest, x, -x});
+  for (std::size_t lane = 0; lane < kPackedLanes; ++lane)
+    largest = std::max(largest, farthest[lane]);
   const double share = most / largest;
   for (double& x : dq) x *= share;
 }
@@ -68,10 +74,9 @@ void limit(JointSteps& dq, double most) noexcept {
 struct Corrector::Arm {
   internal::Room<ChainFrames> moving;   // of the calibrated chain
   internal::Room<ChainFrames> nominal;  // of the controller's
-  Transformd X_BT;                      // the pose that is corrected
-  Deviation deviation;                  // the one found last
-  Matrix3 to_own;                       // from the true orientation to the controller's own
-  Status status = Status::kOk;
+  internal::Room<EffectSet::Scene> scene;
+  Deviation deviation;  // the one found last
+  Matrix3 to_own;       // from the true orientation to the controller's own
 };
 
 /// One step: what the arm is taken for, and what of it is looked at.
@@ -141,27 +146,26 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
   }
 }
 
-/// Position-only cells: the orientation is the controller's own; where roughly, it is turned from
-/// the true one as it was at the seed.
-void Corrector::place(std::span<const double> q, Stage stage, const Context& context, Arm& arm,
-                      Derivative& out) const noexcept {
+/// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
+/// roughly, it is turned from the true one as it was at the seed.
+Prediction Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
+                            Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
   const bool rough = stage == Stage::kRough;
   const bool at_seed = stage == Stage::kSeed;
   ChainFrames &moving = arm.moving.value, &nominal = arm.nominal.value;
   if (at_seed || (position_only && !rough)) nominal_.frames(q, nominal);
-  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, context, arm.deviation);
-  const Prediction found = true_arm_.predict(q, arm.deviation, moving);
-  arm.X_BT = found.X_BT;
-  arm.status = found.status;
+  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, arm.deviation);
+  Prediction found = true_arm_.predict(q, arm.deviation, moving);
   if (position_only) {
-    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, arm.X_BT.R);
-    arm.X_BT.R = rough ? product(arm.to_own, arm.X_BT.R) : nominal.tip.R;
+    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, found.X_BT.R);
+    found.X_BT.R = rough ? product(arm.to_own, found.X_BT.R) : nominal.tip.R;
   }
   if (at_seed && joints() == 6)
     differentiate(nominal_, nominal, nominal, out);
   else
     differentiate(true_arm_.chain(), moving, position_only && !rough ? nominal : moving, out);
+  return found;
 }
 
 /// The controller's own arm.
@@ -201,9 +205,13 @@ TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
 }
 
 /// J dq = r, as far as the arm can. left: what of r stays.
-JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
-                               TipMotion& left) const noexcept {
-  if (joints() == 6) return at.square.solve(r, left);
+inline JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
+                                      TipMotion& left) const noexcept {
+  return joints() == 6 ? at.square.solve(r, left) : general_solution(at, r, left);
+}
+
+JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
+                                       TipMotion& left) const noexcept {
   Vector6 b;
   b << r.translation[0], r.translation[1], r.translation[2], r.rotation[0], r.rotation[1],
       r.rotation[2];
@@ -215,8 +223,8 @@ JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
   } else {
     x = internal::minimum_norm_step(at.J, b);
   }
-  JointSteps dq;
-  std::copy_n(x.data(), dq.size(), dq.begin());
+  JointSteps dq{};
+  std::copy_n(x.data(), x.size(), dq.begin());
   left = r - at.J.times(dq);
   return dq;
 }
@@ -280,10 +288,12 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   Iterate next;
   bool turned_far = false;
   int seed_sign = 0;
+  true_arm_.prepare(context, arm.scene.value);
   for (const auto& [stage, order] : steps()) {
-    place(here, stage, context, arm, at);
+    const Prediction found = place(here, stage, arm, at);
+    out.status = found.status;
     if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
-    step(at, towards(out.X_BC, arm.X_BT, turned_far), order, next);
+    step(at, towards(out.X_BC, found.X_BT, turned_far), order, next);
     advance(next, q);
     ++out.steps;
   }
@@ -291,8 +301,8 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   if (turned_far) next.left_rad = kMaxStep;
   out.residual_m = next.left_m;
   out.residual_rad = next.left_rad;
-  out.status = refused(arm.status) ? arm.status : judge(next, q, out.q, at, seed_sign);
-  if (out.status == Status::kOk) out.status = arm.status;
+  const Status judged = judge(next, q, out.q, at, seed_sign);
+  if (!refused(out.status) && judged != Status::kOk) out.status = judged;
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
   if (!pose || !state) out.status = Status::kNotFinite;
   if (refused(out.status)) return out;

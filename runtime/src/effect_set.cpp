@@ -157,26 +157,27 @@ void EffectSet::survey(const Chain& chain, const ChainFrames& frames, const Cont
   weights_.weigh(chain, frames, out.context, out.loads);
 }
 
-bool EffectSet::apply(std::span<const double> q, const Chain& chain, const Context& context,
+void EffectSet::prepare(const Context& context, Scene& out) const noexcept {
+  internal::copy(context, out.context);
+  out.stood_in = fill_in(out.context);
+  weights_.hang(out.context, out.of_frames, out.loads);
+}
+
+bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scene,
                       Motion<double>& out) const noexcept {
-  internal::Room<Context> seen;
-  Context& filled = seen.value;
-  internal::copy(context, filled);
-  const bool stood_in = fill_in(filled);
-  internal::Room<ChainFrames> room;
-  ChainFrames& frames = room.value;
-  ChainPoints of_frames, points_B;
-  weights_.hang(filled, of_frames);
-  chain.frames(q, of_frames, frames, points_B);
-  Loads loads;
-  weights_.weigh(points_B, filled, loads);
-  Situation at{.q = q, .chain = chain, .frames = frames, .loads = loads, .context = filled};
+  chain.frames(q, scene.of_frames, scene.frames, scene.points_B);
+  weights_.weigh(scene.points_B, scene.loads);
+  Situation at{.q = q,
+               .chain = chain,
+               .frames = scene.frames,
+               .loads = scene.loads,
+               .context = scene.context};
   for (int i = 0; i < count_; ++i) {
     const Bound& bound = effects_[static_cast<std::size_t>(i)];
     show(bound, at);
     bound.apply(bound.theta, bound.shape, at, out);
   }
-  return stood_in || out.undefined;
+  return scene.stood_in || out.undefined;
 }
 
 }  // namespace plumb

@@ -3,9 +3,10 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 
-#include "plumb/runtime/transform.hpp"
+#include "lanes.hpp"
 
 /// What the cycle accepts as input. Never traps, whatever the bits are.
 namespace plumb::internal {
@@ -27,14 +28,25 @@ inline bool is_finite(const Vector3& v) noexcept {
   return is_finite((v(0) - v(0)) + (v(1) - v(1)) + (v(2) - v(2)));
 }
 
+/// Magnitudes are compared as integers, by the sign of what is left of the largest.
+/// kCount: known when compiled, so that the loop is unrolled; 0: any number.
+template <std::size_t kCount>
+bool all_within(std::span<const double> q) noexcept {
+  const std::size_t n = kCount > 0 ? kCount : q.size();
+  constexpr auto kLargest = std::bit_cast<std::int64_t>(kMaxJointPosition);
+  PackedBits left{};
+  for (std::size_t i = 0; i < n; i += kPackedLanes) {
+    const auto bits = reinterpret_cast<PackedBits>(load_some(q.data() + i, n - i));
+    left |= kLargest - (bits & std::numeric_limits<std::int64_t>::max());
+  }
+  std::int64_t any = 0;
+  for (std::size_t lane = 0; lane < kPackedLanes; ++lane) any |= left[lane];
+  return any >= 0;
+}
+
 /// Finite and within kMaxJointPosition.
 inline bool is_joint_state(std::span<const double> q) noexcept {
-  std::uint64_t largest = 0;
-  for (const double x : q) {
-    const std::uint64_t key = magnitude_key(x);
-    largest = key > largest ? key : largest;
-  }
-  return largest <= magnitude_key(kMaxJointPosition);
+  return q.size() == 6 ? all_within<6>(q) : all_within<0>(q);
 }
 
 /// A finite translation and a proper rotation (determinant +1).

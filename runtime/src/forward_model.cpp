@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "finite.hpp"
+#include "room.hpp"
 
 namespace plumb {
 namespace {
@@ -62,12 +63,18 @@ Prediction ForwardModel::predict(std::span<const double> q, const Deviation& dev
 
 Deviation ForwardModel::deviation_at(std::span<const double> q,
                                      const Context& context) const noexcept {
+  internal::Room<EffectSet::Scene> scene;
+  prepare(context, scene.value);
   Deviation out;
-  find_deviation(q, context, out);
+  find_deviation(q, scene.value, out);
   return out;
 }
 
-void ForwardModel::find_deviation(std::span<const double> q, const Context& context,
+void ForwardModel::prepare(const Context& context, EffectSet::Scene& out) const noexcept {
+  if (!effects_.empty()) effects_.prepare(context, out);
+}
+
+void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& scene,
                                   Deviation& out) const noexcept {
   out.motion = {};
   out.status = Status::kOk;
@@ -76,12 +83,12 @@ void ForwardModel::find_deviation(std::span<const double> q, const Context& cont
     return;
   }
   if (has_tree_) add_tree(q, out);
-  if (!effects_.empty()) add_effects(q, context, out);
+  if (!effects_.empty()) add_effects(q, scene, out);
 }
 
-void ForwardModel::add_effects(std::span<const double> q, const Context& context,
+void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
                                Deviation& out) const noexcept {
-  const bool stood_in = effects_.apply(q, chain_, context, out.motion);
+  const bool stood_in = effects_.apply(q, chain_, scene, out.motion);
   if (stood_in && out.status == Status::kOk) out.status = Status::kContextFallback;
   const Vector3& turn_B = out.motion.turn_B;
   if (internal::is_joint_state(std::span(turn_B.data(), 3)))
@@ -101,7 +108,13 @@ bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
                         JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (refused(deviation.status) || q.size() < n) return false;
-  for (std::size_t i = 0; i < n; ++i) out[i] = q[i] + deviation.motion.dq[i];
+  const auto add = [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = q[i] + deviation.motion.dq[i];
+  };
+  if (n == 6)
+    add(6);
+  else
+    add(n);
   return internal::is_joint_state(std::span<const double>(out).first(n));
 }
 

@@ -69,16 +69,21 @@ inline Lanes axis(const Transformd& X_AB, std::size_t j) {
   return out;
 }
 
-/// The origin of B in A; likewise.
-inline Lanes origin(const Transformd& X_AB) {
-  static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
-  Lanes end;
-  std::memcpy(&end, reinterpret_cast<const std::byte*>(&X_AB) + 8 * sizeof(double), sizeof end);
+/// (a, x, y, z) -> (x, y, z, a): what stands at the end of an array is read without what is behind.
+inline Lanes last_three(const Lanes& end) {
 #ifdef __AVX__
   return __builtin_shufflevector(end, end, 1, 2, 3, 0);
 #else
   return {end[1], end[2], end[3], end[0]};
 #endif
+}
+
+/// The origin of B in A; likewise.
+inline Lanes origin(const Transformd& X_AB) {
+  static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
+  Lanes end;
+  std::memcpy(&end, reinterpret_cast<const std::byte*>(&X_AB) + 8 * sizeof(double), sizeof end);
+  return last_three(end);
 }
 
 /// (x, y, z) -> (y, z, x).
@@ -139,11 +144,11 @@ class Columns {
   /// Whole registers: each is written over the end of the one before.
   void store(Transformd& out) const {
     static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
-    const Lanes end{z_[2], p_[0], p_[1], p_[2]};
+    const Lanes x = x_, y = y_, z = z_, end{z[2], p_[0], p_[1], p_[2]};
     auto* bytes = reinterpret_cast<std::byte*>(&out);
-    std::memcpy(bytes, &x_, sizeof x_);
-    std::memcpy(bytes + 3 * sizeof(double), &y_, sizeof y_);
-    std::memcpy(bytes + 6 * sizeof(double), &z_, sizeof z_);
+    std::memcpy(bytes, &x, sizeof x);
+    std::memcpy(bytes + 3 * sizeof(double), &y, sizeof y);
+    std::memcpy(bytes + 6 * sizeof(double), &z, sizeof z);
     std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
   }
 

@@ -49,26 +49,25 @@ double Weights::payload_kg(const Context& context) const noexcept {
   return known(context.payload_kg) ? context.payload_kg : payload_kg_;
 }
 
-void Weights::hang(const Context& context, ChainPoints& of_frames) const noexcept {
+void Weights::hang(const Context& context, ChainPoints& of_frames, Loads& out) const noexcept {
   Vector3 com_F = payload_com_F_;
   for (int k = 0; k < 3; ++k)
     com_F(k) = known(context.payload_com_m[k]) ? context.payload_com_m[k] : com_F(k);
   for (std::size_t j = 0; j < joints_; ++j) of_frames.at[j] = centres_.at[j];
   of_frames.at[joints_] = point(X_TF_ * com_F);
-}
-
-void Weights::weigh(const ChainPoints& points_B, const Context& context,
-                    Loads& out) const noexcept {
-  const double payload = payload_kg(context);
-  const auto& at = points_B.at[joints_];
   out.gravity = gravity_;
-  out.payload_at = Vector3(at[0], at[1], at[2]);
-  out.payload_force = gravity_ * payload;
+  out.payload_kg = payload_kg(context);
+  out.payload_force = gravity_ * out.payload_kg;
   out.wrench = vector(context.force_N);
   out.tip_moment = vector(context.moment_Nm);
   out.pushed = !is_zero(context.force_N) || !is_zero(context.moment_Nm);
+}
+
+void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
+  const auto& at = points_B.at[joints_];
+  out.payload_at = Vector3(at[0], at[1], at[2]);
   static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
-  Lanes behind = lanes(at) * payload;
+  Lanes behind = lanes(at) * out.payload_kg;
   for (std::size_t j = joints_; j-- > 0;) {
     behind = behind + lanes(points_B.at[j]) * mass_[j];
     std::memcpy(static_cast<void*>(&out.joint[j]), &behind, sizeof behind);
@@ -78,7 +77,7 @@ void Weights::weigh(const ChainPoints& points_B, const Context& context,
 void Weights::weigh(const Chain& chain, const ChainFrames& frames, const Context& context,
                     Loads& out) const noexcept {
   ChainPoints of_frames, points_B;
-  hang(context, of_frames);
+  hang(context, of_frames, out);
   const auto place = [&](const Transformd& X, std::size_t i) {
     const auto& c = of_frames.at[i];
     points_B.at[i] = point(X * Vector3(c[0], c[1], c[2]));
@@ -86,7 +85,7 @@ void Weights::weigh(const Chain& chain, const ChainFrames& frames, const Context
   const auto n = static_cast<std::size_t>(chain.joints());
   for (std::size_t j = 0; j < n; ++j) place(frames.joint[j], j);
   place(frames.tip, n);
-  weigh(points_B, context, out);
+  weigh(points_B, out);
 }
 
 void weigh(const Chain& chain, const ChainFrames& frames, const format::Mechanics& mechanics,

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "lanes.hpp"
+
 namespace plumb::internal {
 
 /// Room for a T of which no number is read before it is written: none is set beforehand.
@@ -17,16 +19,20 @@ union Room {
   Room& operator=(const Room&) = delete;
 };
 
-/// A copy by registers. For some sizes compilers take a string instruction instead, whose start
-/// alone costs more.
+/// A copy by whole registers. For some sizes compilers take a string instruction instead, whose
+/// start alone costs more, for others halves of registers.
 template <class T>
 void copy(const T& from, T& to) noexcept {
   static_assert(std::is_trivially_copyable_v<T>);
-  constexpr std::size_t kPart = 32, kWhole = sizeof(T) / kPart * kPart;
+  constexpr std::size_t kWhole = sizeof(T) / sizeof(Packed) * sizeof(Packed);
   const auto* const in = reinterpret_cast<const std::byte*>(&from);
   auto* const out = reinterpret_cast<std::byte*>(&to);
-#pragma GCC unroll 16
-  for (std::size_t i = 0; i < kWhole; i += kPart) std::memcpy(out + i, in + i, kPart);
+#pragma GCC unroll 32
+  for (std::size_t i = 0; i < kWhole; i += sizeof(Packed)) {
+    Packed part;
+    std::memcpy(&part, in + i, sizeof part);
+    std::memcpy(out + i, &part, sizeof part);
+  }
   std::memcpy(out + kWhole, in + kWhole, sizeof(T) - kWhole);
 }
 

@@ -20,8 +20,8 @@ struct TipMotion {
 };
 
 /// Steps of the joints: turning ones in [rad], sliding ones divided by the same length; 0 behind
-/// the last joint.
-using JointSteps = std::array<double, kMaxJoints>;
+/// the last joint, up to the end of its register.
+struct JointSteps : std::array<double, (kMaxJoints + 3) / 4 * 4> {};
 
 /// How the tip moves with each joint.
 class ScaledJacobian {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "finite.hpp"
+#include "room.hpp"
 
 namespace plumb::internal {
 namespace {
@@ -43,15 +44,18 @@ std::size_t SquareSystem::choose(std::size_t row) noexcept {
 }
 
 void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
-  std::copy_n(J.columns().begin(), 6, column_.begin());
+  const std::span<const TipMotion> columns = J.columns();
+#pragma GCC unroll 6
+  for (std::size_t k = 0; k < 6; ++k) copy(columns[k], column_[k]);
   determinant_ = 1.0;
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
     const std::size_t best = choose(k);
-    const TipMotion chosen = column_[best];
     const double pivot = entry(column_[best], k);
-    column_[best] = column_[k];
-    column_[k] = chosen;
+    const Lanes translation = column_[best].translation, rotation = column_[best].rotation;
+    copy(column_[k], column_[best]);
+    column_[k].translation = translation;
+    column_[k].rotation = rotation;
     chosen_[k] = best;
     const std::uint64_t there = all_if(magnitude_key(pivot) > magnitude_key(kTiny));
     determinant_ *= negated_if(best != k, pivot);
@@ -60,8 +64,8 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
       TipMotion& other = column_[j];
       const double share = entry(other, k) * inverse_[k];
       factor_[k][j] = share;
-      if (k < 2) other.translation = other.translation - chosen.translation * share;
-      other.rotation = other.rotation - chosen.rotation * share;
+      if (k < 2) other.translation = other.translation - translation * share;
+      other.rotation = other.rotation - rotation * share;
     }
   }
 }

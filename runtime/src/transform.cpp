@@ -72,14 +72,18 @@ std::array<double, 4> quaternion(const Matrix3& R) noexcept {
 }  // namespace
 
 Matrix3 product(const Matrix3& A, const Matrix3& B) noexcept {
-  const double* a = A.data();
-  const Lanes x{a[0], a[1], a[2], 0.0}, y{a[3], a[4], a[5], 0.0}, z{a[6], a[7], a[8], 0.0};
+  Lanes x, y, end;
+  std::memcpy(&x, A.data(), sizeof x);
+  std::memcpy(&y, A.data() + 3, sizeof y);
+  std::memcpy(&end, A.data() + 5, sizeof end);
+  const Lanes z = last_three(end);
+  const auto column = [&](const double* b) { return x * b[0] + y * b[1] + z * b[2]; };
+  const Lanes X = column(B.data()), Y = column(B.data() + 3), Z = column(B.data() + 6);
+  const Lanes last{Y[2], Z[0], Z[1], Z[2]};
   Matrix3 out;
-  for (int j = 0; j < 3; ++j) {
-    const double* b = B.data() + 3 * j;
-    const Lanes column = x * b[0] + y * b[1] + z * b[2];
-    std::memcpy(out.data() + 3 * j, &column, 3 * sizeof(double));
-  }
+  std::memcpy(out.data(), &X, sizeof X);
+  std::memcpy(out.data() + 3, &Y, sizeof Y);
+  std::memcpy(out.data() + 5, &last, sizeof last);
   return out;
 }
 

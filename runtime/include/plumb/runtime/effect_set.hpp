@@ -72,10 +72,20 @@ class EffectSet {
     apply_effect<S>(bound.law, theta, bound.shape, at, out);
   }
 
-  /// Motion of the arm at one pose. `chain` is the calibrated one. True if a fallback stood in for
-  /// an input that was unknown, or if a formula has no value here and moved nothing. Cost: fixed
-  /// for a given model. Wait-free, any thread.
-  bool apply(std::span<const double> q, const Chain& chain, const Context& context,
+  /// What the laws see of the poses of one context. One a thread.
+  struct Scene {
+    Context context;  // fallbacks filled in
+    bool stood_in;    // one of them had to be
+    ChainPoints of_frames, points_B;
+    ChainFrames frames;
+    Loads loads;
+  };
+  void prepare(const Context& context, Scene& out) const noexcept;
+
+  /// Motion of the arm at one pose of the scene. `chain` is the calibrated one. True if a fallback
+  /// stood in for an input that was unknown, or if a formula has no value here and moved nothing.
+  /// Cost: fixed for a given model. Wait-free, any thread.
+  bool apply(std::span<const double> q, const Chain& chain, Scene& scene,
              Motion<double>& out) const noexcept;
 
  private:

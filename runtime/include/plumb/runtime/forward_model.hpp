@@ -48,10 +48,10 @@ class ForwardModel {
   Prediction predict(std::span<const double> q, const Context& context,
                      ChainFrames& frames) const noexcept;
 
-  /// The same in two parts: the second costs no more than the chain alone, and takes what the first
-  /// said of this pose or of one near by.
-  Deviation deviation_at(std::span<const double> q, const Context& context) const noexcept;
-  void find_deviation(std::span<const double> q, const Context& context,
+  /// The same in three parts: the first holds while the context does; the last costs no more than
+  /// the chain alone, and takes what the second said of this pose or of one near by.
+  void prepare(const Context& context, EffectSet::Scene& out) const noexcept;
+  void find_deviation(std::span<const double> q, EffectSet::Scene& scene,
                       Deviation& out) const noexcept;
   Prediction predict(std::span<const double> q, const Deviation& deviation,
                      ChainFrames& frames) const noexcept;
@@ -63,7 +63,8 @@ class ForwardModel {
   using JointPositions = std::array<double, kMaxJoints>;
 
   bool acceptable(std::span<const double> q) const noexcept;
-  void add_effects(std::span<const double> q, const Context& context,
+  Deviation deviation_at(std::span<const double> q, const Context& context) const noexcept;
+  void add_effects(std::span<const double> q, EffectSet::Scene& scene,
                    Deviation& out) const noexcept;
   void add_tree(std::span<const double> q, Deviation& out) const noexcept;
   bool bend(std::span<const double> q, const Deviation& deviation,

@@ -19,7 +19,8 @@ struct Loads {
     double mass;           // of the same [kg]
   };
   std::array<Behind, kMaxJoints> joint;
-  Vector3 payload_force;           // weight of the payload
+  double payload_kg;               // of the payload alone
+  Vector3 payload_force;           // its weight
   Vector3 payload_at;              // its centre of mass
   Vector3 gravity;                 // [m/s^2]
   Vector3 wrench = {0, 0, 0};      // external, on the tip
@@ -79,12 +80,15 @@ class Weights {
   Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
           const Transformd& X_TF, int joints) noexcept;
 
-  /// Where the masses hang: of link j in the frame P_j behind its joint, the payload in the tool
-  /// frame. An unknown payload is the nominal one.
-  void hang(const Context& context, ChainPoints& of_frames) const noexcept;
+  /// What stays the same while the context does: where the masses hang, of link j in the frame P_j
+  /// behind its joint, the payload in the tool frame; and of the loads all but where they are. An
+  /// unknown payload is the nominal one.
+  void hang(const Context& context, ChainPoints& of_frames, Loads& out) const noexcept;
 
-  /// Loads with those points in the base frame, or with the frames they hang in. Cost: fixed.
-  void weigh(const ChainPoints& points_B, const Context& context, Loads& out) const noexcept;
+  /// The rest of the loads, with those points in the base frame. Cost: fixed.
+  void weigh(const ChainPoints& points_B, Loads& out) const noexcept;
+
+  /// All of it.
   void weigh(const Chain& chain, const ChainFrames& frames, const Context& context,
              Loads& out) const noexcept;
 
