@@ -115,10 +115,10 @@ struct Corrector::Iterate {
 };
 
 Corrector::Corrector(const format::Model& model) noexcept
-    : nominal_(model.nominal),
-      true_arm_(model),
-      limits_(model.guard),
-      per_length_(1.0 / model.guard.length_scale_m) {
+    : true_arm_(model),
+      nominal_(model.nominal),
+      per_length_(1.0 / model.guard.length_scale_m),
+      limits_(model.guard) {
   unit_.fill(1.0);
   for (int i = 0; i < joints(); ++i)
     if (!nominal_.revolute(i)) unit_[i] = limits_.length_scale_m;

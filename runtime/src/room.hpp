@@ -24,11 +24,11 @@ union Room {
 template <class T>
 void copy(const T& from, T& to) noexcept {
   static_assert(std::is_trivially_copyable_v<T>);
-  constexpr std::size_t kWhole = sizeof(T) / sizeof(Packed) * sizeof(Packed);
+  constexpr std::size_t kRegister = sizeof(Packed), kWhole = sizeof(T) / kRegister * kRegister;
   const auto* const in = reinterpret_cast<const std::byte*>(&from);
   auto* const out = reinterpret_cast<std::byte*>(&to);
 #pragma GCC unroll 32
-  for (std::size_t i = 0; i < kWhole; i += sizeof(Packed)) {
+  for (std::size_t i = 0; i < kWhole; i += kRegister) {
     Packed part;
     std::memcpy(&part, in + i, sizeof part);
     std::memcpy(out + i, &part, sizeof part);

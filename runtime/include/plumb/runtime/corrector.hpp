@@ -106,13 +106,13 @@ class Corrector {
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
                const Derivative& N, int seed_sign) const noexcept;
 
-  Chain nominal_;
   ForwardModel true_arm_;
-  format::GuardLimits limits_{};
+  Chain nominal_;
   JointPositions unit_{};    // of the steps: 1 rad, or length_scale_m where a joint slides
   double per_length_ = 1.0;  // 1 / length_scale_m
-  int position_rank_ = 3;    // generic rank of the nominal Jacobian's position rows
-  int pose_rank_ = 6;        // and of all its rows
+  format::GuardLimits limits_{};
+  int position_rank_ = 3;  // generic rank of the nominal Jacobian's position rows
+  int pose_rank_ = 6;      // and of all its rows
 };
 
 }  // namespace plumb

@@ -74,11 +74,11 @@ class EffectSet {
 
   /// What the laws see of the poses of one context. One a thread.
   struct Scene {
-    Context context;  // fallbacks filled in
-    bool stood_in;    // one of them had to be
     ChainPoints of_frames, points_B;
     ChainFrames frames;
     Loads loads;
+    Context context;  // fallbacks filled in
+    bool stood_in;    // one of them had to be
   };
   void prepare(const Context& context, Scene& out) const noexcept;
 
