@@ -1,38 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // No allocation in a step of the cycle, nor in the calls of the C interface that belong to it.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "plumb/runtime/cycle.hpp"
 #include "tests/c/support.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/heap_calls.hpp"
 
 namespace plumb::tests {
 namespace {
 
-template <class F>
-long allocations_of(F call) {
-  const long before = allocations;
-  call();
-  return allocations - before;
-}
-
 TEST(Allocation, IsSeenWhenAModelIsSwapped) {
   const Robot robot;
   const Bytes file = file_of(informed_arm());
-  EXPECT_GT(allocations_of([&] {
+  EXPECT_GT(heap_calls_of([&] {
               EXPECT_EQ(plumb_swap_bytes(robot.get(), file.data(), file.size(), nullptr, 0),
                         PLUMB_OK);
             }),
@@ -51,7 +29,7 @@ TEST(Allocation, NeverHappensInTheCallsOfTheCycle) {
   plumb_input in = sound_input();
   for (int swap = 0; swap < 20; ++swap) {
     ASSERT_EQ(plumb_swap_bytes(robot.get(), file.data(), file.size(), nullptr, 0), PLUMB_OK);
-    ASSERT_EQ(allocations_of([&] {
+    ASSERT_EQ(heap_calls_of([&] {
                 for (int k = 0; k < 500; ++k) {
                   in.now_ns += kTick_ns;
                   in.X_BD.p_m[1] += k % 50 == 0 ? NAN : 0.0;
@@ -77,7 +55,7 @@ TEST(Allocation, NeverHappensInAStepOfTheCycle) {
   in.target = in.joints = Arrival::kArrived;
   in.X_BD = first->corrector().nominal().forward(std::span(home(), 6));
   std::copy_n(home(), PLUMB_MAX_JOINTS, in.q_measured.begin());
-  EXPECT_EQ(allocations_of([&] {
+  EXPECT_EQ(heap_calls_of([&] {
               for (int k = 0; k < 10'000; ++k) {
                 in.now_ns += kTick_ns;
                 (void)cycle.step(in);

@@ -61,6 +61,16 @@ struct Watched {
   long answers = 1000;
 };
 
+inline constexpr const char* kNoFilterHere = "no seccomp filter can be installed here";
+
+inline void expect_clean(const WatchedCalls& calls, const Watched& how) {
+  EXPECT_EQ(calls.heap, 0);
+  EXPECT_EQ(calls.locks, 0);
+  EXPECT_EQ(calls.system_call, -1);
+  EXPECT_GE(calls.cycles, how.cycles);
+  EXPECT_GE(calls.answered, how.answers);
+}
+
 /// The clock of a cycle. The kernel is asked for the time where it cannot be read without.
 inline const std::vector<int> kClockCalls{SYS_clock_nanosleep, SYS_clock_gettime};
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle's thread on a bus in memory, in scripted time; every malloc of this program is counted.
+// The cycle's thread on a bus in memory, in scripted time; every heap call of this program is
+// counted.
 #include "rt/run_loop.hpp"
 
 #include <gtest/gtest.h>
 
 #include "plumb/drivers/can_port.hpp"
-#include "tests/drivers/counted_malloc.hpp"
 #include "tests/drivers/in_memory_port.hpp"
 #include "tests/drivers/scripted_time.hpp"
 #include "tests/drivers/session_rig.hpp"
 #include "tests/drivers/socket_pair.hpp"
+#include "tests/heap_calls.hpp"
 
 namespace plumb::tests {
 namespace {
@@ -183,18 +184,18 @@ TEST(RunLoop, NeverAllocates) {
     for (const auto& message : run.rig.controller_says()) run.port.coming.push_back(message);
     ++run.rig.counter;
     run.rig.swing();
-    const long before = allocations;
+    const long before = heap_calls;
     run.loop->cycle();
-    counted += allocations - before;
+    counted += heap_calls - before;
     run.port.sent.clear();
     if (i % 100 == 0) run.empty_ring();
   }
   EXPECT_EQ(counted, 0);
   EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
-  const long before = allocations;
+  const long before = heap_calls;
   const auto planted = std::make_unique<double>(1.0);
   EXPECT_EQ(*planted, 1.0);
-  EXPECT_EQ(allocations - before, 1) << "the guard is asleep";
+  EXPECT_EQ(heap_calls - before, 1) << "the guard is asleep";
 }
 
 }  // namespace

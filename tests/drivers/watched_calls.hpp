@@ -17,9 +17,11 @@
 #include <span>
 #include <vector>
 
+#include "tests/heap_calls.hpp"
+
 /// What a thread calls that a real-time one must not, counted in a child process.
 ///
-/// Heap and locks are counted where watched_heap.hpp and watched_locks.hpp stand in for the C
+/// Heap and locks are counted where heap_calls.hpp and watched_locks.hpp stand in for the C
 /// library. System calls: a seccomp filter on that thread alone ends the child at any but those
 /// allowed; so no futex passes, whoever calls it and how. Not seen: what the C library locks within
 /// itself without a system call.
@@ -33,9 +35,6 @@ struct WatchedCalls {
 
 inline thread_local WatchedCalls* watching = nullptr;
 
-inline void note_heap() noexcept {
-  if (watching != nullptr) ++watching->heap;
-}
 inline void note_lock() noexcept {
   if (watching != nullptr) ++watching->locks;
 }
@@ -67,6 +66,7 @@ inline bool watch_this_thread(WatchedCalls& calls, std::span<const int> allowed)
   kept.swap(code);
   if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) != 0) return false;
   watching = &calls;
+  heap_calls_here = &calls.heap;
   return true;
 }
 

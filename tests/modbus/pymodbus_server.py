@@ -29,7 +29,8 @@ async def main():
     kind, where = sys.argv[1:3]
     asyncio.get_running_loop().create_task(renew(0.002 if kind == "tcp" else 0.02))
     if kind == "tcp":
-        await StartAsyncTcpServer(context=context, address=("127.0.0.1", int(where)))
+        # Started again after a kill it finds its old connection in TIME-WAIT; without this it would not listen.
+        await StartAsyncTcpServer(context=context, address=("127.0.0.1", int(where)), allow_reuse_address=True)
     else:
         await StartAsyncSerialServer(context=context, framer=ModbusRtuFramer, port=where, baudrate=115200, timeout=0.005)
 

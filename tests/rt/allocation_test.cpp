@@ -2,63 +2,20 @@
 // No allocation in the cycle: the C library's heap is counted, and operator new stands on it.
 #include <gtest/gtest.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <functional>
 #include <vector>
 
+#include "tests/heap_calls.hpp"
 #include "tests/rt/gate_arms.hpp"
 #include "tests/rt/whole_cycle.hpp"
-
-namespace {
-thread_local long heap_calls = 0;
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* p, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void __libc_free(void* p);
-
-void* malloc(std::size_t size) noexcept {
-  ++heap_calls;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) noexcept {
-  ++heap_calls;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* p, std::size_t size) noexcept {
-  ++heap_calls;
-  return __libc_realloc(p, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  ++heap_calls;
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** p, std::size_t alignment, std::size_t size) noexcept {
-  ++heap_calls;
-  *p = __libc_memalign(alignment, size);
-  return *p == nullptr ? ENOMEM : 0;
-}
-void free(void* p) noexcept {
-  ++heap_calls;
-  __libc_free(p);
-}
-}
 
 namespace plumb {
 namespace {
 
 constexpr long kCycles = 10000;
 
-template <class F>
-long heap_calls_of(F cycle) {
-  const long before = heap_calls;
-  cycle();
-  return heap_calls - before;
-}
+using tests::heap_calls_of;
 
 struct Planted {
   const char* name;

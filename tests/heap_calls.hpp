@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cerrno>
-#include <cstddef>
+#include <cstdlib>
 
-#include "tests/drivers/watched_calls.hpp"
+/// Every call of the C library's heap, by any thread of the program; operator new stands on it. In
+/// one source file a program only, and not where a sanitizer has a heap of its own.
+namespace plumb::tests {
 
-/// The heap of a program in which a thread is watched, operator new included, which stands on it.
-/// In one source file a program only.
+inline std::atomic<long> heap_calls{0};
+/// Where this thread's calls are counted besides, if anywhere.
+inline thread_local std::atomic<long>* heap_calls_here = nullptr;
+
+inline void note_heap_call() noexcept {
+  ++heap_calls;
+  if (heap_calls_here != nullptr) ++*heap_calls_here;
+}
+
+template <class F>
+long heap_calls_of(F work) {
+  const long before = heap_calls;
+  work();
+  return heap_calls - before;
+}
+
+}  // namespace plumb::tests
+
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -16,32 +35,32 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* p);
 
 void* malloc(std::size_t size) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   return __libc_malloc(size);
 }
 void* calloc(std::size_t count, std::size_t size) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   return __libc_calloc(count, size);
 }
 void* realloc(void* p, std::size_t size) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   return __libc_realloc(p, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   return __libc_memalign(alignment, size);
 }
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   return __libc_memalign(alignment, size);
 }
 int posix_memalign(void** p, std::size_t alignment, std::size_t size) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   *p = __libc_memalign(alignment, size);
   return *p == nullptr ? ENOMEM : 0;
 }
 void free(void* p) noexcept {
-  plumb::tests::note_heap();
+  plumb::tests::note_heap_call();
   __libc_free(p);
 }
 }
