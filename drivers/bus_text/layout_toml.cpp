@@ -2,12 +2,15 @@
 #include "bus_text/layout_toml.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
 #include "bus_text/layout_message_toml.hpp"
+#include "plumb/drivers/sensor_places.hpp"
 #include "plumb/format/limits.hpp"
 
 namespace plumb::drivers {
@@ -73,12 +76,53 @@ double count_of(const MessageLayout& message, const std::string& unit) {
   return 0.0;
 }
 
-std::size_t temperatures_of(const BusLayout& layout) {
-  const MessageLayout* const context = layout.find(MessageKind::kContext);
-  if (context == nullptr) return 0;
-  std::size_t out = 0;
-  for (const Signal& signal : context->signals) out += signal.unit == "degC" ? 1 : 0;
+/// As sensors are named in measurements: "temp", "temp_elbow"; a DBC file takes 32 characters.
+bool is_sensor(const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  });
+  return plain && name.size() <= 32 && (name == "temp" || name.starts_with("temp_"));
+}
+
+std::vector<std::string> named_temperatures(TomlTable& bus) {
+  const auto refuse = [&](const toml::node& at, const std::string& what) {
+    bus.error(bus.source().code("RANGE"), what, at, "here",
+              fmt::format("at most {} sensors, as measurements.csv names them without _degC: "
+                          "[\"temp\", \"temp_elbow\"]",
+                          format::kMaxTemperatures));
+  };
+  std::vector<std::string> out;
+  for (const auto& [name, node] : bus.texts("temperatures")) {
+    const bool twice = std::find(out.begin(), out.end(), name) != out.end();
+    if (twice || !is_sensor(name))
+      refuse(*node, fmt::format("'{}' is {}", name, twice ? "listed twice" : "no sensor's name"));
+    out.push_back(name);
+  }
+  if (out.size() > format::kMaxTemperatures)
+    refuse(*bus.node("temperatures"), "more temperatures than a model can read");
   return out;
+}
+
+/// Either their number or their names.
+struct Temperatures {
+  int count = 0;
+  std::vector<std::string> names;
+};
+Temperatures read_temperatures(TomlTable& bus) {
+  const toml::node* const node = bus.node("temperatures");
+  if (node == nullptr || !node->is_array()) {
+    const auto count = whole_number(bus, "temperatures", 0, format::kMaxTemperatures);
+    return {.count = static_cast<int>(count.value_or(0)), .names = {}};
+  }
+  auto names = named_temperatures(bus);
+  const auto most = static_cast<std::size_t>(format::kMaxTemperatures);
+  return {.count = static_cast<int>(std::min(names.size(), most)), .names = std::move(names)};
+}
+
+std::string write_temperatures(const BusLayout& layout) {
+  const auto names = temperature_names(layout);
+  if (!are_named(names)) return fmt::format("{}", names.size());
+  return fmt::format("[\"{}\"]", fmt::join(names, "\", \""));
 }
 
 std::string write_message(const MessageLayout& message, const std::string& path) {
@@ -110,10 +154,11 @@ void report_fault(TomlTable& bus, const LayoutFault& fault) {
 
 BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use) {
   const std::size_t before = bus.source().problems().errors().size();
-  const auto temperatures = whole_number(bus, "temperatures", 0, format::kMaxTemperatures);
+  const Temperatures temperatures = read_temperatures(bus);
   const bool offset = bus.choice("correction", {"pose", "offset"}) == "offset";
-  BusLayout out = arm_layout(arm, static_cast<int>(temperatures.value_or(0)),
-                             offset ? CorrectionForm::kOffset : CorrectionForm::kPose);
+  BusLayout out =
+      arm_layout(arm, temperatures.count, offset ? CorrectionForm::kOffset : CorrectionForm::kPose);
+  name_temperatures(temperatures.names, out);
   read_wire(bus, out);
   read_messages(bus, arm, out);
   bus.done();
@@ -136,7 +181,7 @@ std::string write_bus(const BusLayout& layout, const std::string& path) {
   out += fmt::format("bit_rate = {:.10g}\n", layout.bit_rate);
   out += fmt::format("data_bit_rate = {:.10g}   # of CAN FD\n", layout.data_bit_rate);
   out += fmt::format("temperatures = {}   # sensors that the controller reports\n",
-                     temperatures_of(layout));
+                     write_temperatures(layout));
   for (const MessageLayout& message : layout.messages) out += write_message(message, path);
   return out;
 }

@@ -19,7 +19,8 @@ namespace plumb::drivers {
 ///   correction = "pose"           # or "offset": the difference to the target
 ///   bit_rate = 1000000
 ///   data_bit_rate = 4000000       # of CAN FD
-///   temperatures = 0              # sensors that the controller reports
+///   temperatures = ["temp"]       # sensors that the controller reports; or how many, in the order
+///                                 # in which the model counts its own
 ///   [bus.target]                  # a table a message; also adds commanded to six joints and fewer
 ///   can_id = 0x118
 ///   register = 1048

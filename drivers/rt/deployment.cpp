@@ -22,6 +22,7 @@ void complete(Deployment& out) {
   session.robot = fingerprint(out.model.loaded->model().serial);
   session.form = out.config.sink.kind == SinkConfig::Kind::kCsv ? CorrectionForm::kPose
                                                                 : out.layout.correction;
+  session.sensors = sensor_places(out.layout, out.model.loaded->model());
   session.target.period_s = cycle_s;
   if (const auto* target = out.layout.find(MessageKind::kTarget))
     session.target.period_s = target->period_s;
@@ -39,6 +40,13 @@ std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const Lo
   if (use_of(deployment.config.source) != BusUse::kCan) return {};
   return drivers::find_short_reach(deployment.layout, model.model().nominal,
                                    model.limits().max_correction_m, "bus");
+}
+
+bool sensors_come(const Deployment& deployment, const LoadedModel& model) {
+  const SensorPlaces own = sensor_places(deployment.layout, model.model());
+  const SensorPlaces& told = deployment.session.sensors;
+  return std::equal(own.begin(), own.end(), told.begin(),
+                    [](int wanted, int there) { return wanted < 0 || wanted == there; });
 }
 
 Deployment load_deployment(const std::filesystem::path& folder) {

@@ -23,6 +23,10 @@ struct Deployment {
 /// to take its place. Empty: fits. Slow.
 std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const LoadedModel& model);
 
+/// The session that runs finds in message context every sensor that this model reads and the bus
+/// brings. Slow.
+bool sensors_come(const Deployment& deployment, const LoadedModel& model);
+
 /// Throws Failure (kInput) with everything that is wrong: codes E-RT-..., E-TOML. Sends nothing,
 /// opens no bus. Slow.
 Deployment load_deployment(const std::filesystem::path& folder);

@@ -162,6 +162,9 @@ std::string Service::swap(const std::string& file) {
   }
   if (const auto short_of = find_short_reach(deployment_, *next.loaded); !short_of.empty())
     return refusal("E-RT-SWAP", short_of.front().what);
+  if (!sensors_come(deployment_, *next.loaded))
+    return refusal("E-RT-SWAP",
+                   "it listens to a sensor that the model before does not: start plumb-rt anew");
   const LoadedModel& running = *deployment_.model.loaded;
   const auto published = slot_.publish(*next.loaded);
   if (published == ModelSlot::Published::kBusy)

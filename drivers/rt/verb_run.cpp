@@ -2,6 +2,7 @@
 #include "rt/verb_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iostream>
 #include <memory>
@@ -45,6 +46,23 @@ void need_rights(const RtConfig& config, Outcome& outcome) {
     if (needed) throw Failure(Exit::kEnvironment, problem);
     outcome.remarks.push_back(problem);
   }
+}
+
+void note_sensors(const Deployment& deployment, Outcome& outcome) {
+  const auto missing = sensors_missing(deployment.layout, deployment.model.loaded->model());
+  if (missing.empty()) return;
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-RT-SENSORS",
+       .message = fmt::format("the model listens to {}, which the bus does not bring: it will use "
+                              "its fallback",
+                              fmt::join(missing, ", ")),
+       .help = "plumb deploy, with [deploy.bus] temperatures = [...] in cell.toml"});
+}
+
+/// At once: what is printed at the end of a run may come in a year.
+void say(const std::vector<Problem>& remarks) {
+  for (const Problem& remark : remarks) std::cerr << render(remark) << '\n';
 }
 
 using Loop = RunLoop<MonotonicTime>;
@@ -92,6 +110,7 @@ void run(const RunOptions& options, Outcome& outcome) {
   if (options.priority >= 0) deployment.config.priority = options.priority;
   outcome.inputs.push_back({deployment.config.model.string(), deployment.model.sha256});
   need_rights(deployment.config, outcome);
+  note_sensors(deployment, outcome);
   static RunShared shared;  // the signal's handler keeps its address
   shared.model = deployment.model.fingerprint;
   const auto bus = open_bus(deployment);
@@ -102,6 +121,7 @@ void run(const RunOptions& options, Outcome& outcome) {
     outcome.result = {{"checked", true}};
     return;
   }
+  say(outcome.remarks);
   stop_on_signal(shared.stop);
   service.start();
   std::cerr << fmt::format("plumb-rt: {} on {}, cycle {} us, mode {}\n",

@@ -120,7 +120,7 @@ CycleInput Session::cycle_input(std::int64_t now_ns) const noexcept {
   if (measured || commanded) out.joints = Arrival::kArrived;
   if (measured) take(MessageKind::kJoints, out.q_measured);
   if (commanded) take(MessageKind::kCommanded, out.q_commanded);
-  out.context = context_in(inbox_);
+  out.context = context_in(inbox_, settings_.sensors);
   return out;
 }
 

@@ -16,7 +16,7 @@ Reading reading(double value, double age_s) noexcept {
 
 }  // namespace
 
-ContextReadings context_in(const SessionInbox& inbox) noexcept {
+ContextReadings context_in(const SessionInbox& inbox, const SensorPlaces& sensors) noexcept {
   ContextReadings out;
   if (!inbox.came(MessageKind::kContext)) return out;
   const BusMessage& message = inbox.last(MessageKind::kContext);
@@ -24,10 +24,11 @@ ContextReadings context_in(const SessionInbox& inbox) noexcept {
   out.payload_kg = reading(message.values[0], age_s);
   std::copy_n(message.values.begin() + 1, out.payload_com_m.size(), out.payload_com_m.begin());
   out.time_s = reading(message.values[4], age_s);
-  const std::size_t sensors =
-      std::min(out.temperature_degC.size(), kMaxMessageValues - kFirstTemperature);
-  for (std::size_t k = 0; k < sensors && kFirstTemperature + k < message.size; ++k)
-    out.temperature_degC[k] = reading(message.values[kFirstTemperature + k], age_s);
+  for (std::size_t k = 0; k < out.temperature_degC.size(); ++k) {
+    const std::size_t at = kFirstTemperature + static_cast<std::size_t>(std::max(0, +sensors[k]));
+    if (sensors[k] >= 0 && at < message.size)
+      out.temperature_degC[k] = reading(message.values[at], age_s);
+  }
   return out;
 }
 

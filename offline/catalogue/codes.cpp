@@ -271,9 +271,10 @@ constexpr Explanation kCodes[] = {
      "500 ms for actual and robot), a number too small for the arm, or more than 70 % of the bus "
      "at worst. Nothing was written."},
     {"W-DEPLOY-TEMPERATURES",
-     "The compiled model listens to more temperatures than message context holds, so in the cycle "
-     "it goes by their declared fallbacks. [deploy.bus] temperatures = N makes room; the "
-     "controller sends them in the order of the message."},
+     "The compiled model listens to temperatures that message context does not bring, so in the "
+     "cycle it goes by their declared fallbacks. [deploy.bus] temperatures = [\"temp\", ...] names "
+     "those that the controller sends, in any order; a bare number of them is in the order in "
+     "which the effects name theirs."},
     {"E-ROOT",
      "plumb-rt doctor --root takes a folder that holds a machine's /proc and /sys; this one holds "
      "no proc."},
@@ -311,6 +312,9 @@ constexpr Explanation kCodes[] = {
     {"W-RT-RIGHTS",
      "The machine denies something that a real-time process should have; cycles may be missed. "
      "plumb-rt doctor says how to grant it."},
+    {"W-RT-SENSORS",
+     "The model reads a temperature that message context of this bus does not bring; what depends "
+     "on it goes by its fallback. Name the sensors in [deploy.bus] temperatures and deploy again."},
     {"E-RT-RUNNING",
      "Another plumb-rt runs from this folder; two would be two senders of one identifier. plumb-rt "
      "status shows it."},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -14,6 +15,7 @@
 #include "deploy/deploy_folder.hpp"
 #include "deploy/rt_toml.hpp"
 #include "plumb/drivers/bus_content.hpp"
+#include "plumb/drivers/sensor_places.hpp"
 #include "plumb/runtime/effect_set.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
@@ -44,21 +46,18 @@ void refuse_existing(const Options& options) {
 /// What the layout does not bring to the model.
 void warn_of_temperatures(const format::Model& model, const drivers::BusLayout& layout,
                           Outcome& outcome) {
-  int needed = 0;
-  std::string names;
-  for (; const std::string* name = temperature_name(model, needed); ++needed)
-    names += (needed == 0 ? "" : ", ") + *name;
-  int brought = 0;
-  if (const auto* context = layout.find(drivers::MessageKind::kContext))
-    for (const auto& signal : context->signals) brought += signal.unit == "degC" ? 1 : 0;
-  if (needed <= brought) return;
+  const auto missing = drivers::sensors_missing(layout, model);
+  if (missing.empty()) return;
+  std::vector<std::string> needed;
+  for (int k = 0; const std::string* name = temperature_name(model, k); ++k)
+    needed.push_back(*name);
   outcome.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-DEPLOY-TEMPERATURES",
-       .message = fmt::format("the model listens to {} (in this order), but the bus brings {} of "
-                              "them: it will use its fallback",
-                              names, brought),
-       .help = fmt::format("[deploy.bus] temperatures = {}", needed)});
+       .message = fmt::format("the model listens to {}, which the bus does not bring: it will use "
+                              "its fallback",
+                              fmt::join(missing, ", ")),
+       .help = fmt::format("[deploy.bus] temperatures = [\"{}\"]", fmt::join(needed, "\", \""))});
 }
 
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,

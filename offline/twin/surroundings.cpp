@@ -50,8 +50,9 @@ double value_of(const std::string& name, const Readings& now) {
   if (name == "com_y") return now.payload.com_m[1];
   if (name == "com_z") return now.payload.com_m[2];
   if (name == "time") return now.time_s;
-  for (std::size_t k = 0; k < now.temperature_degC.size(); ++k)
-    if (name == fmt::format("t{}", k + 1)) return now.temperature_degC[k];
+  for (std::size_t k = 0; k < now.temperatures.size(); ++k)
+    if (name == now.temperatures[k].sensor || name == fmt::format("t{}", k + 1))
+      return now.temperatures[k].degC;
   return std::nan("");
 }
 
@@ -76,9 +77,9 @@ std::vector<Readings> readings_along(const Cell& cell, const Hidden& hidden,
   std::vector<Readings> out;
   for (int k = 0; k < path.stations(); ++k) {
     const auto row = static_cast<std::size_t>(k);
-    Readings now{.payload = cell.payload, .time_s = time.values[row], .temperature_degC = {}};
+    Readings now{.payload = cell.payload, .time_s = time.values[row], .temperatures = {}};
     for (const auto& name : hidden.sensors)
-      now.temperature_degC.push_back(sensor(seen, name).values[row]);
+      now.temperatures.push_back({name, sensor(seen, name).values[row]});
     out.push_back(std::move(now));
   }
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "plumb/drivers/bus_layout.hpp"
@@ -13,18 +14,24 @@ namespace plumb::offline::twin {
 /// takes the arm through two hours of the simulator's climate, however fast it is driven: station k
 /// of n is visited when k n-ths of them are over.
 
+struct Temperature {
+  std::string sensor;
+  double degC;
+};
+
 /// What the controller knows at a station.
 struct Readings {
   Payload payload;
-  double time_s = 0.0;                   // since those hours began
-  std::vector<double> temperature_degC;  // in the order of the bus
+  double time_s = 0.0;  // since those hours began
+  std::vector<Temperature> temperatures;
 };
 
 /// One for every station. Throws Failure (kInput, E-TWIN-SENSOR) for a sensor that the arm has not.
 std::vector<Readings> readings_along(const Cell& cell, const Hidden& hidden,
                                      const HiddenTruth& truth, const Path& path);
 
-/// kContext as the layout has it, value by value by their names; NaN: there is no such reading.
+/// kContext as the layout has it, value by value by their names, temperatures that have none in the
+/// order of the readings; NaN: there is no such reading.
 drivers::BusMessage context_message(const drivers::MessageLayout& layout, const Readings& now,
                                     std::uint16_t counter);
 

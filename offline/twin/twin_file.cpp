@@ -67,7 +67,7 @@ std::string write_hidden(const Hidden& hidden) {
       "[tracker]\n"
       "noise_um = {}   # 1 sigma per axis\n\n"
       "[controller]\n"
-      "temperatures = [{}]   # sensors it reports, in the order of the bus\n",
+      "temperatures = [{}]   # sensors it reports; in the order of a bus that does not name them\n",
       kSchema, hidden.seed, quoted(hidden.effects), hidden.geometry_m / kMicro,
       hidden.geometry_rad / kMicro, hidden.noise_m / kMicro, quoted(hidden.sensors));
 }

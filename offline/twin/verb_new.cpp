@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bus_text/bus_arm.hpp"
+#include "plumb/drivers/sensor_places.hpp"
 #include "program/output_files.hpp"
 #include "twin/surroundings.hpp"
 #include "twin/twin_file.hpp"
@@ -87,6 +88,7 @@ void report_temperatures(const Hidden& hidden, Cell& cell) {
   cell.deploy.bus =
       drivers::arm_layout(drivers::bus_arm(cell.nominal, cell.deploy.cycle_s),
                           static_cast<int>(hidden.sensors.size()), drivers::CorrectionForm::kPose);
+  drivers::name_temperatures(hidden.sensors, *cell.deploy.bus);
 }
 
 void make(const Options& options, Outcome& outcome) {

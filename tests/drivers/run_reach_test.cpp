@@ -7,6 +7,7 @@
 #include "tests/drivers/deployed.hpp"
 #include "tests/drivers/in_memory_port.hpp"
 #include "tests/drivers/rt_program.hpp"
+#include "tests/rt/warm_arm.hpp"
 
 namespace plumb::tests {
 namespace {
@@ -73,26 +74,67 @@ TEST(RunReach, ModbusAndCanFdHaveRoomForAll) {
   EXPECT_EQ(start(folder).exit, 5);
 }
 
+/// plumb-rt as it runs from the folder, but for the cycle.
+class Running {
+ public:
+  explicit Running(const Deployed& folder)
+      : folder_(folder.folder), deployment_(rt::load_deployment(folder.folder)) {
+    service_.start();
+  }
+
+  RtRan swap(const std::string& file) const {
+    return plumb_rt({"swap", (folder_ / file).string(), "--dir", folder_.string()}, folder_);
+  }
+  bool published() const { return !slot_.settled() || shared_->model != 0U; }
+
+ private:
+  std::filesystem::path folder_;
+  rt::Deployment deployment_;
+  ModelSlot slot_{*deployment_.model.loaded};
+  MemoryBus bus_;
+  std::unique_ptr<rt::RunShared> shared_ = std::make_unique<rt::RunShared>();
+  rt::Service service_{deployment_, bus_, slot_, *shared_};
+};
+
+void expect_refused(const Running& running, const std::string& file, const std::string& why) {
+  const RtRan ran = running.swap(file);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("error[E-RT-SWAP]"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
+  EXPECT_FALSE(running.published());
+}
+
 TEST(RunReach, AModelThatTheBusCutsOffIsRefusedInASwap) {
   const Deployed folder(kOffsets);
-  rt::Deployment deployment = rt::load_deployment(folder.folder);
-  ModelSlot slot(*deployment.model.loaded);
-  MemoryBus bus;
-  const auto shared = std::make_unique<rt::RunShared>();
-  rt::Service service(deployment, bus, slot, *shared);
-  service.start();
+  const Running running(folder);
   for (const auto& model : {with_large_corrections(), with_wide_joints()}) {
     folder.write_model("next.plumb", model);
-    const RtRan ran =
-        plumb_rt({"swap", (folder.folder / "next.plumb").string(), "--dir", folder.folder.string()},
-                 folder.folder);
-    EXPECT_EQ(ran.exit, 3);
-    EXPECT_NE(ran.err.find("error[E-RT-SWAP]"), std::string::npos) << ran.err;
-    EXPECT_NE(ran.err.find("reaches"), std::string::npos) << ran.err;
-    EXPECT_TRUE(slot.settled());
-    EXPECT_EQ(shared->model, 0U) << "nothing was published";
+    expect_refused(running, "next.plumb", "reaches");
   }
-  service.stop();
+}
+
+format::Model with_sensors(const std::vector<std::string>& names) {
+  format::Model out = warm_arm(names);
+  out.serial = Deployed::arm().serial;
+  return out;
+}
+
+TEST(RunReach, ASensorThatTheBusDoesNotBringIsNamedBeforeTheCycleBegins) {
+  const Deployed folder(Deployed::csv("[bus]\ntemperatures = [\"temp_room\"]\n"));
+  folder.write_model("robot.plumb", with_sensors({"temp_arm", "temp_room"}));
+  const RtRan ran = plumb_rt({"run", folder.folder.string(), "--check"}, folder.folder);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.err.find("warning[W-RT-SENSORS]: the model listens to temp_arm, which"),
+            std::string::npos)
+      << ran.err;
+}
+
+TEST(RunReach, ASwapMayReadTheSensorsOfTheModelBeforeAndNoOthersThatHaveAName) {
+  const Deployed folder(kOffsets + "temperatures = [\"temp_room\", \"temp_arm\"]\n");
+  folder.write_model("robot.plumb", with_sensors({"temp_arm"}));
+  folder.write_model("more.plumb", with_sensors({"temp_arm", "temp_room"}));
+  const Running running(folder);
+  expect_refused(running, "more.plumb", "a sensor that the model before does not");
 }
 
 }  // namespace

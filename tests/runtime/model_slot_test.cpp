@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "plumb/runtime/effect_library.hpp"
+#include "tests/rt/warm_arm.hpp"
 #include "tests/runtime/slot_hammer.hpp"
 
 namespace plumb {
@@ -82,26 +83,12 @@ TEST(ModelSlot, TakesAnotherCalibrationWithOtherNamesAndJointLimits) {
   EXPECT_EQ(slot.publish(*better), Published::kDone);
 }
 
-format::Model with_sensors(std::vector<std::string> names) {
-  format::Model model = tests::one_arm();
-  for (auto& name : names) {
-    format::Effect warm{.name = "thermal_growth",
-                        .version = 1,
-                        .joints = {1},
-                        .parameters = {1e-5, 0.0, 0.0},
-                        .context = {{format::ContextInput::kTemperature, std::move(name), 20.0}},
-                        .constants = {20.0}};
-    model.effects.push_back(std::move(warm));
-  }
-  return model;
-}
-
 TEST(Binding, TakesMoreOrFewerSensorsButNotInAnotherOrder) {
-  const format::Model both = with_sensors({"temp_arm", "temp_base"});
-  EXPECT_EQ(find_binding_fault(both, with_sensors({})), BindingFault::kNone);
-  EXPECT_EQ(find_binding_fault(both, with_sensors({"temp_arm"})), BindingFault::kNone);
-  EXPECT_EQ(find_binding_fault(with_sensors({"temp_arm"}), both), BindingFault::kNone);
-  EXPECT_EQ(find_binding_fault(both, with_sensors({"temp_base", "temp_arm"})),
+  const format::Model both = tests::warm_arm({"temp_arm", "temp_base"});
+  EXPECT_EQ(find_binding_fault(both, tests::warm_arm({})), BindingFault::kNone);
+  EXPECT_EQ(find_binding_fault(both, tests::warm_arm({"temp_arm"})), BindingFault::kNone);
+  EXPECT_EQ(find_binding_fault(tests::warm_arm({"temp_arm"}), both), BindingFault::kNone);
+  EXPECT_EQ(find_binding_fault(both, tests::warm_arm({"temp_base", "temp_arm"})),
             BindingFault::kSensors);
 }
 

@@ -169,7 +169,8 @@ TEST_F(TwinCommand, TheGateIsExitOneWhenNothingWasCorrected) {
 
 TEST_F(TwinCommand, AnArmThatHidesWarmthGetsABusThatCarriesItsTemperatures) {
   ASSERT_EQ(twin({"new", "warm", "--hidden", "thermal_growth=300um"}).exit, 0);
-  EXPECT_TRUE(has(box.read("warm/cell.toml"), "\ntemperatures = 3"));
+  EXPECT_TRUE(has(box.read("warm/cell.toml"),
+                  "\ntemperatures = [\"temp\", \"temp_room\", \"temp_elbow\"]"));
   EXPECT_TRUE(has(box.read("warm/twin.toml"), "\ntemperatures = [\"temp\""));
   make();
   EXPECT_FALSE(has(box.read("cell/cell.toml"), "temperatures"));

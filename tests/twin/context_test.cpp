@@ -22,16 +22,20 @@ const CalibratedTwin& warm() {
   return twin;
 }
 
+/// As the model counts its own.
+const std::vector<std::string> kCounted{"t1", "t2", "t3"};
+
 struct Driven {
   TrueErrors errors;
   Status status = Status::kOk;
 };
 
 Driven drive(const CalibratedTwin& twin, const std::vector<Fault>& faults,
-             const std::vector<Readings>& along) {
+             const std::vector<Readings>& along, const std::vector<std::string>& names) {
   const Path path = generated_path(twin.cell(), kStations, 0.5, 7);
   drivers::BusLayout layout = twin.cell().deploy.bus.value();
   layout.can_format = drivers::CanFrame::Format::kFd;
+  drivers::name_temperatures(names, layout);
   Loop loop(twin.cell(), twin.model(), path, FaultPlan(faults), layout, {}, {});
   loop.controller().feels(along);
   EXPECT_TRUE(loop.run(kLongest_s)) << to_string(loop.session().state());
@@ -48,8 +52,8 @@ std::vector<Readings> readings(const CalibratedTwin& twin, const Hidden& hidden)
 TEST(Context, AThermalEffectIsCorrectedWithTheTemperaturesAndNotWithout) {
   const CalibratedTwin& twin = warm();
   const auto along = readings(twin, twin.hidden());
-  const Driven with = drive(twin, {}, along);
-  const Driven without = drive(twin, {parse_fault("no-context")}, along);
+  const Driven with = drive(twin, {}, along, kCounted);
+  const Driven without = drive(twin, {parse_fault("no-context")}, along, kCounted);
   std::cout << "mean true error with " << 1e6 * with.errors.truth.mean_m << " um, without "
             << 1e6 * without.errors.truth.mean_m << " um\n";
   EXPECT_EQ(with.errors.truth.n, kStations);
@@ -58,13 +62,18 @@ TEST(Context, AThermalEffectIsCorrectedWithTheTemperaturesAndNotWithout) {
   EXPECT_GT(without.errors.truth.mean_m, kLeastGain * with.errors.truth.mean_m);
 }
 
-TEST(Context, SensorsInAnotherOrderThanTheModelsAreNotAsGood) {
+TEST(Context, SensorsComeInAnyOrderOnABusThatNamesThem) {
   const CalibratedTwin& twin = warm();
   Hidden swapped = twin.hidden();
   std::swap(swapped.sensors[0], swapped.sensors[1]);
-  const Driven right = drive(twin, {}, readings(twin, twin.hidden()));
-  const Driven wrong = drive(twin, {}, readings(twin, swapped));
-  EXPECT_GT(wrong.errors.truth.mean_m, kLeastGain * right.errors.truth.mean_m);
+  const auto along = readings(twin, twin.hidden()), other = readings(twin, swapped);
+  const Driven counted = drive(twin, {}, along, kCounted);
+  const Driven wrong = drive(twin, {}, other, kCounted);
+  EXPECT_GT(wrong.errors.truth.mean_m, kLeastGain * counted.errors.truth.mean_m);
+  EXPECT_EQ(drive(twin, {}, along, swapped.sensors).errors.truth.mean_m,
+            counted.errors.truth.mean_m);
+  EXPECT_EQ(drive(twin, {}, other, twin.hidden().sensors).errors.truth.mean_m,
+            counted.errors.truth.mean_m);
 }
 
 TEST(Context, AnArmWarmsUpAlongThePathAndItsReadingsSaySo) {
@@ -72,9 +81,9 @@ TEST(Context, AnArmWarmsUpAlongThePathAndItsReadingsSaySo) {
   ASSERT_EQ(along.size(), static_cast<std::size_t>(kStations));
   double coldest = INFINITY, warmest = -INFINITY;
   for (const Readings& now : along) {
-    ASSERT_EQ(now.temperature_degC.size(), 3U);
-    coldest = std::min(coldest, now.temperature_degC[0]);
-    warmest = std::max(warmest, now.temperature_degC[0]);
+    ASSERT_EQ(now.temperatures.size(), 3U);
+    coldest = std::min(coldest, now.temperatures[0].degC);
+    warmest = std::max(warmest, now.temperatures[0].degC);
   }
   EXPECT_GT(warmest - coldest, 3.0);
   EXPECT_EQ(along.front().time_s, 0.0);
@@ -83,8 +92,9 @@ TEST(Context, AnArmWarmsUpAlongThePathAndItsReadingsSaySo) {
 
 TEST(Context, EveryValueStandsUnderItsNameAndWhatIsNotKnownIsNoNumber) {
   const auto layout = drivers::default_layout(6, 0.004, 3);
-  const Readings now{
-      .payload = {12.0, {0.01, 0.02, 0.03}}, .time_s = 60.0, .temperature_degC = {21.0, 22.0}};
+  const Readings now{.payload = {12.0, {0.01, 0.02, 0.03}},
+                     .time_s = 60.0,
+                     .temperatures = {{"temp", 21.0}, {"temp_room", 22.0}}};
   const auto message = context_message(*layout.find(drivers::MessageKind::kContext), now, 7);
   const double expected[] = {12.0, 0.01, 0.02, 0.03, 60.0, 21.0, 22.0};
   ASSERT_EQ(message.size, 8);

@@ -49,7 +49,7 @@ class Loop {
       : faults_(std::move(faults)),
         side_(side),
         cycle_ns_(std::llround(settings.cycle_s * 1e9)),
-        settings_(session_settings(cell, layout, side, settings)),
+        settings_(session_settings(cell, model, layout, side, settings)),
         slot_(model),
         session_(slot_, settings_),
         wire_(to_plumb_, to_controller_),
@@ -77,7 +77,7 @@ class Loop {
   }
 
  private:
-  static drivers::SessionSettings session_settings(const Cell& cell,
+  static drivers::SessionSettings session_settings(const Cell& cell, const LoadedModel& model,
                                                    const drivers::BusLayout& layout,
                                                    const OurSide& side,
                                                    const ControllerSettings& controller) {
@@ -85,6 +85,7 @@ class Loop {
     out.mode = side.mode;
     out.form = layout.correction;
     out.robot = drivers::fingerprint(cell.serial);
+    out.sensors = drivers::sensor_places(layout, model.model());
     out.cycle_s = out.target.period_s = controller.cycle_s;
     return out;
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bus_text/reach.hpp"
+#include "plumb/drivers/sensor_places.hpp"
 
 namespace plumb::drivers {
 namespace {
@@ -72,6 +73,7 @@ TEST(LayoutToml, WhatIsWrittenReadsBackTheSame) {
           .cycle_s = 0.004};
       arm.joints.back() = format::JointType::kPrismatic;
       BusLayout layout = arm_layout(arm, joints - 1, form);
+      if (joints == 3) name_temperatures({"temp_elbow", "temp"}, layout);
       layout.can_format = CanFrame::Format::kFd;
       layout.id_kind = CanFrame::Id::kExtended;
       layout.byte_order = ByteOrder::kBig;
@@ -142,6 +144,10 @@ TEST(LayoutToml, BadTablesAreRefusedAtTheirPlace) {
       {"[bus]\nbit_rate = 0", {"E-RT-BUS 2:12"}},
       {"[bus]\ntemperatures = 9", {"E-RT-RANGE 2:16"}},
       {"[bus]\ntemperatures = 1.5", {"E-RT-RANGE 2:16"}},
+      {"[bus]\ntemperatures = [\"temp\", 3]", {"E-RT-TYPE 2:25"}},
+      {"[bus]\ntemperatures = [\"t1\"]", {"E-RT-RANGE 2:17"}},
+      {"[bus]\ntemperatures = [\"temp\", \"temp\"]", {"E-RT-RANGE 2:25"}},
+      {"[bus]\ntemperatures = [\"temp_x y\"]", {"E-RT-RANGE 2:17"}},
       {"[bus.targets]\ncan_id = 1", {"E-RT-KEY 1:6"}},
       {"[bus]\ntarget = 3", {"E-RT-TYPE 2:10"}},
       {"[bus.target]\ncan_id = -1", {"E-RT-RANGE 2:10"}},

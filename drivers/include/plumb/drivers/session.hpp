@@ -9,6 +9,7 @@
 
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/bus_layout.hpp"
+#include "plumb/drivers/sensor_places.hpp"
 #include "plumb/drivers/session_inbox.hpp"
 #include "plumb/drivers/session_inputs.hpp"
 #include "plumb/drivers/session_share.hpp"
@@ -34,6 +35,7 @@ struct SessionSettings {
   double status_s = 0.02;    // from one status to the next
   double signature_s = 0.2;  // from one signature to the next
   CycleSettings cycle = {};
+  SensorPlaces sensors = sensors_in_order();
 };
 
 /// What a cycle is told besides its messages.
