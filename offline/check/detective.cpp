@@ -15,7 +15,7 @@
 #include "check/linear_placement.hpp"
 #include "check/soft_fit.hpp"
 #include "check/unit_guess.hpp"
-#include "fit/geometry.hpp"
+#include "fit/parameter.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {

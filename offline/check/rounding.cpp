@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "cell/units.hpp"
-#include "fit/geometry.hpp"
 #include "fit/parameter_subset.hpp"
 #include "plumb/runtime/chain.hpp"
 

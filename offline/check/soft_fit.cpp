@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/arm_change.hpp"
 #include "fit/solver.hpp"
 
 namespace plumb::offline {

@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 
 #include "cell/random.hpp"
-#include "fit/geometry.hpp"
+#include "fit/parameter.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "show/units.hpp"
 

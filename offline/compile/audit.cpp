@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cell/random.hpp"
-#include "fit/geometry.hpp"
+#include "fit/geometry_derivative.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "tree/active_bound.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "fit/effect_binding.hpp"
-#include "fit/geometry.hpp"
+#include "fit/parameter.hpp"
 #include "plumb/format/version.hpp"
 
 namespace plumb::offline {

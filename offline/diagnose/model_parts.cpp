@@ -8,6 +8,7 @@
 
 #include "diagnose/effect_list.hpp"
 #include "diagnose/plausible.hpp"
+#include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/effect_library.hpp"
 

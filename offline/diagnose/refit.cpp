@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 
 namespace plumb::offline {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/formula_binding.hpp"

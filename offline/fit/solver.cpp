@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
+#include "fit/geometry_derivative.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "cell/cell.hpp"
-#include "fit/geometry.hpp"
+#include "fit/arm_state.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 

@@ -7,7 +7,8 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/geometry.hpp"
+#include "fit/arm_state.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 

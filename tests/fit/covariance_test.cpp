@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/solver.hpp"
 #include "simulate/simulate.hpp"

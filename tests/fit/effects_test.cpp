@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "compile/compiler.hpp"
+#include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
-#include "fit/geometry.hpp"
+#include "fit/geometry_derivative.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"

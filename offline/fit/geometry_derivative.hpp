@@ -2,61 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "cell/cell.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/parameter.hpp"
 #include "plumb/runtime/effect_set.hpp"
 
 namespace plumb::offline {
-
-/// One number of the geometric model that a fit may change.
-struct Parameter {
-  enum class Kind {
-    kTheta,
-    kD,
-    kA,
-    kAlpha,
-    kBeta,
-    kLinkTwist,
-    kFrame,
-    kTarget,
-    kTargetRotation,
-    kEffect
-  };
-  Kind kind = Kind::kTheta;
-  int joint = 0;      // row of the chain; effect: its place in the model
-  int component = 0;  // twist: dx dy dz ex ey ez; frame the same; target: x y z; effect: parameter
-  std::string name;   // "J2.d", "J3.post.ex", "frame.x", "target.z", "reversal.J2.h"
-
-  bool is_length() const;
-  bool of_robot() const;  // of the model rather than of frame and target
-  bool of_effect() const { return kind == Kind::kEffect; }
-};
-
-/// Sum of all link lengths [m], at least 0.1: makes metres and radians comparable.
-double reach(const format::Chain& chain);
-
-/// Candidates of a cell in the order in which they are preferred when poses cannot tell two apart:
-/// frame, target, then the arm from base to tip. With near-parallel neighbours Hayati's beta takes
-/// the place of d. `with_orientation` adds the turn of the target.
-enum class Orientation { kIgnored, kUsed };
-std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation);
-
-/// Every parameter of the effects that `arm` carries, effect by effect.
-std::vector<Parameter> effect_parameters(const format::Model& arm);
-
-/// The robot parameter of that name ("J2.d", "J3.post.ex"), if the chain has it.
-std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name);
-
-/// Change of each parameter from its start, shape (parameters,). DH values add; twists and frames
-/// act by Exp; X_MB turns by Exp and shifts in base coordinates.
-ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
-               const Eigen::VectorXd& change);
-
-double value_of(const ArmState& state, const Parameter& parameter);
 
 /// Exact derivative of the measured point and orientation by each parameter, from one chain
 /// evaluation: every parameter is a constant twist in the frame behind some joint, and a twist

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/geometry.hpp"
+#include "fit/geometry_derivative.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "fit/arm_change.hpp"
 #include "fit/dual.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/effect_library.hpp"
@@ -13,73 +14,11 @@ namespace {
 
 using Kind = Parameter::Kind;
 
-constexpr double kNearParallel_rad = 0.05;
 constexpr int kSlotFrame = -2;   // acts on X_MB, seen from the base
 constexpr int kSlotTarget = -3;  // acts on X_TG, seen from the tool
 constexpr int kSlotEffect = -4;  // has its own columns
 
-const char* const kTwistNames[] = {"dx", "dy", "dz", "ex", "ey", "ez"};
-const char* const kPoseNames[] = {"x", "y", "z", "rx", "ry", "rz"};
-
 Vector3 axis(int k) { return Vector3::Unit(k); }
-
-bool near_parallel(const format::JointRow& link) {
-  return std::abs(std::sin(link.alpha)) < kNearParallel_rad;
-}
-
-/// The row whose link connects joint i and joint i + 1.
-int link_row(const format::Chain& chain, int joint) {
-  return chain.convention == format::Convention::kStandard ? joint : joint + 1;
-}
-
-void add_dh_candidates(const Cell& cell, std::vector<Parameter>& out) {
-  const auto& chain = cell.nominal;
-  const int n = cell.joints();
-  std::vector<bool> beta(n, false), hold_d(n, false);
-  for (int i = 0; i + 1 < n; ++i) {
-    const int row = link_row(chain, i);
-    if (!cell.mechanics[i].parallel_next && !near_parallel(chain.joints[row])) continue;
-    beta[row] = true;
-    // A sliding joint keeps its d: its own travel already carries the parallel shift.
-    if (chain.joints[i].type == format::JointType::kRevolute) hold_d[i] = true;
-  }
-  for (int i = 0; i < n; ++i) {
-    const auto add = [&](Kind kind, const char* name) {
-      out.push_back({kind, i, 0, chain.joints[i].name + "." + name});
-    };
-    add(Kind::kTheta, "theta");
-    if (!hold_d[i]) add(Kind::kD, "d");
-    add(Kind::kA, "a");
-    add(Kind::kAlpha, "alpha");
-    if (beta[i]) add(Kind::kBeta, "beta");
-  }
-}
-
-void add_twist_candidates(const Cell& cell, std::vector<Parameter>& out) {
-  for (int i = 0; i < cell.joints(); ++i)
-    for (int k = 0; k < 6; ++k)
-      out.push_back(
-          {Kind::kLinkTwist, i, k, cell.nominal.joints[i].name + ".post." + kTwistNames[k]});
-}
-
-double& dh_value(format::JointRow& row, Kind kind) {
-  switch (kind) {
-    case Kind::kTheta:
-      return row.theta;
-    case Kind::kD:
-      return row.d;
-    case Kind::kA:
-      return row.a;
-    case Kind::kAlpha:
-      return row.alpha;
-    default:
-      return row.beta;
-  }
-}
-
-double& twist_value(format::Twist& twist, int component) {
-  return component < 3 ? twist.d[component] : twist.e[component - 3];
-}
 
 /// Left Jacobian of SO(3) at e: d/de of exp(e) v = -[exp(e) v]x J(e).
 Matrix3 left_jacobian(const Vector3& e) {
@@ -91,153 +30,7 @@ Matrix3 left_jacobian(const Vector3& e) {
          (angle - std::sin(angle)) / (angle * angle * angle) * k * k;
 }
 
-/// Turns of frame and target, gathered from the change vector.
-Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change, Kind kind,
-                 int first_component) {
-  Vector3 out = Vector3::Zero();
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const int k = parameters[i].component - first_component;
-    if (parameters[i].kind == kind && k >= 0 && k < 3) out(k) = change(i);
-  }
-  return out;
-}
-
-Transformd turned(const Vector3& e) { return exp({{0, 0, 0}, {e(0), e(1), e(2)}}); }
-
 }  // namespace
-
-bool Parameter::is_length() const {
-  switch (kind) {
-    case Kind::kD:
-    case Kind::kA:
-    case Kind::kTarget:
-      return true;
-    case Kind::kLinkTwist:
-    case Kind::kFrame:
-      return component < 3;
-    default:
-      return false;
-  }
-}
-
-bool Parameter::of_robot() const {
-  return kind != Kind::kFrame && kind != Kind::kTarget && kind != Kind::kTargetRotation;
-}
-
-double reach(const format::Chain& chain) {
-  double sum = 0.0;
-  for (const auto& row : chain.joints) sum += std::abs(row.a) + std::abs(row.d);
-  return std::max(0.1, sum);
-}
-
-std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {
-  std::vector<Parameter> out;
-  if (cell.measurement.fit_frame)
-    for (int k = 0; k < 6; ++k)
-      out.push_back({Kind::kFrame, 0, k, std::string("frame.") + kPoseNames[k]});
-  if (cell.measurement.fit_target) {
-    for (int k = 0; k < 3; ++k)
-      out.push_back({Kind::kTarget, 0, k, std::string("target.") + kPoseNames[k]});
-    if (orientation == Orientation::kUsed)
-      for (int k = 0; k < 3; ++k)
-        out.push_back({Kind::kTargetRotation, 0, k, std::string("target.") + kPoseNames[k + 3]});
-  }
-  if (cell.effects.empty() || cell.effects.front().name != "geometry") return out;
-  if (cell.fit.model == FitSettings::Model::kDh)
-    add_dh_candidates(cell, out);
-  else
-    add_twist_candidates(cell, out);
-  std::erase_if(out, [&](const Parameter& p) {
-    return std::find(cell.fit.fixed.begin(), cell.fit.fixed.end(), p.name) != cell.fit.fixed.end();
-  });
-  return out;
-}
-
-std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name) {
-  static const std::pair<const char*, Kind> kDh[] = {{"theta", Kind::kTheta},
-                                                     {"d", Kind::kD},
-                                                     {"a", Kind::kA},
-                                                     {"alpha", Kind::kAlpha},
-                                                     {"beta", Kind::kBeta}};
-  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
-    const std::string prefix = chain.joints[i].name + ".";
-    if (!name.starts_with(prefix)) continue;
-    const std::string rest = name.substr(prefix.size());
-    for (const auto& [text, kind] : kDh)
-      if (rest == text) return Parameter{kind, static_cast<int>(i), 0, name};
-    for (int k = 0; k < 6; ++k)
-      if (rest == std::string("post.") + kTwistNames[k])
-        return Parameter{Kind::kLinkTwist, static_cast<int>(i), k, name};
-  }
-  return std::nullopt;
-}
-
-ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
-               const Eigen::VectorXd& change) {
-  ArmState out = start;
-  auto& rows = out.arm.calibrated.joints;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto& p = parameters[i];
-    switch (p.kind) {
-      case Kind::kLinkTwist:
-        twist_value(rows[p.joint].post, p.component) += change(i);
-        break;
-      case Kind::kTarget:
-        out.X_TG.p[p.component] += change(i);
-        break;
-      case Kind::kFrame:
-      case Kind::kTargetRotation:
-      case Kind::kEffect:
-        break;
-      default:
-        dh_value(rows[p.joint], p.kind) += change(i);
-    }
-  }
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].of_effect())
-      out.arm.effects[parameters[i].joint].parameters[parameters[i].component] += change(i);
-  const Vector3 shift = gathered(parameters, change, Kind::kFrame, 0);
-  const Vector3 turn = gathered(parameters, change, Kind::kFrame, 3);
-  if (!shift.isZero(0.0) || !turn.isZero(0.0))
-    out.X_MB =
-        to_pose(from_pose(start.X_MB) * translation(shift(0), shift(1), shift(2)) * turned(turn));
-  const Vector3 target_turn = gathered(parameters, change, Kind::kTargetRotation, 0);
-  if (!target_turn.isZero(0.0)) {
-    const auto turned_target = to_pose(from_pose({{}, start.X_TG.q}) * turned(target_turn));
-    out.X_TG.q = turned_target.q;
-  }
-  return out;
-}
-
-std::vector<Parameter> effect_parameters(const format::Model& arm) {
-  std::vector<Parameter> out;
-  for (std::size_t e = 0; e < arm.effects.size(); ++e)
-    for (std::size_t k = 0; k < arm.effects[e].parameters.size(); ++k) {
-      const int effect = static_cast<int>(e), parameter = static_cast<int>(k);
-      out.push_back(
-          {Kind::kEffect, effect, parameter, effect_parameter_name(arm, effect, parameter)});
-    }
-  return out;
-}
-
-double value_of(const ArmState& state, const Parameter& parameter) {
-  if (parameter.of_effect())
-    return state.arm.effects[parameter.joint].parameters[parameter.component];
-  auto row = state.arm.calibrated.joints[parameter.joint];
-  switch (parameter.kind) {
-    case Kind::kLinkTwist:
-      return twist_value(row.post, parameter.component);
-    case Kind::kTarget:
-      return state.X_TG.p[parameter.component];
-    case Kind::kFrame:
-      if (parameter.component < 3) return state.X_MB.p[parameter.component];
-      return rotation_vector(from_pose(state.X_MB).R)(parameter.component - 3);
-    case Kind::kTargetRotation:
-      return rotation_vector(from_pose(state.X_TG).R)(parameter.component);
-    default:
-      return dh_value(row, parameter.kind);
-  }
-}
 
 GeometryDerivative::GeometryDerivative(const ArmState& start,
                                        const std::vector<Parameter>& parameters,

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/arm_change.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Kind = Parameter::Kind;
+
+double& dh_value(format::JointRow& row, Kind kind) {
+  switch (kind) {
+    case Kind::kTheta:
+      return row.theta;
+    case Kind::kD:
+      return row.d;
+    case Kind::kA:
+      return row.a;
+    case Kind::kAlpha:
+      return row.alpha;
+    default:
+      return row.beta;
+  }
+}
+
+double& twist_value(format::Twist& twist, int component) {
+  return component < 3 ? twist.d[component] : twist.e[component - 3];
+}
+
+}  // namespace
+
+Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change, Kind kind,
+                 int first_component) {
+  Vector3 out = Vector3::Zero();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const int k = parameters[i].component - first_component;
+    if (parameters[i].kind == kind && k >= 0 && k < 3) out(k) = change(i);
+  }
+  return out;
+}
+
+Transformd turned(const Vector3& e) { return exp({{0, 0, 0}, {e(0), e(1), e(2)}}); }
+
+ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
+               const Eigen::VectorXd& change) {
+  ArmState out = start;
+  auto& rows = out.arm.calibrated.joints;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    switch (p.kind) {
+      case Kind::kLinkTwist:
+        twist_value(rows[p.joint].post, p.component) += change(i);
+        break;
+      case Kind::kTarget:
+        out.X_TG.p[p.component] += change(i);
+        break;
+      case Kind::kFrame:
+      case Kind::kTargetRotation:
+      case Kind::kEffect:
+        break;
+      default:
+        dh_value(rows[p.joint], p.kind) += change(i);
+    }
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].of_effect())
+      out.arm.effects[parameters[i].joint].parameters[parameters[i].component] += change(i);
+  const Vector3 shift = gathered(parameters, change, Kind::kFrame, 0);
+  const Vector3 turn = gathered(parameters, change, Kind::kFrame, 3);
+  if (!shift.isZero(0.0) || !turn.isZero(0.0))
+    out.X_MB =
+        to_pose(from_pose(start.X_MB) * translation(shift(0), shift(1), shift(2)) * turned(turn));
+  const Vector3 target_turn = gathered(parameters, change, Kind::kTargetRotation, 0);
+  if (!target_turn.isZero(0.0)) {
+    const auto turned_target = to_pose(from_pose({{}, start.X_TG.q}) * turned(target_turn));
+    out.X_TG.q = turned_target.q;
+  }
+  return out;
+}
+
+double value_of(const ArmState& state, const Parameter& parameter) {
+  if (parameter.of_effect())
+    return state.arm.effects[parameter.joint].parameters[parameter.component];
+  auto row = state.arm.calibrated.joints[parameter.joint];
+  switch (parameter.kind) {
+    case Kind::kLinkTwist:
+      return twist_value(row.post, parameter.component);
+    case Kind::kTarget:
+      return state.X_TG.p[parameter.component];
+    case Kind::kFrame:
+      if (parameter.component < 3) return state.X_MB.p[parameter.component];
+      return rotation_vector(from_pose(state.X_MB).R)(parameter.component - 3);
+    case Kind::kTargetRotation:
+      return rotation_vector(from_pose(state.X_TG).R)(parameter.component);
+    default:
+      return dh_value(row, parameter.kind);
+  }
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/arm_state.hpp"
+#include "fit/parameter.hpp"
+#include "plumb/runtime/transform.hpp"
+
+namespace plumb::offline {
+
+/// Change of each parameter from its start, shape (parameters,). DH values add; twists and frames
+/// act by Exp; X_MB turns by Exp and shifts in base coordinates.
+ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
+               const Eigen::VectorXd& change);
+
+double value_of(const ArmState& state, const Parameter& parameter);
+
+/// Three components of one kind out of a change: a shift or turn of frame or target.
+Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change,
+                 Parameter::Kind kind, int first_component);
+
+/// Turned by a rotation vector [rad].
+Transformd turned(const Vector3& e);
+
+}  // namespace plumb::offline

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "plumb/format/model.hpp"
+
+namespace plumb::offline {
+
+/// One number of the geometric model that a fit may change.
+struct Parameter {
+  enum class Kind {
+    kTheta,
+    kD,
+    kA,
+    kAlpha,
+    kBeta,
+    kLinkTwist,
+    kFrame,
+    kTarget,
+    kTargetRotation,
+    kEffect
+  };
+  Kind kind = Kind::kTheta;
+  int joint = 0;      // row of the chain; effect: its place in the model
+  int component = 0;  // twist: dx dy dz ex ey ez; frame the same; target: x y z; effect: parameter
+  std::string name;   // "J2.d", "J3.post.ex", "frame.x", "target.z", "reversal.J2.h"
+
+  bool is_length() const;
+  bool of_robot() const;  // of the model rather than of frame and target
+  bool of_effect() const { return kind == Kind::kEffect; }
+};
+
+/// Sum of all link lengths [m], at least 0.1: makes metres and radians comparable.
+double reach(const format::Chain& chain);
+
+/// Candidates of a cell in the order in which they are preferred when poses cannot tell two apart:
+/// frame, target, then the arm from base to tip. With near-parallel neighbours Hayati's beta takes
+/// the place of d. `with_orientation` adds the turn of the target.
+enum class Orientation { kIgnored, kUsed };
+std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation);
+
+/// Every parameter of the effects that `arm` carries, effect by effect.
+std::vector<Parameter> effect_parameters(const format::Model& arm);
+
+/// The robot parameter of that name ("J2.d", "J3.post.ex"), if the chain has it.
+std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name);
+
+}  // namespace plumb::offline
