@@ -44,6 +44,10 @@ const char* plumb_result_text(std::int32_t result) {
       return "the cycle has not taken the last model yet";
     case PLUMB_NO_MEMORY:
       return "out of memory";
+    case PLUMB_BAD_NUMBER:
+      return "a setting is negative, infinite or no number";
+    case PLUMB_RUNNING:
+      return "the cycle has begun";
     default:
       return "unknown";
   }

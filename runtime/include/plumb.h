@@ -3,16 +3,17 @@
  * Plumb for those who embed it in an existing controller. C99 and later, C++.
  *
  * Life of a robot:   plumb_load_*  ->  plumb_correct, once a cycle, for ever  ->  plumb_unload
- *                       plumb_swap_* from a loader thread, whenever a better model exists
+ *                    plumb_configure before the first cycle, if its limits do not suit
+ *                    plumb_swap_* from a loader thread, whenever a better model exists
  *
  * | phase | calls                                                | heap | thread                  |
  * |-------|------------------------------------------------------|------|-------------------------|
- * | load  | plumb_load_*, plumb_unload                           | yes  | any, nothing else runs  |
+ * | load  | plumb_load_*, plumb_configure, plumb_unload          | yes  | any, nothing else runs  |
  * | swap  | plumb_swap_*, plumb_collect                          | yes  | one loader thread       |
  * | cycle | plumb_correct, plumb_enable, plumb_predict,          | no   | one cycle thread        |
  * |       | plumb_read_counters                                  |      |                         |
- * | any   | plumb_input_init and the calls that return text or   | no   | any                     |
- * |       | the number of joints                                 |      |                         |
+ * | any   | plumb_*_init and the calls that return text or the   | no   | any                     |
+ * |       | number of joints                                     |      |                         |
  *
  * The loader thread and the cycle thread may run at the same time. Calls of the cycle take no lock,
  * no memory and no system call, and their cost is fixed for a given model.
@@ -51,7 +52,9 @@ typedef enum plumb_result {
   PLUMB_UNKNOWN_EFFECT = 6, /* the model needs an effect that this version does not have */
   PLUMB_OTHER_ROBOT = 7,    /* the model was made for another robot */
   PLUMB_BUSY = 8,           /* the cycle has not taken the last model yet: try again later */
-  PLUMB_NO_MEMORY = 9
+  PLUMB_NO_MEMORY = 9,
+  PLUMB_BAD_NUMBER = 10, /* a setting is negative, infinite or no number */
+  PLUMB_RUNNING = 11     /* the robot's cycle has begun: too late */
 } plumb_result;
 
 /* What a cycle came to: 0 ok, > 0 degraded but valid, < 0 refused, the correction decays to 0. */
@@ -68,7 +71,7 @@ typedef enum plumb_status {
   PLUMB_STATUS_NOT_CONVERGED = -5,
   PLUMB_STATUS_SEED_NOT_COMMANDED = -6, /* more than six joints need q_commanded */
   PLUMB_STATUS_NO_MODEL = -7,
-  PLUMB_STATUS_STALE = -8 /* no fresh target or joint state for 0.1 s */
+  PLUMB_STATUS_STALE = -8 /* no fresh target or joint state within the limits, 0.1 s by default */
 } plumb_status;
 
 /* One robot: its model, its cycle. */
@@ -130,6 +133,19 @@ typedef struct plumb_prediction {
   double tree_m[3]; /* what the tree added */
 } plumb_prediction;
 
+/* How long the cycle goes by what it last heard [s], and when a joint counts as moved. */
+typedef struct plumb_settings {
+  uint32_t size;              /* sizeof(plumb_settings) */
+  uint32_t reserved;          /* 0 */
+  double target_limit_s;      /* beyond it the correction ramps out, as stale; by default 0.1 */
+  double joints_limit_s;      /* likewise */
+  double payload_limit_s;     /* beyond it effects use their fallback; by default no limit */
+  double temperature_limit_s; /* likewise; 60 */
+  double time_limit_s;        /* likewise; 60 */
+  double dead_band_rad;       /* a joint that moves less has not turned round; 5e-4, for sliding
+                                 joints times the model's length scale */
+} plumb_settings;
+
 /* Monotone since loading. A cycle counts as one of held, stale, refused, limited at most. */
 typedef struct plumb_counters {
   uint32_t size;     /* sizeof(plumb_counters) */
@@ -155,6 +171,15 @@ plumb_result plumb_load_file(const char* path, const char* serial, plumb_robot**
 /* The same from memory, which may be freed afterwards; any alignment. */
 plumb_result plumb_load_bytes(const void* bytes, size_t count, const char* serial,
                               plumb_robot** robot, char* message, size_t capacity);
+
+/* What a robot is loaded with; sets the size. OK, NULL, MISALIGNED. */
+plumb_result plumb_settings_init(plumb_settings* settings);
+
+/*
+ * Other limits, before the first cycle; they stay when models are swapped. After an error nothing
+ * has changed. OK, NULL, MISALIGNED, BAD_SIZE, NOT_A_ROBOT, BAD_NUMBER, RUNNING.
+ */
+plumb_result plumb_configure(plumb_robot* robot, const plumb_settings* settings);
 
 /* Frees the robot; no thread may use it any more. Null is fine. OK, MISALIGNED, NOT_A_ROBOT. */
 plumb_result plumb_unload(plumb_robot* robot);
