@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modbus_reader.hpp"
+
+#include <algorithm>
+
+#include "link_thread.hpp"
+#include "plumb/drivers/time_source.hpp"
+
+namespace plumb::drivers {
+namespace {
+
+constexpr double kShortestPoll_s = 100e-6;
+constexpr double kPollWithoutReads_s = 1e-3;
+
+/// Registers between blocks cost less than another request over TCP, and more on a serial line.
+int widest_gap(const ModbusClientSettings& settings) {
+  return std::holds_alternative<TcpAddress>(settings.server) ? int{kMostRead} : 0;
+}
+
+Sender other(Sender side) { return side == Sender::kPlumb ? Sender::kController : Sender::kPlumb; }
+
+}  // namespace
+
+ModbusReader::ModbusReader(const BusLayout& layout, ModbusCodec& codec,
+                           const ModbusClientSettings& settings, ModbusTalk& talk,
+                           ModbusExchange& exchange)
+    : codec_(codec), talk_(talk), exchange_(exchange) {
+  const auto spans =
+      join(blocks_of(layout, codec_, other(settings.self)), kMostRead, widest_gap(settings));
+  double wake_s = spans.empty() ? kPollWithoutReads_s : spans.front().period_s / 2;
+  for (const auto& span : spans) wake_s = std::min(wake_s, span.period_s / 2);
+  if (settings.poll_period_s > 0) wake_s = settings.poll_period_s;
+  wake_ns_ = to_ns(std::max(wake_s, kShortestPoll_s));
+  for (const auto& span : spans) polls_.push_back(poll_of(span));
+}
+
+ModbusReader::Poll ModbusReader::poll_of(const ModbusSpan& span) const {
+  return {.span = span, .period_ns = std::max(wake_ns_, to_ns(span.period_s / 2)), .due_ns = 0};
+}
+
+void ModbusReader::begin() noexcept {
+  for (Poll& poll : polls_) poll.due_ns = 0;
+}
+
+bool ModbusReader::round(std::int64_t now_ns) {
+  for (std::size_t i = 0; i < polls_.size(); ++i) {
+    Poll& poll = polls_[i];
+    if (poll.due_ns > now_ns + wake_ns_ / 2) continue;  // the round nearest to it
+    const ModbusTalk::Result result = read(poll.span);
+    if (!ModbusTalk::goes_on(result)) return false;
+    poll.due_ns += poll.period_ns;
+    if (poll.due_ns <= now_ns) poll.due_ns = now_ns + poll.period_ns;
+    if (result == ModbusTalk::Result::kRefused) split_if_gaps_are_refused(i);
+  }
+  return true;
+}
+
+/// A server need not have the registers between blocks.
+void ModbusReader::split_if_gaps_are_refused(std::size_t poll) {
+  const ModbusSpan span = polls_[poll].span;
+  if (talk_.exception() != ModbusException::kIllegalAddress || span.blocks.size() < 2) return;
+  polls_.erase(polls_.begin() + static_cast<std::ptrdiff_t>(poll));
+  for (const auto& single : split(span)) polls_.push_back(poll_of(single));
+}
+
+ModbusTalk::Result ModbusReader::read(const ModbusSpan& span) {
+  const auto registers = std::span(registers_).first(span.count);
+  const ModbusTalk::Result result = talk_.read(span.first, registers);
+  if (result != ModbusTalk::Result::kDone) return result;
+  const std::int64_t now_ns = MonotonicTime::now_ns();
+  for (const auto& block : span.blocks)
+    take(block, registers.subspan(block.first - span.first, block.count), now_ns);
+  return result;
+}
+
+void ModbusReader::take(const ModbusBlock& block, std::span<const std::uint16_t> registers,
+                        std::int64_t now_ns) {
+  BusMessage message;
+  const Heard heard = codec_.decode(block.kind, registers, message);
+  if (heard == Heard::kComplete) {
+    message.time_ns = now_ns;
+    exchange_.from_peer[static_cast<std::size_t>(block.kind)].put(message);
+    ++exchange_.counters.received;
+  } else if (heard == Heard::kCorrupt) {
+    ++exchange_.counters.corrupt;
+    talk_.note_unclean();
+  }
+}
+
+}  // namespace plumb::drivers

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modbus_spans.hpp"
+#include "modbus_talk.hpp"
+
+namespace plumb::drivers {
+
+/// The half of a client that polls: reads the blocks of the other side as often as their messages
+/// ask for, and hands on what is sound. One thread.
+class ModbusReader {
+ public:
+  ModbusReader(const BusLayout& layout, ModbusCodec& codec,
+               const ModbusClientSettings& settings, ModbusTalk& talk, ModbusExchange& exchange);
+
+  /// From one round to the next.
+  std::int64_t wake_ns() const noexcept { return wake_ns_; }
+
+  /// Of a new connection: everything is due.
+  void begin() noexcept;
+
+  /// What is due. False: the connection is no good any more.
+  bool round(std::int64_t now_ns);
+
+ private:
+  struct Poll {
+    ModbusSpan span;
+    std::int64_t period_ns = 0;
+    std::int64_t due_ns = 0;
+  };
+
+  Poll poll_of(const ModbusSpan& span) const;
+  void split_if_gaps_are_refused(std::size_t poll);
+  ModbusTalk::Result read(const ModbusSpan& span);
+  void take(const ModbusBlock& block, std::span<const std::uint16_t> registers,
+            std::int64_t now_ns);
+
+  ModbusCodec& codec_;
+  ModbusTalk& talk_;
+  ModbusExchange& exchange_;
+  std::vector<Poll> polls_;
+  std::int64_t wake_ns_ = 0;
+  std::array<std::uint16_t, kMostRead> registers_{};
+};
+
+}  // namespace plumb::drivers

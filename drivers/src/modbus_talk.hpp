@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "modbus_connection.hpp"
+#include "plumb/drivers/modbus_exchange.hpp"
+
+namespace plumb::drivers {
+
+/// A client's connection with everything counted that it comes to. One thread.
+class ModbusTalk {
+ public:
+  using Result = ModbusConnection::Result;
+
+  explicit ModbusTalk(ModbusCounters& counters) noexcept : counters_(counters) {}
+
+  /// Already answered: by a peer that took the connection. A serial device opens whether or not
+  /// anyone is at its other end.
+  enum class Met : std::uint8_t { kYes, kNotYet };
+  void begin(std::unique_ptr<ModbusConnection> connection, Met met) noexcept;
+  void end() noexcept;
+
+  Result read(std::uint16_t first, std::span<std::uint16_t> registers);
+  Result write(std::uint16_t first, std::span<const std::uint16_t> registers);
+  ModbusException exception() const noexcept { return connection_->exception(); }
+
+  /// False: the connection is no good any more.
+  static bool goes_on(Result result) noexcept {
+    return result == Result::kDone || result == Result::kRefused;
+  }
+
+  /// Nothing was refused, corrupt or another's since begin_round().
+  bool clean() const noexcept { return clean_; }
+  void begin_round() noexcept { clean_ = true; }
+  void note_unclean() noexcept { clean_ = false; }
+
+ private:
+  Result counted(Result result) noexcept;
+  void met() noexcept;
+
+  ModbusCounters& counters_;
+  std::unique_ptr<ModbusConnection> connection_;
+  bool met_ = false;
+  bool clean_ = true;
+};
+
+}  // namespace plumb::drivers
