@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "finite.hpp"
 #include "room.hpp"
@@ -31,34 +32,34 @@ double entry(const TipMotion& column, std::size_t row) noexcept {
   return out;
 }
 
-}  // namespace
-
 /// The column with the largest entry of this row, among those that are left. Its number stands in
 /// the last bits of what is compared, so entries that agree but for those are as good.
-std::size_t SquareSystem::choose(std::size_t row) noexcept {
+std::size_t choose(const std::array<TipMotion, 6>& columns, std::size_t row) noexcept {
   constexpr std::uint64_t kNumber = 7;
   std::uint64_t largest = 0;
   for (std::size_t j = row; j < 6; ++j)
-    largest = std::max(largest, (magnitude_key(entry(column_[j], row)) & ~kNumber) | j);
+    largest = std::max(largest, (magnitude_key(entry(columns[j], row)) & ~kNumber) | j);
   return static_cast<std::size_t>(largest & kNumber);
 }
 
+}  // namespace
+
+/// Rows above k are done with: behind the third step nothing of a translation is read any more.
 void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
   const std::span<const TipMotion> columns = J.columns();
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) copy(columns[k], column_[k]);
-  determinant_ = 1.0;
+  double determinant = 1.0;
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
-    const std::size_t best = choose(k);
+    const std::size_t best = choose(column_, k);
     const double pivot = entry(column_[best], k);
-    const Lanes translation = column_[best].translation, rotation = column_[best].rotation;
-    copy(column_[k], column_[best]);
-    column_[k].translation = translation;
-    column_[k].rotation = rotation;
+    if (k < 3) std::swap(column_[k].translation, column_[best].translation);
+    std::swap(column_[k].rotation, column_[best].rotation);
+    const Lanes translation = column_[k].translation, rotation = column_[k].rotation;
     chosen_[k] = best;
     const std::uint64_t there = all_if(magnitude_key(pivot) > magnitude_key(kTiny));
-    determinant_ *= negated_if(best != k, pivot);
+    determinant *= negated_if(best != k, pivot);
     inverse_[k] = masked(1.0 / pivot, there);
     for (std::size_t j = k + 1; j < 6; ++j) {
       TipMotion& other = column_[j];
@@ -68,6 +69,7 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
       other.rotation = other.rotation - rotation * share;
     }
   }
+  determinant_ = determinant;
 }
 
 JointSteps SquareSystem::solve(const TipMotion& r, TipMotion& left) const noexcept {

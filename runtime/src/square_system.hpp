@@ -26,8 +26,6 @@ class SquareSystem {
   int determinant_sign() const noexcept { return (determinant_ > 0.0) - (determinant_ < 0.0); }
 
  private:
-  std::size_t choose(std::size_t row) noexcept;
-
   std::array<TipMotion, 6> column_;
   std::array<std::array<double, 6>, 6> factor_;  // of the chosen column k taken from another
   std::array<double, 6> inverse_;                // of the chosen entries; 0: none is there
