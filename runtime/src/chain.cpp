@@ -138,11 +138,19 @@ void Chain::frames(std::span<const double> q, ChainFrames& out) const noexcept {
       .store(out.tip);
 }
 
+void Chain::frames(std::span<const double> q, ChainAxes& out) const noexcept {
+  Walk(*this, q)
+      .along([&out](std::size_t i, const Columns& X) {
+        store(X.z(), out.joint[i].along.data());
+        store(X.p(), out.joint[i].through.data());
+      })
+      .store(out.tip);
+}
+
 void Chain::frames(std::span<const double> q, const ChainPoints& of_frames, ChainFrames& out,
                    ChainPoints& points_B) const noexcept {
   const auto locate = [&](std::size_t i, const Columns& X) {
-    const Lanes point = X.point(of_frames.at[i].data());
-    std::memcpy(points_B.at[i].data(), &point, sizeof point);
+    store(X.point(of_frames.at[i].data()), points_B.at[i].data());
   };
   const Columns tip = Walk(*this, q).along([&](std::size_t i, const Columns& X) {
     X.store(out.joint[i]);

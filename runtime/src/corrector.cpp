@@ -72,8 +72,8 @@ void limit(JointSteps& dq, double most) noexcept {
 
 /// The arm of one step.
 struct Corrector::Arm {
-  internal::Room<ChainFrames> moving;   // of the calibrated chain
-  internal::Room<ChainFrames> nominal;  // of the controller's
+  internal::Room<ChainAxes> moving;   // of the calibrated chain
+  internal::Room<ChainAxes> nominal;  // of the controller's
   internal::Room<EffectSet::Scene> scene;
   Deviation deviation;  // the one found last
   Matrix3 to_own;       // from the true orientation to the controller's own
@@ -129,7 +129,7 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
   position_rank_ = 0;
   pose_rank_ = 0;
   JointPositions q{};
-  ChainFrames frames;
+  ChainAxes frames;
   internal::ScaledJacobian J;
   for (int k = 0; k < kSamples; ++k) {
     for (int i = 0; i < joints(); ++i) {
@@ -148,35 +148,38 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
 
 /// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
 /// roughly, it is turned from the true one as it was at the seed.
-Prediction Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
-                            Derivative& out) const noexcept {
+Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
+                        Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
   const bool rough = stage == Stage::kRough;
   const bool at_seed = stage == Stage::kSeed;
-  ChainFrames &moving = arm.moving.value, &nominal = arm.nominal.value;
-  if (at_seed || (position_only && !rough)) nominal_.frames(q, nominal);
+  const bool own = position_only && !rough;
+  ChainAxes &moving = arm.moving.value, &nominal = arm.nominal.value;
+  if (at_seed || own) nominal_.frames(q, nominal);
   if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, arm.deviation);
-  Prediction found = true_arm_.predict(q, arm.deviation, moving);
-  if (position_only) {
-    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, found.X_BT.R);
-    found.X_BT.R = rough ? product(arm.to_own, found.X_BT.R) : nominal.tip.R;
+  const Status status = true_arm_.locate(q, arm.deviation, moving, X_BT.p);
+  if (at_seed || !own) {
+    const Matrix3 R = refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, arm.deviation);
+    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, R);
+    X_BT.R = position_only && rough ? product(arm.to_own, R) : R;
   }
+  if (own) X_BT.R = nominal.tip.R;
   if (at_seed && joints() == 6)
     differentiate(nominal_, nominal, nominal, out);
   else
-    differentiate(true_arm_.chain(), moving, position_only && !rough ? nominal : moving, out);
-  return found;
+    differentiate(true_arm_.chain(), moving, own ? nominal : moving, out);
+  return status;
 }
 
 /// The controller's own arm.
 void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
-  ChainFrames& nominal = arm.nominal.value;
+  ChainAxes& nominal = arm.nominal.value;
   nominal_.frames(q, nominal);
   differentiate(nominal_, nominal, nominal, out);
 }
 
-void Corrector::differentiate(const Chain& chain, const ChainFrames& moving,
-                              const ChainFrames& turning, Derivative& out) const noexcept {
+void Corrector::differentiate(const Chain& chain, const ChainAxes& moving,
+                              const ChainAxes& turning, Derivative& out) const noexcept {
   out.J.set(chain, moving, turning, per_length_);
   if (joints() == 6) out.square.eliminate(out.J);
 }
@@ -284,16 +287,16 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   JointPositions q = out.q;
   const auto here = std::span<const double>(q).first(n);
   Arm arm;
+  Transformd X_BT;
   Derivative at;
   Iterate next;
   bool turned_far = false;
   int seed_sign = 0;
   true_arm_.prepare(context, arm.scene.value);
   for (const auto& [stage, order] : steps()) {
-    const Prediction found = place(here, stage, arm, at);
-    out.status = found.status;
+    out.status = place(here, stage, arm, X_BT, at);
     if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
-    step(at, towards(out.X_BC, found.X_BT, turned_far), order, next);
+    step(at, towards(out.X_BC, X_BT, turned_far), order, next);
     advance(next, q);
     ++out.steps;
   }

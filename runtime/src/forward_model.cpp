@@ -44,11 +44,7 @@ Prediction ForwardModel::predict(std::span<const double> q, const Context& conte
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
                                  ChainFrames& frames) const noexcept {
-  return predict(q, deviation_at(q, context), frames);
-}
-
-Prediction ForwardModel::predict(std::span<const double> q, const Deviation& deviation,
-                                 ChainFrames& frames) const noexcept {
+  const Deviation deviation = deviation_at(q, context);
   JointPositions bent;
   if (!bend(q, deviation, bent)) {
     frames = ChainFrames{};
@@ -59,6 +55,29 @@ Prediction ForwardModel::predict(std::span<const double> q, const Deviation& dev
   frames.tip.R = out.X_BT.R;
   frames.tip.p = out.X_BT.p - out.tree_B;
   return out;
+}
+
+Status ForwardModel::locate(std::span<const double> q, const Deviation& deviation, ChainAxes& axes,
+                            Vector3& p_BT) const noexcept {
+  p_BT.setZero();
+  JointPositions bent;
+  if (!bend(q, deviation, bent)) {
+    axes = ChainAxes{};
+    return Status::kNotFinite;
+  }
+  chain_.frames(bent, axes);
+  const Vector3 p = axes.tip.p + deviation.motion.shift_B;
+  if (!internal::is_finite(p)) {
+    axes.tip = Transformd{};
+    return Status::kNotFinite;
+  }
+  p_BT = p + deviation.tree_B;
+  axes.tip.p = p_BT - deviation.tree_B;
+  return deviation.status;
+}
+
+Matrix3 ForwardModel::turned(const Matrix3& R_BT, const Deviation& deviation) const noexcept {
+  return effects_.empty() ? R_BT : product(deviation.turn_B, R_BT);
 }
 
 Deviation ForwardModel::deviation_at(std::span<const double> q,
@@ -123,8 +142,7 @@ Prediction ForwardModel::finished(const Transformd& X_BT,
                                   const Deviation& deviation) const noexcept {
   const Vector3 p = X_BT.p + deviation.motion.shift_B;
   if (!internal::is_finite(p)) return refusal();
-  return {.X_BT = {.R = effects_.empty() ? X_BT.R : product(deviation.turn_B, X_BT.R),
-                   .p = p + deviation.tree_B},
+  return {.X_BT = {.R = turned(X_BT.R, deviation), .p = p + deviation.tree_B},
           .tree_B = deviation.tree_B,
           .status = deviation.status};
 }

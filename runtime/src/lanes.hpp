@@ -50,7 +50,15 @@ inline Packed load(const double* from) {
   return out;
 }
 
-inline void store(const Packed& numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
+template <class Register>
+void store(const Register& numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
+
+/// Four numbers that stand one behind the other.
+inline Lanes lanes(const double* from) {
+  Lanes out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
 
 /// The first `count` numbers from there, and zeros; all of them if there are more.
 inline Packed load_some(const double* from, std::size_t count) {
@@ -151,6 +159,10 @@ class Columns {
     std::memcpy(bytes + 6 * sizeof(double), &z, sizeof z);
     std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
   }
+
+  /// The last axis, and the origin.
+  const Lanes& z() const { return z_; }
+  const Lanes& p() const { return p_; }
 
   Transformd pose() const {
     Transformd out;

@@ -23,12 +23,6 @@ bool is_zero(const std::array<double, 3>& v) noexcept {
 
 std::array<double, 4> point(const Vector3& p) noexcept { return {p(0), p(1), p(2), 1.0}; }
 
-Lanes lanes(const std::array<double, 4>& p) noexcept {
-  Lanes out;
-  std::memcpy(&out, p.data(), sizeof out);
-  return out;
-}
-
 }  // namespace
 
 Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
@@ -67,9 +61,9 @@ void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
   const auto& at = points_B.at[joints_];
   out.payload_at = Vector3(at[0], at[1], at[2]);
   static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
-  Lanes behind = lanes(at) * out.payload_kg;
+  Lanes behind = lanes(at.data()) * out.payload_kg;
   for (std::size_t j = joints_; j-- > 0;) {
-    behind = behind + lanes(points_B.at[j]) * mass_[j];
+    behind = behind + lanes(points_B.at[j].data()) * mass_[j];
     std::memcpy(static_cast<void*>(&out.joint[j]), &behind, sizeof behind);
   }
 }

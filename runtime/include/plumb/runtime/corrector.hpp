@@ -88,10 +88,10 @@ class Corrector {
   std::span<const Plan> steps() const noexcept;
   int joints() const noexcept { return nominal_.joints(); }
   void find_controllable(const format::Chain& nominal) noexcept;
-  Prediction place(std::span<const double> q, Stage stage, Arm& arm,
-                   Derivative& out) const noexcept;
+  Status place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
+               Derivative& out) const noexcept;
   void look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept;
-  void differentiate(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
+  void differentiate(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,
                      Derivative& out) const noexcept;
   internal::TipMotion towards(const Transformd& X_BD, const Transformd& X_BT,
                               bool& turned_far) const noexcept;
