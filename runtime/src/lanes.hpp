@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -118,6 +119,12 @@ class Columns {
         z_{X.R(0, 2), X.R(1, 2), X.R(2, 2), 0.0},
         p_{X.p(0), X.p(1), X.p(2), 1.0} {}
 
+  explicit Columns(const std::array<std::array<double, 4>, 4>& stored)
+      : x_(lanes(stored[0].data())),
+        y_(lanes(stored[1].data())),
+        z_(lanes(stored[2].data())),
+        p_(lanes(stored[3].data())) {}
+
   /// X_AB <- X_AB Rz.
   void turn(double sin, double cos) {
     const Lanes before = x_;
@@ -158,6 +165,13 @@ class Columns {
     std::memcpy(bytes + 3 * sizeof(double), &y, sizeof y);
     std::memcpy(bytes + 6 * sizeof(double), &z, sizeof z);
     std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
+  }
+
+  void store(std::array<std::array<double, 4>, 4>& out) const {
+    plumb::store(x_, out[0].data());
+    plumb::store(y_, out[1].data());
+    plumb::store(z_, out[2].data());
+    plumb::store(p_, out[3].data());
   }
 
   /// The last axis, and the origin.
