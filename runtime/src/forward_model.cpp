@@ -30,7 +30,7 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
   });
 }
 
-bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
+inline bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   return q.size() >= n && internal::is_joint_state(q.first(n));
 }
@@ -80,7 +80,7 @@ Matrix3 ForwardModel::turned(const Matrix3& R_BT, const Deviation& deviation) co
   return effects_.empty() ? R_BT : product(deviation.turn_B, R_BT);
 }
 
-Deviation ForwardModel::deviation_at(std::span<const double> q,
+inline Deviation ForwardModel::deviation_at(std::span<const double> q,
                                      const Context& context) const noexcept {
   internal::Room<EffectSet::Scene> scene;
   prepare(context, scene.value);
@@ -105,7 +105,7 @@ void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& s
   if (!effects_.empty()) add_effects(q, scene, out);
 }
 
-void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
+inline void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
                                Deviation& out) const noexcept {
   const bool stood_in = effects_.apply(q, chain_, scene, out.motion);
   if (stood_in && out.status == Status::kOk) out.status = Status::kContextFallback;
@@ -116,14 +116,14 @@ void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scen
     out.status = Status::kNotFinite;
 }
 
-void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {
+inline void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {
   double weight = 1.0;
   out.tree_B = tree_at(q, weight);
   if (weight < 1.0) out.status = Status::kOutsideDomain;
 }
 
 /// False: a joint is, or was moved, where no joint can be.
-bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
+inline bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
                         JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (refused(deviation.status) || q.size() < n) return false;
@@ -138,7 +138,7 @@ bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
 }
 
 /// An encoder scale can still bring a joint beyond what sin_cos knows.
-Prediction ForwardModel::finished(const Transformd& X_BT,
+inline Prediction ForwardModel::finished(const Transformd& X_BT,
                                   const Deviation& deviation) const noexcept {
   const Vector3 p = X_BT.p + deviation.motion.shift_B;
   if (!internal::is_finite(p)) return refusal();
@@ -154,14 +154,14 @@ Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {
 }
 
 /// `weight`: how far the trees are trusted there; they are already weighed with it.
-Vector3 ForwardModel::tree_at(std::span<const double> q, double& weight) const noexcept {
+inline Vector3 ForwardModel::tree_at(std::span<const double> q, double& weight) const noexcept {
   std::array<double, kMaxJoints> u;
   const std::span<double> inputs = std::span(u).first(static_cast<std::size_t>(joints()));
   weight = domain_.normalise(q, inputs);
   return trees_at(inputs) * weight;
 }
 
-Vector3 ForwardModel::trees_at(std::span<const double> at) const noexcept {
+inline Vector3 ForwardModel::trees_at(std::span<const double> at) const noexcept {
   if (all_hard_ && !one_walk_) {
     const auto e = TreeView::evaluate_all(trees_, at);
     return {e[0], e[1], e[2]};

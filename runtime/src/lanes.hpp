@@ -52,7 +52,7 @@ inline Packed load(const double* from) {
 }
 
 template <class Register>
-void store(const Register& numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
+void store(Register numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
 
 /// Four numbers that stand one behind the other.
 inline Lanes lanes(const double* from) {
