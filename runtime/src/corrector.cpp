@@ -85,7 +85,7 @@ struct Corrector::Plan {
   Order order;
 };
 
-std::span<const Corrector::Plan> Corrector::steps() const noexcept {
+inline std::span<const Corrector::Plan> Corrector::steps() const noexcept {
   using enum Stage;
   using enum Order;
   static constexpr std::array<Plan, kInverseSteps> kSix{
@@ -148,7 +148,7 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
 
 /// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
 /// roughly, it is turned from the true one as it was at the seed.
-Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
+inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
                         Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
   const bool rough = stage == Stage::kRough;
@@ -172,13 +172,13 @@ Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transf
 }
 
 /// The controller's own arm.
-void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
+inline void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
   ChainAxes& nominal = arm.nominal.value;
   nominal_.frames(q, nominal);
   differentiate(nominal_, nominal, nominal, out);
 }
 
-void Corrector::differentiate(const Chain& chain, const ChainAxes& moving,
+inline void Corrector::differentiate(const Chain& chain, const ChainAxes& moving,
                               const ChainAxes& turning, Derivative& out) const noexcept {
   out.J.set(chain, moving, turning, per_length_);
   if (joints() == 6) out.square.eliminate(out.J);
@@ -187,7 +187,7 @@ void Corrector::differentiate(const Chain& chain, const ChainAxes& moving,
 /// From the tip to its target. The rotation of six joints is the rotation vector up to the eighth
 /// order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2 y^3/35 + ..).
 /// Others may never reach the orientation, and need it as a whole.
-TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
+inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
                              bool& turned_far) const noexcept {
   const Vector3 d = clamped(X_BD.p - X_BT.p, kMaxError) * per_length_;
   const Lanes translation{d(0), d(1), d(2), 0.0};
@@ -234,7 +234,7 @@ JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
 
 // Newton's step dq solves J dq = r; along it the tip also moves by c, the curvature, to the second
 // order. Chebyshev's step is dq - J^+ c: a residual leaves its third power instead of its second.
-void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
+inline void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
                      Iterate& out) const noexcept {
   TipMotion left;
   out.dq = solution(at, r, left);
@@ -247,11 +247,11 @@ void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
   for (std::size_t i = 0; i < back.size(); ++i) out.dq[i] -= back[i];
 }
 
-void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
+inline void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
   for (std::size_t i = 0; i < q.size(); ++i) q[i] += at.dq[i] * unit_[i];
 }
 
-bool Corrector::far(const JointPositions& q, const JointPositions& seed) const noexcept {
+inline bool Corrector::far(const JointPositions& q, const JointPositions& seed) const noexcept {
   int beyond = 0;
   for (std::size_t i = 0; i < q.size(); ++i) {
     const double limit = limits_.max_seed_distance * unit_[i];
@@ -260,7 +260,7 @@ bool Corrector::far(const JointPositions& q, const JointPositions& seed) const n
   return beyond > 0;
 }
 
-Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
+inline Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
                         const Derivative& N, int seed_sign) const noexcept {
   const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(N.J));
   const bool converged = at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad;
