@@ -17,7 +17,7 @@ template <std::size_t kJoints>
 void ScaledJacobian::set_columns(const Chain& chain, const ChainAxes& moving,
                                  const ChainAxes& turning, double per_length) noexcept {
   const std::size_t n = kJoints > 0 ? kJoints : joints_;
-  const Lanes tip = origin(moving.tip);
+  const Lanes tip = origin(moving.tip), none{0.0, 0.0, 0.0, 0.0};
 #pragma GCC unroll 6
   for (std::size_t j = 0; j < n; ++j) {
     const double scale = chain.scale(static_cast<int>(j));
@@ -27,7 +27,7 @@ void ScaledJacobian::set_columns(const Chain& chain, const ChainAxes& moving,
       column_[j] = {cross(along, tip - lanes(axis.through.data())) * per_length,
                     lanes(turning.joint[j].along.data()) * scale};
     else
-      column_[j] = {along, Lanes{0.0, 0.0, 0.0, 0.0}};
+      column_[j] = {along, none};
   }
 }
 

@@ -15,13 +15,13 @@ namespace {
 constexpr double kTiny = 1e-7;  // singular values below it are rounding, not geometry
 
 // Choices by masks: what compilers make of a condition may be a branch.
+std::uint64_t bits(double x) noexcept { return std::bit_cast<std::uint64_t>(x); }
 std::uint64_t all_if(bool yes) noexcept { return -static_cast<std::uint64_t>(yes); }
 double negated_if(bool yes, double x) noexcept {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ static_cast<std::uint64_t>(yes)
-                                                                     << 63);
+  return std::bit_cast<double>(bits(x) ^ static_cast<std::uint64_t>(yes) << 63);
 }
 double masked(double x, std::uint64_t mask) noexcept {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & mask);
+  return std::bit_cast<double>(bits(x) & mask);
 }
 
 /// Entry of a column, read where it stands.
@@ -35,10 +35,10 @@ double entry(const TipMotion& column, std::size_t row) noexcept {
 /// The column with the largest entry of this row, among those that are left. Its number stands in
 /// the last bits of what is compared, so entries that agree but for those are as good.
 std::size_t choose(const std::array<TipMotion, 6>& columns, std::size_t row) noexcept {
-  constexpr std::uint64_t kNumber = 7;
+  constexpr std::uint64_t kNumber = 7, kLast = kNumber >> 1;
   std::uint64_t largest = 0;
   for (std::size_t j = row; j < 6; ++j)
-    largest = std::max(largest, (magnitude_key(entry(columns[j], row)) & ~kNumber) | j);
+    largest = std::max(largest, 2 * (bits(entry(columns[j], row)) & ~kLast) + j);
   return static_cast<std::size_t>(largest & kNumber);
 }
 
