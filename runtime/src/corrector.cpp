@@ -208,13 +208,16 @@ inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_
 }
 
 /// J dq = r, as far as the arm can. left: what of r stays.
-inline JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
-                                      TipMotion& left) const noexcept {
-  return joints() == 6 ? at.square.solve(r, left) : general_solution(at, r, left);
+inline void Corrector::solution(const Derivative& at, const TipMotion& r, JointSteps& dq,
+                                TipMotion& left) const noexcept {
+  if (joints() == 6)
+    at.square.solve(r, dq, left);
+  else
+    general_solution(at, r, dq, left);
 }
 
-JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
-                                       TipMotion& left) const noexcept {
+void Corrector::general_solution(const Derivative& at, const TipMotion& r, JointSteps& dq,
+                                 TipMotion& left) const noexcept {
   Vector6 b;
   b << r.translation[0], r.translation[1], r.translation[2], r.rotation[0], r.rotation[1],
       r.rotation[2];
@@ -226,10 +229,9 @@ JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
   } else {
     x = internal::minimum_norm_step(at.J, b);
   }
-  JointSteps dq{};
+  dq = {};
   std::copy_n(x.data(), x.size(), dq.begin());
   left = r - at.J.times(dq);
-  return dq;
 }
 
 // Newton's step dq solves J dq = r; along it the tip also moves by c, the curvature, to the second
@@ -237,12 +239,13 @@ JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
 inline void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
                      Iterate& out) const noexcept {
   TipMotion left;
-  out.dq = solution(at, r, left);
+  solution(at, r, out.dq, left);
   out.left_m = length(r.translation - left.translation) * limits_.length_scale_m;
   out.left_rad = length(r.rotation - left.rotation);
   limit(out.dq, kMaxStep);
   if (order == Order::kSecond) return;
-  JointSteps back = solution(at, at.J.curvature(out.dq), left);
+  JointSteps back;
+  solution(at, at.J.curvature(out.dq), back, left);
   limit(back, kMaxBack);
   for (std::size_t i = 0; i < back.size(); ++i) out.dq[i] -= back[i];
 }

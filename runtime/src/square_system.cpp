@@ -72,16 +72,17 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
   determinant_ = determinant;
 }
 
-JointSteps SquareSystem::solve(const TipMotion& r, TipMotion& left) const noexcept {
-  left = r;
-  JointSteps z;
+void SquareSystem::solve(const TipMotion& r, JointSteps& z, TipMotion& left) const noexcept {
+  Lanes translation = r.translation, rotation = r.rotation;
   std::fill(z.begin() + 6, z.end(), 0.0);
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
-    z[k] = (k < 3 ? left.translation[k] : left.rotation[k - 3]) * inverse_[k];
-    if (k < 3) left.translation = left.translation - column_[k].translation * z[k];
-    left.rotation = left.rotation - column_[k].rotation * z[k];
+    z[k] = (k < 3 ? translation[k] : rotation[k - 3]) * inverse_[k];
+    if (k < 3) translation = translation - column_[k].translation * z[k];
+    rotation = rotation - column_[k].rotation * z[k];
   }
+  left.translation = translation;
+  left.rotation = rotation;
 #pragma GCC unroll 6
   for (std::size_t k = 6; k-- > 0;) {
     double sum = z[k];
@@ -89,7 +90,6 @@ JointSteps SquareSystem::solve(const TipMotion& r, TipMotion& left) const noexce
     z[k] = z[chosen_[k]];
     z[chosen_[k]] = sum;
   }
-  return z;
 }
 
 }  // namespace plumb::internal

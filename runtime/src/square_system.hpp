@@ -17,10 +17,10 @@ class SquareSystem {
   /// Brings the columns of J to a lower triangle. J: of six joints.
   void eliminate(const ScaledJacobian& J) noexcept;
 
-  /// The step that makes J dq = r, as far as there is one: along a direction that the arm cannot
+  /// The step dq that makes J dq = r, as far as there is one: along a direction that the arm cannot
   /// move in, singular values below 1e-7, it does not move.
   /// left: what of r stays.
-  JointSteps solve(const TipMotion& r, TipMotion& left) const noexcept;
+  void solve(const TipMotion& r, JointSteps& dq, TipMotion& left) const noexcept;
 
   /// Of the determinant: -1, 0 or +1.
   int determinant_sign() const noexcept { return (determinant_ > 0.0) - (determinant_ < 0.0); }

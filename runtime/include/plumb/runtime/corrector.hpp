@@ -95,10 +95,10 @@ class Corrector {
                      Derivative& out) const noexcept;
   internal::TipMotion towards(const Transformd& X_BD, const Transformd& X_BT,
                               bool& turned_far) const noexcept;
-  internal::JointSteps solution(const Derivative& at, const internal::TipMotion& r,
-                                internal::TipMotion& left) const noexcept;
-  internal::JointSteps general_solution(const Derivative& at, const internal::TipMotion& r,
-                                        internal::TipMotion& left) const noexcept;
+  void solution(const Derivative& at, const internal::TipMotion& r, internal::JointSteps& dq,
+                internal::TipMotion& left) const noexcept;
+  void general_solution(const Derivative& at, const internal::TipMotion& r,
+                        internal::JointSteps& dq, internal::TipMotion& left) const noexcept;
   void step(const Derivative& at, const internal::TipMotion& r, Order order,
             Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
