@@ -149,7 +149,7 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
 /// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
 /// roughly, it is turned from the true one as it was at the seed.
 inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
-                        Derivative& out) const noexcept {
+                               Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
   const bool rough = stage == Stage::kRough;
   const bool at_seed = stage == Stage::kSeed;
@@ -159,7 +159,8 @@ inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
   if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, arm.deviation);
   const Status status = true_arm_.locate(q, arm.deviation, moving, X_BT.p);
   if (at_seed || !own) {
-    const Matrix3 R = refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, arm.deviation);
+    const Matrix3 R =
+        refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, arm.deviation);
     if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, R);
     X_BT.R = position_only && rough ? product(arm.to_own, R) : R;
   }
@@ -179,7 +180,7 @@ inline void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out
 }
 
 inline void Corrector::differentiate(const Chain& chain, const ChainAxes& moving,
-                              const ChainAxes& turning, Derivative& out) const noexcept {
+                                     const ChainAxes& turning, Derivative& out) const noexcept {
   out.J.set(chain, moving, turning, per_length_);
   if (joints() == 6) out.square.eliminate(out.J);
 }
@@ -188,7 +189,7 @@ inline void Corrector::differentiate(const Chain& chain, const ChainAxes& moving
 /// order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2 y^3/35 + ..).
 /// Others may never reach the orientation, and need it as a whole.
 inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
-                             bool& turned_far) const noexcept {
+                                    bool& turned_far) const noexcept {
   const Vector3 d = clamped(X_BD.p - X_BT.p, kMaxError) * per_length_;
   const Lanes translation{d(0), d(1), d(2), 0.0};
   turned_far = false;
@@ -237,7 +238,7 @@ void Corrector::general_solution(const Derivative& at, const TipMotion& r, Joint
 // Newton's step dq solves J dq = r; along it the tip also moves by c, the curvature, to the second
 // order. Chebyshev's step is dq - J^+ c: a residual leaves its third power instead of its second.
 inline void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
-                     Iterate& out) const noexcept {
+                            Iterate& out) const noexcept {
   TipMotion left;
   solution(at, r, out.dq, left);
   out.left_m = length(r.translation - left.translation) * limits_.length_scale_m;
@@ -263,8 +264,9 @@ inline bool Corrector::far(const JointPositions& q, const JointPositions& seed) 
   return beyond > 0;
 }
 
-inline Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-                        const Derivative& N, int seed_sign) const noexcept {
+inline Status Corrector::judge(const Iterate& at, const JointPositions& q,
+                               const JointPositions& seed, const Derivative& N,
+                               int seed_sign) const noexcept {
   const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(N.J));
   const bool converged = at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad;
   const bool turned = joints() == 6 && N.square.determinant_sign() != seed_sign;

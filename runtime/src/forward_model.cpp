@@ -81,7 +81,7 @@ Matrix3 ForwardModel::turned(const Matrix3& R_BT, const Deviation& deviation) co
 }
 
 inline Deviation ForwardModel::deviation_at(std::span<const double> q,
-                                     const Context& context) const noexcept {
+                                            const Context& context) const noexcept {
   internal::Room<EffectSet::Scene> scene;
   prepare(context, scene.value);
   Deviation out;
@@ -106,7 +106,7 @@ void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& s
 }
 
 inline void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
-                               Deviation& out) const noexcept {
+                                      Deviation& out) const noexcept {
   const bool stood_in = effects_.apply(q, chain_, scene, out.motion);
   if (stood_in && out.status == Status::kOk) out.status = Status::kContextFallback;
   const Vector3& turn_B = out.motion.turn_B;
@@ -124,7 +124,7 @@ inline void ForwardModel::add_tree(std::span<const double> q, Deviation& out) co
 
 /// False: a joint is, or was moved, where no joint can be.
 inline bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
-                        JointPositions& out) const noexcept {
+                               JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (refused(deviation.status) || q.size() < n) return false;
   const auto add = [&](std::size_t count) {
@@ -139,7 +139,7 @@ inline bool ForwardModel::bend(std::span<const double> q, const Deviation& devia
 
 /// An encoder scale can still bring a joint beyond what sin_cos knows.
 inline Prediction ForwardModel::finished(const Transformd& X_BT,
-                                  const Deviation& deviation) const noexcept {
+                                         const Deviation& deviation) const noexcept {
   const Vector3 p = X_BT.p + deviation.motion.shift_B;
   if (!internal::is_finite(p)) return refusal();
   return {.X_BT = {.R = turned(X_BT.R, deviation), .p = p + deviation.tree_B},

@@ -52,7 +52,9 @@ inline Packed load(const double* from) {
 }
 
 template <class Register>
-void store(Register numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
+void store(Register numbers, double* to) {
+  std::memcpy(to, &numbers, sizeof numbers);
+}
 
 /// Four numbers that stand one behind the other.
 inline Lanes lanes(const double* from) {
@@ -60,6 +62,16 @@ inline Lanes lanes(const double* from) {
   std::memcpy(&out, from, sizeof out);
   return out;
 }
+
+/// One number in every lane.
+#ifdef __AVX__
+inline Packed packed(double x) { return Packed{x, x, x, x}; }
+inline Lanes twice(const Packed& same) { return same; }
+#else
+inline Packed packed(double x) { return Packed{x, x}; }
+inline Lanes twice(const Packed& same) { return {same, same}; }
+#endif
+inline Lanes spread(double x) { return twice(packed(x)); }
 
 /// The first `count` numbers from there, and zeros; all of them if there are more.
 inline Packed load_some(const double* from, std::size_t count) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "finite.hpp"
@@ -16,12 +17,17 @@ constexpr double kTiny = 1e-7;  // singular values below it are rounding, not ge
 
 // Choices by masks: what compilers make of a condition may be a branch.
 std::uint64_t bits(double x) noexcept { return std::bit_cast<std::uint64_t>(x); }
-std::uint64_t all_if(bool yes) noexcept { return -static_cast<std::uint64_t>(yes); }
-double negated_if(bool yes, double x) noexcept {
-  return std::bit_cast<double>(bits(x) ^ static_cast<std::uint64_t>(yes) << 63);
+double negated_if_odd(std::uint64_t count, double x) noexcept {
+  return std::bit_cast<double>(bits(x) ^ count << 63);
 }
-double masked(double x, std::uint64_t mask) noexcept {
-  return std::bit_cast<double>(bits(x) & mask);
+
+/// 1 / pivot in every lane; 0 where there is none. It stays in one kind of register.
+Lanes inverse_if_there(double pivot) noexcept {
+  const Packed x = packed(pivot);
+  const PackedBits magnitude =
+      reinterpret_cast<PackedBits>(x) & std::numeric_limits<std::int64_t>::max();
+  const PackedBits tiny = reinterpret_cast<Packed>(magnitude) <= kTiny;
+  return twice(reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(1.0 / x) & ~tiny));
 }
 
 /// Entry of a column, read where it stands.
@@ -50,6 +56,7 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) copy(columns[k], column_[k]);
   double determinant = 1.0;
+  std::uint64_t exchanges = 0;
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
     const std::size_t best = choose(column_, k);
@@ -58,18 +65,19 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
     std::swap(column_[k].rotation, column_[best].rotation);
     const Lanes translation = column_[k].translation, rotation = column_[k].rotation;
     chosen_[k] = best;
-    const std::uint64_t there = all_if(magnitude_key(pivot) > magnitude_key(kTiny));
-    determinant *= negated_if(best != k, pivot);
-    inverse_[k] = masked(1.0 / pivot, there);
+    determinant *= pivot;
+    exchanges += static_cast<std::uint64_t>(best != k);
+    const Lanes inverse = inverse_if_there(pivot);
+    inverse_[k] = inverse[0];
     for (std::size_t j = k + 1; j < 6; ++j) {
       TipMotion& other = column_[j];
-      const double share = entry(other, k) * inverse_[k];
-      factor_[k][j] = share;
+      const Lanes share = spread(entry(other, k)) * inverse;
+      factor_[k][j] = share[0];
       if (k < 2) other.translation = other.translation - translation * share;
       other.rotation = other.rotation - rotation * share;
     }
   }
-  determinant_ = determinant;
+  determinant_ = negated_if_odd(exchanges, determinant);
 }
 
 void SquareSystem::solve(const TipMotion& r, JointSteps& z, TipMotion& left) const noexcept {

@@ -19,8 +19,8 @@ struct ChainFrames {
   Transformd tip;                            // X_BT
 };
 
-/// What the motions of the joints need of them: their axes and a point on each, x, y, z and a number
-/// that means nothing.
+/// What the motions of the joints need of them: their axes and a point on each, x, y, z and a
+/// number that means nothing.
 struct ChainAxes {
   struct Axis {
     alignas(32) std::array<double, 4> along{0.0, 0.0, 1.0, 0.0};  // z of P_i
