@@ -68,7 +68,7 @@ inline bool Guard::approach(const Offset& goal, double dt) noexcept {
 }
 
 inline bool Guard::approach(const Vector3& goal, double gain, double size, double step,
-                     Vector3& applied) noexcept {
+                            Vector3& applied) noexcept {
   bool cut = false, slewing = false;
   const Vector3 wanted = shortened(goal, size, cut) * gain;
   const Vector3 move = shortened(wanted - applied, step, slewing);

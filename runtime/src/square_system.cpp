@@ -92,7 +92,7 @@ void SquareSystem::solve(const TipMotion& r, JointSteps& z, TipMotion& left) con
   left.translation = translation;
   left.rotation = rotation;
 #pragma GCC unroll 6
-  for (std::size_t k = 6; k-- > 0;) {
+  for (std::size_t k = 5; k-- > 0;) {
     double sum = z[k];
     for (std::size_t j = k + 1; j < 6; ++j) sum -= factor_[k][j] * z[j];
     z[k] = z[chosen_[k]];

@@ -29,7 +29,7 @@ class SquareSystem {
   std::array<TipMotion, 6> column_;
   std::array<std::array<double, 6>, 6> factor_;  // of the chosen column k taken from another
   std::array<double, 6> inverse_;                // of the chosen entries; 0: none is there
-  std::array<std::size_t, 6> chosen_;            // what column k changed places with
+  std::array<std::size_t, 6> chosen_;            // what column k changed places with; 5 with itself
   double determinant_;
 };
 
