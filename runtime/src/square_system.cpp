@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "finite.hpp"
 #include "room.hpp"
 
 namespace plumb::internal {
