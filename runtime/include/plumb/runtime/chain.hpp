@@ -83,14 +83,14 @@ class Chain {
 
   static constexpr std::size_t kRoom = 12;  // joints, in whole registers
 
-  int joints_ = 0;
-  bool usual_ = false;  // all joints turn, and what is between them is plain
   alignas(32) std::array<std::array<double, 4>, 4> base_{};  // columns of C_0: no gathering
-  std::array<Link, kMaxJoints + 1> link_{};
-  std::array<bool, kMaxJoints> revolute_{};
   std::array<double, kRoom> scale_{};
   std::array<double, kRoom> zero_{};
+  std::array<Link, kMaxJoints + 1> link_{};
   std::array<Transformd, kMaxJoints + 1> constant_{};
+  int joints_ = 0;
+  bool usual_ = false;  // all joints turn, and what is between them is plain
+  std::array<bool, kMaxJoints> revolute_{};
 };
 
 /// Column i: displacement [m] and rotation [rad] of the tip per unit of joint i, base frame.
