@@ -44,6 +44,9 @@ Chain::Chain(const format::Chain& parameters) noexcept
   }
   constant_[joints_] = constant_[joints_] * exp(parameters.tool_twist) * from_pose(parameters.tool);
   for (int i = 0; i <= joints_; ++i) link_[i] = link_of(constant_[i]);
+  Columns(constant_[0]).store(base_);
+  usual_ = revolute_[0];
+  for (int i = 1; i < joints_; ++i) usual_ = usual_ && revolute_[i] && link_[i].plain;
 }
 
 Chain::Link Chain::link_of(const Transformd& C) noexcept {
@@ -84,7 +87,8 @@ class Chain::Walk {
   /// behind_joint(i, X_BPi) for every joint; returns X_BT.
   template <class F>
   Columns along(F behind_joint) const noexcept {
-    return chain_.joints_ == 6 ? along<6>(behind_joint) : along<0>(behind_joint);
+    if (chain_.joints_ != 6) return along<0, false>(behind_joint);
+    return chain_.usual_ ? along<6, true>(behind_joint) : along<6, false>(behind_joint);
   }
 
  private:
@@ -104,19 +108,20 @@ class Chain::Walk {
     }
   }
 
-  template <int kJoints, class F>
+  /// kUsual: nothing of joints and links need be asked.
+  template <int kJoints, bool kUsual, class F>
   Columns along(F behind_joint) const noexcept {
     const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : chain_.joints_);
-    Columns X(chain_.constant_[0]);
+    Columns X(chain_.base_);
 #pragma GCC unroll 6
     for (std::size_t i = 0; i < n; ++i) {
-      if (chain_.revolute_[i])
+      if (kUsual || chain_.revolute_[i])
         X.turn(sin_[i], cos_[i]);
       else
         X.slide(position_[i]);
       behind_joint(i, X);
       const Link& link = chain_.link_[i + 1];
-      if (link.plain)
+      if ((kUsual && i + 1 < n) || link.plain)
         X.append_link(link.d, link.a, link.sin_alpha, link.cos_alpha);
       else
         X.append(chain_.constant_[i + 1]);
@@ -138,11 +143,19 @@ void Chain::frames(std::span<const double> q, ChainFrames& out) const noexcept {
       .store(out.tip);
 }
 
+void Chain::frames(std::span<const double> q, ChainAxes& out) const noexcept {
+  Walk(*this, q)
+      .along([&out](std::size_t i, const Columns& X) {
+        store(X.z(), out.joint[i].along.data());
+        store(X.p(), out.joint[i].through.data());
+      })
+      .store(out.tip);
+}
+
 void Chain::frames(std::span<const double> q, const ChainPoints& of_frames, ChainFrames& out,
                    ChainPoints& points_B) const noexcept {
   const auto locate = [&](std::size_t i, const Columns& X) {
-    const Lanes point = X.point(of_frames.at[i].data());
-    std::memcpy(points_B.at[i].data(), &point, sizeof point);
+    store(X.point(of_frames.at[i].data()), points_B.at[i].data());
   };
   const Columns tip = Walk(*this, q).along([&](std::size_t i, const Columns& X) {
     X.store(out.joint[i]);

@@ -72,8 +72,8 @@ void limit(JointSteps& dq, double most) noexcept {
 
 /// The arm of one step.
 struct Corrector::Arm {
-  internal::Room<ChainFrames> moving;   // of the calibrated chain
-  internal::Room<ChainFrames> nominal;  // of the controller's
+  internal::Room<ChainAxes> moving;   // of the calibrated chain
+  internal::Room<ChainAxes> nominal;  // of the controller's
   internal::Room<EffectSet::Scene> scene;
   Deviation deviation;  // the one found last
   Matrix3 to_own;       // from the true orientation to the controller's own
@@ -85,7 +85,7 @@ struct Corrector::Plan {
   Order order;
 };
 
-std::span<const Corrector::Plan> Corrector::steps() const noexcept {
+inline std::span<const Corrector::Plan> Corrector::steps() const noexcept {
   using enum Stage;
   using enum Order;
   static constexpr std::array<Plan, kInverseSteps> kSix{
@@ -129,7 +129,7 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
   position_rank_ = 0;
   pose_rank_ = 0;
   JointPositions q{};
-  ChainFrames frames;
+  ChainAxes frames;
   internal::ScaledJacobian J;
   for (int k = 0; k < kSamples; ++k) {
     for (int i = 0; i < joints(); ++i) {
@@ -148,35 +148,39 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
 
 /// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
 /// roughly, it is turned from the true one as it was at the seed.
-Prediction Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
-                            Derivative& out) const noexcept {
+inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
+                               Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
   const bool rough = stage == Stage::kRough;
   const bool at_seed = stage == Stage::kSeed;
-  ChainFrames &moving = arm.moving.value, &nominal = arm.nominal.value;
-  if (at_seed || (position_only && !rough)) nominal_.frames(q, nominal);
+  const bool own = position_only && !rough;
+  ChainAxes &moving = arm.moving.value, &nominal = arm.nominal.value;
+  if (at_seed || own) nominal_.frames(q, nominal);
   if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, arm.deviation);
-  Prediction found = true_arm_.predict(q, arm.deviation, moving);
-  if (position_only) {
-    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, found.X_BT.R);
-    found.X_BT.R = rough ? product(arm.to_own, found.X_BT.R) : nominal.tip.R;
+  const Status status = true_arm_.locate(q, arm.deviation, moving, X_BT.p);
+  if (at_seed || !own) {
+    const Matrix3 R =
+        refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, arm.deviation);
+    if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, R);
+    X_BT.R = position_only && rough ? product(arm.to_own, R) : R;
   }
+  if (own) X_BT.R = nominal.tip.R;
   if (at_seed && joints() == 6)
     differentiate(nominal_, nominal, nominal, out);
   else
-    differentiate(true_arm_.chain(), moving, position_only && !rough ? nominal : moving, out);
-  return found;
+    differentiate(true_arm_.chain(), moving, own ? nominal : moving, out);
+  return status;
 }
 
 /// The controller's own arm.
-void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
-  ChainFrames& nominal = arm.nominal.value;
+inline void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
+  ChainAxes& nominal = arm.nominal.value;
   nominal_.frames(q, nominal);
   differentiate(nominal_, nominal, nominal, out);
 }
 
-void Corrector::differentiate(const Chain& chain, const ChainFrames& moving,
-                              const ChainFrames& turning, Derivative& out) const noexcept {
+inline void Corrector::differentiate(const Chain& chain, const ChainAxes& moving,
+                                     const ChainAxes& turning, Derivative& out) const noexcept {
   out.J.set(chain, moving, turning, per_length_);
   if (joints() == 6) out.square.eliminate(out.J);
 }
@@ -184,8 +188,8 @@ void Corrector::differentiate(const Chain& chain, const ChainFrames& moving,
 /// From the tip to its target. The rotation of six joints is the rotation vector up to the eighth
 /// order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2 y^3/35 + ..).
 /// Others may never reach the orientation, and need it as a whole.
-TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
-                             bool& turned_far) const noexcept {
+inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
+                                    bool& turned_far) const noexcept {
   const Vector3 d = clamped(X_BD.p - X_BT.p, kMaxError) * per_length_;
   const Lanes translation{d(0), d(1), d(2), 0.0};
   turned_far = false;
@@ -205,13 +209,16 @@ TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
 }
 
 /// J dq = r, as far as the arm can. left: what of r stays.
-inline JointSteps Corrector::solution(const Derivative& at, const TipMotion& r,
-                                      TipMotion& left) const noexcept {
-  return joints() == 6 ? at.square.solve(r, left) : general_solution(at, r, left);
+inline void Corrector::solution(const Derivative& at, const TipMotion& r, JointSteps& dq,
+                                TipMotion& left) const noexcept {
+  if (joints() == 6)
+    at.square.solve(r, dq, left);
+  else
+    general_solution(at, r, dq, left);
 }
 
-JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
-                                       TipMotion& left) const noexcept {
+void Corrector::general_solution(const Derivative& at, const TipMotion& r, JointSteps& dq,
+                                 TipMotion& left) const noexcept {
   Vector6 b;
   b << r.translation[0], r.translation[1], r.translation[2], r.rotation[0], r.rotation[1],
       r.rotation[2];
@@ -223,32 +230,32 @@ JointSteps Corrector::general_solution(const Derivative& at, const TipMotion& r,
   } else {
     x = internal::minimum_norm_step(at.J, b);
   }
-  JointSteps dq{};
+  dq = {};
   std::copy_n(x.data(), x.size(), dq.begin());
   left = r - at.J.times(dq);
-  return dq;
 }
 
 // Newton's step dq solves J dq = r; along it the tip also moves by c, the curvature, to the second
 // order. Chebyshev's step is dq - J^+ c: a residual leaves its third power instead of its second.
-void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
-                     Iterate& out) const noexcept {
+inline void Corrector::step(const Derivative& at, const TipMotion& r, Order order,
+                            Iterate& out) const noexcept {
   TipMotion left;
-  out.dq = solution(at, r, left);
+  solution(at, r, out.dq, left);
   out.left_m = length(r.translation - left.translation) * limits_.length_scale_m;
   out.left_rad = length(r.rotation - left.rotation);
   limit(out.dq, kMaxStep);
   if (order == Order::kSecond) return;
-  JointSteps back = solution(at, at.J.curvature(out.dq), left);
+  JointSteps back;
+  solution(at, at.J.curvature(out.dq), back, left);
   limit(back, kMaxBack);
   for (std::size_t i = 0; i < back.size(); ++i) out.dq[i] -= back[i];
 }
 
-void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
+inline void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
   for (std::size_t i = 0; i < q.size(); ++i) q[i] += at.dq[i] * unit_[i];
 }
 
-bool Corrector::far(const JointPositions& q, const JointPositions& seed) const noexcept {
+inline bool Corrector::far(const JointPositions& q, const JointPositions& seed) const noexcept {
   int beyond = 0;
   for (std::size_t i = 0; i < q.size(); ++i) {
     const double limit = limits_.max_seed_distance * unit_[i];
@@ -257,8 +264,9 @@ bool Corrector::far(const JointPositions& q, const JointPositions& seed) const n
   return beyond > 0;
 }
 
-Status Corrector::judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
-                        const Derivative& N, int seed_sign) const noexcept {
+inline Status Corrector::judge(const Iterate& at, const JointPositions& q,
+                               const JointPositions& seed, const Derivative& N,
+                               int seed_sign) const noexcept {
   const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(N.J));
   const bool converged = at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad;
   const bool turned = joints() == 6 && N.square.determinant_sign() != seed_sign;
@@ -284,16 +292,16 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   JointPositions q = out.q;
   const auto here = std::span<const double>(q).first(n);
   Arm arm;
+  Transformd X_BT;
   Derivative at;
   Iterate next;
   bool turned_far = false;
   int seed_sign = 0;
   true_arm_.prepare(context, arm.scene.value);
   for (const auto& [stage, order] : steps()) {
-    const Prediction found = place(here, stage, arm, at);
-    out.status = found.status;
+    out.status = place(here, stage, arm, X_BT, at);
     if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
-    step(at, towards(out.X_BC, found.X_BT, turned_far), order, next);
+    step(at, towards(out.X_BC, X_BT, turned_far), order, next);
     advance(next, q);
     ++out.steps;
   }

@@ -143,13 +143,6 @@ bool EffectSet::fill_in(Context& context) const noexcept {
   return any;
 }
 
-/// The temperatures that are this effect's own, and none of the one before.
-void EffectSet::show(const Bound& bound, Situation& at) noexcept {
-  const auto sensor = static_cast<std::size_t>(bound.temperature);
-  at.temperature_degC = bound.temperature < 0 ? kUnknown : at.context.temperature_degC[sensor];
-  at.sensors = std::span(bound.sensors).first(bound.sensor_count);
-}
-
 void EffectSet::survey(const Chain& chain, const ChainFrames& frames, const Context& context,
                        Surroundings& out) const noexcept {
   out.context = context;

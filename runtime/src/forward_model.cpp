@@ -30,7 +30,7 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
   });
 }
 
-bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
+inline bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   return q.size() >= n && internal::is_joint_state(q.first(n));
 }
@@ -44,11 +44,7 @@ Prediction ForwardModel::predict(std::span<const double> q, const Context& conte
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
                                  ChainFrames& frames) const noexcept {
-  return predict(q, deviation_at(q, context), frames);
-}
-
-Prediction ForwardModel::predict(std::span<const double> q, const Deviation& deviation,
-                                 ChainFrames& frames) const noexcept {
+  const Deviation deviation = deviation_at(q, context);
   JointPositions bent;
   if (!bend(q, deviation, bent)) {
     frames = ChainFrames{};
@@ -61,8 +57,31 @@ Prediction ForwardModel::predict(std::span<const double> q, const Deviation& dev
   return out;
 }
 
-Deviation ForwardModel::deviation_at(std::span<const double> q,
-                                     const Context& context) const noexcept {
+Status ForwardModel::locate(std::span<const double> q, const Deviation& deviation, ChainAxes& axes,
+                            Vector3& p_BT) const noexcept {
+  p_BT.setZero();
+  JointPositions bent;
+  if (!bend(q, deviation, bent)) {
+    axes = ChainAxes{};
+    return Status::kNotFinite;
+  }
+  chain_.frames(bent, axes);
+  const Vector3 p = axes.tip.p + deviation.motion.shift_B;
+  if (!internal::is_finite(p)) {
+    axes.tip = Transformd{};
+    return Status::kNotFinite;
+  }
+  p_BT = p + deviation.tree_B;
+  axes.tip.p = p_BT - deviation.tree_B;
+  return deviation.status;
+}
+
+Matrix3 ForwardModel::turned(const Matrix3& R_BT, const Deviation& deviation) const noexcept {
+  return effects_.empty() ? R_BT : product(deviation.turn_B, R_BT);
+}
+
+inline Deviation ForwardModel::deviation_at(std::span<const double> q,
+                                            const Context& context) const noexcept {
   internal::Room<EffectSet::Scene> scene;
   prepare(context, scene.value);
   Deviation out;
@@ -86,8 +105,8 @@ void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& s
   if (!effects_.empty()) add_effects(q, scene, out);
 }
 
-void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
-                               Deviation& out) const noexcept {
+inline void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
+                                      Deviation& out) const noexcept {
   const bool stood_in = effects_.apply(q, chain_, scene, out.motion);
   if (stood_in && out.status == Status::kOk) out.status = Status::kContextFallback;
   const Vector3& turn_B = out.motion.turn_B;
@@ -97,15 +116,15 @@ void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scen
     out.status = Status::kNotFinite;
 }
 
-void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {
+inline void ForwardModel::add_tree(std::span<const double> q, Deviation& out) const noexcept {
   double weight = 1.0;
   out.tree_B = tree_at(q, weight);
   if (weight < 1.0) out.status = Status::kOutsideDomain;
 }
 
 /// False: a joint is, or was moved, where no joint can be.
-bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
-                        JointPositions& out) const noexcept {
+inline bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
+                               JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
   if (refused(deviation.status) || q.size() < n) return false;
   const auto add = [&](std::size_t count) {
@@ -119,12 +138,11 @@ bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
 }
 
 /// An encoder scale can still bring a joint beyond what sin_cos knows.
-Prediction ForwardModel::finished(const Transformd& X_BT,
-                                  const Deviation& deviation) const noexcept {
+inline Prediction ForwardModel::finished(const Transformd& X_BT,
+                                         const Deviation& deviation) const noexcept {
   const Vector3 p = X_BT.p + deviation.motion.shift_B;
   if (!internal::is_finite(p)) return refusal();
-  return {.X_BT = {.R = effects_.empty() ? X_BT.R : product(deviation.turn_B, X_BT.R),
-                   .p = p + deviation.tree_B},
+  return {.X_BT = {.R = turned(X_BT.R, deviation), .p = p + deviation.tree_B},
           .tree_B = deviation.tree_B,
           .status = deviation.status};
 }
@@ -136,14 +154,14 @@ Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {
 }
 
 /// `weight`: how far the trees are trusted there; they are already weighed with it.
-Vector3 ForwardModel::tree_at(std::span<const double> q, double& weight) const noexcept {
+inline Vector3 ForwardModel::tree_at(std::span<const double> q, double& weight) const noexcept {
   std::array<double, kMaxJoints> u;
   const std::span<double> inputs = std::span(u).first(static_cast<std::size_t>(joints()));
   weight = domain_.normalise(q, inputs);
   return trees_at(inputs) * weight;
 }
 
-Vector3 ForwardModel::trees_at(std::span<const double> at) const noexcept {
+inline Vector3 ForwardModel::trees_at(std::span<const double> at) const noexcept {
   if (all_hard_ && !one_walk_) {
     const auto e = TreeView::evaluate_all(trees_, at);
     return {e[0], e[1], e[2]};

@@ -40,24 +40,24 @@ void Guard::swap(const format::GuardLimits& limits) noexcept {
   ++counters_.swaps;
 }
 
-double Guard::elapsed(double dt_s) const noexcept {
+inline double Guard::elapsed(double dt_s) const noexcept {
   return dt_s > 0.0 ? std::min(dt_s, 2.0 * limits_.cycle_s) : 0.0;
 }
 
-Guard::Offset Guard::wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept {
+inline Guard::Offset Guard::wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept {
   Offset c{.translation = X_BC.p - X_BD.p, .rotation = Vector3::Zero()};
   if (limits_.corrects == format::Corrects::kPose)
     c.rotation = rotation_vector(times_transposed<double>(X_BC.R, X_BD.R));
   return c;
 }
 
-void Guard::ramp_towards(double goal, double dt) noexcept {
+inline void Guard::ramp_towards(double goal, double dt) noexcept {
   const double step = limits_.ramp_s > 0.0 ? dt / limits_.ramp_s : 1.0;
   ramp_ = goal > ramp_ ? std::min(goal, ramp_ + step) : std::max(goal, ramp_ - step);
 }
 
 /// Moves the applied correction towards `goal`; true if a limit cut it.
-bool Guard::approach(const Offset& goal, double dt) noexcept {
+inline bool Guard::approach(const Offset& goal, double dt) noexcept {
   const double gain = smooth_step(ramp_);
   bool cut = approach(goal.translation, gain, limits_.max_correction_m, limits_.slew_m_per_s * dt,
                       applied_.translation);
@@ -67,8 +67,8 @@ bool Guard::approach(const Offset& goal, double dt) noexcept {
   return cut;
 }
 
-bool Guard::approach(const Vector3& goal, double gain, double size, double step,
-                     Vector3& applied) noexcept {
+inline bool Guard::approach(const Vector3& goal, double gain, double size, double step,
+                            Vector3& applied) noexcept {
   bool cut = false, slewing = false;
   const Vector3 wanted = shortened(goal, size, cut) * gain;
   const Vector3 move = shortened(wanted - applied, step, slewing);
@@ -78,12 +78,12 @@ bool Guard::approach(const Vector3& goal, double gain, double size, double step,
 }
 
 /// A model that corrects positions only may still have a turn to undo, of the one before it.
-bool Guard::turns() const noexcept {
+inline bool Guard::turns() const noexcept {
   const Vector3& e = applied_.rotation;
   return limits_.corrects == format::Corrects::kPose || e(0) != 0.0 || e(1) != 0.0 || e(2) != 0.0;
 }
 
-GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
+inline GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
   GuardOutput out{.X_BC = X_BD, .has_output = has_output_, .status = status};
   if (turns()) out.X_BC.R = product(rotation_of(applied_.rotation), X_BD.R);
   out.X_BC.p += applied_.translation;
@@ -92,7 +92,7 @@ GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
 }
 
 /// What the correction says, unless it is no correction.
-Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
+inline Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
   const bool turned = limits_.corrects == format::Corrects::kPose;
   const bool sane = internal::is_finite(Vector3(correction.X_BC.p - X_BD.p)) &&
                     (!turned || internal::is_pose(correction.X_BC));

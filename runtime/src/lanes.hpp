@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -50,7 +51,27 @@ inline Packed load(const double* from) {
   return out;
 }
 
-inline void store(const Packed& numbers, double* to) { std::memcpy(to, &numbers, sizeof numbers); }
+template <class Register>
+void store(Register numbers, double* to) {
+  std::memcpy(to, &numbers, sizeof numbers);
+}
+
+/// Four numbers that stand one behind the other.
+inline Lanes lanes(const double* from) {
+  Lanes out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+
+/// One number in every lane.
+#ifdef __AVX__
+inline Packed packed(double x) { return Packed{x, x, x, x}; }
+inline Lanes twice(const Packed& same) { return same; }
+#else
+inline Packed packed(double x) { return Packed{x, x}; }
+inline Lanes twice(const Packed& same) { return {same, same}; }
+#endif
+inline Lanes spread(double x) { return twice(packed(x)); }
 
 /// The first `count` numbers from there, and zeros; all of them if there are more.
 inline Packed load_some(const double* from, std::size_t count) {
@@ -110,6 +131,12 @@ class Columns {
         z_{X.R(0, 2), X.R(1, 2), X.R(2, 2), 0.0},
         p_{X.p(0), X.p(1), X.p(2), 1.0} {}
 
+  explicit Columns(const std::array<std::array<double, 4>, 4>& stored)
+      : x_(lanes(stored[0].data())),
+        y_(lanes(stored[1].data())),
+        z_(lanes(stored[2].data())),
+        p_(lanes(stored[3].data())) {}
+
   /// X_AB <- X_AB Rz.
   void turn(double sin, double cos) {
     const Lanes before = x_;
@@ -151,6 +178,17 @@ class Columns {
     std::memcpy(bytes + 6 * sizeof(double), &z, sizeof z);
     std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
   }
+
+  void store(std::array<std::array<double, 4>, 4>& out) const {
+    plumb::store(x_, out[0].data());
+    plumb::store(y_, out[1].data());
+    plumb::store(z_, out[2].data());
+    plumb::store(p_, out[3].data());
+  }
+
+  /// The last axis, and the origin.
+  const Lanes& z() const { return z_; }
+  const Lanes& p() const { return p_; }
 
   Transformd pose() const {
     Transformd out;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "lanes.hpp"
+#include "room.hpp"
 
 namespace plumb {
 namespace {
@@ -22,12 +23,6 @@ bool is_zero(const std::array<double, 3>& v) noexcept {
 }
 
 std::array<double, 4> point(const Vector3& p) noexcept { return {p(0), p(1), p(2), 1.0}; }
-
-Lanes lanes(const std::array<double, 4>& p) noexcept {
-  Lanes out;
-  std::memcpy(&out, p.data(), sizeof out);
-  return out;
-}
 
 }  // namespace
 
@@ -53,7 +48,7 @@ void Weights::hang(const Context& context, ChainPoints& of_frames, Loads& out) c
   Vector3 com_F = payload_com_F_;
   for (int k = 0; k < 3; ++k)
     com_F(k) = known(context.payload_com_m[k]) ? context.payload_com_m[k] : com_F(k);
-  for (std::size_t j = 0; j < joints_; ++j) of_frames.at[j] = centres_.at[j];
+  internal::copy(centres_, of_frames);
   of_frames.at[joints_] = point(X_TF_ * com_F);
   out.gravity = gravity_;
   out.payload_kg = payload_kg(context);
@@ -67,10 +62,10 @@ void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
   const auto& at = points_B.at[joints_];
   out.payload_at = Vector3(at[0], at[1], at[2]);
   static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
-  Lanes behind = lanes(at) * out.payload_kg;
+  Lanes behind = lanes(at.data()) * out.payload_kg;
   for (std::size_t j = joints_; j-- > 0;) {
-    behind = behind + lanes(points_B.at[j]) * mass_[j];
-    std::memcpy(static_cast<void*>(&out.joint[j]), &behind, sizeof behind);
+    behind = behind + lanes(points_B.at[j].data()) * mass_[j];
+    store(behind, reinterpret_cast<double*>(&out.joint[j]));
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "normal_equations.hpp"
 
+#include "room.hpp"
+
 namespace plumb::internal {
 namespace {
 
@@ -26,7 +28,8 @@ Matrix6 gram(const ScaledJacobian& J) noexcept {
 }
 
 Ldl factor(const Matrix6& A) noexcept {
-  Ldl f{.L = A, .d = Vector6::Zero()};
+  Ldl f;
+  copy(A, f.L);
   for (std::size_t k = 0; k < 6; ++k) {
     TipMotion& pivot = f.L.column[k];
     const double d = f.L(k, k);
@@ -63,16 +66,15 @@ int Ldl::positive_pivots(int rows) const noexcept {
   return count;
 }
 
-RankAbove rank_above(double s, const Matrix6& JJt) noexcept {
+RankAbove rank_above(double s, Matrix6 JJt) noexcept {
   const double s2 = s * s;
-  Matrix6 shifted = JJt;
   const std::array<Lanes, 3> unit{Lanes{s2, 0.0, 0.0, 0.0}, Lanes{0.0, s2, 0.0, 0.0},
                                   Lanes{0.0, 0.0, s2, 0.0}};
   for (std::size_t i = 0; i < 3; ++i) {
-    shifted.column[i].translation = JJt.column[i].translation - unit[i];
-    shifted.column[i + 3].rotation = JJt.column[i + 3].rotation - unit[i];
+    JJt.column[i].translation = JJt.column[i].translation - unit[i];
+    JJt.column[i + 3].rotation = JJt.column[i + 3].rotation - unit[i];
   }
-  const Ldl f = factor(shifted);
+  const Ldl f = factor(JJt);
   return {.position = f.positive_pivots(3), .pose = f.positive_pivots(6)};
 }
 

@@ -44,7 +44,7 @@ struct RankAbove {
   int position;  // of rows 0-2
   int pose;      // of all rows
 };
-RankAbove rank_above(double s, const Matrix6& JJt) noexcept;
+RankAbove rank_above(double s, Matrix6 JJt) noexcept;
 
 /// Shortest step with J dq = r: J^T (J J^T)^-1 r. n >= 6.
 JointVector minimum_norm_step(const ScaledJacobian& J, const Vector6& r) noexcept;

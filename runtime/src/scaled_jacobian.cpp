@@ -3,7 +3,7 @@
 
 namespace plumb::internal {
 
-void ScaledJacobian::set(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
+void ScaledJacobian::set(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,
                          double per_length) noexcept {
   joints_ = static_cast<std::size_t>(chain.joints());
   if (joints_ == 6)
@@ -14,20 +14,20 @@ void ScaledJacobian::set(const Chain& chain, const ChainFrames& moving, const Ch
 
 /// kJoints: known when compiled, so that the loop is unrolled; 0: any number.
 template <std::size_t kJoints>
-void ScaledJacobian::set_columns(const Chain& chain, const ChainFrames& moving,
-                                 const ChainFrames& turning, double per_length) noexcept {
+void ScaledJacobian::set_columns(const Chain& chain, const ChainAxes& moving,
+                                 const ChainAxes& turning, double per_length) noexcept {
   const std::size_t n = kJoints > 0 ? kJoints : joints_;
-  const Lanes tip = origin(moving.tip);
+  const Lanes tip = origin(moving.tip), none{0.0, 0.0, 0.0, 0.0};
 #pragma GCC unroll 6
   for (std::size_t j = 0; j < n; ++j) {
     const double scale = chain.scale(static_cast<int>(j));
-    const Transformd& X_BP = moving.joint[j];
-    const Lanes along = axis(X_BP, 2) * scale;
+    const ChainAxes::Axis& axis = moving.joint[j];
+    const Lanes along = lanes(axis.along.data()) * scale;
     if (chain.revolute(static_cast<int>(j)))
-      column_[j] = {cross(along, tip - origin(X_BP)) * per_length,
-                    axis(turning.joint[j], 2) * scale};
+      column_[j] = {cross(along, tip - lanes(axis.through.data())) * per_length,
+                    lanes(turning.joint[j].along.data()) * scale};
     else
-      column_[j] = {along, Lanes{0.0, 0.0, 0.0, 0.0}};
+      column_[j] = {along, none};
   }
 }
 

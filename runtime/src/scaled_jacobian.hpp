@@ -28,7 +28,7 @@ class ScaledJacobian {
  public:
   /// Translations by `moving`, rotations by `turning`, two states of one arm.
   /// per_length: 1 / length, [1/m]. Cost: fixed for a given number of joints.
-  void set(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
+  void set(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,
            double per_length) noexcept;
 
   int joints() const noexcept { return static_cast<int>(joints_); }
@@ -45,7 +45,7 @@ class ScaledJacobian {
 
  private:
   template <std::size_t kJoints>
-  void set_columns(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
+  void set_columns(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,
                    double per_length) noexcept;
   template <std::size_t kJoints>
   TipMotion curvature_along(const JointSteps& dq) const noexcept;

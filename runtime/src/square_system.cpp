@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
+#include <utility>
 
-#include "finite.hpp"
 #include "room.hpp"
 
 namespace plumb::internal {
@@ -14,13 +15,18 @@ namespace {
 constexpr double kTiny = 1e-7;  // singular values below it are rounding, not geometry
 
 // Choices by masks: what compilers make of a condition may be a branch.
-std::uint64_t all_if(bool yes) noexcept { return -static_cast<std::uint64_t>(yes); }
-double negated_if(bool yes, double x) noexcept {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ static_cast<std::uint64_t>(yes)
-                                                                     << 63);
+std::uint64_t bits(double x) noexcept { return std::bit_cast<std::uint64_t>(x); }
+double negated_if_odd(std::uint64_t count, double x) noexcept {
+  return std::bit_cast<double>(bits(x) ^ count << 63);
 }
-double masked(double x, std::uint64_t mask) noexcept {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & mask);
+
+/// 1 / pivot in every lane; 0 where there is none. It stays in one kind of register.
+Lanes inverse_if_there(double pivot) noexcept {
+  const Packed x = packed(pivot);
+  const PackedBits magnitude =
+      reinterpret_cast<PackedBits>(x) & std::numeric_limits<std::int64_t>::max();
+  const PackedBits tiny = reinterpret_cast<Packed>(magnitude) <= kTiny;
+  return twice(reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(1.0 / x) & ~tiny));
 }
 
 /// Entry of a column, read where it stands.
@@ -31,63 +37,66 @@ double entry(const TipMotion& column, std::size_t row) noexcept {
   return out;
 }
 
-}  // namespace
-
 /// The column with the largest entry of this row, among those that are left. Its number stands in
 /// the last bits of what is compared, so entries that agree but for those are as good.
-std::size_t SquareSystem::choose(std::size_t row) noexcept {
-  constexpr std::uint64_t kNumber = 7;
+std::size_t choose(const std::array<TipMotion, 6>& columns, std::size_t row) noexcept {
+  constexpr std::uint64_t kNumber = 7, kLast = kNumber >> 1;
   std::uint64_t largest = 0;
   for (std::size_t j = row; j < 6; ++j)
-    largest = std::max(largest, (magnitude_key(entry(column_[j], row)) & ~kNumber) | j);
+    largest = std::max(largest, 2 * (bits(entry(columns[j], row)) & ~kLast) + j);
   return static_cast<std::size_t>(largest & kNumber);
 }
 
+}  // namespace
+
+/// Rows above k are done with: behind the third step nothing of a translation is read any more.
 void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
   const std::span<const TipMotion> columns = J.columns();
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) copy(columns[k], column_[k]);
-  determinant_ = 1.0;
+  double determinant = 1.0;
+  std::uint64_t exchanges = 0;
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
-    const std::size_t best = choose(k);
+    const std::size_t best = choose(column_, k);
     const double pivot = entry(column_[best], k);
-    const Lanes translation = column_[best].translation, rotation = column_[best].rotation;
-    copy(column_[k], column_[best]);
-    column_[k].translation = translation;
-    column_[k].rotation = rotation;
+    if (k < 3) std::swap(column_[k].translation, column_[best].translation);
+    std::swap(column_[k].rotation, column_[best].rotation);
+    const Lanes translation = column_[k].translation, rotation = column_[k].rotation;
     chosen_[k] = best;
-    const std::uint64_t there = all_if(magnitude_key(pivot) > magnitude_key(kTiny));
-    determinant_ *= negated_if(best != k, pivot);
-    inverse_[k] = masked(1.0 / pivot, there);
+    determinant *= pivot;
+    exchanges += static_cast<std::uint64_t>(best != k);
+    const Lanes inverse = inverse_if_there(pivot);
+    inverse_[k] = inverse[0];
     for (std::size_t j = k + 1; j < 6; ++j) {
       TipMotion& other = column_[j];
-      const double share = entry(other, k) * inverse_[k];
-      factor_[k][j] = share;
+      const Lanes share = spread(entry(other, k)) * inverse;
+      factor_[k][j] = share[0];
       if (k < 2) other.translation = other.translation - translation * share;
       other.rotation = other.rotation - rotation * share;
     }
   }
+  determinant_ = negated_if_odd(exchanges, determinant);
 }
 
-JointSteps SquareSystem::solve(const TipMotion& r, TipMotion& left) const noexcept {
-  left = r;
-  JointSteps z;
+void SquareSystem::solve(const TipMotion& r, JointSteps& z, TipMotion& left) const noexcept {
+  Lanes translation = r.translation, rotation = r.rotation;
   std::fill(z.begin() + 6, z.end(), 0.0);
 #pragma GCC unroll 6
   for (std::size_t k = 0; k < 6; ++k) {
-    z[k] = (k < 3 ? left.translation[k] : left.rotation[k - 3]) * inverse_[k];
-    if (k < 3) left.translation = left.translation - column_[k].translation * z[k];
-    left.rotation = left.rotation - column_[k].rotation * z[k];
+    z[k] = (k < 3 ? translation[k] : rotation[k - 3]) * inverse_[k];
+    if (k < 3) translation = translation - column_[k].translation * z[k];
+    rotation = rotation - column_[k].rotation * z[k];
   }
+  left.translation = translation;
+  left.rotation = rotation;
 #pragma GCC unroll 6
-  for (std::size_t k = 6; k-- > 0;) {
+  for (std::size_t k = 5; k-- > 0;) {
     double sum = z[k];
     for (std::size_t j = k + 1; j < 6; ++j) sum -= factor_[k][j] * z[j];
     z[k] = z[chosen_[k]];
     z[chosen_[k]] = sum;
   }
-  return z;
 }
 
 }  // namespace plumb::internal

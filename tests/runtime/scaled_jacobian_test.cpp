@@ -45,10 +45,10 @@ TEST(ScaledJacobian, KnowsTheMotionOfTheTipToTheSecondOrder) {
       q.push_back(random.uniform(-3.0, 3.0));
       dq[static_cast<std::size_t>(i)] = random.uniform(-1.0, 1.0);
     }
-    ChainFrames frames;
-    chain.frames(q, frames);
+    ChainAxes axes;
+    chain.frames(q, axes);
     internal::ScaledJacobian J;
-    J.set(chain, frames, frames, 1.0 / kLength);
+    J.set(chain, axes, axes, 1.0 / kLength);
     const auto ahead = motion(chain, q, dq, h), back = motion(chain, q, dq, -h);
     EXPECT_LT(((ahead - back) / (2 * h) - numbers(J.times(dq))).norm(), 1e-5);
     EXPECT_LT(((ahead + back) / (2 * h * h) - numbers(J.curvature(dq))).norm(), 1e-5);

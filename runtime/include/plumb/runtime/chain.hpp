@@ -19,6 +19,17 @@ struct ChainFrames {
   Transformd tip;                            // X_BT
 };
 
+/// What the motions of the joints need of them: their axes and a point on each, x, y, z and a
+/// number that means nothing.
+struct ChainAxes {
+  struct Axis {
+    alignas(32) std::array<double, 4> along{0.0, 0.0, 1.0, 0.0};  // z of P_i
+    alignas(32) std::array<double, 4> through{};                  // its origin
+  };
+  std::array<Axis, kMaxJoints> joint;
+  Transformd tip;  // X_BT
+};
+
 /// A point of each frame P_i, and one of the tool frame as number n [m]: x, y, z and a 1, so that
 /// what is multiplied with a mass and summed is a first moment with its mass.
 struct ChainPoints {
@@ -50,7 +61,10 @@ class Chain {
   /// The same, with the frame behind every joint.
   void frames(std::span<const double> q, ChainFrames& out) const noexcept;
 
-  /// The same, and where the points fixed in the frames, `of_frames`, are in the base frame.
+  /// The same, of each joint its axis alone.
+  void frames(std::span<const double> q, ChainAxes& out) const noexcept;
+
+  /// Frames, and where the points fixed in the frames, `of_frames`, are in the base frame.
   void frames(std::span<const double> q, const ChainPoints& of_frames, ChainFrames& out,
               ChainPoints& points_B) const noexcept;
 
@@ -69,12 +83,14 @@ class Chain {
 
   static constexpr std::size_t kRoom = 12;  // joints, in whole registers
 
-  int joints_ = 0;
-  std::array<Link, kMaxJoints + 1> link_{};
-  std::array<bool, kMaxJoints> revolute_{};
+  alignas(32) std::array<std::array<double, 4>, 4> base_{};  // columns of C_0: no gathering
   std::array<double, kRoom> scale_{};
   std::array<double, kRoom> zero_{};
+  std::array<Link, kMaxJoints + 1> link_{};
   std::array<Transformd, kMaxJoints + 1> constant_{};
+  int joints_ = 0;
+  bool usual_ = false;  // all joints turn, and what is between them is plain
+  std::array<bool, kMaxJoints> revolute_{};
 };
 
 /// Column i: displacement [m] and rotation [rad] of the tip per unit of joint i, base frame.

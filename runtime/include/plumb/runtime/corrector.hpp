@@ -88,17 +88,17 @@ class Corrector {
   std::span<const Plan> steps() const noexcept;
   int joints() const noexcept { return nominal_.joints(); }
   void find_controllable(const format::Chain& nominal) noexcept;
-  Prediction place(std::span<const double> q, Stage stage, Arm& arm,
-                   Derivative& out) const noexcept;
+  Status place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
+               Derivative& out) const noexcept;
   void look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept;
-  void differentiate(const Chain& chain, const ChainFrames& moving, const ChainFrames& turning,
+  void differentiate(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,
                      Derivative& out) const noexcept;
   internal::TipMotion towards(const Transformd& X_BD, const Transformd& X_BT,
                               bool& turned_far) const noexcept;
-  internal::JointSteps solution(const Derivative& at, const internal::TipMotion& r,
-                                internal::TipMotion& left) const noexcept;
-  internal::JointSteps general_solution(const Derivative& at, const internal::TipMotion& r,
-                                        internal::TipMotion& left) const noexcept;
+  void solution(const Derivative& at, const internal::TipMotion& r, internal::JointSteps& dq,
+                internal::TipMotion& left) const noexcept;
+  void general_solution(const Derivative& at, const internal::TipMotion& r,
+                        internal::JointSteps& dq, internal::TipMotion& left) const noexcept;
   void step(const Derivative& at, const internal::TipMotion& r, Order order,
             Iterate& out) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;

@@ -101,7 +101,13 @@ class EffectSet {
   void stand_in(const format::ContextNeed& need, const Bound& bound, std::size_t& sensor) noexcept;
   void stand_in(std::size_t input, double value) noexcept;
   bool fill_in(Context& context) const noexcept;
-  static void show(const Bound& bound, Situation& at) noexcept;
+
+  /// The temperatures that are this effect's own, and none of the one before.
+  static void show(const Bound& bound, Situation& at) noexcept {
+    const auto sensor = static_cast<std::size_t>(bound.temperature);
+    at.temperature_degC = bound.temperature < 0 ? kUnknown : at.context.temperature_degC[sensor];
+    at.sensors = std::span(bound.sensors).first(bound.sensor_count);
+  }
 
   std::array<Bound, format::kMaxEffects> effects_;
   std::array<StandIn, kInputs> stand_ins_;

@@ -49,12 +49,17 @@ class ForwardModel {
                      ChainFrames& frames) const noexcept;
 
   /// The same in three parts: the first holds while the context does; the last costs no more than
-  /// the chain alone, and takes what the second said of this pose or of one near by.
+  /// the chain alone, and takes what the second said of this pose or of one near by. p_BT: where
+  /// the tool is; axes: of the chain as above, its orientation not yet `turned`. Refused: all zero,
+  /// the orientation the identity.
   void prepare(const Context& context, EffectSet::Scene& out) const noexcept;
   void find_deviation(std::span<const double> q, EffectSet::Scene& scene,
                       Deviation& out) const noexcept;
-  Prediction predict(std::span<const double> q, const Deviation& deviation,
-                     ChainFrames& frames) const noexcept;
+  Status locate(std::span<const double> q, const Deviation& deviation, ChainAxes& axes,
+                Vector3& p_BT) const noexcept;
+
+  /// What the effects make of the chain's orientation.
+  Matrix3 turned(const Matrix3& R_BT, const Deviation& deviation) const noexcept;
 
   /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
