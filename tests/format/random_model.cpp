@@ -24,7 +24,7 @@ class Random {
   Twist twist() { return {vector(0.01), vector(0.01)}; }
   Pose pose() {
     std::array<double, 4> q{uniform(0.1, 1.0), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-    const double norm = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+    const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     for (double& x : q) x /= norm;
     return {vector(3.0), q};
   }

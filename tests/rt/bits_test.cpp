@@ -2,11 +2,14 @@
 // The same bits with every compiler, optimisation and instruction set: one hash for all of them.
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "plumb/runtime/corrector.hpp"
 #include "plumb/runtime/elementary.hpp"
 #include "tests/bit_hash.hpp"
 #include "tests/random_numbers.hpp"
 #include "tests/rt/cycle_model.hpp"
+#include "tests/rt/laws/random_life.hpp"
 
 namespace plumb {
 namespace {
@@ -87,6 +90,70 @@ TEST(Bits, OfAnArmWithSixEffectsAndLargeTreesAreTheSameEverywhere) {
 TEST(Bits, OfAnArmWithBlendedTreesAreTheSameEverywhere) {
   const format::Model model = tests::blended_arm();
   expect_bits(Arm(model), 0x2fc68996e7e0e968U, 0x0eb8d5d037fbbe7cU);
+}
+
+/// All that is said of random arms of one to nine joints, of every law and kind of tree, a new one
+/// every 200 inputs, by turns for positions only and for poses.
+class ManyArms {
+ public:
+  void operator()(tests::BitHash& hash) {
+    if (count_ % kInputsPerArm == 0) renew();
+    const std::size_t n = model_->nominal.joints.size();
+    std::array<double, kMaxJoints> q{};
+    for (std::size_t i = 0; i < n; ++i) q[i] = random_.uniform(-3.2, 3.2);
+    const auto seed = std::span<const double>(q).first(n);
+    const Prediction prediction = corrector_->forward_model().predict(seed, context());
+    hash.add(prediction.X_BT);
+    for (int axis = 0; axis < 3; ++axis) hash.add(prediction.tree_B(axis));
+    hash.add(static_cast<double>(prediction.status));
+    if (count_++ % kCorrected != 0) return;
+    for (std::size_t i = 0; i < n; ++i) q[i] += random_.uniform(-0.01, 0.01);
+    add(corrector_->solve(prediction.X_BT, seed, SeedKind::kCommanded, context()), hash);
+  }
+
+  long solved() const { return solved_; }
+
+ private:
+  static constexpr int kInputsPerArm = 200;
+
+  void renew() {
+    const auto number = static_cast<std::uint64_t>(count_ / kInputsPerArm);
+    format::Model model = tests::random_arm_model(kSeed + number);
+    model.guard.corrects = number % 2 == 0 ? format::Corrects::kPosition : format::Corrects::kPose;
+    model_ = std::make_unique<format::Model>(std::move(model));
+    corrector_ = std::make_unique<Corrector>(*model_);
+  }
+
+  Context context() {
+    Context out;
+    for (double& x : out.direction) x = random_.below(3) - 1.0;
+    for (double& x : out.travel) x = random_.uniform(0.0, 1.0);
+    for (double& x : out.temperature_degC) x = random_.uniform(10.0, 40.0);
+    out.payload_kg = random_.uniform(0.0, 10.0);
+    out.time_s = random_.uniform(0.0, 1e4);
+    return out;
+  }
+
+  void add(const Correction& correction, tests::BitHash& hash) {
+    hash.add(correction.X_BC);
+    for (const double q : correction.q) hash.add(q);
+    hash.add(correction.residual_m);
+    hash.add(correction.residual_rad);
+    hash.add(static_cast<double>(correction.status));
+    solved_ += refused(correction.status) ? 0 : 1;
+  }
+
+  tests::Random random_{kSeed};
+  std::unique_ptr<const format::Model> model_;
+  std::unique_ptr<const Corrector> corrector_;
+  int count_ = 0;
+  long solved_ = 0;
+};
+
+TEST(Bits, OfArmsOfEveryKindAreTheSameEverywhere) {
+  ManyArms arms;
+  expect_bits([&](tests::BitHash& hash) { arms(hash); }, 0x4f74016223d7de7aU, 0x0fa7e213be73d538U);
+  EXPECT_GT(arms.solved(), 1000);
 }
 
 TEST(Bits, OfBlendedTreesAloneAreTheSameEverywhere) {
