@@ -151,7 +151,7 @@ SessionFacts Session::facts(const SessionTick& tick) const noexcept {
           .synced = sync_.agreed(),
           .permitted = permitted_s_ >= settings_.rearm_s,
           .lost = lost_ != Lost::kNothing,
-          .at_zero = share_.at_zero(),
+          .at_zero = at_zero(),
           .acknowledged = acknowledged_,
           .stopping = tick.run == SessionTick::Run::kStop,
           .mode = settings_.mode};
@@ -177,8 +177,13 @@ void Session::enter(SessionState state) noexcept {
   state_ = state;
 }
 
+bool Session::at_zero() const noexcept {
+  const bool asked = inbox_.within(MessageKind::kTarget, settings_.cycle.target_limit_s);
+  return share_.at_zero() && !(asked && owes_zero_);
+}
+
 bool Session::answering() const noexcept {
-  if (state_ == SessionState::kFault) return !share_.at_zero();
+  if (state_ == SessionState::kFault) return !at_zero();
   return state_ == SessionState::kActive || state_ == SessionState::kHold;
 }
 
@@ -191,6 +196,7 @@ GuardOutput Session::correct(std::int64_t now_ns, double dt_s) noexcept {
     X_BC_ = share_.step(X_BD_, guarded.X_BC, settings_.mode, limits, std::min(dt_s, most_s));
   } else {
     share_.reset();
+    owes_zero_ = false;
   }
   has_output_ = guarded.has_output;
   return guarded;
@@ -203,6 +209,7 @@ void Session::answer(SessionOutput& out) noexcept {
                               : pose_message(MessageKind::kCorrected, X_BC_, target_.counter);
   if (!is_finite(said)) return;
   ++report_.counters.answered;
+  owes_zero_ = !share_.at_zero();
   out.messages[out.size++] = said;
 }
 

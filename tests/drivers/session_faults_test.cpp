@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <functional>
 #include <limits>
 
 #include "tests/drivers/session_rig.hpp"
@@ -166,6 +167,52 @@ TEST(SessionFaults, ATargetThatJumpsIsNotAnsweredAndHolds) {
   EXPECT_FALSE(SessionRig::answer_in(rig.cycle()).has_value());
   EXPECT_EQ(rig.session->report().counters.too_fast, 1U);
   EXPECT_TRUE(rig.run_to(kActive));
+}
+
+/// A session at work, whose controller then asks in one cycle of `every` only, until it is quiet.
+void expect_end_without_correction(int every, const std::function<void(SessionRig&)>& cause) {
+  SCOPED_TRACE(every);
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  ASSERT_GT(rig.last_correction.norm(), 1e-4);
+  const auto run = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      cause(rig);
+      auto messages = rig.controller_says();
+      if (i % every != 0) messages.pop_back();  // the target
+      rig.cycle(messages);
+    }
+  };
+  run(500);
+  EXPECT_LE(rig.last_correction.norm(), 1e-9) << "less than a count of any layout";
+  EXPECT_TRUE(rig.session->at_rest());
+  const long before = rig.answers;
+  run(100);
+  EXPECT_EQ(rig.answers, before);
+}
+
+TEST(SessionFaults, TheLastAnswerHasNoCorrectionHoweverSeldomTargetsCome) {
+  for (const int every : {1, 2, 5, 7}) {
+    expect_end_without_correction(every, [](SessionRig& rig) { ++rig.tick.foreign_senders; });
+    expect_end_without_correction(every,
+                                  [](SessionRig& rig) { rig.tick.run = SessionTick::Run::kStop; });
+    expect_end_without_correction(
+        every, [](SessionRig& rig) { rig.session->set_mode(CorrectionMode::kShadow); });
+  }
+}
+
+TEST(SessionFaults, AControllerThatAsksNoMoreDoesNotKeepASessionFromItsRest) {
+  SessionRig rig(full());
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  rig.tick.run = SessionTick::Run::kStop;
+  for (int i = 0; i < 500; ++i) {
+    auto messages = rig.controller_says();
+    messages.pop_back();
+    rig.cycle(messages);
+  }
+  EXPECT_TRUE(rig.session->at_rest());
 }
 
 TEST(SessionFaults, NumbersThatAreNoneAreNotAnswered) {

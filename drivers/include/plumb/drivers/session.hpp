@@ -93,11 +93,11 @@ struct SessionReport {
 ///     messages --> order, limits --> Cycle: solve, guard --> share of the mode --> answer
 ///                  pose check, inputs --> state ------------^
 ///
-/// Answers: in ACTIVE and HOLD, and in FAULT until the correction is at zero, each accepted target
-/// that is new in the cycle (the newest, if several came) is answered once, under its counter: with
-/// the corrected pose or the offset. A target that is too old, no pose, or beyond its limits is not
-/// answered; neither is anything before the guard has an output. Status and signature go out at
-/// their periods in every state; the counter of the status is plumb-rt's heart-beat.
+/// Answers: in ACTIVE and HOLD, and in FAULT until one went out without a correction, each accepted
+/// target that is new in the cycle (the newest, if several came) is answered once, under its
+/// counter: with the corrected pose or the offset. A target that is too old, no pose, or beyond its
+/// limits is not answered; neither is anything before the guard has an output. Status and signature
+/// go out at their periods in every state; the counter of the status is plumb-rt's heart-beat.
 ///
 /// Corrections only begin, end and change by the guard's ramps and slew limits.
 ///
@@ -115,7 +115,7 @@ class Session {
   void set_mode(CorrectionMode mode) noexcept { settings_.mode = mode; }
 
   /// Nothing of a correction is on the target, or nobody is told of any.
-  bool at_rest() const noexcept { return !answering() || share_.at_zero(); }
+  bool at_rest() const noexcept { return !answering() || at_zero(); }
 
   SessionState state() const noexcept { return state_; }
   const SessionReport& report() const noexcept { return report_; }
@@ -132,6 +132,7 @@ class Session {
   void change_state(const SessionTick& tick) noexcept;
   GuardOutput correct(std::int64_t now_ns, double dt_s) noexcept;
   void enter(SessionState state) noexcept;
+  bool at_zero() const noexcept;
   bool answering() const noexcept;
   void answer(SessionOutput& out) noexcept;
   void tell(const SessionTick& tick, double ageing_s, SessionOutput& out) noexcept;
@@ -153,6 +154,7 @@ class Session {
   bool acknowledged_ = false;       // in this cycle
   bool acknowledge_was_on_ = true;  // until seen off
   bool has_output_ = false;         // of the guard
+  bool owes_zero_ = false;          // the last answer had a correction in it
   double permitted_s_ = 0.0;        // for how long the inputs have been good
   double foreign_age_s_ = std::numeric_limits<double>::infinity();  // since another sender was seen
   std::uint64_t foreign_senders_ = 0;
