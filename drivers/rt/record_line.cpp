@@ -83,23 +83,23 @@ std::optional<RecordLine> parse_line(std::string_view text) {
   return read_frame(text, out.frame) ? std::optional(out) : std::nullopt;
 }
 
-CanFrame tick_frame(const SessionTick& tick) {
-  CanFrame out{.length = 8, .time_ns = tick.now_ns};
-  out.data[0] = tick.run == SessionTick::Run::kStop ? kStopFlag : 0;
+CanFrame tick_frame(const RecordedTick& tick) {
+  CanFrame out{.length = 8, .time_ns = tick.told.now_ns};
+  out.data[0] = tick.told.run == SessionTick::Run::kStop ? kStopFlag : 0;
   for (unsigned i = 0; i < 3; ++i)
     out.data[1 + i] = static_cast<std::uint8_t>(tick.model >> (8 * i));
   for (unsigned i = 0; i < 4; ++i)
-    out.data[4 + i] = static_cast<std::uint8_t>(tick.foreign_senders >> (8 * i));
+    out.data[4 + i] = static_cast<std::uint8_t>(tick.told.foreign_senders >> (8 * i));
   return out;
 }
 
-SessionTick tick_in(const CanFrame& frame) {
-  SessionTick out{.now_ns = frame.time_ns};
+RecordedTick tick_in(const CanFrame& frame) {
+  RecordedTick out{.told = {.now_ns = frame.time_ns}};
   for (unsigned i = 0; i < 3; ++i)
     out.model |= static_cast<std::uint32_t>(frame.data[1 + i]) << (8 * i);
   for (unsigned i = 0; i < 4; ++i)
-    out.foreign_senders |= static_cast<std::uint64_t>(frame.data[4 + i]) << (8 * i);
-  if (frame.data[0] == kStopFlag) out.run = SessionTick::Run::kStop;
+    out.told.foreign_senders |= static_cast<std::uint64_t>(frame.data[4 + i]) << (8 * i);
+  if (frame.data[0] == kStopFlag) out.told.run = SessionTick::Run::kStop;
   return out;
 }
 

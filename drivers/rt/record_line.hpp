@@ -25,8 +25,12 @@ inline constexpr char kGapName[] = "gap";        // the record could not keep up
 std::string to_line(const RecordLine& line);
 std::optional<RecordLine> parse_line(std::string_view text);
 
-/// What the session was told, in the eight bytes of a frame.
-CanFrame tick_frame(const SessionTick& tick);
-SessionTick tick_in(const CanFrame& frame);
+/// What the session was told and the model it went by, in the eight bytes of a frame.
+struct RecordedTick {
+  SessionTick told;
+  std::uint32_t model = 0;  // 24 bits of its number, as a fingerprint has
+};
+CanFrame tick_frame(const RecordedTick& tick);
+RecordedTick tick_in(const CanFrame& frame);
 
 }  // namespace plumb::drivers::rt

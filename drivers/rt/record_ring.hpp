@@ -12,8 +12,9 @@ namespace plumb::drivers::rt {
 /// One thing that happened on the cycle's thread.
 struct RecordEntry {
   enum class What : std::uint8_t { kReceived, kSent, kNotSent, kTick } what = What::kTick;
-  SessionTick tick;    // of kTick: what the session was told, after the messages of the cycle
-  BusMessage message;  // of the others
+  SessionTick tick;         // of kTick: what the session was told, after the messages of the cycle
+  std::uint32_t model = 0;  // of kTick: number of the model it went by
+  BusMessage message;       // of the others
 };
 
 /// What the cycle did, for a thread that writes it down. A full ring drops what is new, and says

@@ -64,7 +64,7 @@ void RecordWriter::add_line(const std::string& interface, const CanFrame& frame)
 void RecordWriter::add(const RecordEntry& entry) {
   using What = RecordEntry::What;
   if (!failure_.empty()) return;
-  if (entry.what == What::kTick) return add_line(kTickName, tick_frame(entry.tick));
+  if (entry.what == What::kTick) return add_line(kTickName, tick_frame({entry.tick, entry.model}));
   for (CanFrame frame : codec_.encode(entry.message)) {
     frame.time_ns = entry.message.time_ns;
     add_line(entry.what == What::kNotSent ? kUnsentName : bus_, frame);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <fstream>
 #include <memory>
@@ -22,11 +23,30 @@ std::string said(const CanFrame& frame) {
   return line.substr(line.rfind(' ') + 1);
 }
 
+using Models = std::vector<const LoadedModel*>;
+
+const LoadedModel* find(const Models& models, std::uint32_t number) {
+  const auto found = std::find_if(models.begin(), models.end(),
+                                  [&](const auto* model) { return model->number() == number; });
+  return found == models.end() ? nullptr : *found;
+}
+
+/// What the record began with, if it is known.
+const LoadedModel& first_of(const Models& models, const std::filesystem::path& record) {
+  std::ifstream in(record);
+  for (std::string text; std::getline(in, text);)
+    if (const auto line = parse_line(text); line && line->interface == kTickName) {
+      const LoadedModel* const found = find(models, tick_in(line->frame).model);
+      return found != nullptr ? *found : *models.front();
+    }
+  return *models.front();
+}
+
 class Player {
  public:
-  explicit Player(const Deployment& deployment)
-      : model_(deployment.model.fingerprint),
-        slot_(*deployment.model.loaded),
+  Player(const Deployment& deployment, Models models, const LoadedModel& first)
+      : models_(std::move(models)),
+        slot_(first),
         session_(std::make_unique<Session>(slot_, deployment.session)),
         heard_(record_layout(deployment)),
         sent_(record_layout(deployment)),
@@ -48,7 +68,7 @@ class Player {
     }
   }
 
-  bool goes_on() const { return !out_.model_changed; }
+  bool goes_on() const { return !out_.unknown_model; }
 
   /// A record may end anywhere (limit, disk, power): what its last cycle lacks was cut off.
   Replayed result() && {
@@ -73,12 +93,23 @@ class Player {
     session_->hear(message);
   }
 
-  void step(const SessionTick& tick) {
+  /// False: the record goes on with a model that is not known, or of another robot.
+  bool has_model(std::uint32_t number) {
+    if (number == session_->model()) return true;
+    const LoadedModel* const next = find(models_, number);
+    if (next == nullptr || slot_.publish(*next) != ModelSlot::Published::kDone) {
+      out_.unknown_model = number;
+      return false;
+    }
+    ++out_.swaps;
+    return true;
+  }
+
+  void step(const RecordedTick& tick) {
     flush();
-    out_.model_changed = tick.model != model_;
-    if (out_.model_changed) return;
+    if (!has_model(tick.model)) return;
     ++out_.cycles;
-    const SessionOutput output = session_->step(tick);
+    const SessionOutput output = session_->step(tick.told);
     for (const BusMessage& message : output.sent())
       for (const CanFrame& frame : sent_.encode(message)) expected_.push_back(said(frame));
     out_.frames += expected_.size();
@@ -102,7 +133,7 @@ class Player {
           fmt::format("line {}: recorded {}, now {}", out_.lines, recorded, now);
   }
 
-  std::uint32_t model_;
+  Models models_;
   ModelSlot slot_;
   std::unique_ptr<Session> session_;
   CanCodec heard_;
@@ -114,12 +145,15 @@ class Player {
 
 }  // namespace
 
-Replayed replay(const std::filesystem::path& record, const Deployment& deployment) {
-  Player player(deployment);
+Replayed replay(const std::filesystem::path& record, const Deployment& deployment,
+                const std::vector<RunningModel>& others) {
+  Models models{deployment.model.loaded.get()};
+  for (const RunningModel& other : others) models.push_back(other.loaded.get());
+  Player player(deployment, models, first_of(models, record));
   std::ifstream in(record);
   for (std::string line; player.goes_on() && std::getline(in, line);) player.take(line);
   Replayed out = std::move(player).result();
-  if (out.cycles > 0 || out.model_changed) return out;
+  if (out.cycles > 0 || out.unknown_model) return out;
   throw Failure(Exit::kInput,
                 {.code = "E-RT-REPLAY",
                  .message = fmt::format("{} holds no cycle of plumb-rt", display_name(record)),

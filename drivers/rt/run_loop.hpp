@@ -59,7 +59,7 @@ class RunLoop {
     snapshot_.clock = clock_.counters();
     snapshot_.wake = clock_.latency();
     snapshot_.work = work_;
-    snapshot_.model = shared_.model.load(std::memory_order_relaxed);
+    snapshot_.model = session_.model();
     shared_.snapshots.put(snapshot_);
   }
 
@@ -85,11 +85,11 @@ class RunLoop {
     const SessionTick tick{
         .now_ns = whole_us(now_ns),
         .foreign_senders = port_.counters().foreign_senders,
-        .model = shared_.model.load(std::memory_order_relaxed),
         .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn};
     const SessionOutput out = session_.step(tick);
     stopping_ = tick.run == Run::kStop;
-    shared_.record.put({.what = What::kTick, .tick = tick, .message = {}});
+    shared_.record.put(
+        {.what = What::kTick, .tick = tick, .model = session_.model(), .message = {}});
     for (BusMessage message : out.sent()) {
       message.time_ns = tick.now_ns;
       write_down(send(message) ? What::kSent : What::kNotSent, message);
@@ -101,7 +101,7 @@ class RunLoop {
   }
 
   void write_down(What what, const BusMessage& message) noexcept {
-    shared_.record.put({.what = what, .tick = {}, .message = message});
+    shared_.record.put({.what = what, .tick = {}, .model = 0, .message = message});
   }
 
   Next next(const Tick& tick) noexcept {

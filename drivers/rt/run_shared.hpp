@@ -27,7 +27,6 @@ struct RunSnapshot {
 struct RunShared {
   Mailbox<RunSnapshot> snapshots;
   RecordRing record;
-  std::atomic<std::uint32_t> model{0};  // fingerprint of what is published
   std::atomic<bool> stop{false};        // ramp out and end
   std::atomic<std::uint64_t> beats{0};  // cycles done: the watchdog looks whether it goes on
 };

@@ -20,10 +20,11 @@ namespace {
                                .help = "plumb inspect " + shell_word(display_name(file))});
 }
 
-std::unique_ptr<const LoadedModel> make(const std::filesystem::path& file, std::string_view bytes) {
+std::unique_ptr<const LoadedModel> make(const std::filesystem::path& file, std::string_view bytes,
+                                        const std::string& sum) {
   auto read = format::read_model(std::as_bytes(std::span(bytes)));
   if (const auto* error = std::get_if<format::ReadError>(&read)) refuse(file, error->detail);
-  auto loaded = LoadedModel::make(std::get<format::Model>(std::move(read)));
+  auto loaded = LoadedModel::make(std::get<format::Model>(std::move(read)), fingerprint(sum));
   if (loaded == nullptr) refuse(file, "needs an effect that this version does not have");
   return loaded;
 }
@@ -45,9 +46,8 @@ void check_sum(const std::filesystem::path& folder, const std::string& line) {
 
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial) {
   const std::string bytes = read_file(file);
-  RunningModel out{.loaded = make(file, bytes),
-                   .fingerprint = plumb::drivers::fingerprint(bytes),
-                   .sha256 = sha256(bytes)};
+  const std::string sum = sha256(bytes);
+  RunningModel out{.loaded = make(file, bytes, sum), .sha256 = sum};
   const std::string& own = out.loaded->model().serial;
   if (serial.empty() || serial == own) return out;
   throw Failure(Exit::kInput, {.code = "E-RT-SERIAL",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,10 +9,9 @@
 
 namespace plumb::drivers::rt {
 
-/// A model that may run, and the fingerprint of its file.
+/// A model that may run; its number is the fingerprint of its file.
 struct RunningModel {
   std::unique_ptr<const LoadedModel> loaded;
-  std::uint32_t fingerprint = 0;
   std::string sha256;
 };
 

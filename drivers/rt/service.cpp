@@ -172,7 +172,6 @@ std::string Service::swap(const std::string& file) {
   if (published != ModelSlot::Published::kDone)
     return refusal("E-RT-SWAP",
                    to_string(find_binding_fault(running.model(), next.loaded->model())));
-  shared_.model = next.fingerprint;
   std::swap(deployment_.model, next);
   const std::int64_t end_ns = MonotonicTime::now_ns() + kSwap_ns;
   while (!slot_.settled() && MonotonicTime::now_ns() < end_ns)
@@ -184,7 +183,7 @@ std::string Service::swap(const std::string& file) {
                 {"result",
                  {{"file", file},
                   {"sha256", facts_.model_sha256},
-                  {"fingerprint", deployment_.model.fingerprint}}}});
+                  {"fingerprint", deployment_.model.loaded->number()}}}});
 }
 
 std::string Service::page(const std::string& request) {

@@ -14,6 +14,7 @@ namespace {
 struct ReplayOptions {
   std::string file;
   std::string dir = ".";
+  std::vector<std::string> models;
 };
 
 Json to_json(const Replayed& replayed) {
@@ -26,13 +27,15 @@ Json to_json(const Replayed& replayed) {
           {"frames", replayed.frames},
           {"different", replayed.different},
           {"first_difference", replayed.first_difference},
-          {"model_changed", replayed.model_changed},
+          {"swaps", replayed.swaps},
+          {"unknown_model", replayed.unknown_model ? Json(*replayed.unknown_model) : Json()},
           {"state", to_string(replayed.report.state)},
           {"answered", replayed.report.counters.answered}};
 }
 
 std::string why(const Replayed& replayed) {
-  if (replayed.model_changed) return "it goes on with a model that the folder does not hold";
+  if (replayed.unknown_model)
+    return fmt::format("it goes on with model {}, which was not given", *replayed.unknown_model);
   if (replayed.gaps > 0) return fmt::format("{} gaps in the record", replayed.gaps);
   if (replayed.unreadable > 0) return fmt::format("{} lines are no record", replayed.unreadable);
   return replayed.first_difference;
@@ -40,7 +43,11 @@ std::string why(const Replayed& replayed) {
 
 void play(const ReplayOptions& options, Outcome& outcome) {
   std::ignore = read_file(options.file);  // its own words, if it is not there
-  const Replayed replayed = replay(options.file, load_deployment(options.dir));
+  const Deployment deployment = load_deployment(options.dir);
+  std::vector<RunningModel> others;
+  for (const auto& file : options.models)
+    others.push_back(load_model(file, deployment.model.loaded->model().serial));
+  const Replayed replayed = replay(options.file, deployment, others);
   outcome.result = to_json(replayed);
   outcome.text =
       fmt::format("{}: {} cycles, {} messages, {} frames said, {} of them otherwise\n",
@@ -50,7 +57,8 @@ void play(const ReplayOptions& options, Outcome& outcome) {
   outcome.exit = Exit::kGateFailed;
   outcome.errors = {{.code = "E-RT-REPLAY-DIFFERS",
                      .message = why(replayed),
-                     .help = "replay with the model and rt.toml of the record"}};
+                     .help = replayed.unknown_model ? "plumb-rt replay ... --model FILE"
+                                                    : "replay with the rt.toml of the record"}};
 }
 
 }  // namespace
@@ -60,11 +68,14 @@ void add_replay(Program& program) {
   CLI::App& verb = program.verb(
       {.name = "replay",
        .summary = "A record through the same session, offline: does it decide the same?",
-       .examples = "  plumb-rt replay record.log --dir /etc/plumb/cell4\n"
-                   "  plumb-rt replay record.log --dir deployed --json"},
+       .examples =
+           "  plumb-rt replay record.log --dir /etc/plumb/cell4\n"
+           "  plumb-rt replay record.log --dir deployed --model better.plumb  # swapped to"},
       [options](const Globals&, Outcome& outcome) { play(*options, outcome); });
   verb.add_option("FILE", options->file, "The record: [log] record in rt.toml")->required();
   verb.add_option("--dir", options->dir, "The folder that ran")->capture_default_str();
+  verb.add_option("--model", options->models,
+                  "A model that was swapped to, or that the run began with; repeatable");
 }
 
 }  // namespace plumb::drivers::rt

@@ -112,7 +112,6 @@ void run(const RunOptions& options, Outcome& outcome) {
   need_rights(deployment.config, outcome);
   note_sensors(deployment, outcome);
   static RunShared shared;  // the signal's handler keeps its address
-  shared.model = deployment.model.fingerprint;
   const auto bus = open_bus(deployment);
   ModelSlot slot(*deployment.model.loaded);
   Service service(deployment, *bus, slot, shared);

@@ -213,7 +213,7 @@ void Session::answer(SessionOutput& out) noexcept {
   out.messages[out.size++] = said;
 }
 
-void Session::tell(const SessionTick& tick, double ageing_s, SessionOutput& out) noexcept {
+void Session::tell(double ageing_s, SessionOutput& out) noexcept {
   if (is_due(status_due_s_, ageing_s, settings_.status_s))
     out.messages[out.size++] =
         status_message({.state = state_,
@@ -225,7 +225,7 @@ void Session::tell(const SessionTick& tick, double ageing_s, SessionOutput& out)
                         .stale = static_cast<std::uint16_t>(report_.guard.stale)},
                        ++counter_);
   if (is_due(signature_due_s_, ageing_s, settings_.signature_s))
-    out.messages[out.size++] = signature_message(tick.model, settings_.robot, ++signature_counter_);
+    out.messages[out.size++] = signature_message(model(), settings_.robot, ++signature_counter_);
 }
 
 void Session::fill_report(const GuardOutput& guarded) noexcept {
@@ -257,7 +257,7 @@ SessionOutput Session::step(const SessionTick& tick) noexcept {
   fill_report(correct(tick.now_ns, time.dt_s));
   SessionOutput out;
   answer(out);
-  tell(tick, time.ageing_s, out);
+  tell(time.ageing_s, out);
   inbox_.close();
   target_came_ = target_misbehaved_ = acknowledged_ = false;
   return out;

@@ -77,7 +77,7 @@ void put_result(const Options& options, const Cell& cell, const drivers::BusLayo
   outcome.result["files"] = names;
   outcome.result["dry_run"] = options.write.dry_run;
   outcome.result["robot_number"] = drivers::fingerprint(cell.serial);
-  outcome.result["model_number"] = drivers::fingerprint(model);
+  outcome.result["model_number"] = drivers::fingerprint(sha256(model));
   put(outcome.result, "worst_bus_load_pct", 100.0 * drivers::worst_bus_load(layout));
 }
 

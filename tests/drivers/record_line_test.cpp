@@ -41,17 +41,17 @@ TEST(RecordLine, WhatIsNoneIsRefused) {
 }
 
 TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
-  const SessionTick tick{.now_ns = 123'456'789'000,
-                         .foreign_senders = 0x01020304,
-                         .model = 0x7FABCD,
-                         .run = SessionTick::Run::kStop};
+  const RecordedTick tick{.told = {.now_ns = 123'456'789'000,
+                                   .foreign_senders = 0x01020304,
+                                   .run = SessionTick::Run::kStop},
+                          .model = 0x7FABCD};
   const auto line = parse_line(to_line({kTickName, tick_frame(tick)}));
   ASSERT_TRUE(line.has_value());
-  const SessionTick read = tick_in(line->frame);
-  EXPECT_EQ(read.now_ns, tick.now_ns);
-  EXPECT_EQ(read.foreign_senders, tick.foreign_senders);
+  const RecordedTick read = tick_in(line->frame);
+  EXPECT_EQ(read.told.now_ns, tick.told.now_ns);
+  EXPECT_EQ(read.told.foreign_senders, tick.told.foreign_senders);
   EXPECT_EQ(read.model, tick.model);
-  EXPECT_EQ(read.run, tick.run);
+  EXPECT_EQ(read.told.run, tick.told.run);
 }
 
 TEST(SyncCheck, ComparesAPoseWithTheJointsOfItsCounterOnly) {

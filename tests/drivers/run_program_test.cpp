@@ -150,6 +150,39 @@ TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
   EXPECT_EQ(run.wait().exit, 0);
 }
 
+TEST(Run, ARecordWithSwapsReplaysWithTheModelsThatItWentBy) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
+  write_long_targets(folder);
+  format::Model better = Deployed::arm();
+  for (auto& joint : better.calibrated.joints) joint.a -= 2e-4;
+  folder.write_model("better.plumb", better);
+  folder.write_model("first.plumb", Deployed::arm());
+  const auto file = [&](const char* name) { return (folder.folder / name).string(); };
+  const auto ask = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--dir", folder.folder.string(), "--json"});
+    return plumb_rt(words, folder.folder);
+  };
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  for (const char* const next : {"better.plumb", "first.plumb", "better.plumb"})
+    EXPECT_EQ(ask({"swap", file(next)}).exit, 0);
+  run.kill(SIGTERM);
+  ASSERT_EQ(run.wait().exit, 0);
+
+  const RtRan alone = ask({"replay", file("record.log")});
+  EXPECT_EQ(alone.exit, 1);
+  EXPECT_NE(alone.err.find("it goes on with model"), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("--model FILE"), std::string::npos) << alone.err;
+  const RtRan with = ask({"replay", file("record.log"), "--model", file("better.plumb")});
+  EXPECT_EQ(with.exit, 0) << with.err;
+  EXPECT_EQ(with.json()["result"]["swaps"], 3);
+  EXPECT_GT(with.json()["result"]["cycles"], alone.json()["result"]["cycles"]);
+  folder.write_model("robot.plumb", better);  // as one leaves it who was content with the swap
+  const RtRan later = ask({"replay", file("record.log"), "--model", file("first.plumb")});
+  EXPECT_EQ(later.exit, 0) << later.err;
+  EXPECT_EQ(later.json()["result"]["swaps"], 3);
+}
+
 TEST(Run, AFullDiskEndsTheRecordAndNotTheRun) {
   const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
   const RtRan ran = tests::RtProgram({"run", folder.folder.string(), "--json"}, folder.folder, [] {

@@ -85,7 +85,7 @@ class Running {
   RtRan swap(const std::string& file) const {
     return plumb_rt({"swap", (folder_ / file).string(), "--dir", folder_.string()}, folder_);
   }
-  bool published() const { return !slot_.settled() || shared_->model != 0U; }
+  bool published() const { return !slot_.settled(); }
 
  private:
   std::filesystem::path folder_;
@@ -111,6 +111,17 @@ TEST(RunReach, AModelThatTheBusCutsOffIsRefusedInASwap) {
     folder.write_model("next.plumb", model);
     expect_refused(running, "next.plumb", "reaches");
   }
+}
+
+TEST(RunningModel, OfAnotherFileHasAnotherNumber) {
+  const Deployed folder;
+  folder.write_model("other.plumb", with_large_corrections());
+  const auto number = [&](const char* name) {
+    return rt::load_model(folder.folder / name, "").loaded->number();
+  };
+  EXPECT_NE(number("robot.plumb"), number("other.plumb"));
+  EXPECT_EQ(number("robot.plumb"), number("robot.plumb"));
+  EXPECT_LT(number("robot.plumb"), 1U << 23);
 }
 
 format::Model with_sensors(const std::vector<std::string>& names) {

@@ -24,8 +24,9 @@ inline ControllerState ready() {
       .drives_on = true, .automatic = true, .protective_stop = false, .correction_enabled = true};
 }
 
+constexpr std::uint32_t kModel = 99;
 inline std::unique_ptr<const LoadedModel> loaded(format::Model model = one_arm()) {
-  return LoadedModel::make(std::move(model));
+  return LoadedModel::make(std::move(model), kModel);
 }
 
 /// A controller, a session and the bus between them, in time that passes as the test says. The arm
@@ -101,7 +102,7 @@ class SessionRig {
   std::unique_ptr<const LoadedModel> model;
   ModelSlot slot;
   std::unique_ptr<Session> session;
-  SessionTick tick{.model = 99};
+  SessionTick tick;
   ControllerState state = ready();
   std::uint32_t robot = kRobot;
   std::vector<double> rest{0.3, -1.0, 1.2, -0.4, 1.1, 0.2};

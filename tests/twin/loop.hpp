@@ -73,7 +73,7 @@ class Loop {
     controller_.cycle(now_ns_, &port_);
     if (now_s() >= side_.dies_s && now_s() < side_.back_s) return died();
     hear();
-    speak(session_.step({.now_ns = now_ns_, .foreign_senders = 0, .model = 1}));
+    speak(session_.step({.now_ns = now_ns_, .foreign_senders = 0}));
   }
 
  private:

@@ -41,8 +41,7 @@ struct SessionSettings {
 /// What a cycle is told besides its messages.
 struct SessionTick {
   std::int64_t now_ns = 0;
-  std::uint64_t foreign_senders = 0;  // of the port's counters
-  std::uint32_t model = 0;            // fingerprint of the model file that is published
+  std::uint64_t foreign_senders = 0;                                // of the port's counters
   enum class Run : std::uint8_t { kGoOn, kStop } run = Run::kGoOn;  // kStop: ramp out and stay so
 };
 
@@ -118,6 +117,10 @@ class Session {
   bool at_rest() const noexcept { return !answering() || at_zero(); }
 
   SessionState state() const noexcept { return state_; }
+
+  /// Number of the model that the last step went by: the fingerprint of its file.
+  std::uint32_t model() const noexcept { return cycle_.model().number(); }
+
   const SessionReport& report() const noexcept { return report_; }
 
  private:
@@ -135,7 +138,7 @@ class Session {
   bool at_zero() const noexcept;
   bool answering() const noexcept;
   void answer(SessionOutput& out) noexcept;
-  void tell(const SessionTick& tick, double ageing_s, SessionOutput& out) noexcept;
+  void tell(double ageing_s, SessionOutput& out) noexcept;
   void fill_report(const GuardOutput& guarded) noexcept;
 
   SessionSettings settings_;

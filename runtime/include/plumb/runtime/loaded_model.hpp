@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -16,10 +17,11 @@ namespace plumb {
 /// Load phase: `make` and the destructor use the heap, on any thread that may. Cycle: the rest.
 class LoadedModel {
  public:
-  /// Null if find_effect_fault(model) finds something. The model comes from read_model.
-  static std::unique_ptr<const LoadedModel> make(format::Model model) {
+  /// Null if find_effect_fault(model) finds something. The model comes from read_model. `number`:
+  /// what the caller knows it by.
+  static std::unique_ptr<const LoadedModel> make(format::Model model, std::uint32_t number = 0) {
     if (find_effect_fault(model).kind != EffectFault::Kind::kNone) return nullptr;
-    return std::unique_ptr<const LoadedModel>(new LoadedModel(std::move(model)));
+    return std::unique_ptr<const LoadedModel>(new LoadedModel(std::move(model), number));
   }
 
   LoadedModel(const LoadedModel&) = delete;
@@ -28,12 +30,15 @@ class LoadedModel {
   const format::Model& model() const noexcept { return model_; }
   const Corrector& corrector() const noexcept { return corrector_; }
   const format::GuardLimits& limits() const noexcept { return corrector_.limits(); }
+  std::uint32_t number() const noexcept { return number_; }
 
  private:
-  explicit LoadedModel(format::Model model) : model_(std::move(model)), corrector_(model_) {}
+  LoadedModel(format::Model model, std::uint32_t number)
+      : model_(std::move(model)), corrector_(model_), number_(number) {}
 
   format::Model model_;
   Corrector corrector_;
+  std::uint32_t number_;
 };
 
 }  // namespace plumb
