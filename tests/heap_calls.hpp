@@ -4,6 +4,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#if __has_include(<mm_malloc.h>)
+#include <mm_malloc.h>  // of clang: it declares posix_memalign, and must come before ours
+#endif
 
 /// Every call of the C library's heap, by any thread of the program; operator new stands on it. In
 /// one source file a program only, and not where a sanitizer has a heap of its own.

@@ -14,8 +14,8 @@ namespace plumb::drivers {
 /// ask for, and hands on what is sound. One thread.
 class ModbusReader {
  public:
-  ModbusReader(const BusLayout& layout, ModbusCodec& codec,
-               const ModbusClientSettings& settings, ModbusTalk& talk, ModbusExchange& exchange);
+  ModbusReader(const BusLayout& layout, ModbusCodec& codec, const ModbusClientSettings& settings,
+               ModbusTalk& talk, ModbusExchange& exchange);
 
   /// From one round to the next.
   std::int64_t wake_ns() const noexcept { return wake_ns_; }

@@ -72,8 +72,8 @@ BusMessage status_message(const SessionStatus& status, std::uint16_t counter);
 SessionStatus status_in(const BusMessage& message);
 
 /// 1 to 2^23 - 1, exact in every number the bus has: stands for a robot's serial number and, taken
-/// of its SHA-256 in hexadecimal, for a model file. Not of the file itself: that ends in a check sum
-/// of the same polynomial, which makes all files alike.
+/// of its SHA-256 in hexadecimal, for a model file. Not of the file itself: that ends in a check
+/// sum of the same polynomial, which makes all files alike.
 std::uint32_t fingerprint(std::string_view text);
 BusMessage robot_message(std::uint32_t fingerprint, std::uint16_t counter);
 BusMessage signature_message(std::uint32_t model, std::uint32_t robot, std::uint16_t counter);
