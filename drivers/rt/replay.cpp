@@ -42,12 +42,19 @@ const LoadedModel& first_of(const Models& models, const std::filesystem::path& r
   return *models.front();
 }
 
+/// As the run was told that began with this model.
+SessionSettings settings_with(const Deployment& deployment, const LoadedModel& first) {
+  SessionSettings out = deployment.session;
+  out.sensors = sensor_places(deployment.layout, first.model());
+  return out;
+}
+
 class Player {
  public:
   Player(const Deployment& deployment, Models models, const LoadedModel& first)
       : models_(std::move(models)),
         slot_(first),
-        session_(std::make_unique<Session>(slot_, deployment.session)),
+        session_(std::make_unique<Session>(slot_, settings_with(deployment, first))),
         heard_(record_layout(deployment)),
         sent_(record_layout(deployment)),
         layout_(record_layout(deployment)) {}
