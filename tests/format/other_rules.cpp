@@ -25,6 +25,10 @@ std::vector<Rule> effect_rules() {
       {"Fallback", "fallback", [](Model& m) { m.effects[0].context[0].fallback = kInf; }},
       {"FormulaOfAnother", "is no formula and has one",
        [](Model& m) { m.effects[0].formula.code = {0}; }},
+      {"FormulaLeftOver", "is no formula and has one",
+       [](Model& m) {
+         m.effects[0].formula.parameters = {{"a", "", kNaN, 0.0}};
+       }},
       {"FormulaMissing", "or is one and has none", [](Model& m) { m.effects[0].name = "formula"; }},
       {"TooMany", "too many effects", [](Model& m) { m.effects.resize(65, m.effects[0]); }},
   };

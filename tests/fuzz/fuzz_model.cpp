@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_bytes(std::span(data, size));
   const auto read = format::read_model(bytes);
   if (const auto* model = std::get_if<format::Model>(&read)) {
-    tests::require_sound(*model, format::crc32p4(bytes));
+    // Its check sum; with that included the sum of every file is the same.
+    tests::require_sound(*model, format::crc32p4(bytes.first(bytes.size() - 4)));
     tests::require_written_and_read_back(*model);
   } else {
     tests::require(!std::get<format::ReadError>(read).detail.empty(), "a refusal says why");

@@ -29,7 +29,7 @@ constexpr int taken(FormulaOp op) {
 
 enum class FormulaFault : std::uint8_t {
   kNone,
-  kMissing,    // an effect 'formula' without one, or one of another effect
+  kMissing,    // an effect 'formula' without one, or anything of one with another effect
   kTooLong,    // more code, literals or parameters than the limits
   kOperation,  // unknown
   kOperand,    // a literal, parameter, joint or sensor that is not there
@@ -66,8 +66,9 @@ inline std::size_t choices(FormulaOp op, const Effect& effect, std::size_t joint
 /// and gives one number. Cost: one pass.
 inline FormulaFault find_formula_fault(const Effect& effect, std::size_t joints) noexcept {
   const Formula& f = effect.formula;
-  if ((effect.name == "formula") != !f.code.empty()) return FormulaFault::kMissing;
-  if (f.code.empty()) return FormulaFault::kNone;
+  const bool wanted = effect.name == "formula";
+  if (wanted ? f.code.empty() : f != Formula{}) return FormulaFault::kMissing;
+  if (!wanted) return FormulaFault::kNone;
   if (f.code.size() > kMaxFormulaCode || f.literals.size() > kMaxFormulaLiterals ||
       f.parameters.size() > kMaxFormulaParameters || f.expression.size() > kMaxFormulaText)
     return FormulaFault::kTooLong;
