@@ -17,6 +17,7 @@
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/sensor_places.hpp"
 #include "plumb/runtime/effect_set.hpp"
+#include "program/file.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
 

@@ -34,11 +34,11 @@ class LoadedModel {
 
  private:
   LoadedModel(format::Model model, std::uint32_t number)
-      : model_(std::move(model)), corrector_(model_), number_(number) {}
+      : number_(number), model_(std::move(model)), corrector_(model_) {}
 
+  std::uint32_t number_;
   format::Model model_;
   Corrector corrector_;
-  std::uint32_t number_;
 };
 
 }  // namespace plumb
