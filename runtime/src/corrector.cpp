@@ -297,9 +297,12 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   Iterate next;
   bool turned_far = false;
   int seed_sign = 0;
+  unsigned lost = 0;  // where the arm cannot be predicted a step has nothing to go by
   true_arm_.prepare(context, arm.scene.value);
   for (const auto& [stage, order] : steps()) {
-    out.status = place(here, stage, arm, X_BT, at);
+    const Status found = place(here, stage, arm, X_BT, at);
+    lost |= static_cast<unsigned>(refused(found));
+    out.status = lost != 0 ? Status::kNotFinite : found;
     if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
     step(at, towards(out.X_BC, X_BT, turned_far), order, next);
     advance(next, q);
