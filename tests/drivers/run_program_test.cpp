@@ -92,7 +92,7 @@ TEST(Run, ASecondSignalEndsAtOnceAndTheNextRunStartsAsEver) {
   };
   ASSERT_TRUE(becomes([&] { return is("active", 200.0); }));
   run.kill(SIGTERM);
-  ASSERT_TRUE(becomes([&] { return is("hold", 20.0); })) << "it ramps out, for seconds";
+  ASSERT_TRUE(becomes([&] { return is("hold", 100.0); })) << "it ramps out, for seconds";
   const auto begin = std::chrono::steady_clock::now();
   run.kill(SIGTERM);
   const RtRan ran = run.wait();
