@@ -35,18 +35,19 @@ struct Bound {
   format::Effect effect;
   int law = -1;
   EffectShape shape;
-  int sensor = -1;
 
   Bound(const Stage& s, const EffectEntry& entry)
       : stage(s),
         effect(bind_effect(*s.cell, *s.measured, entry)),
         law(find_effect_law(entry.name)) {
-    shape = {s.joints(), effect.joints, effect.constants,
-             effect.formula.code.empty() ? nullptr : &effect.formula};
+    shape = {.arm_joints = s.joints(),
+             .joints = effect.joints,
+             .constants = effect.constants,
+             .formula = effect.formula.code.empty() ? nullptr : &effect.formula};
     for (const auto& need : effect.context)
       if (need.input == format::ContextInput::kTemperature)
-        sensor = static_cast<int>(std::find(s.sensors.begin(), s.sensors.end(), need.name) -
-                                  s.sensors.begin());
+        shape.sensors.add(static_cast<std::uint8_t>(
+            std::find(s.sensors.begin(), s.sensors.end(), need.name) - s.sensors.begin()));
   }
   Eigen::Index count() const { return static_cast<Eigen::Index>(effect.parameters.size()); }
 
@@ -55,8 +56,7 @@ struct Bound {
             .chain = stage.chain,
             .frames = stage.frames[i],
             .loads = stage.loads[i],
-            .context = stage.context[i],
-            .temperature_degC = sensor < 0 ? kUnknown : stage.context[i].temperature_degC[sensor]};
+            .context = stage.context[i]};
   }
 };
 

@@ -133,7 +133,7 @@ void GeometryDerivative::bend(std::span<const double> q, const Context& context,
     out.frames = out.rigid;
     return;
   }
-  effects_.survey(chain_, out.rigid, context, out.around);
+  effects_.survey(out.rigid, context, out.around);
   for (int i = 0; i < effects_.size(); ++i) {
     effects_.apply_one<double>(i, state_.arm.effects[i].parameters, q, chain_, out.rigid,
                                out.around, out.motion);

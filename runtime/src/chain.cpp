@@ -52,11 +52,11 @@ Chain::Chain(const format::Chain& parameters) noexcept
 Chain::Link Chain::link_of(const Transformd& C) noexcept {
   const bool about_x = C.R(0, 0) == 1.0 && C.R(1, 0) == 0.0 && C.R(2, 0) == 0.0 &&
                        C.R(0, 1) == 0.0 && C.R(0, 2) == 0.0;
-  return {.plain = about_x && C.p(1) == 0.0 && C.R(1, 1) == C.R(2, 2) && C.R(1, 2) == -C.R(2, 1),
-          .d = C.p(2),
-          .a = C.p(0),
-          .sin_alpha = C.R(2, 1),
-          .cos_alpha = C.R(1, 1)};
+  return {.d = Wide(C.p(2)),
+          .a = Wide(C.p(0)),
+          .sin_alpha = Wide(C.R(2, 1)),
+          .cos_alpha = Wide(C.R(1, 1)),
+          .plain = about_x && C.p(1) == 0.0 && C.R(1, 1) == C.R(2, 2) && C.R(1, 2) == -C.R(2, 1)};
 }
 
 void jacobian(const Chain& chain, const ChainFrames& frames, Jacobian& out) noexcept {
@@ -139,7 +139,7 @@ Transformd Chain::forward(std::span<const double> q) const noexcept {
 
 void Chain::frames(std::span<const double> q, ChainFrames& out) const noexcept {
   Walk(*this, q)
-      .along([&out](std::size_t i, const Columns& X) { X.store(out.joint[i]); })
+      .along([&out](std::size_t i, const Columns& X) { X.store_over(out.joint[i]); })
       .store(out.tip);
 }
 
@@ -152,17 +152,15 @@ void Chain::frames(std::span<const double> q, ChainAxes& out) const noexcept {
       .store(out.tip);
 }
 
-void Chain::frames(std::span<const double> q, const ChainPoints& of_frames, ChainFrames& out,
+void Chain::frames(std::span<const double> q, const JointPoints& of_joints,
+                   const WidePoint& of_tool, ChainFrames& out,
                    ChainPoints& points_B) const noexcept {
-  const auto locate = [&](std::size_t i, const Columns& X) {
-    store(X.point(of_frames.at[i].data()), points_B.at[i].data());
-  };
   const Columns tip = Walk(*this, q).along([&](std::size_t i, const Columns& X) {
-    X.store(out.joint[i]);
-    locate(i, X);
+    X.store_over(out.joint[i]);
+    store(X.point(of_joints[i]), points_B.at[i].data());
   });
   tip.store(out.tip);
-  locate(static_cast<std::size_t>(joints_), tip);
+  store(tip.point(of_tool), points_B.at[static_cast<std::size_t>(joints_)].data());
 }
 
 }  // namespace plumb

@@ -75,8 +75,8 @@ struct Corrector::Arm {
   internal::Room<ChainAxes> moving;   // of the calibrated chain
   internal::Room<ChainAxes> nominal;  // of the controller's
   internal::Room<EffectSet::Scene> scene;
-  Deviation deviation;  // the one found last
-  Matrix3 to_own;       // from the true orientation to the controller's own
+  internal::Room<Deviation> deviation;  // the one found last
+  Matrix3 to_own;                       // from the true orientation to the controller's own
 };
 
 /// One step: what the arm is taken for, and what of it is looked at.
@@ -155,12 +155,12 @@ inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
   const bool at_seed = stage == Stage::kSeed;
   const bool own = position_only && !rough;
   ChainAxes &moving = arm.moving.value, &nominal = arm.nominal.value;
+  Deviation& deviation = arm.deviation.value;
   if (at_seed || own) nominal_.frames(q, nominal);
-  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, arm.deviation);
-  const Status status = true_arm_.locate(q, arm.deviation, moving, X_BT.p);
+  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, deviation);
+  const Status status = true_arm_.locate(q, deviation, moving, X_BT.p);
   if (at_seed || !own) {
-    const Matrix3 R =
-        refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, arm.deviation);
+    const Matrix3 R = refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, deviation);
     if (at_seed) arm.to_own = times_transposed<double>(nominal.tip.R, R);
     X_BT.R = position_only && rough ? product(arm.to_own, R) : R;
   }

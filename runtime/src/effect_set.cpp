@@ -92,9 +92,8 @@ void EffectSet::bind(const format::Model& model, const format::Effect& effect, i
   bound.theta = effect.parameters;
   for (const auto& need : effect.context) {
     if (need.input != format::ContextInput::kTemperature) continue;
-    bound.temperature = sensor_of(model, need.name);
-    if (bound.temperature >= 0 && bound.sensor_count < bound.sensors.size())
-      bound.sensors[bound.sensor_count++] = static_cast<std::uint8_t>(bound.temperature);
+    const int place = sensor_of(model, need.name);
+    if (place >= 0) bound.shape.sensors.add(static_cast<std::uint8_t>(place));
   }
   std::size_t sensor = 0;
   for (const auto& need : effect.context) stand_in(need, bound, sensor);
@@ -113,8 +112,8 @@ void EffectSet::stand_in(const format::ContextNeed& need, const Bound& bound,
       stand_in(kPayloadAt, need.fallback);
       break;
     case format::ContextInput::kTemperature:
-      if (sensor < bound.sensor_count)
-        stand_in(kTemperatureAt + bound.sensors[sensor++], need.fallback);
+      if (sensor < bound.shape.sensors.size())
+        stand_in(kTemperatureAt + bound.shape.sensors[sensor++], need.fallback);
       break;
     case format::ContextInput::kTime:
       stand_in(kTimeAt, need.fallback);
@@ -143,31 +142,30 @@ bool EffectSet::fill_in(Context& context) const noexcept {
   return any;
 }
 
-void EffectSet::survey(const Chain& chain, const ChainFrames& frames, const Context& context,
+void EffectSet::survey(const ChainFrames& frames, const Context& context,
                        Surroundings& out) const noexcept {
   out.context = context;
   fill_in(out.context);
-  weights_.weigh(chain, frames, out.context, out.loads);
+  weights_.weigh(frames, out.context, out.loads);
 }
 
 void EffectSet::prepare(const Context& context, Scene& out) const noexcept {
   internal::copy(context, out.context);
   out.stood_in = fill_in(out.context);
-  weights_.hang(out.context, out.of_frames, out.loads);
+  weights_.hang(out.context, out.payload_T, out.loads);
 }
 
 bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scene,
                       Motion<double>& out) const noexcept {
-  chain.frames(q, scene.of_frames, scene.frames, scene.points_B);
+  chain.frames(q, weights_.centres(), scene.payload_T, scene.frames, scene.points_B);
   weights_.weigh(scene.points_B, scene.loads);
-  Situation at{.q = q,
-               .chain = chain,
-               .frames = scene.frames,
-               .loads = scene.loads,
-               .context = scene.context};
+  const Situation at{.q = q,
+                     .chain = chain,
+                     .frames = scene.frames,
+                     .loads = scene.loads,
+                     .context = scene.context};
   for (int i = 0; i < count_; ++i) {
     const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    show(bound, at);
     bound.apply(bound.theta, bound.shape, at, out);
   }
   return scene.stood_in || out.undefined;

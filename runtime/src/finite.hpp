@@ -39,9 +39,7 @@ bool all_within(std::span<const double> q) noexcept {
     const auto bits = reinterpret_cast<PackedBits>(load_some(q.data() + i, n - i));
     left |= kLargest - (bits & std::numeric_limits<std::int64_t>::max());
   }
-  std::int64_t any = 0;
-  for (std::size_t lane = 0; lane < kPackedLanes; ++lane) any |= left[lane];
-  return any >= 0;
+  return !any_sign(left);
 }
 
 /// Finite and within kMaxJointPosition.

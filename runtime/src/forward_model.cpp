@@ -36,22 +36,24 @@ inline bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context) const noexcept {
-  const Deviation deviation = deviation_at(q, context);
+  internal::Room<Deviation> deviation;
+  find_deviation(q, context, deviation.value);
   JointPositions bent;
-  if (!bend(q, deviation, bent)) return refusal();
-  return finished(chain_.forward(bent), deviation);
+  if (!bend(q, deviation.value, bent)) return refusal();
+  return finished(chain_.forward(bent), deviation.value);
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
                                  ChainFrames& frames) const noexcept {
-  const Deviation deviation = deviation_at(q, context);
+  internal::Room<Deviation> deviation;
+  find_deviation(q, context, deviation.value);
   JointPositions bent;
-  if (!bend(q, deviation, bent)) {
+  if (!bend(q, deviation.value, bent)) {
     frames = ChainFrames{};
     return refusal();
   }
   chain_.frames(bent, frames);
-  Prediction out = finished(frames.tip, deviation);
+  Prediction out = finished(frames.tip, deviation.value);
   frames.tip.R = out.X_BT.R;
   frames.tip.p = out.X_BT.p - out.tree_B;
   return out;
@@ -80,13 +82,11 @@ Matrix3 ForwardModel::turned(const Matrix3& R_BT, const Deviation& deviation) co
   return effects_.empty() ? R_BT : product(deviation.turn_B, R_BT);
 }
 
-inline Deviation ForwardModel::deviation_at(std::span<const double> q,
-                                            const Context& context) const noexcept {
+inline void ForwardModel::find_deviation(std::span<const double> q, const Context& context,
+                                         Deviation& out) const noexcept {
   internal::Room<EffectSet::Scene> scene;
   prepare(context, scene.value);
-  Deviation out;
   find_deviation(q, scene.value, out);
-  return out;
 }
 
 void ForwardModel::prepare(const Context& context, EffectSet::Scene& out) const noexcept {
@@ -96,6 +96,7 @@ void ForwardModel::prepare(const Context& context, EffectSet::Scene& out) const 
 void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& scene,
                                   Deviation& out) const noexcept {
   out.motion = {};
+  out.tree_B.setZero();
   out.status = Status::kOk;
   if (!acceptable(q)) {
     out.status = Status::kNotFinite;

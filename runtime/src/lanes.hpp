@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "plumb/runtime/transform.hpp"
+#include "plumb/runtime/wide.hpp"
 
 namespace plumb {
 
@@ -52,7 +53,7 @@ inline Packed load(const double* from) {
 }
 
 template <class Register>
-void store(Register numbers, double* to) {
+void store(Register numbers, void* to) {
   std::memcpy(to, &numbers, sizeof numbers);
 }
 
@@ -73,6 +74,8 @@ inline Lanes twice(const Packed& same) { return {same, same}; }
 #endif
 inline Lanes spread(double x) { return twice(packed(x)); }
 
+inline Lanes operator*(const Lanes& a, const Wide& b) { return a * lanes(b.copies.data()); }
+
 /// The first `count` numbers from there, and zeros; all of them if there are more.
 inline Packed load_some(const double* from, std::size_t count) {
   if (count >= kPackedLanes) return load(from);
@@ -80,6 +83,17 @@ inline Packed load_some(const double* from, std::size_t count) {
   return Packed{from[0], count > 1 ? from[1] : 0.0, count > 2 ? from[2] : 0.0, 0.0};
 #else
   return Packed{from[0], 0.0};
+#endif
+}
+
+/// Whether the sign of any lane is set.
+inline bool any_sign(const PackedBits& lanes) {
+#if defined(__AVX__)
+  return __builtin_ia32_movmskpd256(reinterpret_cast<Packed>(lanes)) != 0;
+#elif defined(__SSE2__)
+  return __builtin_ia32_movmskpd(reinterpret_cast<Packed>(lanes)) != 0;
+#else
+  return (lanes[0] | lanes[1]) < 0;
 #endif
 }
 
@@ -158,7 +172,7 @@ class Columns {
   }
 
   /// X_AB <- X_AB Tz(d) Tx(a) Rx(alpha): the same numbers as by its matrix, without the zeros.
-  void append_link(double d, double a, double sin_alpha, double cos_alpha) {
+  void append_link(const Wide& d, const Wide& a, const Wide& sin_alpha, const Wide& cos_alpha) {
     const Lanes by = y_, bz = z_;
     p_ = (x_ * a + bz * d) + p_;
     y_ = by * cos_alpha + bz * sin_alpha;
@@ -166,17 +180,25 @@ class Columns {
   }
 
   /// The point c of frame B, in A.
-  Lanes point(const double* c) const { return x_ * c[0] + y_ * c[1] + z_ * c[2] + p_; }
+  Lanes point(const WidePoint& c) const { return x_ * c.x + y_ * c.y + z_ * c.z + p_; }
 
   /// Whole registers: each is written over the end of the one before.
   void store(Transformd& out) const {
     static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
-    const Lanes x = x_, y = y_, z = z_, end{z[2], p_[0], p_[1], p_[2]};
     auto* bytes = reinterpret_cast<std::byte*>(&out);
-    std::memcpy(bytes, &x, sizeof x);
-    std::memcpy(bytes + 3 * sizeof(double), &y, sizeof y);
-    std::memcpy(bytes + 6 * sizeof(double), &z, sizeof z);
-    std::memcpy(bytes + 8 * sizeof(double), &end, sizeof end);
+    plumb::store(x_, bytes);
+    plumb::store(y_, bytes + 3 * sizeof(double));
+    plumb::store(z_, bytes + 6 * sizeof(double));
+    plumb::store(Lanes{z_[2], p_[0], p_[1], p_[2]}, bytes + 8 * sizeof(double));
+  }
+
+  /// With fewer steps, where the number behind `out` may be written over.
+  void store_over(Transformd& out) const {
+    auto* bytes = reinterpret_cast<std::byte*>(&out);
+    plumb::store(x_, bytes);
+    plumb::store(y_, bytes + 3 * sizeof(double));
+    plumb::store(z_, bytes + 6 * sizeof(double));
+    plumb::store(p_, bytes + 9 * sizeof(double));
   }
 
   void store(std::array<std::array<double, 4>, 4>& out) const {

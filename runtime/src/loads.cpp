@@ -24,6 +24,12 @@ bool is_zero(const std::array<double, 3>& v) noexcept {
 
 std::array<double, 4> point(const Vector3& p) noexcept { return {p(0), p(1), p(2), 1.0}; }
 
+WidePoint wide(const Vector3& p) noexcept { return {Wide(p(0)), Wide(p(1)), Wide(p(2))}; }
+
+Vector3 narrow(const WidePoint& p) noexcept {
+  return {p.x.copies[0], p.y.copies[0], p.z.copies[0]};
+}
+
 }  // namespace
 
 Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
@@ -35,8 +41,8 @@ Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>
       joints_(static_cast<std::size_t>(joints)) {
   const std::size_t links = std::min(mechanics.links.size(), joints_);
   for (std::size_t j = 0; j < links; ++j) {
-    centres_.at[j] = point(vector(mechanics.links[j].com_m));
-    mass_[j] = mechanics.links[j].mass_kg;
+    centres_[j] = wide(vector(mechanics.links[j].com_m));
+    mass_[j] = Wide(mechanics.links[j].mass_kg);
   }
 }
 
@@ -44,12 +50,11 @@ double Weights::payload_kg(const Context& context) const noexcept {
   return known(context.payload_kg) ? context.payload_kg : payload_kg_;
 }
 
-void Weights::hang(const Context& context, ChainPoints& of_frames, Loads& out) const noexcept {
+void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) const noexcept {
   Vector3 com_F = payload_com_F_;
   for (int k = 0; k < 3; ++k)
     com_F(k) = known(context.payload_com_m[k]) ? context.payload_com_m[k] : com_F(k);
-  internal::copy(centres_, of_frames);
-  of_frames.at[joints_] = point(X_TF_ * com_F);
+  payload_T = wide(X_TF_ * com_F);
   out.gravity = gravity_;
   out.payload_kg = payload_kg(context);
   out.payload_force = gravity_ * out.payload_kg;
@@ -59,27 +64,31 @@ void Weights::hang(const Context& context, ChainPoints& of_frames, Loads& out) c
 }
 
 void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
-  const auto& at = points_B.at[joints_];
+  if (joints_ == 6) return weigh<6>(points_B, out);
+  weigh<0>(points_B, out);
+}
+
+/// kJoints: known when compiled, so that the loop is unrolled; 0: joints_.
+template <std::size_t kJoints>
+void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
+  const std::size_t n = kJoints > 0 ? kJoints : joints_;
+  const auto& at = points_B.at[n];
   out.payload_at = Vector3(at[0], at[1], at[2]);
   static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
   Lanes behind = lanes(at.data()) * out.payload_kg;
-  for (std::size_t j = joints_; j-- > 0;) {
+  for (std::size_t j = n; j-- > 0;) {
     behind = behind + lanes(points_B.at[j].data()) * mass_[j];
-    store(behind, reinterpret_cast<double*>(&out.joint[j]));
+    store(behind, &out.joint[j]);
   }
 }
 
-void Weights::weigh(const Chain& chain, const ChainFrames& frames, const Context& context,
-                    Loads& out) const noexcept {
-  ChainPoints of_frames, points_B;
-  hang(context, of_frames, out);
-  const auto place = [&](const Transformd& X, std::size_t i) {
-    const auto& c = of_frames.at[i];
-    points_B.at[i] = point(X * Vector3(c[0], c[1], c[2]));
-  };
-  const auto n = static_cast<std::size_t>(chain.joints());
-  for (std::size_t j = 0; j < n; ++j) place(frames.joint[j], j);
-  place(frames.tip, n);
+void Weights::weigh(const ChainFrames& frames, const Context& context, Loads& out) const noexcept {
+  WidePoint payload_T;
+  hang(context, payload_T, out);
+  ChainPoints points_B;
+  for (std::size_t j = 0; j < joints_; ++j)
+    points_B.at[j] = point(frames.joint[j] * narrow(centres_[j]));
+  points_B.at[joints_] = point(frames.tip * narrow(payload_T));
   weigh(points_B, out);
 }
 
@@ -87,7 +96,7 @@ void weigh(const Chain& chain, const ChainFrames& frames, const format::Mechanic
            const std::array<double, 3>& gravity, const Transformd& X_TF, const Context& context,
            Loads& out) noexcept {
   const Weights weights(mechanics, gravity, X_TF, chain.joints());
-  weights.weigh(chain, frames, context, out);
+  weights.weigh(frames, context, out);
 }
 
 }  // namespace plumb

@@ -6,6 +6,7 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/transform.hpp"
+#include "plumb/runtime/wide.hpp"
 
 namespace plumb {
 
@@ -30,8 +31,11 @@ struct ChainAxes {
   Transformd tip;  // X_BT
 };
 
-/// A point of each frame P_i, and one of the tool frame as number n [m]: x, y, z and a 1, so that
-/// what is multiplied with a mass and summed is a first moment with its mass.
+/// A point of each frame P_i, in that frame [m].
+using JointPoints = std::array<WidePoint, kMaxJoints>;
+
+/// The same in the base frame, and one of the tool as number n [m]: x, y, z and a 1, so that what
+/// is multiplied with a mass and summed is a first moment with its mass.
 struct ChainPoints {
   alignas(32) std::array<std::array<double, 4>, kMaxJoints + 1> at;
 };
@@ -64,9 +68,9 @@ class Chain {
   /// The same, of each joint its axis alone.
   void frames(std::span<const double> q, ChainAxes& out) const noexcept;
 
-  /// Frames, and where the points fixed in the frames, `of_frames`, are in the base frame.
-  void frames(std::span<const double> q, const ChainPoints& of_frames, ChainFrames& out,
-              ChainPoints& points_B) const noexcept;
+  /// Frames, and where points that are fixed in them and in the tool are in the base frame.
+  void frames(std::span<const double> q, const JointPoints& of_joints, const WidePoint& of_tool,
+              ChainFrames& out, ChainPoints& points_B) const noexcept;
 
   /// The constant C_i (0 .. n) of the formula above; frame P_i to the zero position of joint i + 1.
   const Transformd& constant(int i) const noexcept { return constant_[i]; }
@@ -76,8 +80,8 @@ class Chain {
 
   /// A C_i that is no more than Tz(d) Tx(a) Rx(alpha), as rows of DH parameters give it.
   struct Link {
+    Wide d, a, sin_alpha, cos_alpha;
     bool plain = false;
-    double d = 0.0, a = 0.0, sin_alpha = 0.0, cos_alpha = 1.0;
   };
   static Link link_of(const Transformd& C) noexcept;
 

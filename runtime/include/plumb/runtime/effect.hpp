@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -55,12 +57,27 @@ struct EffectInfo {
   bool constants_per_joint = false;
 };
 
+/// Which temperatures of a context an effect reads, by their places in it.
+class EffectSensors {
+ public:
+  void add(std::uint8_t place) noexcept {
+    if (size_ < places_.size()) places_[size_++] = place;
+  }
+  std::size_t size() const noexcept { return size_; }
+  std::uint8_t operator[](std::size_t i) const noexcept { return places_[i]; }
+
+ private:
+  std::array<std::uint8_t, format::kMaxTemperatures> places_{};
+  std::size_t size_ = 0;
+};
+
 /// Which joints an effect acts on and what is given.
 struct EffectShape {
   int arm_joints = 0;
   std::span<const std::uint8_t> joints;
   std::span<const double> constants;
   const format::Formula* formula = nullptr;  // of the effect 'formula'
+  EffectSensors sensors = {};
 };
 
 /// One pose as a law sees it: positions, frames of the calibrated arm before any effect, loads.
@@ -70,8 +87,11 @@ struct Situation {
   const ChainFrames& frames;
   const Loads& loads;
   const Context& context;
-  double temperature_degC = kUnknown;          // of the sensor this effect reads
-  std::span<const std::uint8_t> sensors = {};  // of several: which temperatures of the context
+
+  /// Of sensor i of an effect; unknown if it reads no such one.
+  double temperature_degC(const EffectShape& shape, std::size_t i) const noexcept {
+    return i < shape.sensors.size() ? context.temperature_degC[shape.sensors[i]] : kUnknown;
+  }
 
   /// About the axis of joint j [N m]; along it [N] if it slides.
   double torque(int j) const noexcept { return loads.torque(j, chain, frames); }

@@ -41,9 +41,6 @@ class EffectSet {
     Apply apply = nullptr;
     EffectShape shape;
     std::span<const double> theta;
-    int temperature = -1;                                          // sensor
-    std::array<std::uint8_t, format::kMaxTemperatures> sensors{};  // of all its temperatures
-    std::size_t sensor_count = 0;
   };
 
  public:
@@ -58,23 +55,22 @@ class EffectSet {
     Context context;  // fallbacks filled in
     Loads loads;
   };
-  void survey(const Chain& chain, const ChainFrames& frames, const Context& context,
-              Surroundings& out) const noexcept;
+  void survey(const ChainFrames& frames, const Context& context, Surroundings& out) const noexcept;
 
   /// Adds the motion of effect i with parameters theta instead of the model's.
   template <class S>
   void apply_one(int i, std::span<const S> theta, std::span<const double> q, const Chain& chain,
                  const ChainFrames& frames, const Surroundings& around, Motion<S>& out) const {
     const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    Situation at{
+    const Situation at{
         .q = q, .chain = chain, .frames = frames, .loads = around.loads, .context = around.context};
-    show(bound, at);
     apply_effect<S>(bound.law, theta, bound.shape, at, out);
   }
 
   /// What the laws see of the poses of one context. One a thread.
   struct Scene {
-    ChainPoints of_frames, points_B;
+    WidePoint payload_T;
+    ChainPoints points_B;
     ChainFrames frames;
     Loads loads;
     Context context;  // fallbacks filled in
@@ -101,13 +97,6 @@ class EffectSet {
   void stand_in(const format::ContextNeed& need, const Bound& bound, std::size_t& sensor) noexcept;
   void stand_in(std::size_t input, double value) noexcept;
   bool fill_in(Context& context) const noexcept;
-
-  /// The temperatures that are this effect's own, and none of the one before.
-  static void show(const Bound& bound, Situation& at) noexcept {
-    const auto sensor = static_cast<std::size_t>(bound.temperature);
-    at.temperature_degC = bound.temperature < 0 ? kUnknown : at.context.temperature_degC[sensor];
-    at.sensors = std::span(bound.sensors).first(bound.sensor_count);
-  }
 
   std::array<Bound, format::kMaxEffects> effects_;
   std::array<StandIn, kInputs> stand_ins_;

@@ -22,10 +22,10 @@ struct Prediction {
 /// How the arm at one pose departs from its calibrated chain: effects and tree. It changes little
 /// from pose to pose, so that near by it may stand for what it would be there.
 struct Deviation {
-  Motion<double> motion;                 // of joints and tip, by the effects
-  Matrix3 turn_B = Matrix3::Identity();  // the tip's part of it that turns
-  Vector3 tree_B = Vector3::Zero();      // [m]
-  Status status = Status::kOk;
+  Motion<double> motion;  // of joints and tip, by the effects
+  Matrix3 turn_B;         // the tip's part of it that turns; of an arm with effects
+  Vector3 tree_B;         // [m]
+  Status status;
 };
 
 /// The true arm T(q): calibrated chain, effects, local linear model tree.
@@ -68,7 +68,8 @@ class ForwardModel {
   using JointPositions = std::array<double, kMaxJoints>;
 
   bool acceptable(std::span<const double> q) const noexcept;
-  Deviation deviation_at(std::span<const double> q, const Context& context) const noexcept;
+  void find_deviation(std::span<const double> q, const Context& context,
+                      Deviation& out) const noexcept;
   void add_effects(std::span<const double> q, EffectSet::Scene& scene,
                    Deviation& out) const noexcept;
   void add_tree(std::span<const double> q, Deviation& out) const noexcept;

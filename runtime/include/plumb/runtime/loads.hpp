@@ -80,23 +80,27 @@ class Weights {
   Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
           const Transformd& X_TF, int joints) noexcept;
 
-  /// What stays the same while the context does: where the masses hang, of link j in the frame P_j
-  /// behind its joint, the payload in the tool frame; and of the loads all but where they are. An
-  /// unknown payload is the nominal one.
-  void hang(const Context& context, ChainPoints& of_frames, Loads& out) const noexcept;
+  /// Where the mass of link j is in the frame P_j behind its joint.
+  const JointPoints& centres() const noexcept { return centres_; }
 
-  /// The rest of the loads, with those points in the base frame. Cost: fixed.
+  /// What stays the same while the context does: where the payload is in the tool frame, and of the
+  /// loads all but where they are. An unknown payload is the nominal one.
+  void hang(const Context& context, WidePoint& payload_T, Loads& out) const noexcept;
+
+  /// The rest of the loads, with centres and payload in the base frame. Cost: fixed.
   void weigh(const ChainPoints& points_B, Loads& out) const noexcept;
 
   /// All of it.
-  void weigh(const Chain& chain, const ChainFrames& frames, const Context& context,
-             Loads& out) const noexcept;
+  void weigh(const ChainFrames& frames, const Context& context, Loads& out) const noexcept;
 
  private:
   double payload_kg(const Context& context) const noexcept;
 
-  ChainPoints centres_{};  // without the payload
-  std::array<double, kMaxJoints> mass_{};
+  template <std::size_t kJoints>
+  void weigh(const ChainPoints& points_B, Loads& out) const noexcept;
+
+  JointPoints centres_{};
+  std::array<Wide, kMaxJoints> mass_{};
   Vector3 gravity_ = Vector3::Zero();
   Transformd X_TF_;
   double payload_kg_ = 0.0;

@@ -23,7 +23,8 @@ struct Formula {
   }
 
   /// What an instruction reads; NaN if it is not known.
-  static double read(format::FormulaOp op, std::size_t which, const Situation& at) noexcept {
+  static double read(format::FormulaOp op, std::size_t which, const EffectShape& shape,
+                     const Situation& at) noexcept {
     using format::FormulaOp;
     switch (op) {
       case FormulaOp::kPosition:
@@ -39,8 +40,7 @@ struct Formula {
       case FormulaOp::kTime:
         return at.context.time_s;
       case FormulaOp::kTemperature:
-        return which < at.sensors.size() ? at.context.temperature_degC[at.sensors[which]]
-                                         : kUnknown;
+        return at.temperature_degC(shape, which);
       case FormulaOp::kPayload:
         return at.context.payload_kg;
       case FormulaOp::kTip:
@@ -88,8 +88,9 @@ struct Formula {
     using plumb::plain;
     if (shape.formula == nullptr) return;
     const format::Formula& f = *shape.formula;
-    const S motion = formula::evaluate(
-        f, theta, [&](format::FormulaOp op, std::size_t which) { return read(op, which, at); });
+    const S motion = formula::evaluate(f, theta, [&](format::FormulaOp op, std::size_t which) {
+      return read(op, which, shape, at);
+    });
     const double size = plain(motion) < 0.0 ? -plain(motion) : plain(motion);
     if (!is_number(motion) || size > format::kMaxFormulaMotion) {
       out.undefined = true;

@@ -27,8 +27,9 @@ struct ThermalGrowth {
   template <class S>
   static void apply(std::span<const S> a, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
-    if (!(at.temperature_degC == at.temperature_degC)) return;
-    const double warm = at.temperature_degC - shape.constants[0];
+    const double temperature_degC = at.temperature_degC(shape, 0);
+    if (!(temperature_degC == temperature_degC)) return;
+    const double warm = temperature_degC - shape.constants[0];
     const std::size_t links = shape.joints.size();
     for (std::size_t i = 0; i < links; ++i) {
       const int j = shape.joints[i];
