@@ -18,20 +18,41 @@ format::GuardLimits sound(format::GuardLimits limits) noexcept {
   return limits;
 }
 
-/// v, shortened to `limit`; `cut` becomes true if it was longer. One whose square is beyond all
-/// numbers becomes zero.
-Vector3 shortened(const Vector3& v, double limit, bool& cut) noexcept {
-  const double length = portable::sqrt(dot(v, v));
-  const bool longer = length > limit;
-  cut |= longer;
-  const double share = limit / length;
-  return v * (longer ? share : 1.0);
-}
-
 /// 0 .. 1 without a corner at either end.
 double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 
+double length(const Lanes& v) noexcept {
+  const Lanes squares = v * v;
+  return portable::sqrt(squares[0] + squares[1] + squares[2]);
+}
+
+/// v of that length, shortened to `limit`. One whose square is beyond all numbers becomes zero;
+/// without length or limit the quotient may be NaN, and v stays as it is.
+Lanes shortened(const Lanes& v, double length, double limit) noexcept {
+  const double share = limit / length;
+  return v * (share < 1.0 ? share : 1.0);
+}
+
+/// Moves what is applied towards `goal`; true if a limit cut it.
+bool approach(const Lanes& goal, double gain, double size, double step, double* applied) noexcept {
+  const Lanes before = lanes(applied);
+  const double far = length(goal);
+  const Lanes wanted = shortened(goal, far, size) * gain;
+  const Lanes rest = wanted - before;
+  const double left = length(rest);
+  const bool slewing = left > step;
+  // Arriving sets the goal itself, so that a decayed correction is exactly zero.
+  store(slewing ? before + shortened(rest, left, step) : wanted, applied);
+  return far > size || slewing;
+}
+
 }  // namespace
+
+/// The correction that is asked for.
+struct Guard::Goal {
+  Lanes translation = spread(0.0);
+  Lanes rotation = spread(0.0);
+};
 
 Guard::Guard(const format::GuardLimits& limits) noexcept : limits_(sound(limits)) {}
 
@@ -44,95 +65,101 @@ inline double Guard::elapsed(double dt_s) const noexcept {
   return dt_s > 0.0 ? std::min(dt_s, 2.0 * limits_.cycle_s) : 0.0;
 }
 
-inline Guard::Offset Guard::wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept {
-  Offset c{.translation = X_BC.p - X_BD.p, .rotation = Vector3::Zero()};
-  if (limits_.corrects == format::Corrects::kPose)
-    c.rotation = rotation_vector(times_transposed<double>(X_BC.R, X_BD.R));
+/// Without a ramp the step is infinite, or NaN, which is beyond neither end: both arrive at once.
+inline void Guard::ramp_towards(double goal, double dt) noexcept {
+  const double step = dt / limits_.ramp_s;
+  ramp_ = std::max(std::min(goal, ramp_ + step), ramp_ - step);
+}
+
+template <Guard::Moves kMoves>
+Guard::Goal Guard::wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept {
+  Goal c{.translation = origin(X_BC) - origin(X_BD)};
+  if (kMoves == Moves::kPose && limits_.corrects == format::Corrects::kPose) {
+    const Vector3 e = rotation_vector(times_transposed<double>(X_BC.R, X_BD.R));
+    c.rotation = Lanes{e(0), e(1), e(2), 0.0};
+  }
   return c;
 }
 
-inline void Guard::ramp_towards(double goal, double dt) noexcept {
-  const double step = limits_.ramp_s > 0.0 ? dt / limits_.ramp_s : 1.0;
-  ramp_ = goal > ramp_ ? std::min(goal, ramp_ + step) : std::max(goal, ramp_ - step);
-}
-
 /// Moves the applied correction towards `goal`; true if a limit cut it.
-inline bool Guard::approach(const Offset& goal, double dt) noexcept {
+template <Guard::Moves kMoves>
+bool Guard::approach(const Goal& goal, double dt) noexcept {
   const double gain = smooth_step(ramp_);
-  bool cut = approach(goal.translation, gain, limits_.max_correction_m, limits_.slew_m_per_s * dt,
-                      applied_.translation);
-  if (turns())
-    cut |= approach(goal.rotation, gain, limits_.max_rotation_rad, limits_.slew_rad_per_s * dt,
-                    applied_.rotation);
+  bool cut = plumb::approach(goal.translation, gain, limits_.max_correction_m,
+                             limits_.slew_m_per_s * dt, applied_.translation.data());
+  if (kMoves == Moves::kPose)
+    cut |= plumb::approach(goal.rotation, gain, limits_.max_rotation_rad,
+                           limits_.slew_rad_per_s * dt, applied_.rotation.data());
   return cut;
-}
-
-inline bool Guard::approach(const Vector3& goal, double gain, double size, double step,
-                            Vector3& applied) noexcept {
-  bool cut = false, slewing = false;
-  const Vector3 wanted = shortened(goal, size, cut) * gain;
-  const Vector3 move = shortened(wanted - applied, step, slewing);
-  // Arriving sets the goal itself, so that a decayed correction is exactly zero.
-  applied = slewing ? Vector3(applied + move) : wanted;
-  return cut || slewing;
 }
 
 /// A model that corrects positions only may still have a turn to undo, of the one before it.
 inline bool Guard::turns() const noexcept {
-  const Vector3& e = applied_.rotation;
-  return limits_.corrects == format::Corrects::kPose || e(0) != 0.0 || e(1) != 0.0 || e(2) != 0.0;
+  using internal::magnitude_key;
+  const Three& e = applied_.rotation;
+  return limits_.corrects == format::Corrects::kPose ||
+         (magnitude_key(e[0]) | magnitude_key(e[1]) | magnitude_key(e[2])) != 0;
 }
 
-inline GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
-  GuardOutput out{.X_BC = X_BD, .has_output = has_output_, .status = status};
-  if (turns()) out.X_BC.R = product(rotation_of(applied_.rotation), X_BD.R);
-  out.X_BC.p += applied_.translation;
-  if (has_output_) last_ = out.X_BC;
+template <Guard::Moves kMoves>
+GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
+  GuardOutput out{.X_BC = moved(X_BD, lanes(applied_.translation.data())),
+                  .has_output = has_output_,
+                  .status = status};
+  if (kMoves == Moves::kPose && turns())
+    out.X_BC.R = product(rotation_of(Vector3(applied_.rotation.data())), X_BD.R);
+  if (has_output_) copy(out.X_BC, last_);
   return out;
 }
 
 /// What the correction says, unless it is no correction.
-inline Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
-  const bool turned = limits_.corrects == format::Corrects::kPose;
-  const bool sane = internal::is_finite(Vector3(correction.X_BC.p - X_BD.p)) &&
-                    (!turned || internal::is_pose(correction.X_BC));
+template <Guard::Moves kMoves>
+Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
+  const Transformd& X_BC = correction.X_BC;
+  const bool turned = kMoves == Moves::kPose && limits_.corrects == format::Corrects::kPose;
+  const bool sane = internal::is_finite(Lanes(origin(X_BC) - origin(X_BD))) &&
+                    (!turned || internal::is_pose(X_BC));
   return sane || refused(correction.status) ? correction.status : Status::kNotFinite;
 }
 
-/// One cycle further on the way out.
-GuardOutput Guard::fade(const Transformd& X_BD, const Offset& goal, Status why,
-                        double dt) noexcept {
-  ramp_towards(0.0, dt);
-  approach(goal, dt);
-  return applied_to(X_BD, why);
+/// What this step goes by; counts what lets the correction fade.
+inline Status Guard::heard(Status said, Inputs inputs) noexcept {
+  if (inputs == Inputs::kStale) {
+    ++counters_.stale;
+    return Status::kStale;
+  }
+  if (refused(said)) ++counters_.refused;
+  return said;
 }
 
-GuardOutput Guard::step(const Transformd& X_BD, const Correction& correction, double dt_s,
-                        Inputs inputs) noexcept {
+template <Guard::Moves kMoves>
+[[gnu::noinline]] GuardOutput Guard::step_of(const Transformd& X_BD, const Correction& correction,
+                                             double dt_s, Inputs inputs) noexcept {
   ++counters_.steps;
   if (!internal::is_pose(X_BD)) {
     ++counters_.held;
     return {.X_BC = last_, .has_output = has_output_, .status = Status::kNotFinite};
   }
-  const Status status = judge(X_BD, correction);
+  const Status said = judge<kMoves>(X_BD, correction);
+  const Goal goal = refused(said) ? Goal{} : wanted<kMoves>(X_BD, correction.X_BC);
+  const Status status = heard(said, inputs);
+  if (!refused(status)) has_output_ = true;
   const double dt = elapsed(dt_s);
-  const Offset goal = refused(status) ? Offset{} : wanted(X_BD, correction.X_BC);
-  if (inputs == Inputs::kStale) {
-    ++counters_.stale;
-    return fade(X_BD, goal, Status::kStale, dt);
-  }
-  if (refused(status)) {
-    ++counters_.refused;
-    return fade(X_BD, goal, status, dt);
-  }
-  has_output_ = true;
-  const double full = enabled_ == Enable::kOn ? 1.0 : 0.0;
-  ramp_towards(full, dt);
-  if (approach(goal, dt)) {
+  const double end = enabled_ == Enable::kOn && !refused(status) ? 1.0 : 0.0;
+  ramp_towards(end, dt);
+  const bool cut = approach<kMoves>(goal, dt);
+  if (refused(status)) return applied_to<kMoves>(X_BD, status);
+  if (cut) {
     ++counters_.limited;
-    return applied_to(X_BD, Status::kLimited);
+    return applied_to<kMoves>(X_BD, Status::kLimited);
   }
-  return applied_to(X_BD, ramp_ == full ? status : Status::kRamping);
+  return applied_to<kMoves>(X_BD, ramp_ == end ? status : Status::kRamping);
+}
+
+GuardOutput Guard::step(const Transformd& X_BD, const Correction& correction, double dt_s,
+                        Inputs inputs) noexcept {
+  return turns() ? step_of<Moves::kPose>(X_BD, correction, dt_s, inputs)
+                 : step_of<Moves::kPosition>(X_BD, correction, dt_s, inputs);
 }
 
 }  // namespace plumb

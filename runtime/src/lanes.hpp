@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "plumb/runtime/transform.hpp"
 #include "plumb/runtime/wide.hpp"
@@ -59,9 +60,11 @@ void store(Register numbers, void* to) {
 
 /// Four numbers that stand one behind the other.
 inline Lanes lanes(const double* from) {
-  Lanes out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
+#ifdef __AVX__
+  return load(from);
+#else
+  return {load(from), load(from + kPackedLanes)};
+#endif
 }
 
 /// One number in every lane.
@@ -76,6 +79,28 @@ inline Lanes spread(double x) { return twice(packed(x)); }
 
 inline Lanes operator*(const Lanes& a, const Wide& b) { return a * lanes(b.copies.data()); }
 
+/// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
+inline PackedBits within(const Packed& x, double limit) {
+  const auto magnitude = reinterpret_cast<PackedBits>(x) & std::numeric_limits<std::int64_t>::max();
+  return reinterpret_cast<Packed>(magnitude) <= packed(limit);
+}
+
+/// Whether all lanes are all ones; each is, or is zero.
+inline bool all(const PackedBits& x) {
+#if defined(__AVX__)
+  return __builtin_ia32_movmskpd256(reinterpret_cast<Packed>(x)) == 15;
+#elif defined(__SSE2__)
+  return __builtin_ia32_movmskpd(reinterpret_cast<Packed>(x)) == 3;
+#else
+  return (x[0] & x[1]) != 0;
+#endif
+}
+#ifndef __AVX__
+inline PackedBits within(const Lanes& x, double limit) {
+  return within(x.low, limit) & within(x.high, limit);
+}
+#endif
+
 /// The first `count` numbers from there, and zeros; all of them if there are more.
 inline Packed load_some(const double* from, std::size_t count) {
   if (count >= kPackedLanes) return load(from);
@@ -86,23 +111,15 @@ inline Packed load_some(const double* from, std::size_t count) {
 #endif
 }
 
-/// Whether the sign of any lane is set.
-inline bool any_sign(const PackedBits& lanes) {
-#if defined(__AVX__)
-  return __builtin_ia32_movmskpd256(reinterpret_cast<Packed>(lanes)) != 0;
-#elif defined(__SSE2__)
-  return __builtin_ia32_movmskpd(reinterpret_cast<Packed>(lanes)) != 0;
-#else
-  return (lanes[0] | lanes[1]) < 0;
-#endif
+/// The numbers of a pose: its three axes, then its origin.
+inline const double* numbers(const Transformd& X_AB) {
+  static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
+  return reinterpret_cast<const double*>(&X_AB);
 }
+inline double* numbers(Transformd& X_AB) { return reinterpret_cast<double*>(&X_AB); }
 
 /// Axis j of B in A, column j of the rotation; what is in the fourth lane means nothing.
-inline Lanes axis(const Transformd& X_AB, std::size_t j) {
-  Lanes out;
-  std::memcpy(&out, reinterpret_cast<const std::byte*>(&X_AB) + 3 * j * sizeof(double), sizeof out);
-  return out;
-}
+inline Lanes axis(const Transformd& X_AB, std::size_t j) { return lanes(numbers(X_AB) + 3 * j); }
 
 /// (a, x, y, z) -> (x, y, z, a): what stands at the end of an array is read without what is behind.
 inline Lanes last_three(const Lanes& end) {
@@ -114,11 +131,35 @@ inline Lanes last_three(const Lanes& end) {
 }
 
 /// The origin of B in A; likewise.
-inline Lanes origin(const Transformd& X_AB) {
-  static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
-  Lanes end;
-  std::memcpy(&end, reinterpret_cast<const std::byte*>(&X_AB) + 8 * sizeof(double), sizeof end);
-  return last_three(end);
+inline Lanes origin(const Transformd& X_AB) { return last_three(lanes(numbers(X_AB) + 8)); }
+
+/// (x, y, z, a) -> (a, x, y, z): the other way round.
+inline Lanes to_end(const Lanes& a) {
+#ifdef __AVX__
+  return __builtin_shufflevector(a, a, 3, 0, 1, 2);
+#else
+  return {a[3], a[0], a[1], a[2]};
+#endif
+}
+
+/// By whole registers, all read before one is written.
+inline void copy(const Transformd& from, Transformd& to) {
+  const double* in = numbers(from);
+  const Lanes begin = lanes(in), middle = lanes(in + 4), end = lanes(in + 8);
+  store(begin, numbers(to));
+  store(middle, numbers(to) + 4);
+  store(end, numbers(to) + 8);
+}
+
+/// X_AB with the origin of B moved by d, in A; likewise.
+inline Transformd moved(const Transformd& X_AB, const Lanes& d) {
+  const double* in = numbers(X_AB);
+  const Lanes begin = lanes(in), middle = lanes(in + 4), end = lanes(in + 8), sum = end + to_end(d);
+  Transformd out;
+  store(begin, numbers(out));
+  store(middle, numbers(out) + 4);
+  store(Lanes{end[0], sum[1], sum[2], sum[3]}, numbers(out) + 8);
+  return out;
 }
 
 /// (x, y, z) -> (y, z, x).
@@ -127,6 +168,21 @@ inline Lanes turned(const Lanes& a) {
   return __builtin_shufflevector(a, a, 1, 2, 0, 3);
 #else
   return {a[1], a[2], a[0], a[3]};
+#endif
+}
+
+/// The first three rows of the matrix with these columns.
+inline std::array<Lanes, 3> rows(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+#ifdef __AVX__
+  const Lanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes odd_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return {__builtin_shufflevector(even_ab, even_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7)};
+#else
+  return {{{a[0], b[0], c[0], d[0]}, {a[1], b[1], c[1], d[1]}, {a[2], b[2], c[2], d[2]}}};
 #endif
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "plumb/format/model.hpp"
@@ -67,21 +68,32 @@ class Guard {
   const GuardCounters& counters() const noexcept { return counters_; }
 
  private:
+  /// Three numbers, and one that means nothing: read and written as one register.
+  using Three = std::array<double, 4>;
   struct Offset {
-    Vector3 translation = Vector3::Zero();  // [m], base frame
-    Vector3 rotation = Vector3::Zero();     // rotation vector [rad], base frame
+    Three translation{};  // [m], base frame
+    Three rotation{};     // rotation vector [rad], base frame
   };
+  struct Goal;
+
+  /// A step that turns nothing is made without what only turns need: no call, so no frame.
+  enum class Moves : std::uint8_t { kPosition, kPose };
 
   double elapsed(double dt_s) const noexcept;
+  template <Moves kMoves>
   Status judge(const Transformd& X_BD, const Correction& correction) const noexcept;
-  GuardOutput fade(const Transformd& X_BD, const Offset& goal, Status why, double dt) noexcept;
-  Offset wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept;
+  Status heard(Status said, Inputs inputs) noexcept;
+  template <Moves kMoves>
+  Goal wanted(const Transformd& X_BD, const Transformd& X_BC) const noexcept;
   void ramp_towards(double goal, double dt) noexcept;
-  bool approach(const Offset& goal, double dt) noexcept;
-  static bool approach(const Vector3& goal, double gain, double size, double step,
-                       Vector3& applied) noexcept;
+  template <Moves kMoves>
+  bool approach(const Goal& goal, double dt) noexcept;
   bool turns() const noexcept;
+  template <Moves kMoves>
   GuardOutput applied_to(const Transformd& X_BD, Status status) noexcept;
+  template <Moves kMoves>
+  GuardOutput step_of(const Transformd& X_BD, const Correction& correction, double dt_s,
+                      Inputs inputs) noexcept;
 
   format::GuardLimits limits_;
   Offset applied_;     // the correction now on top of the target
