@@ -25,6 +25,7 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
     if (!tree.empty() && walked_.empty()) walked_ = tree;
   all_hard_ =
       std::all_of(trees_.begin(), trees_.end(), [](const TreeView& tree) { return tree.hard(); });
+  if (all_hard_) hard_trees_ = HardTrees(trees_);
   one_walk_ = std::all_of(trees_.begin(), trees_.end(), [&](const TreeView& tree) {
     return tree.empty() || tree.same_leaves(walked_);
   });
@@ -164,7 +165,8 @@ inline Vector3 ForwardModel::tree_at(std::span<const double> q, double& weight) 
 
 inline Vector3 ForwardModel::trees_at(std::span<const double> at) const noexcept {
   if (all_hard_ && !one_walk_) {
-    const auto e = TreeView::evaluate_all(trees_, at);
+    HardTrees::Values e;
+    hard_trees_.evaluate(at, e);
     return {e[0], e[1], e[2]};
   }
   if (!one_walk_) return {trees_[0].evaluate(at), trees_[1].evaluate(at), trees_[2].evaluate(at)};

@@ -79,11 +79,13 @@ inline Lanes spread(double x) { return twice(packed(x)); }
 
 inline Lanes operator*(const Lanes& a, const Wide& b) { return a * lanes(b.copies.data()); }
 
-/// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
-inline PackedBits within(const Packed& x, double limit) {
-  const auto magnitude = reinterpret_cast<PackedBits>(x) & std::numeric_limits<std::int64_t>::max();
-  return reinterpret_cast<Packed>(magnitude) <= packed(limit);
+inline Packed magnitude(const Packed& x) {
+  return reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(x) &
+                                  std::numeric_limits<std::int64_t>::max());
 }
+
+/// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
+inline PackedBits within(const Packed& x, double limit) { return magnitude(x) <= packed(limit); }
 
 /// Whether all lanes are all ones; each is, or is zero.
 inline bool all(const PackedBits& x) {
@@ -111,6 +113,43 @@ inline Packed load_some(const double* from, std::size_t count) {
 #endif
 }
 
+/// The first `count` numbers to there; all of them if there are fewer.
+inline void store_some(const Packed& numbers, double* to, std::size_t count) {
+  if (count >= kPackedLanes) return store(numbers, to);
+  for (std::size_t lane = 0; lane < count; ++lane) to[lane] = numbers[lane];
+}
+
+/// Lane by lane; the second where either is NaN. GCC finds the instruction behind such a choice by
+/// itself only where neither is a constant.
+inline Packed larger(const Packed& a, const Packed& b) {
+#if defined(__AVX__)
+  return __builtin_ia32_maxpd256(a, b);
+#elif defined(__SSE2__)
+  return __builtin_ia32_maxpd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+inline Packed smaller(const Packed& a, const Packed& b) {
+#if defined(__AVX__)
+  return __builtin_ia32_minpd256(a, b);
+#elif defined(__SSE2__)
+  return __builtin_ia32_minpd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+/// Lane by lane within [low, high]; NaN gives `low`.
+inline Lanes held(const Lanes& x, const Lanes& low, const Lanes& high) {
+#ifdef __AVX__
+  return smaller(larger(x, low), high);
+#else
+  return {smaller(larger(x.low, low.low), high.low), smaller(larger(x.high, low.high), high.high)};
+#endif
+}
+
 /// The numbers of a pose: its three axes, then its origin.
 inline const double* numbers(const Transformd& X_AB) {
   static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
@@ -127,6 +166,22 @@ inline Lanes last_three(const Lanes& end) {
   return __builtin_shufflevector(end, end, 1, 2, 3, 0);
 #else
   return {end[1], end[2], end[3], end[0]};
+#endif
+}
+
+/// Columns of three rows of four; what is in the fourth lane means nothing.
+inline std::array<Lanes, 4> columns(const Lanes& x, const Lanes& y, const Lanes& z) {
+#ifdef __AVX__
+  const Lanes even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+  const Lanes odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+  const Lanes swapped = __builtin_shufflevector(z, z, 1, 0, 3, 2);
+  return {__builtin_shufflevector(even, z, 0, 1, 4, 5),
+          __builtin_shufflevector(odd, swapped, 0, 1, 4, 5),
+          __builtin_shufflevector(even, z, 2, 3, 6, 7),
+          __builtin_shufflevector(odd, swapped, 2, 3, 6, 7)};
+#else
+  return {Lanes{x[0], y[0], z[0], 0.0}, Lanes{x[1], y[1], z[1], 0.0}, Lanes{x[2], y[2], z[2], 0.0},
+          Lanes{x[3], y[3], z[3], 0.0}};
 #endif
 }
 

@@ -2,7 +2,9 @@
 #include "plumb/runtime/tree.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <limits>
+
+#include "lanes.hpp"
 
 namespace plumb {
 namespace {
@@ -11,14 +13,6 @@ double clamp(double x, double low, double high) noexcept {
   // Written so that NaN gives `low`, never an index or a bound of its own; and without a branch.
   const double up = x > low ? x : low;
   return up < high ? up : high;
-}
-
-/// Compares from node `at` to the nearest leaf, `most` of them at most. With log2 of the leaves,
-/// which no shortest way exceeds, it looks at as many nodes as there are.
-int shortest(const format::TreeNode* nodes, int at, int most) noexcept {
-  if (at < 0 || most == 0) return 0;
-  return 1 + std::min(shortest(nodes, nodes[at].low, most - 1),
-                      shortest(nodes, nodes[at].high, most - 1));
 }
 
 }  // namespace
@@ -37,19 +31,22 @@ double TrainedDomain::normalise(std::span<const double> q, std::span<double> u) 
   return normalise<0>(q.data(), u.data());
 }
 
-/// kJoints: known when compiled, so that the loop is unrolled; 0: joints_. Magnitudes are compared
-/// as integers, which grow with them.
-template <int kJoints>
+/// kJoints: known when compiled, so that the loop is unrolled; 0: joints_. A joint that is NaN is
+/// infinitely far.
+template <std::size_t kJoints>
 double TrainedDomain::normalise(const double* q, double* u) const noexcept {
-  const int n = kJoints > 0 ? kJoints : joints_;
-  std::int64_t farthest = std::bit_cast<std::int64_t>(1.0);  // in half spans from the middle
-  for (int i = 0; i < n; ++i) {
-    const double at = (q[i] - mid_[i]) * half_inverse_[i];
-    const auto away = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(at) << 1 >> 1);
-    farthest = away > farthest ? away : farthest;
-    u[i] = clamp(at, -1.0, 1.0);
+  const std::size_t n = kJoints > 0 ? kJoints : static_cast<std::size_t>(joints_);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Packed farthest = packed(1.0);  // in half spans from the middle
+  for (std::size_t i = 0; i < n; i += kPackedLanes) {
+    const Packed at = (load_some(q + i, n - i) - load(&mid_[i])) * load(&half_inverse_[i]);
+    farthest = larger(smaller(magnitude(at), packed(kInfinity)), farthest);
+    store_some(smaller(larger(at, packed(-1.0)), packed(1.0)), u + i, n - i);
   }
-  return clamp(1.0 - (std::bit_cast<double>(farthest) - 1.0) * fade_inverse_, 0.0, 1.0);
+  double most = farthest[0];
+  for (std::size_t lane = 1; lane < kPackedLanes; ++lane) most = std::max(most, farthest[lane]);
+  const Packed trusted = packed(1.0 - (most - 1.0) * fade_inverse_);
+  return smaller(larger(trusted, packed(0.0)), packed(1.0))[0];
 }
 
 template void TreeView::active(std::span<const double>, ActiveLeaves<double>&) const noexcept;
@@ -58,7 +55,7 @@ template double TreeView::evaluate(std::span<const double>,
 template double TreeView::evaluate<double>(std::span<const double>) const noexcept;
 
 TreeView::TreeView(const format::Tree& tree, int inputs) noexcept
-    : nodes_(tree.nodes.empty() ? &internal::kNoNode : tree.nodes.data()),
+    : nodes_(tree.nodes.data()),
       coefficients_(tree.coefficients.data()),
       bounds_(tree.bounds.data()),
       half_width_(tree.blend_half_width.empty() ? nullptr : tree.blend_half_width.data()),
@@ -69,9 +66,7 @@ TreeView::TreeView(const format::Tree& tree, int inputs) noexcept
       terms_(static_cast<int>(format::leaf_terms(static_cast<std::size_t>(inputs), tree.degree))),
       degree_(tree.degree),
       depth_(tree.depth),
-      leaves_(static_cast<int>(tree.leaves())),
-      sure_depth_(shortest(nodes_, leaves_ > 1 ? 0 : ~0,
-                           static_cast<int>(std::bit_width(tree.leaves())))) {}
+      leaves_(static_cast<int>(tree.leaves())) {}
 
 bool TreeView::same_leaves(const TreeView& other) const noexcept {
   if (leaves_ != other.leaves_ || inputs_ != other.inputs_ || depth_ != other.depth_) return false;
@@ -91,33 +86,11 @@ int TreeView::leaf(std::span<const double> u) const noexcept {
   return directions_ != nullptr ? hard_leaf<true>(u) : hard_leaf<false>(u);
 }
 
-inline double TreeView::evaluate_leaf(std::span<const double> u, int leaf) const noexcept {
+double TreeView::evaluate_leaf(std::span<const double> u, int leaf) const noexcept {
   if (empty()) return 0.0;
   const double y = inputs_ == 6 ? leaf_value<6>(u, leaf) : leaf_value<0>(u, leaf);
   const double held = clamp(y, bounds_[2 * leaf], bounds_[2 * leaf + 1]);
   return region_ == nullptr ? held : held * trust(u, leaf);
-}
-
-std::array<double, format::kTreeAxes> TreeView::evaluate_all(
-    const std::array<TreeView, format::kTreeAxes>& trees, std::span<const double> u) noexcept {
-  static_assert(format::kTreeAxes == 3);
-  const TreeView &x = trees[0], &y = trees[1], &z = trees[2];
-  internal::HardWalk in_x(x.nodes_, x.leaves_), in_y(y.nodes_, y.leaves_),
-      in_z(z.nodes_, z.leaves_);
-  const int sure = std::min({x.sure_depth_, y.sure_depth_, z.sure_depth_});
-  const int depth = std::max({x.depth_, y.depth_, z.depth_});
-  for (int i = 0; i < sure; ++i) {
-    in_x.step_down(u.data());
-    in_y.step_down(u.data());
-    in_z.step_down(u.data());
-  }
-  for (int i = sure; i < depth; ++i) {
-    in_x.step(u.data());
-    in_y.step(u.data());
-    in_z.step(u.data());
-  }
-  return {x.evaluate_leaf(u, in_x.leaf()), y.evaluate_leaf(u, in_y.leaf()),
-          z.evaluate_leaf(u, in_z.leaf())};
 }
 
 double TreeView::sigma(std::span<const double> u) const noexcept {

@@ -7,6 +7,7 @@
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/hard_trees.hpp"
 #include "plumb/runtime/status.hpp"
 #include "plumb/runtime/tree.hpp"
 
@@ -83,9 +84,10 @@ class ForwardModel {
   TreeView walked_;  // the first that is not empty
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
+  HardTrees hard_trees_;  // they, if `all_hard_`
   Chain chain_;
   bool has_tree_ = false;
-  bool all_hard_ = false;  // so all are walked side by side
+  bool all_hard_ = false;
   bool one_walk_ = false;  // the others differ from `walked_` in their numbers only
 };
 

@@ -21,13 +21,15 @@ class TrainedDomain {
   double normalise(std::span<const double> q, std::span<double> u) const noexcept;
 
  private:
-  template <int kJoints>
+  static constexpr std::size_t kRoom = 12;  // joints, in whole registers
+
+  template <std::size_t kJoints>
   double normalise(const double* q, double* u) const noexcept;
 
   int joints_ = 0;
   double fade_inverse_ = 0.0;
-  std::array<double, format::kMaxJoints> mid_{};
-  std::array<double, format::kMaxJoints> half_inverse_{};
+  std::array<double, kRoom> mid_{};
+  std::array<double, kRoom> half_inverse_{};
 };
 
 /// Leaves that have a say, and how much: weights > 0 that add up to 1.
@@ -82,18 +84,14 @@ class TreeView {
 
   double evaluate(std::span<const double> u) const noexcept { return evaluate<double>(u); }
 
-  /// Crisp along the axes, or empty: `evaluate_all` serves it.
+  /// Crisp along the axes, or empty: HardTrees serves it.
   bool hard() const noexcept { return !blended() && directions_ == nullptr; }
-
-  /// All axes at once [m], hard trees over the same inputs. Every compare waits for the one before,
-  /// so three walks side by side take little longer than one.
-  static std::array<double, format::kTreeAxes> evaluate_all(
-      const std::array<TreeView, format::kTreeAxes>& trees, std::span<const double> u) noexcept;
 
   /// 1 sigma of the error of `evaluate` as the trainer saw it on held-out poses [m]; 0 if unknown.
   double sigma(std::span<const double> u) const noexcept;
 
  private:
+  friend class HardTrees;
   double evaluate_leaf(std::span<const double> u, int leaf) const noexcept;
   template <bool kOblique, class Scalar>
   Scalar split_value(std::span<const Scalar> u, int node) const noexcept;
@@ -122,7 +120,6 @@ class TreeView {
   int degree_ = 1;
   int depth_ = 0;
   int leaves_ = 0;
-  int sure_depth_ = 0;  // compares that every walk needs
 };
 
 /// What a leaf's coefficients multiply: 1, u_i, and for degree 2 the products u_i u_k, i <= k.

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 
 #include "plumb/runtime/plain.hpp"
 #include "plumb/runtime/tree.hpp"
@@ -21,48 +19,6 @@ struct OpenNode {
 
 /// Beyond this share of a ramp from its end a side's weight is lost in rounding: it has no say.
 inline constexpr double kRampEnd = 0x1p-26;
-
-/// What a walk reads where there is no node.
-inline constexpr format::TreeNode kNoNode{};
-
-/// The child on either side, read without a choice: compilers make branches of choices, and these
-/// cannot be foreseen.
-inline std::int64_t child(const format::TreeNode& node, bool is_high) noexcept {
-  static_assert(offsetof(format::TreeNode, high) ==
-                offsetof(format::TreeNode, low) + sizeof(node.low));
-  std::int16_t out;
-  std::memcpy(&out,
-              reinterpret_cast<const std::byte*>(&node) + offsetof(format::TreeNode, low) +
-                  sizeof out * static_cast<std::size_t>(is_high),
-              sizeof out);
-  return out;
-}
-
-/// A walk down a crisp tree.
-class HardWalk {
- public:
-  HardWalk(const format::TreeNode* nodes, int leaves) noexcept
-      : nodes_(nodes), at_(leaves > 1 ? 0 : ~0) {}
-
-  /// One compare, where there is no leaf yet.
-  void step_down(const double* u) noexcept {
-    const format::TreeNode& node = nodes_[at_];
-    at_ = child(node, u[node.input] > node.threshold);
-  }
-
-  /// One compare. In a leaf the walk stands still: the root is read again and its answer dropped.
-  void step(const double* u) noexcept {
-    const std::int64_t stays = at_ >> 63;
-    const format::TreeNode& node = nodes_[at_ & ~stays];
-    at_ = (at_ & stays) | (child(node, u[node.input] > node.threshold) & ~stays);
-  }
-
-  int leaf() const noexcept { return static_cast<int>(~at_); }
-
- private:
-  const format::TreeNode* nodes_;
-  std::int64_t at_;
-};
 
 /// Identity in [low, high], C1 beyond it, never further out than kSoftShare of the range:
 /// t -> m t / (m + t). NaN gives `low`.
