@@ -44,7 +44,7 @@ struct CycleKernels::Arm {
 };
 
 CycleKernels::CycleKernels(const format::Model& model, const BenchInputs& inputs)
-    : inputs_(inputs) {
+    : inputs_(inputs), cycle_(std::make_unique<WholeCycle>(model)) {
   Arm& whole = add_arm(model);
   add_correction(whole);
   add_prediction(whole, Part::kPredict);
@@ -69,9 +69,9 @@ void CycleKernels::add_correction(Arm& arm) {
     corrections_.push_back(arm.solve(inputs_.pose(i), inputs_.context(i)));
     refused_ += refused(corrections_.back().status) ? 1 : 0;
   }
-  kernels_.push_back({Part::kCycle, "", kernel_of([this, &arm](std::size_t i, double link) {
+  kernels_.push_back({Part::kCycle, "", kernel_of([this](std::size_t i, double link) {
                         const BenchPose pose = linked(inputs_.pose(i), link);
-                        return arm.guarded(pose, arm.solve(pose, inputs_.context(i)));
+                        return cycle_->step(pose, inputs_.context(i)).X_BC.p(0);
                       })});
   kernels_.push_back({Part::kCorrect, "", kernel_of([this, &arm](std::size_t i, double link) {
                         const BenchPose pose = linked(inputs_.pose(i), link);

@@ -7,13 +7,13 @@
 
 #include "bench/bench_inputs.hpp"
 #include "bench/kernel.hpp"
-#include "plumb/runtime/guard.hpp"
+#include "bench/whole_cycle.hpp"
 
 namespace plumb::offline::bench {
 
 /// What of the cycle is timed.
 enum class Part {
-  kCycle,       // correct, then guard
+  kCycle,       // Cycle::step: inputs heard, their ages, correct, guard
   kCorrect,     // Corrector::solve
   kGuard,       // Guard::step
   kPredict,     // ForwardModel::predict
@@ -55,6 +55,7 @@ class CycleKernels {
 
   const BenchInputs& inputs_;
   std::vector<std::unique_ptr<Arm>> arms_;
+  std::unique_ptr<WholeCycle> cycle_;
   std::vector<Correction> corrections_;  // of each pose
   std::size_t refused_ = 0;
   std::vector<CycleKernel> kernels_;

@@ -53,7 +53,7 @@ bool passes(const Options& options, const bench::Benchmark& found, Outcome& outc
   outcome.exit = Exit::kGateFailed;
   outcome.errors.push_back(
       {.code = "E-GATE-TIME",
-       .message = fmt::format("the median of correct + guard, {:.3g} us, exceeds --max-us {:g}",
+       .message = fmt::format("the median of a whole step, {:.3g} us, exceeds --max-us {:g}",
                               median_us, *options.max_us),
        .help = "see what costs it in the table: plumb bench " + options.model});
   return false;
@@ -93,7 +93,7 @@ void add_bench(Program& program) {
       ->capture_default_str();
   verb.add_option("--seed", options->seed, "Of the random poses")->capture_default_str();
   verb.add_option("--max-us", options->max_us,
-                  "Gate: exit 1 if correct + guard take longer than this in the median")
+                  "Gate: exit 1 if a whole step takes longer than this in the median")
       ->type_name("US")
       ->check(CLI::PositiveNumber);
   CLI::Option* const figure =

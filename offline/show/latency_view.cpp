@@ -84,7 +84,7 @@ std::string cycle_share(const Benchmark& found) {
 
 std::string verdict(const Benchmark& found) {
   const Timing& cycle = found.cycle();
-  return fmt::format("correct + guard: {} median, {}{}.\n", duration(cycle.median()),
+  return fmt::format("whole step: {} median, {}{}.\n", duration(cycle.median()),
                      cycle_share(found),
                      found.why_not_representative.empty()
                          ? ""
@@ -112,7 +112,7 @@ std::string calls_text(const Benchmark& found) {
 std::string row_name(const Timing& timing) {
   switch (timing.part) {
     case Part::kCycle:
-      return "correct + guard";
+      return "whole step";
     case Part::kKinematics:
       return "  kinematics alone";
     case Part::kEffect:
@@ -194,7 +194,7 @@ std::string bench_figure(const Benchmark& found) {
   const Timing& cold = found.timings.of(Part::kCycle, Way::kCold);
   LatencyFigure figure;
   figure.title =
-      fmt::format("correct + guard: worst {}, 99 % within {}, median {}", duration(cycle.most()),
+      fmt::format("whole step: worst {}, 99 % within {}, median {}", duration(cycle.most()),
                   duration(cycle.p99()), duration(cycle.median()));
   figure.notes = {"median: " + cycle_share(found)};
   for (const auto& why : found.why_not_representative)

@@ -81,7 +81,7 @@ TEST_F(Bench, TheFirstLineGivesTheShareOfTheModelsOwnCycle) {
       box.plumb({"inspect", "r.plumb", "--json"}).json().at("result").at("guard").at("cycle_us");
   EXPECT_DOUBLE_EQ(result().at("cycle_us").get<double>(), cycle_us);
   const std::string text = bench({}).out, line = text.substr(0, text.find('\n'));
-  EXPECT_EQ(line.rfind("correct + guard: ", 0), 0U) << line;
+  EXPECT_EQ(line.rfind("whole step: ", 0), 0U) << line;
   EXPECT_NE(line.find(" % of the 4 ms cycle"), std::string::npos) << line;
   EXPECT_EQ(cycle_us, 4000.0);
 }
@@ -172,7 +172,7 @@ TEST_F(Bench, TheFigureIsWellFormedSelfContainedAndMarksTheWorst) {
   EXPECT_EQ(plumb::tests::xml_fault(svg), "");
   EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
   for (const auto* part :
-       {"correct + guard: worst ", "worst, in the caches", "worst, caches swept",
+       {"whole step: worst ", "worst, in the caches", "worst, caches swept",
         "[ns, us, ms; logarithmic]", "number of calls [logarithmic]", "of the 4 ms cycle"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   for (const auto* outside : {"href", "url(", "<script", "<image", "@import", "nan", "inf"})

@@ -19,7 +19,7 @@ constexpr int kFirst = 20'000;
 constexpr int kCorrected = 10;  // every tenth prediction is also corrected
 constexpr std::uint64_t kSeed = 7;
 
-/// one_input(hash) for every input; emulated processors stop at the first few.
+/// one_input(hash) for every input; a run that is scaled down stops at the first few.
 template <class F>
 void expect_bits(F one_input, std::uint64_t of_the_first, std::uint64_t of_all) {
   const bool all = tests::scaled(kCount) >= kCount;
