@@ -13,7 +13,8 @@ constexpr Explanation kCodes[] = {
      "compile --gate: the audit has a warning, or 95 % of the held-out poses are not within the "
      "cell's tolerance. No model was written."},
     {"E-GATE-TIME",
-     "bench --max-us: a whole step of the cycle takes longer in the median. On a machine that is not "
+     "bench --max-us: a whole step of the cycle takes longer in the median. On a machine that is "
+     "not "
      "representative that says little: the same gate on the controller's own PC counts."},
     {"W-BENCH-HEAP",
      "While the cycle was timed, it took memory from the heap. It must not: an allocation can take "
