@@ -13,6 +13,13 @@ namespace {
 
 bool known(double v) noexcept { return v == v; }
 
+/// A law as the cycle calls it: whatever it needs is inlined.
+template <class Law>
+[[gnu::flatten]] void apply_law(std::span<const double> theta, const EffectShape& shape,
+                                const Situation& at, Motion<double>& out) noexcept {
+  Law::template apply<double>(theta, shape, at, out);
+}
+
 /// Number of the sensor among those the effects read, or -1.
 int sensor_of(const format::Model& model, const std::string& name) noexcept {
   const std::string* found = nullptr;
@@ -87,7 +94,7 @@ EffectSet::EffectSet(const format::Model& model) noexcept
 void EffectSet::bind(const format::Model& model, const format::Effect& effect, int law) noexcept {
   Bound& bound = effects_[static_cast<std::size_t>(count_++)];
   bound.law = law;
-  with_law(law, [&bound](auto found) { bound.apply = &decltype(found)::template apply<double>; });
+  with_law(law, [&bound](auto found) { bound.apply = &apply_law<decltype(found)>; });
   bound.shape = shape_of(model, effect);
   bound.theta = effect.parameters;
   for (const auto& need : effect.context) {

@@ -241,6 +241,24 @@ inline std::array<Lanes, 3> rows(const Lanes& a, const Lanes& b, const Lanes& c,
 #endif
 }
 
+/// Number k of it in every lane.
+template <int k>
+Lanes every(const Lanes& a) {
+#ifdef __AVX__
+  return __builtin_shufflevector(a, a, k, k, k, k);
+#else
+  return spread(a[k]);
+#endif
+}
+
+/// Lane by lane the first; the second where that is NaN.
+inline Packed known_or(const Packed& a, const Packed& b) { return a == a ? a : b; }
+#ifndef __AVX__
+inline Lanes known_or(const Lanes& a, const Lanes& b) {
+  return {known_or(a.low, b.low), known_or(a.high, b.high)};
+}
+#endif
+
 /// Its `turned` is a x b; so a sum of cross products need be turned only once.
 inline Lanes cross_turned(const Lanes& a, const Lanes& b) { return a * turned(b) - turned(a) * b; }
 
