@@ -15,9 +15,9 @@ bool known(double v) noexcept { return v == v; }
 
 /// A law as the cycle calls it: whatever it needs is inlined.
 template <class Law>
-[[gnu::flatten]] void apply_law(std::span<const double> theta, const EffectShape& shape,
-                                const Situation& at, Motion<double>& out) noexcept {
-  Law::template apply<double>(theta, shape, at, out);
+[[gnu::flatten]] void apply_law(const BoundEffect& effect, const Situation& at,
+                                Motion<double>& out) noexcept {
+  Law::template apply<double>(effect.theta, effect.shape, at, out);
 }
 
 /// Number of the sensor among those the effects read, or -1.
@@ -92,7 +92,7 @@ EffectSet::EffectSet(const format::Model& model) noexcept
 }
 
 void EffectSet::bind(const format::Model& model, const format::Effect& effect, int law) noexcept {
-  Bound& bound = effects_[static_cast<std::size_t>(count_++)];
+  BoundEffect& bound = effects_[count_++];
   bound.law = law;
   with_law(law, [&bound](auto found) { bound.apply = &apply_law<decltype(found)>; });
   bound.shape = shape_of(model, effect);
@@ -106,7 +106,7 @@ void EffectSet::bind(const format::Model& model, const format::Effect& effect, i
   for (const auto& need : effect.context) stand_in(need, bound, sensor);
 }
 
-void EffectSet::stand_in(const format::ContextNeed& need, const Bound& bound,
+void EffectSet::stand_in(const format::ContextNeed& need, const BoundEffect& bound,
                          std::size_t& sensor) noexcept {
   switch (need.input) {
     case format::ContextInput::kDirection:
@@ -171,10 +171,7 @@ bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scen
                      .frames = scene.frames,
                      .loads = scene.loads,
                      .context = scene.context};
-  for (int i = 0; i < count_; ++i) {
-    const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    bound.apply(bound.theta, bound.shape, at, out);
-  }
+  for (const BoundEffect& bound : std::span(effects_).first(count_)) bound.apply(bound, at, out);
   return scene.stood_in || out.undefined;
 }
 

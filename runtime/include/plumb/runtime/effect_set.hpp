@@ -31,24 +31,23 @@ EffectFault find_effect_fault(const format::Model& model) noexcept;
 /// null behind the last.
 const std::string* temperature_name(const format::Model& model, int k) noexcept;
 
+/// An effect of a model and its law.
+struct BoundEffect {
+  int law = 0;
+  void (*apply)(const BoundEffect& effect, const Situation& at, Motion<double>& out) = nullptr;
+  EffectShape shape;
+  std::span<const double> theta;
+};
+
 /// The effects of a model, ready for the cycle. Refers to the model's memory.
 /// Precondition: find_effect_fault finds none.
 class EffectSet {
-  using Apply = void (*)(std::span<const double> theta, const EffectShape& shape,
-                         const Situation& at, Motion<double>& out);
-  struct Bound {
-    int law = 0;
-    Apply apply = nullptr;
-    EffectShape shape;
-    std::span<const double> theta;
-  };
-
  public:
   EffectSet() = default;
   explicit EffectSet(const format::Model& model) noexcept;
 
   bool empty() const noexcept { return count_ == 0; }
-  int size() const noexcept { return count_; }
+  int size() const noexcept { return static_cast<int>(count_); }
 
   /// What all laws share at one pose.
   struct Surroundings {
@@ -61,7 +60,7 @@ class EffectSet {
   template <class S>
   void apply_one(int i, std::span<const S> theta, std::span<const double> q, const Chain& chain,
                  const ChainFrames& frames, const Surroundings& around, Motion<S>& out) const {
-    const Bound& bound = effects_[static_cast<std::size_t>(i)];
+    const BoundEffect& bound = effects_[static_cast<std::size_t>(i)];
     const Situation at{
         .q = q, .chain = chain, .frames = frames, .loads = around.loads, .context = around.context};
     apply_effect<S>(bound.law, theta, bound.shape, at, out);
@@ -94,14 +93,15 @@ class EffectSet {
   static constexpr std::size_t kInputs = sizeof(Context) / sizeof(double);
 
   void bind(const format::Model& model, const format::Effect& effect, int law) noexcept;
-  void stand_in(const format::ContextNeed& need, const Bound& bound, std::size_t& sensor) noexcept;
+  void stand_in(const format::ContextNeed& need, const BoundEffect& bound,
+                std::size_t& sensor) noexcept;
   void stand_in(std::size_t input, double value) noexcept;
   bool fill_in(Context& context) const noexcept;
 
-  std::array<Bound, format::kMaxEffects> effects_;
+  std::array<BoundEffect, format::kMaxEffects> effects_;
   std::array<StandIn, kInputs> stand_ins_;
   std::size_t stand_in_count_ = 0;
-  int count_ = 0;
+  std::size_t count_ = 0;
   Weights weights_;
 };
 

@@ -24,16 +24,31 @@ struct Reversal {
   template <class S>
   static void apply(std::span<const S> h, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
-    for (std::size_t i = 0; i < shape.joints.size(); ++i) {
-      const int j = shape.joints[i];
-      const double direction = at.context.direction[j];
-      if (!(direction == direction)) continue;
-      const double travel = at.context.travel[j];
-      double grown = 1.0;
-      if (travel == travel && shape.constants[0] > 0.0)
-        grown = 1.0 - portable::exp(-(travel < 0.0 ? -travel : travel) / shape.constants[0]);
-      out.dq[j] -= h[i] * (direction * grown);
+    const std::size_t count = shape.joints.size();
+    for (std::size_t i = 0; i < count; i += 2) {
+      const std::size_t last = i + 1 < count ? i + 1 : i;
+      const auto fading = portable::exp(std::array{fade(i, shape, at), fade(last, shape, at)});
+      move(i, fading[0], h, shape, at, out);
+      if (last > i) move(last, fading[1], h, shape, at, out);
     }
+  }
+
+ private:
+  /// -travel / r of the i-th joint.
+  static double fade(std::size_t i, const EffectShape& shape, const Situation& at) {
+    const double travel = at.context.travel[shape.joints[i]];
+    return (travel < 0.0 ? travel : -travel) / shape.constants[0];
+  }
+
+  /// faded: e^fade.
+  template <class S>
+  static void move(std::size_t i, double faded, std::span<const S> h, const EffectShape& shape,
+                   const Situation& at, Motion<S>& out) {
+    const int j = shape.joints[i];
+    const double direction = at.context.direction[j], travel = at.context.travel[j];
+    if (!(direction == direction)) return;
+    const bool grows = travel == travel && shape.constants[0] > 0.0;
+    out.dq[j] -= h[i] * (direction * (grows ? 1.0 - faded : 1.0));
   }
 };
 
