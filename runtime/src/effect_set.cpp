@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/effect_set.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
 #include "plumb/format/formula.hpp"
 #include "plumb/runtime/effect_library.hpp"
-#include "room.hpp"
 
 namespace plumb {
 namespace {
@@ -89,6 +89,7 @@ EffectSet::EffectSet(const format::Model& model) noexcept
     const int law = find_effect_law(effect.name);
     if (law >= 0 && count_ < format::kMaxEffects) bind(model, effect, law);
   }
+  if (known(stand_ins_.payload_kg)) weights_.expect_payload(stand_ins_.payload_kg);
 }
 
 void EffectSet::bind(const format::Model& model, const format::Effect& effect, int law) noexcept {
@@ -129,22 +130,20 @@ void EffectSet::stand_in(const format::ContextNeed& need, const BoundEffect& bou
 }
 
 void EffectSet::stand_in(std::size_t input, double value) noexcept {
-  for (std::size_t i = 0; i < stand_in_count_; ++i)
-    if (stand_ins_[i].input == input) return;
-  if (input < kInputs) stand_ins_[stand_in_count_++] = {input, value};
+  const auto needed = std::span(needs_).first(need_count_);
+  if (input >= kInputs || std::find(needed.begin(), needed.end(), input) != needed.end()) return;
+  needs_[need_count_++] = input;
+  std::memcpy(reinterpret_cast<std::byte*>(&stand_ins_) + input * sizeof value, &value,
+              sizeof value);
 }
 
-/// True if anything was unknown.
-bool EffectSet::fill_in(Context& context) const noexcept {
-  auto* const bytes = reinterpret_cast<std::byte*>(&context);
+bool EffectSet::lacks(const Context& context) const noexcept {
+  const auto* const bytes = reinterpret_cast<const std::byte*>(&context);
   bool any = false;
-  for (std::size_t i = 0; i < stand_in_count_; ++i) {
-    std::byte* const input = bytes + stand_ins_[i].input * sizeof(double);
+  for (const std::size_t input : std::span(needs_).first(need_count_)) {
     double value;
-    std::memcpy(&value, input, sizeof value);
+    std::memcpy(&value, bytes + input * sizeof value, sizeof value);
     any |= !known(value);
-    value = known(value) ? value : stand_ins_[i].value;
-    std::memcpy(input, &value, sizeof value);
   }
   return any;
 }
@@ -152,14 +151,13 @@ bool EffectSet::fill_in(Context& context) const noexcept {
 void EffectSet::survey(const ChainFrames& frames, const Context& context,
                        Surroundings& out) const noexcept {
   out.context = context;
-  fill_in(out.context);
-  weights_.weigh(frames, out.context, out.loads);
+  weights_.weigh(frames, context, out.loads);
 }
 
 void EffectSet::prepare(const Context& context, Scene& out) const noexcept {
-  internal::copy(context, out.context);
-  out.stood_in = fill_in(out.context);
-  weights_.hang(out.context, out.payload_T, out.loads);
+  out.context = &context;
+  out.stood_in = lacks(context);
+  weights_.hang(context, out.payload_T, out.loads);
 }
 
 bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scene,
@@ -170,7 +168,8 @@ bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scen
                      .chain = chain,
                      .frames = scene.frames,
                      .loads = scene.loads,
-                     .context = scene.context};
+                     .context = *scene.context,
+                     .stand_ins = stand_ins_};
   for (const BoundEffect& bound : std::span(effects_).first(count_)) bound.apply(bound, at, out);
   return scene.stood_in || out.undefined;
 }

@@ -87,14 +87,28 @@ struct Situation {
   const ChainFrames& frames;
   const Loads& loads;
   const Context& context;
+  const Context& stand_ins = kNothingKnown;  // for what is unknown in it
+
+  double direction(std::size_t j) const noexcept { return either(&Context::direction, j); }
+  double travel(std::size_t j) const noexcept { return either(&Context::travel, j); }
+  double payload_kg() const noexcept { return either(context.payload_kg, stand_ins.payload_kg); }
+  double time_s() const noexcept { return either(context.time_s, stand_ins.time_s); }
 
   /// Of sensor i of an effect; unknown if it reads no such one.
   double temperature_degC(const EffectShape& shape, std::size_t i) const noexcept {
-    return i < shape.sensors.size() ? context.temperature_degC[shape.sensors[i]] : kUnknown;
+    return i < shape.sensors.size() ? either(&Context::temperature_degC, shape.sensors[i])
+                                    : kUnknown;
   }
 
   /// About the axis of joint j [N m]; along it [N] if it slides.
   double torque(int j) const noexcept { return loads.torque(j, chain, frames); }
+
+ private:
+  static double either(double x, double stand_in) noexcept { return x == x ? x : stand_in; }
+  template <class Numbers>
+  double either(Numbers Context::*of, std::size_t i) const noexcept {
+    return either((context.*of)[i], (stand_ins.*of)[i]);
+  }
 };
 
 /// Motion caused by effects, gathered over all of them.

@@ -51,7 +51,7 @@ class EffectSet {
 
   /// What all laws share at one pose.
   struct Surroundings {
-    Context context;  // fallbacks filled in
+    Context context;
     Loads loads;
   };
   void survey(const ChainFrames& frames, const Context& context, Surroundings& out) const noexcept;
@@ -61,8 +61,12 @@ class EffectSet {
   void apply_one(int i, std::span<const S> theta, std::span<const double> q, const Chain& chain,
                  const ChainFrames& frames, const Surroundings& around, Motion<S>& out) const {
     const BoundEffect& bound = effects_[static_cast<std::size_t>(i)];
-    const Situation at{
-        .q = q, .chain = chain, .frames = frames, .loads = around.loads, .context = around.context};
+    const Situation at{.q = q,
+                       .chain = chain,
+                       .frames = frames,
+                       .loads = around.loads,
+                       .context = around.context,
+                       .stand_ins = stand_ins_};
     apply_effect<S>(bound.law, theta, bound.shape, at, out);
   }
 
@@ -72,9 +76,10 @@ class EffectSet {
     ChainPoints points_B;
     ChainFrames frames;
     Loads loads;
-    Context context;  // fallbacks filled in
-    bool stood_in;    // one of them had to be
+    const Context* context;
+    bool stood_in;  // a fallback, for something unknown in it
   };
+  /// The context must live as long as the scene is used.
   void prepare(const Context& context, Scene& out) const noexcept;
 
   /// Motion of the arm at one pose of the scene. `chain` is the calibrated one. True if a fallback
@@ -84,23 +89,20 @@ class EffectSet {
              Motion<double>& out) const noexcept;
 
  private:
-  /// An input that effects need, and what stands for it when it is unknown. The first effect that
-  /// needs it says what.
-  struct StandIn {
-    std::size_t input = 0;  // place in Context, counted in numbers
-    double value = 0.0;
-  };
   static constexpr std::size_t kInputs = sizeof(Context) / sizeof(double);
 
   void bind(const format::Model& model, const format::Effect& effect, int law) noexcept;
   void stand_in(const format::ContextNeed& need, const BoundEffect& bound,
                 std::size_t& sensor) noexcept;
   void stand_in(std::size_t input, double value) noexcept;
-  bool fill_in(Context& context) const noexcept;
+
+  /// Something that an effect needs.
+  bool lacks(const Context& context) const noexcept;
 
   std::array<BoundEffect, format::kMaxEffects> effects_;
-  std::array<StandIn, kInputs> stand_ins_;
-  std::size_t stand_in_count_ = 0;
+  std::array<std::size_t, kInputs> needs_;  // places in Context, counted in numbers
+  std::size_t need_count_ = 0;
+  Context stand_ins_;  // for what is needed and unknown: the first effect that needs it says what
   std::size_t count_ = 0;
   Weights weights_;
 };

@@ -60,6 +60,9 @@ class Weights {
   Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
           const Transformd& X_TF, int joints) noexcept;
 
+  /// Stands for the nominal payload.
+  void expect_payload(double kg) noexcept { payload_[0] = kg; }
+
   /// Where the mass of link j is in the frame P_j behind its joint.
   const JointPoints& centres() const noexcept { return centres_; }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <limits>
+
 #include "plumb/runtime/effect.hpp"
 
 namespace plumb::effects {
@@ -26,29 +29,28 @@ struct Reversal {
                     Motion<S>& out) {
     const std::size_t count = shape.joints.size();
     for (std::size_t i = 0; i < count; i += 2) {
-      const std::size_t last = i + 1 < count ? i + 1 : i;
-      const auto fading = portable::exp(std::array{fade(i, shape, at), fade(last, shape, at)});
-      move(i, fading[0], h, shape, at, out);
-      if (last > i) move(last, fading[1], h, shape, at, out);
+      const std::size_t next = i + 1 < count ? i + 1 : i;
+      const auto left = portable::exp(std::array{fade(i, shape, at), fade(next, shape, at)});
+      move(i, 1.0 - left[0], h, shape, at, out);
+      if (next > i) move(next, 1.0 - left[1], h, shape, at, out);
     }
   }
 
  private:
-  /// -travel / r of the i-th joint.
+  /// -travel / r of the i-th joint; if that is unknown, as after a long way.
   static double fade(std::size_t i, const EffectShape& shape, const Situation& at) {
-    const double travel = at.context.travel[shape.joints[i]];
+    const double travel = at.travel(shape.joints[i]);
+    if (!(travel == travel && shape.constants[0] > 0.0))
+      return -std::numeric_limits<double>::infinity();
     return (travel < 0.0 ? travel : -travel) / shape.constants[0];
   }
 
-  /// faded: e^fade.
   template <class S>
-  static void move(std::size_t i, double faded, std::span<const S> h, const EffectShape& shape,
+  static void move(std::size_t i, double grown, std::span<const S> h, const EffectShape& shape,
                    const Situation& at, Motion<S>& out) {
-    const int j = shape.joints[i];
-    const double direction = at.context.direction[j], travel = at.context.travel[j];
-    if (!(direction == direction)) return;
-    const bool grows = travel == travel && shape.constants[0] > 0.0;
-    out.dq[j] -= h[i] * (direction * (grows ? 1.0 - faded : 1.0));
+    const std::size_t j = shape.joints[i];
+    const double direction = at.direction(j);
+    if (direction == direction) out.dq[j] -= h[i] * (direction * grown);
   }
 };
 
