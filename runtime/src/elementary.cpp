@@ -171,7 +171,7 @@ bool is_odd(double x) {
 }  // namespace
 
 SinCos<double> sin_cos(double x) noexcept {
-  if (!(magnitude(x) <= kLargestAngle)) return {kNaN, kNaN};
+  if (!(__builtin_fabs(x) <= kLargestAngle)) return {kNaN, kNaN};
   Reduced<double> r;
   reduce(x, r);
   double s, c;

@@ -87,6 +87,9 @@ inline Packed magnitude(const Packed& x) {
 /// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
 inline PackedBits within(const Packed& x, double limit) { return magnitude(x) <= packed(limit); }
 
+/// The same in each lane that is zero, of either sign.
+inline PackedBits zero(const Packed& x) { return x == packed(0.0); }
+
 /// Whether all lanes are all ones; each is, or is zero.
 inline bool all(const PackedBits& x) {
 #if defined(__AVX__)
@@ -101,6 +104,7 @@ inline bool all(const PackedBits& x) {
 inline PackedBits within(const Lanes& x, double limit) {
   return within(x.low, limit) & within(x.high, limit);
 }
+inline PackedBits zero(const Lanes& x) { return zero(x.low) & zero(x.high); }
 #endif
 
 /// The first `count` numbers from there, and zeros; all of them if there are more.

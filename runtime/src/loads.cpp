@@ -129,7 +129,7 @@ void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) con
   const Lanes force = plumb::lanes(given + kWrenchAt), moment = plumb::lanes(given + kWrenchAt + 2);
   store(force, &out.wrench);
   store(last_three(moment), &out.tip_moment);
-  out.pushed = !all(within(force, 0.0) & within(moment, 0.0));
+  out.pushed = !all(zero(force) & zero(moment));
 }
 
 void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {

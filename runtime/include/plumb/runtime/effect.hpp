@@ -130,16 +130,17 @@ struct Motion {
 
   /// Displacement d in a frame of orientation R_B [m].
   void displace(const Matrix3& R_B, const Vec3<S>& d) {
-    for (int i = 0; i < 3; ++i)
-      shift_B(i) += d(0) * R_B(i, 0) + d(1) * R_B(i, 1) + d(2) * R_B(i, 2);
+    Vec3<S> d_B;  // written at once: what is written might be read again
+    for (int i = 0; i < 3; ++i) d_B(i) = d(0) * R_B(i, 0) + d(1) * R_B(i, 1) + d(2) * R_B(i, 2);
+    shift_B += d_B;
   }
 
   /// Rotation e_B [rad] about a point from which the tip is at arm_B [m].
   void rotate(const Vec3<S>& e_B, const Vector3& arm_B) {
-    shift_B(0) += e_B(1) * arm_B(2) - e_B(2) * arm_B(1);
-    shift_B(1) += e_B(2) * arm_B(0) - e_B(0) * arm_B(2);
-    shift_B(2) += e_B(0) * arm_B(1) - e_B(1) * arm_B(0);
-    for (int i = 0; i < 3; ++i) turn_B(i) += e_B(i);
+    const Vec3<S> d_B(e_B(1) * arm_B(2) - e_B(2) * arm_B(1), e_B(2) * arm_B(0) - e_B(0) * arm_B(2),
+                      e_B(0) * arm_B(1) - e_B(1) * arm_B(0));
+    shift_B += d_B;
+    turn_B += e_B;
   }
 };
 

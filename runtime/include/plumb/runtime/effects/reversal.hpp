@@ -28,21 +28,21 @@ struct Reversal {
   static void apply(std::span<const S> h, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
     const std::size_t count = shape.joints.size();
+    const double r = shape.constants[0];
     for (std::size_t i = 0; i < count; i += 2) {
       const std::size_t next = i + 1 < count ? i + 1 : i;
-      const auto left = portable::exp(std::array{fade(i, shape, at), fade(next, shape, at)});
+      const auto left = portable::exp(
+          std::array{fade(at.travel(shape.joints[i]), r), fade(at.travel(shape.joints[next]), r)});
       move(i, 1.0 - left[0], h, shape, at, out);
       if (next > i) move(next, 1.0 - left[1], h, shape, at, out);
     }
   }
 
  private:
-  /// -travel / r of the i-th joint; if that is unknown, as after a long way.
-  static double fade(std::size_t i, const EffectShape& shape, const Situation& at) {
-    const double travel = at.travel(shape.joints[i]);
-    if (!(travel == travel && shape.constants[0] > 0.0))
-      return -std::numeric_limits<double>::infinity();
-    return (travel < 0.0 ? travel : -travel) / shape.constants[0];
+  /// -travel / r; where the travel is unknown, as after a long one.
+  static double fade(double travel, double r) {
+    if (!(travel == travel && r > 0.0)) return -std::numeric_limits<double>::infinity();
+    return -__builtin_fabs(travel) / r;
   }
 
   template <class S>
