@@ -218,16 +218,15 @@ double atan2(double y, double x) noexcept {
 
 double exp(double x) noexcept { return exp_clamped(x, 0.0); }
 
-/// Without a `low` what is within the limits never leaves the normal numbers, so k, the last bits
-/// of `shifted`, goes straight into the exponent.
-std::array<double, 2> exp(const std::array<double, 2>& x) noexcept {
+/// What is not zero is normal, and so is the power of two, made of k in the last bits of `shifted`.
+std::array<double, 2> exp_of_negative(const std::array<double, 2>& x) noexcept {
   const Two at{x[0], x[1]};
   Two y, shifted;
   exp_reduced(at, Two{}, y, shifted);
-  TwoBits bits = reinterpret_cast<TwoBits>(y) + (reinterpret_cast<TwoBits>(shifted) << 52);
-  bits &= at >= kExpLowest;
-  bits = at > kExpHighest ? TwoBits{} + std::bit_cast<std::int64_t>(kInfinity) : bits;
-  const Two out = reinterpret_cast<Two>(bits | ((at != at) & kNotANumber));
+  const TwoBits power =
+      (reinterpret_cast<TwoBits>(shifted) << 52) + std::bit_cast<std::int64_t>(1.0);
+  const Two value = y * reinterpret_cast<Two>(power);
+  const Two out = reinterpret_cast<Two>(reinterpret_cast<TwoBits>(value) & ~(at < kExpLowest));
   return {out[0], out[1]};
 }
 

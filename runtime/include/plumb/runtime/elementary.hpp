@@ -26,8 +26,8 @@ double atan2(double y, double x) noexcept;
 /// e^x; 0 below -708, +inf above 709.7 (never a denormal).
 double exp(double x) noexcept;
 
-/// The same of two numbers, for little more than of one.
-std::array<double, 2> exp(const std::array<double, 2>& x) noexcept;
+/// The same of two x <= 0, for little more than of one.
+std::array<double, 2> exp_of_negative(const std::array<double, 2>& x) noexcept;
 
 /// Natural logarithm; -inf at 0, NaN below.
 double log(double x) noexcept;

@@ -31,7 +31,7 @@ struct Reversal {
     const double r = shape.constants[0];
     for (std::size_t i = 0; i < count; i += 2) {
       const std::size_t next = i + 1 < count ? i + 1 : i;
-      const auto left = portable::exp(
+      const auto left = portable::exp_of_negative(
           std::array{fade(at.travel(shape.joints[i]), r), fade(at.travel(shape.joints[next]), r)});
       move(i, 1.0 - left[0], h, shape, at, out);
       if (next > i) move(next, 1.0 - left[1], h, shape, at, out);
