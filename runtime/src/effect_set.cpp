@@ -133,17 +133,20 @@ void EffectSet::stand_in(std::size_t input, double value) noexcept {
   const auto needed = std::span(needs_).first(need_count_);
   if (input >= kInputs || std::find(needed.begin(), needed.end(), input) != needed.end()) return;
   needs_[need_count_++] = input;
+  needs_[need_count_] = input;
   std::memcpy(reinterpret_cast<std::byte*>(&stand_ins_) + input * sizeof value, &value,
               sizeof value);
 }
 
+/// Two at a time: two numbers are unordered if either is unknown.
 bool EffectSet::lacks(const Context& context) const noexcept {
   const auto* const bytes = reinterpret_cast<const std::byte*>(&context);
   bool any = false;
-  for (const std::size_t input : std::span(needs_).first(need_count_)) {
-    double value;
-    std::memcpy(&value, bytes + input * sizeof value, sizeof value);
-    any |= !known(value);
+  for (std::size_t i = 0; i < need_count_; i += 2) {
+    double one, other;
+    std::memcpy(&one, bytes + needs_[i] * sizeof one, sizeof one);
+    std::memcpy(&other, bytes + needs_[i + 1] * sizeof other, sizeof other);
+    any |= __builtin_isunordered(one, other) != 0;
   }
   return any;
 }

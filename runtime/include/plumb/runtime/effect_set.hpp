@@ -100,7 +100,7 @@ class EffectSet {
   bool lacks(const Context& context) const noexcept;
 
   std::array<BoundEffect, format::kMaxEffects> effects_;
-  std::array<std::size_t, kInputs> needs_;  // places in Context, counted in numbers
+  std::array<std::size_t, kInputs + 1> needs_;  // places in Context; the last stands there twice
   std::size_t need_count_ = 0;
   Context stand_ins_;  // for what is needed and unknown: the first effect that needs it says what
   std::size_t count_ = 0;
