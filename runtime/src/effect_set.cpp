@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/effect_set.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
 #include "plumb/format/formula.hpp"
 #include "plumb/runtime/effect_library.hpp"
-#include "room.hpp"
 
 namespace plumb {
 namespace {
 
 bool known(double v) noexcept { return v == v; }
+
+/// A law as the cycle calls it: whatever it needs is inlined.
+template <class Law>
+[[gnu::flatten]] void apply_law(const BoundEffect& effect, const Situation& at,
+                                Motion<double>& out) noexcept {
+  Law::template apply<double>(effect.theta, effect.shape, at, out);
+}
 
 /// Number of the sensor among those the effects read, or -1.
 int sensor_of(const format::Model& model, const std::string& name) noexcept {
@@ -82,12 +89,13 @@ EffectSet::EffectSet(const format::Model& model) noexcept
     const int law = find_effect_law(effect.name);
     if (law >= 0 && count_ < format::kMaxEffects) bind(model, effect, law);
   }
+  if (known(stand_ins_.payload_kg)) weights_.expect_payload(stand_ins_.payload_kg);
 }
 
 void EffectSet::bind(const format::Model& model, const format::Effect& effect, int law) noexcept {
-  Bound& bound = effects_[static_cast<std::size_t>(count_++)];
+  BoundEffect& bound = effects_[count_++];
   bound.law = law;
-  with_law(law, [&bound](auto found) { bound.apply = &decltype(found)::template apply<double>; });
+  with_law(law, [&bound](auto found) { bound.apply = &apply_law<decltype(found)>; });
   bound.shape = shape_of(model, effect);
   bound.theta = effect.parameters;
   for (const auto& need : effect.context) {
@@ -99,7 +107,7 @@ void EffectSet::bind(const format::Model& model, const format::Effect& effect, i
   for (const auto& need : effect.context) stand_in(need, bound, sensor);
 }
 
-void EffectSet::stand_in(const format::ContextNeed& need, const Bound& bound,
+void EffectSet::stand_in(const format::ContextNeed& need, const BoundEffect& bound,
                          std::size_t& sensor) noexcept {
   switch (need.input) {
     case format::ContextInput::kDirection:
@@ -122,22 +130,23 @@ void EffectSet::stand_in(const format::ContextNeed& need, const Bound& bound,
 }
 
 void EffectSet::stand_in(std::size_t input, double value) noexcept {
-  for (std::size_t i = 0; i < stand_in_count_; ++i)
-    if (stand_ins_[i].input == input) return;
-  if (input < kInputs) stand_ins_[stand_in_count_++] = {input, value};
+  const auto needed = std::span(needs_).first(need_count_);
+  if (input >= kInputs || std::find(needed.begin(), needed.end(), input) != needed.end()) return;
+  needs_[need_count_++] = input;
+  needs_[need_count_] = input;
+  std::memcpy(reinterpret_cast<std::byte*>(&stand_ins_) + input * sizeof value, &value,
+              sizeof value);
 }
 
-/// True if anything was unknown.
-bool EffectSet::fill_in(Context& context) const noexcept {
-  auto* const bytes = reinterpret_cast<std::byte*>(&context);
+/// Two at a time: two numbers are unordered if either is unknown.
+bool EffectSet::lacks(const Context& context) const noexcept {
+  const auto* const bytes = reinterpret_cast<const std::byte*>(&context);
   bool any = false;
-  for (std::size_t i = 0; i < stand_in_count_; ++i) {
-    std::byte* const input = bytes + stand_ins_[i].input * sizeof(double);
-    double value;
-    std::memcpy(&value, input, sizeof value);
-    any |= !known(value);
-    value = known(value) ? value : stand_ins_[i].value;
-    std::memcpy(input, &value, sizeof value);
+  for (std::size_t i = 0; i < need_count_; i += 2) {
+    double one, other;
+    std::memcpy(&one, bytes + needs_[i] * sizeof one, sizeof one);
+    std::memcpy(&other, bytes + needs_[i + 1] * sizeof other, sizeof other);
+    any |= __builtin_isunordered(one, other) != 0;
   }
   return any;
 }
@@ -145,14 +154,13 @@ bool EffectSet::fill_in(Context& context) const noexcept {
 void EffectSet::survey(const ChainFrames& frames, const Context& context,
                        Surroundings& out) const noexcept {
   out.context = context;
-  fill_in(out.context);
-  weights_.weigh(frames, out.context, out.loads);
+  weights_.weigh(frames, context, out.loads);
 }
 
 void EffectSet::prepare(const Context& context, Scene& out) const noexcept {
-  internal::copy(context, out.context);
-  out.stood_in = fill_in(out.context);
-  weights_.hang(out.context, out.payload_T, out.loads);
+  out.context = &context;
+  out.stood_in = lacks(context);
+  weights_.hang(context, out.payload_T, out.loads);
 }
 
 bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scene,
@@ -163,11 +171,9 @@ bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scen
                      .chain = chain,
                      .frames = scene.frames,
                      .loads = scene.loads,
-                     .context = scene.context};
-  for (int i = 0; i < count_; ++i) {
-    const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    bound.apply(bound.theta, bound.shape, at, out);
-  }
+                     .context = *scene.context,
+                     .stand_ins = stand_ins_};
+  for (const BoundEffect& bound : std::span(effects_).first(count_)) bound.apply(bound, at, out);
   return scene.stood_in || out.undefined;
 }
 

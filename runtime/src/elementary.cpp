@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -20,6 +21,10 @@ bool is_nan(double x) { return x != x; }
 double magnitude(double x) { return x < 0.0 ? -x : x; }
 
 double nearest(double x) { return (x + kShift) - kShift; }
+
+/// Two numbers in the lanes of what every machine with such registers has.
+using Two = double __attribute__((vector_size(2 * sizeof(double))));
+using TwoBits = std::int64_t __attribute__((vector_size(2 * sizeof(double))));
 
 /// 2^k for -1022 <= k <= 1023.
 double power_of_two(int k) {
@@ -120,21 +125,29 @@ Pair log_pair(double x) {
   return fast_sum(whole.high, low);
 }
 
-/// e^(x + low), |low| much smaller than x.
-double exp_of(double x, double low) {
+/// e^(x + low) = 2^k times it, |low| much smaller than x. Real: double, or several of them.
+template <class Real>
+void exp_reduced(const Real& x, const Real& low, Real& out, Real& shifted) {
   constexpr double kOneOverLn2 = 1.44269504088896338700e+00;
-  const double k = nearest(x * kOneOverLn2);
-  const double high = x - k * kLn2High;
-  const double rest = k * kLn2Low - low;
-  const double r = high - rest;
-  const double z = r * r;
-  const double c =
+  shifted = x * kOneOverLn2 + kShift;
+  const Real k = shifted - kShift;
+  const Real high = x - k * kLn2High;
+  const Real rest = k * kLn2Low - low;
+  const Real r = high - rest;
+  const Real z = r * r;
+  const Real c =
       r - z * (1.66666666666666019037e-01 +
                z * (-2.77777777770155933842e-03 +
                     z * (6.61375632143793436117e-05 +
                          z * (-1.65339022054652515390e-06 + z * 4.13813679705723846039e-08))));
-  const double y = 1.0 - ((rest - (r * c) / (2.0 - c)) - high);
-  const int n = static_cast<int>(k);
+  out = 1.0 - ((rest - (r * c) / (2.0 - c)) - high);
+}
+
+/// e^(x + low).
+double exp_of(double x, double low) {
+  double y, shifted;
+  exp_reduced(x, low, y, shifted);
+  const int n = static_cast<int>(shifted - kShift);
   const int half = n / 2;  // in two steps, so that 2^1024 is never needed
   return y * power_of_two(half) * power_of_two(n - half);
 }
@@ -158,7 +171,7 @@ bool is_odd(double x) {
 }  // namespace
 
 SinCos<double> sin_cos(double x) noexcept {
-  if (!(magnitude(x) <= kLargestAngle)) return {kNaN, kNaN};
+  if (!(__builtin_fabs(x) <= kLargestAngle)) return {kNaN, kNaN};
   Reduced<double> r;
   reduce(x, r);
   double s, c;
@@ -204,6 +217,18 @@ double atan2(double y, double x) noexcept {
 }
 
 double exp(double x) noexcept { return exp_clamped(x, 0.0); }
+
+/// What is not zero is normal, and so is the power of two, made of k in the last bits of `shifted`.
+std::array<double, 2> exp_of_negative(const std::array<double, 2>& x) noexcept {
+  const Two at{x[0], x[1]};
+  Two y, shifted;
+  exp_reduced(at, Two{}, y, shifted);
+  const TwoBits power =
+      (reinterpret_cast<TwoBits>(shifted) << 52) + std::bit_cast<std::int64_t>(1.0);
+  const Two value = y * reinterpret_cast<Two>(power);
+  const Two out = reinterpret_cast<Two>(reinterpret_cast<TwoBits>(value) & ~(at < kExpLowest));
+  return {out[0], out[1]};
+}
 
 double log(double x) noexcept {
   if (is_nan(x) || x < 0.0) return kNaN;

@@ -87,6 +87,9 @@ inline Packed magnitude(const Packed& x) {
 /// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
 inline PackedBits within(const Packed& x, double limit) { return magnitude(x) <= packed(limit); }
 
+/// The same in each lane that is zero, of either sign.
+inline PackedBits zero(const Packed& x) { return x == packed(0.0); }
+
 /// Whether all lanes are all ones; each is, or is zero.
 inline bool all(const PackedBits& x) {
 #if defined(__AVX__)
@@ -101,6 +104,7 @@ inline bool all(const PackedBits& x) {
 inline PackedBits within(const Lanes& x, double limit) {
   return within(x.low, limit) & within(x.high, limit);
 }
+inline PackedBits zero(const Lanes& x) { return zero(x.low) & zero(x.high); }
 #endif
 
 /// The first `count` numbers from there, and zeros; all of them if there are more.
@@ -240,6 +244,24 @@ inline std::array<Lanes, 3> rows(const Lanes& a, const Lanes& b, const Lanes& c,
   return {{{a[0], b[0], c[0], d[0]}, {a[1], b[1], c[1], d[1]}, {a[2], b[2], c[2], d[2]}}};
 #endif
 }
+
+/// Number k of it in every lane.
+template <int k>
+Lanes every(const Lanes& a) {
+#ifdef __AVX__
+  return __builtin_shufflevector(a, a, k, k, k, k);
+#else
+  return spread(a[k]);
+#endif
+}
+
+/// Lane by lane the first; the second where that is NaN.
+inline Packed known_or(const Packed& a, const Packed& b) { return a == a ? a : b; }
+#ifndef __AVX__
+inline Lanes known_or(const Lanes& a, const Lanes& b) {
+  return {known_or(a.low, b.low), known_or(a.high, b.high)};
+}
+#endif
 
 /// Its `turned` is a x b; so a sum of cross products need be turned only once.
 inline Lanes cross_turned(const Lanes& a, const Lanes& b) { return a * turned(b) - turned(a) * b; }

@@ -2,25 +2,16 @@
 #include "plumb/runtime/loads.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <cstring>
+#include <cstddef>
+#include <type_traits>
 
 #include "lanes.hpp"
-#include "room.hpp"
 
 namespace plumb {
 namespace {
 
 Vector3 vector(const std::array<double, 3>& v) noexcept { return {v[0], v[1], v[2]}; }
-
-bool known(double v) noexcept { return v == v; }
-
-/// Of either sign.
-bool is_zero(const std::array<double, 3>& v) noexcept {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x) << 1; };
-  return (bits(v[0]) | bits(v[1]) | bits(v[2])) == 0;
-}
+Vector3 vector(const Lanes& v) noexcept { return {v[0], v[1], v[2]}; }
 
 std::array<double, 4> point(const Vector3& p) noexcept { return {p(0), p(1), p(2), 1.0}; }
 
@@ -30,15 +21,90 @@ Vector3 narrow(const WidePoint& p) noexcept {
   return {p.x.copies[0], p.y.copies[0], p.z.copies[0]};
 }
 
+/// A context by its numbers: the payload with where it hangs, and the wrench, stand in a row.
+const double* numbers(const Context& context) noexcept {
+  static_assert(std::is_standard_layout_v<Context>);
+  return reinterpret_cast<const double*>(&context);
+}
+constexpr std::size_t kHangsAt = offsetof(Context, payload_kg) / sizeof(double);
+constexpr std::size_t kWrenchAt = offsetof(Context, force_N) / sizeof(double);
+static_assert(offsetof(Context, payload_com_m) == (kHangsAt + 1) * sizeof(double) &&
+              offsetof(Context, moment_Nm) == (kWrenchAt + 3) * sizeof(double));
+
+Lanes lanes(const Triple& v) noexcept { return plumb::lanes(v.numbers.data()); }
+Lanes lanes(const Loads::Behind& behind) noexcept {
+  return plumb::lanes(behind.first_moment.data());
+}
+
+/// The origin of a frame that is not the last of those it stands among.
+Lanes origin_of(const Transformd& X) noexcept { return plumb::lanes(plumb::numbers(X) + 9); }
+
+/// Summed in the order of `dot`.
+double sum_of_three(const Lanes& a) noexcept { return a[0] + a[1] + a[2]; }
+
+/// Of a weight with its first moment about the base, about p.
+Lanes about(const Loads::Behind& behind, const Lanes& p) noexcept {
+  return lanes(behind) - p * behind.mass;
+}
+
+Lanes force_of(const Loads& loads, int j) noexcept {
+  const Lanes weight = lanes(loads.gravity) * loads.joint[j].mass;
+  return loads.pushed ? weight + lanes(loads.wrench) : weight;
+}
+
+/// Of the external wrench, about a point from which the tip is at `arm`.
+Lanes wrench_about(const Loads& loads, const Lanes& arm) noexcept {
+  return cross(arm, lanes(loads.wrench)) + lanes(loads.tip_moment);
+}
+
+Lanes moment_of(const Loads& loads, int j, const ChainFrames& frames) noexcept {
+  const Lanes at = origin_of(frames.joint[j]);
+  const Lanes weight = cross(about(loads.joint[j], at), lanes(loads.gravity));
+  return loads.pushed ? weight + wrench_about(loads, origin(frames.tip) - at) : weight;
+}
+
+/// About or along the axis of joint j.
+double along(int j, const ChainFrames& frames, const Lanes& load) noexcept {
+  return sum_of_three(axis(frames.joint[j], 2) * load);
+}
+
 }  // namespace
+
+Vector3 Loads::force(int j) const noexcept { return vector(force_of(*this, j)); }
+
+Vector3 Loads::moment(int j, const ChainFrames& frames) const noexcept {
+  return vector(moment_of(*this, j, frames));
+}
+
+Vector3 Loads::base_moment(const ChainFrames& frames) const noexcept {
+  const Lanes weight = cross(lanes(joint[0]), lanes(gravity));
+  if (!pushed) return vector(weight);
+  return vector(weight + cross(origin(frames.tip), lanes(wrench)) + lanes(tip_moment));
+}
+
+double Loads::torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
+  return along(j, frames, chain.revolute(j) ? moment_of(*this, j, frames) : force_of(*this, j));
+}
+
+double Loads::payload_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
+  const Lanes force = lanes(payload_force);
+  const Lanes arm = lanes(payload_at) - origin_of(frames.joint[j]);
+  return along(j, frames, chain.revolute(j) ? cross(arm, force) : force);
+}
+
+double Loads::wrench_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
+  if (!chain.revolute(j)) return along(j, frames, lanes(wrench));
+  if (!pushed) return along(j, frames, spread(0.0));
+  return along(j, frames, wrench_about(*this, origin(frames.tip) - origin_of(frames.joint[j])));
+}
 
 Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
                  const Transformd& X_TF, int joints) noexcept
-    : gravity_(vector(gravity)),
-      X_TF_(X_TF),
-      payload_kg_(mechanics.payload_kg),
-      payload_com_F_(vector(mechanics.payload_com_m)),
+    : payload_{mechanics.payload_kg, mechanics.payload_com_m[0], mechanics.payload_com_m[1],
+               mechanics.payload_com_m[2]},
+      gravity_(vector(gravity)),
       joints_(static_cast<std::size_t>(joints)) {
+  Columns(X_TF).store(X_TF_);
   const std::size_t links = std::min(mechanics.links.size(), joints_);
   for (std::size_t j = 0; j < links; ++j) {
     centres_[j] = wide(vector(mechanics.links[j].com_m));
@@ -46,21 +112,24 @@ Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>
   }
 }
 
-double Weights::payload_kg(const Context& context) const noexcept {
-  return known(context.payload_kg) ? context.payload_kg : payload_kg_;
-}
-
 void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) const noexcept {
-  Vector3 com_F = payload_com_F_;
-  for (int k = 0; k < 3; ++k)
-    com_F(k) = known(context.payload_com_m[k]) ? context.payload_com_m[k] : com_F(k);
-  payload_T = wide(X_TF_ * com_F);
-  out.gravity = gravity_;
-  out.payload_kg = payload_kg(context);
-  out.payload_force = gravity_ * out.payload_kg;
-  out.wrench = vector(context.force_N);
-  out.tip_moment = vector(context.moment_Nm);
-  out.pushed = !is_zero(context.force_N) || !is_zero(context.moment_Nm);
+  const double* const given = numbers(context);
+  const Lanes payload = known_or(plumb::lanes(given + kHangsAt), plumb::lanes(payload_.data()));
+  const Lanes at_T = plumb::lanes(X_TF_[0].data()) * every<1>(payload) +
+                     plumb::lanes(X_TF_[1].data()) * every<2>(payload) +
+                     plumb::lanes(X_TF_[2].data()) * every<3>(payload) +
+                     plumb::lanes(X_TF_[3].data());
+  store(every<0>(at_T), &payload_T.x);
+  store(every<1>(at_T), &payload_T.y);
+  store(every<2>(at_T), &payload_T.z);
+  out.payload_kg = payload[0];
+  const Lanes g = lanes(gravity_);
+  store(g, &out.gravity);
+  store(g * every<0>(payload), &out.payload_force);
+  const Lanes force = plumb::lanes(given + kWrenchAt), moment = plumb::lanes(given + kWrenchAt + 2);
+  store(force, &out.wrench);
+  store(last_three(moment), &out.tip_moment);
+  out.pushed = !all(zero(force) & zero(moment));
 }
 
 void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
@@ -72,12 +141,12 @@ void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
 template <std::size_t kJoints>
 void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
   const std::size_t n = kJoints > 0 ? kJoints : joints_;
-  const auto& at = points_B.at[n];
-  out.payload_at = Vector3(at[0], at[1], at[2]);
+  const Lanes payload_at = plumb::lanes(points_B.at[n].data());
+  store(payload_at, &out.payload_at);
   static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
-  Lanes behind = lanes(at.data()) * out.payload_kg;
+  Lanes behind = payload_at * out.payload_kg;
   for (std::size_t j = n; j-- > 0;) {
-    behind = behind + lanes(points_B.at[j].data()) * mass_[j];
+    behind = behind + plumb::lanes(points_B.at[j].data()) * mass_[j];
     store(behind, &out.joint[j]);
   }
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -123,6 +125,23 @@ TEST(Exp, StaysBelowOneUlpAndNeverGivesADenormal) {
   EXPECT_EQ(portable::exp(710.0), kInf);
   EXPECT_EQ(portable::exp(-kInf), 0.0);
   EXPECT_TRUE(std::isnan(portable::exp(kNaN)));
+}
+
+TEST(Exp, OfTwoIsTheExpOfEach) {
+  tests::Random random(kSeed);
+  const auto draw = [&random]() -> double {
+    constexpr std::array kEdges{0.0,     -0.0,   -708.0, -708.0000000000001,
+                                -1e-310, -1e308, -kInf,  kNaN};
+    const auto edge = static_cast<std::size_t>(random.below(16));
+    return edge < kEdges.size() ? kEdges[edge] : random.uniform(-720.0, 0.0);
+  };
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(std::isnan(x) ? kNaN : x); };
+  for (long i = tests::scaled(1000000); i > 0; --i) {
+    const std::array x{draw(), draw()};
+    const auto y = exp_of_negative(x);
+    ASSERT_EQ(bits(y[0]), bits(exp(x[0]))) << x[0];
+    ASSERT_EQ(bits(y[1]), bits(exp(x[1]))) << x[1];
+  }
 }
 
 TEST(Log, StaysBelowOneUlpAlsoCloseToOne) {

@@ -40,4 +40,6 @@ struct Context {
   }
 };
 
+inline constexpr Context kNothingKnown{};
+
 }  // namespace plumb

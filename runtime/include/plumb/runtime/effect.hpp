@@ -87,14 +87,28 @@ struct Situation {
   const ChainFrames& frames;
   const Loads& loads;
   const Context& context;
+  const Context& stand_ins = kNothingKnown;  // for what is unknown in it
+
+  double direction(std::size_t j) const noexcept { return either(&Context::direction, j); }
+  double travel(std::size_t j) const noexcept { return either(&Context::travel, j); }
+  double payload_kg() const noexcept { return either(context.payload_kg, stand_ins.payload_kg); }
+  double time_s() const noexcept { return either(context.time_s, stand_ins.time_s); }
 
   /// Of sensor i of an effect; unknown if it reads no such one.
   double temperature_degC(const EffectShape& shape, std::size_t i) const noexcept {
-    return i < shape.sensors.size() ? context.temperature_degC[shape.sensors[i]] : kUnknown;
+    return i < shape.sensors.size() ? either(&Context::temperature_degC, shape.sensors[i])
+                                    : kUnknown;
   }
 
   /// About the axis of joint j [N m]; along it [N] if it slides.
   double torque(int j) const noexcept { return loads.torque(j, chain, frames); }
+
+ private:
+  static double either(double x, double stand_in) noexcept { return x == x ? x : stand_in; }
+  template <class Numbers>
+  double either(Numbers Context::*of, std::size_t i) const noexcept {
+    return either((context.*of)[i], (stand_ins.*of)[i]);
+  }
 };
 
 /// Motion caused by effects, gathered over all of them.
@@ -116,16 +130,17 @@ struct Motion {
 
   /// Displacement d in a frame of orientation R_B [m].
   void displace(const Matrix3& R_B, const Vec3<S>& d) {
-    for (int i = 0; i < 3; ++i)
-      shift_B(i) += d(0) * R_B(i, 0) + d(1) * R_B(i, 1) + d(2) * R_B(i, 2);
+    Vec3<S> d_B;  // written at once: what is written might be read again
+    for (int i = 0; i < 3; ++i) d_B(i) = d(0) * R_B(i, 0) + d(1) * R_B(i, 1) + d(2) * R_B(i, 2);
+    shift_B += d_B;
   }
 
   /// Rotation e_B [rad] about a point from which the tip is at arm_B [m].
   void rotate(const Vec3<S>& e_B, const Vector3& arm_B) {
-    shift_B(0) += e_B(1) * arm_B(2) - e_B(2) * arm_B(1);
-    shift_B(1) += e_B(2) * arm_B(0) - e_B(0) * arm_B(2);
-    shift_B(2) += e_B(0) * arm_B(1) - e_B(1) * arm_B(0);
-    for (int i = 0; i < 3; ++i) turn_B(i) += e_B(i);
+    const Vec3<S> d_B(e_B(1) * arm_B(2) - e_B(2) * arm_B(1), e_B(2) * arm_B(0) - e_B(0) * arm_B(2),
+                      e_B(0) * arm_B(1) - e_B(1) * arm_B(0));
+    shift_B += d_B;
+    turn_B += e_B;
   }
 };
 

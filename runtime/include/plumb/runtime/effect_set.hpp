@@ -31,28 +31,27 @@ EffectFault find_effect_fault(const format::Model& model) noexcept;
 /// null behind the last.
 const std::string* temperature_name(const format::Model& model, int k) noexcept;
 
+/// An effect of a model and its law.
+struct BoundEffect {
+  int law = 0;
+  void (*apply)(const BoundEffect& effect, const Situation& at, Motion<double>& out) = nullptr;
+  EffectShape shape;
+  std::span<const double> theta;
+};
+
 /// The effects of a model, ready for the cycle. Refers to the model's memory.
 /// Precondition: find_effect_fault finds none.
 class EffectSet {
-  using Apply = void (*)(std::span<const double> theta, const EffectShape& shape,
-                         const Situation& at, Motion<double>& out);
-  struct Bound {
-    int law = 0;
-    Apply apply = nullptr;
-    EffectShape shape;
-    std::span<const double> theta;
-  };
-
  public:
   EffectSet() = default;
   explicit EffectSet(const format::Model& model) noexcept;
 
   bool empty() const noexcept { return count_ == 0; }
-  int size() const noexcept { return count_; }
+  int size() const noexcept { return static_cast<int>(count_); }
 
   /// What all laws share at one pose.
   struct Surroundings {
-    Context context;  // fallbacks filled in
+    Context context;
     Loads loads;
   };
   void survey(const ChainFrames& frames, const Context& context, Surroundings& out) const noexcept;
@@ -61,9 +60,13 @@ class EffectSet {
   template <class S>
   void apply_one(int i, std::span<const S> theta, std::span<const double> q, const Chain& chain,
                  const ChainFrames& frames, const Surroundings& around, Motion<S>& out) const {
-    const Bound& bound = effects_[static_cast<std::size_t>(i)];
-    const Situation at{
-        .q = q, .chain = chain, .frames = frames, .loads = around.loads, .context = around.context};
+    const BoundEffect& bound = effects_[static_cast<std::size_t>(i)];
+    const Situation at{.q = q,
+                       .chain = chain,
+                       .frames = frames,
+                       .loads = around.loads,
+                       .context = around.context,
+                       .stand_ins = stand_ins_};
     apply_effect<S>(bound.law, theta, bound.shape, at, out);
   }
 
@@ -73,9 +76,10 @@ class EffectSet {
     ChainPoints points_B;
     ChainFrames frames;
     Loads loads;
-    Context context;  // fallbacks filled in
-    bool stood_in;    // one of them had to be
+    const Context* context;
+    bool stood_in;  // a fallback, for something unknown in it
   };
+  /// The context must live as long as the scene is used.
   void prepare(const Context& context, Scene& out) const noexcept;
 
   /// Motion of the arm at one pose of the scene. `chain` is the calibrated one. True if a fallback
@@ -85,23 +89,21 @@ class EffectSet {
              Motion<double>& out) const noexcept;
 
  private:
-  /// An input that effects need, and what stands for it when it is unknown. The first effect that
-  /// needs it says what.
-  struct StandIn {
-    std::size_t input = 0;  // place in Context, counted in numbers
-    double value = 0.0;
-  };
   static constexpr std::size_t kInputs = sizeof(Context) / sizeof(double);
 
   void bind(const format::Model& model, const format::Effect& effect, int law) noexcept;
-  void stand_in(const format::ContextNeed& need, const Bound& bound, std::size_t& sensor) noexcept;
+  void stand_in(const format::ContextNeed& need, const BoundEffect& bound,
+                std::size_t& sensor) noexcept;
   void stand_in(std::size_t input, double value) noexcept;
-  bool fill_in(Context& context) const noexcept;
 
-  std::array<Bound, format::kMaxEffects> effects_;
-  std::array<StandIn, kInputs> stand_ins_;
-  std::size_t stand_in_count_ = 0;
-  int count_ = 0;
+  /// Something that an effect needs.
+  bool lacks(const Context& context) const noexcept;
+
+  std::array<BoundEffect, format::kMaxEffects> effects_;
+  std::array<std::size_t, kInputs + 1> needs_;  // places in Context; the last stands there twice
+  std::size_t need_count_ = 0;
+  Context stand_ins_;  // for what is needed and unknown: the first effect that needs it says what
+  std::size_t count_ = 0;
   Weights weights_;
 };
 

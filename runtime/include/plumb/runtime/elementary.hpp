@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 /// Elementary functions that give the same bits on every machine.
 ///
 /// Made of +, -, *, / and integer operations only, in a fixed order; never libm, never a fused
@@ -23,6 +25,9 @@ double atan2(double y, double x) noexcept;
 
 /// e^x; 0 below -708, +inf above 709.7 (never a denormal).
 double exp(double x) noexcept;
+
+/// The same of two x <= 0, for little more than of one.
+std::array<double, 2> exp_of_negative(const std::array<double, 2>& x) noexcept;
 
 /// Natural logarithm; -inf at 0, NaN below.
 double log(double x) noexcept;

@@ -9,6 +9,15 @@
 
 namespace plumb {
 
+/// Three numbers of the base frame where a register is read: what the fourth is means nothing.
+struct alignas(32) Triple {
+  Triple() = default;
+  Triple(const Vector3& v) : numbers{v(0), v(1), v(2), 0.0} {}               // NOLINT: it is one
+  operator Vector3() const { return {numbers[0], numbers[1], numbers[2]}; }  // NOLINT: likewise
+
+  std::array<double, 4> numbers{};
+};
+
 /// What the joints and links carry at one pose: weight of all that is behind them, and the external
 /// wrench at the tip. Base frame, [N] and [N m]. `weigh` gathers what all joints share; force,
 /// moment and torque are worked out where a law asks for them, from the chain and frames that were
@@ -19,56 +28,27 @@ struct Loads {
     double mass;           // of the same [kg]
   };
   std::array<Behind, kMaxJoints> joint;
-  double payload_kg;               // of the payload alone
-  Vector3 payload_force;           // its weight
-  Vector3 payload_at;              // its centre of mass
-  Vector3 gravity;                 // [m/s^2]
-  Vector3 wrench = {0, 0, 0};      // external, on the tip
-  Vector3 tip_moment = {0, 0, 0};  // of the same, about the tip
-  bool pushed = false;             // there is an external wrench
+  double payload_kg;     // of the payload alone
+  Triple payload_force;  // its weight
+  Triple payload_at;     // its centre of mass
+  Triple gravity;        // [m/s^2]
+  Triple wrench;         // external, on the tip
+  Triple tip_moment;     // of the same, about the tip
+  bool pushed = false;   // there is an external wrench
 
-  Vector3 force(int j) const noexcept {
-    const Vector3 weight = gravity * joint[j].mass;
-    return pushed ? Vector3(weight + wrench) : weight;
-  }
+  Vector3 force(int j) const noexcept;
 
   /// About the origin of joint j.
-  Vector3 moment(int j, const ChainFrames& frames) const noexcept {
-    const Vector3& origin = frames.joint[j].p;
-    const Vector3 arm = joint[j].first_moment - origin * joint[j].mass;
-    const Vector3 weight = cross<double>(arm, gravity);
-    return pushed ? Vector3(weight + wrench_moment(j, frames)) : weight;
-  }
+  Vector3 moment(int j, const ChainFrames& frames) const noexcept;
 
   /// About the origin of the base, of all there is.
-  Vector3 base_moment(const ChainFrames& frames) const noexcept {
-    Vector3 weight = cross<double>(joint[0].first_moment, gravity);
-    if (!pushed) return weight;
-    return weight + cross<double>(frames.tip.p, wrench) + tip_moment;
-  }
+  Vector3 base_moment(const ChainFrames& frames) const noexcept;
 
   /// About the axis of joint j [N m]; along it [N] if it slides: of all it carries, of the payload
   /// alone, of the external wrench alone.
-  double torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
-    return dot(frames.joint[j].R.col(2), chain.revolute(j) ? moment(j, frames) : force(j));
-  }
-  double payload_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
-    return along(j, chain, frames, payload_force,
-                 cross<double>(payload_at - frames.joint[j].p, payload_force));
-  }
-  double wrench_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
-    return along(j, chain, frames, wrench, wrench_moment(j, frames));
-  }
-
- private:
-  Vector3 wrench_moment(int j, const ChainFrames& frames) const noexcept {
-    if (!pushed) return Vector3::Zero();
-    return cross<double>(frames.tip.p - frames.joint[j].p, wrench) + tip_moment;
-  }
-  static double along(int j, const Chain& chain, const ChainFrames& frames, const Vector3& force,
-                      const Vector3& moment) noexcept {
-    return dot(frames.joint[j].R.col(2), chain.revolute(j) ? moment : force);
-  }
+  double torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept;
+  double payload_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept;
+  double wrench_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept;
 };
 
 /// The masses of a model, ready for the cycle.
@@ -79,6 +59,9 @@ class Weights {
   /// X_TF: the flange in the tool frame, where the payload's centre is given.
   Weights(const format::Mechanics& mechanics, const std::array<double, 3>& gravity,
           const Transformd& X_TF, int joints) noexcept;
+
+  /// Stands for the nominal payload.
+  void expect_payload(double kg) noexcept { payload_[0] = kg; }
 
   /// Where the mass of link j is in the frame P_j behind its joint.
   const JointPoints& centres() const noexcept { return centres_; }
@@ -94,17 +77,14 @@ class Weights {
   void weigh(const ChainFrames& frames, const Context& context, Loads& out) const noexcept;
 
  private:
-  double payload_kg(const Context& context) const noexcept;
-
   template <std::size_t kJoints>
   void weigh(const ChainPoints& points_B, Loads& out) const noexcept;
 
   JointPoints centres_{};
   std::array<Wide, kMaxJoints> mass_{};
-  Vector3 gravity_ = Vector3::Zero();
-  Transformd X_TF_;
-  double payload_kg_ = 0.0;
-  Vector3 payload_com_F_ = Vector3::Zero();
+  alignas(32) std::array<std::array<double, 4>, 4> X_TF_{};  // its columns
+  alignas(32) std::array<double, 4> payload_{};              // as a context has it: [kg], x, y, z
+  Triple gravity_;
   std::size_t joints_ = 0;
 };
 

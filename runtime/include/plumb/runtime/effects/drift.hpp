@@ -30,8 +30,8 @@ struct Drift {
   template <class S>
   static void apply(std::span<const S> a, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
-    const bool timed = at.context.time_s == at.context.time_s;
-    const double now = timed ? at.context.time_s : at.context.order;
+    const bool timed = at.time_s() == at.time_s();
+    const double now = timed ? at.time_s() : at.context.order;
     if (!(now == now)) return;
     const double t = (now - shape.constants[0]) / shape.constants[1];
     const double T = shape.constants[2] / shape.constants[1];

@@ -32,17 +32,17 @@ struct Formula {
       case FormulaOp::kTorque:
         return at.torque(static_cast<int>(which));
       case FormulaOp::kDirection:
-        return at.context.direction[which];
+        return at.direction(which);
       case FormulaOp::kTravel:
-        return at.context.travel[which];
+        return at.travel(which);
       case FormulaOp::kMove:
         return at.context.step[which];
       case FormulaOp::kTime:
-        return at.context.time_s;
+        return at.time_s();
       case FormulaOp::kTemperature:
         return at.temperature_degC(shape, which);
       case FormulaOp::kPayload:
-        return at.context.payload_kg;
+        return at.payload_kg();
       case FormulaOp::kTip:
         return at.frames.tip.p(static_cast<Eigen::Index>(which));
       default:  // kRow

@@ -69,9 +69,10 @@ struct LinkFlexure {
       return out;
     }
     out.u = along * (1.0 / out.length);
-    out.force = last ? at.loads.payload_force : at.loads.force(j + 1);
-    out.moment = last ? cross<double>(at.loads.payload_at - out.end.p, at.loads.payload_force)
-                      : at.loads.moment(j + 1, at.frames);
+    out.force = last ? Vector3(at.loads.payload_force) : at.loads.force(j + 1);
+    out.moment =
+        last ? cross<double>(Vector3(at.loads.payload_at) - out.end.p, at.loads.payload_force)
+             : at.loads.moment(j + 1, at.frames);
     out.weight = (at.loads.force(j) - out.force) * (1.0 / out.length);
     return out;
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <limits>
+
 #include "plumb/runtime/effect.hpp"
 
 namespace plumb::effects {
@@ -24,16 +27,30 @@ struct Reversal {
   template <class S>
   static void apply(std::span<const S> h, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
-    for (std::size_t i = 0; i < shape.joints.size(); ++i) {
-      const int j = shape.joints[i];
-      const double direction = at.context.direction[j];
-      if (!(direction == direction)) continue;
-      const double travel = at.context.travel[j];
-      double grown = 1.0;
-      if (travel == travel && shape.constants[0] > 0.0)
-        grown = 1.0 - portable::exp(-(travel < 0.0 ? -travel : travel) / shape.constants[0]);
-      out.dq[j] -= h[i] * (direction * grown);
+    const std::size_t count = shape.joints.size();
+    const double r = shape.constants[0];
+    for (std::size_t i = 0; i < count; i += 2) {
+      const std::size_t next = i + 1 < count ? i + 1 : i;
+      const auto left = portable::exp_of_negative(
+          std::array{fade(at.travel(shape.joints[i]), r), fade(at.travel(shape.joints[next]), r)});
+      move(i, 1.0 - left[0], h, shape, at, out);
+      if (next > i) move(next, 1.0 - left[1], h, shape, at, out);
     }
+  }
+
+ private:
+  /// -travel / r; where the travel is unknown, as after a long one.
+  static double fade(double travel, double r) {
+    if (!(travel == travel && r > 0.0)) return -std::numeric_limits<double>::infinity();
+    return -__builtin_fabs(travel) / r;
+  }
+
+  template <class S>
+  static void move(std::size_t i, double grown, std::span<const S> h, const EffectShape& shape,
+                   const Situation& at, Motion<S>& out) {
+    const std::size_t j = shape.joints[i];
+    const double direction = at.direction(j);
+    if (direction == direction) out.dq[j] -= h[i] * (direction * grown);
   }
 };
 
