@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "lanes.hpp"
-#include "sin_cos_packed.hpp"
+#include "chain_walk.hpp"
 
 namespace plumb {
 namespace {
@@ -45,8 +44,10 @@ Chain::Chain(const format::Chain& parameters) noexcept
   constant_[joints_] = constant_[joints_] * exp(parameters.tool_twist) * from_pose(parameters.tool);
   for (int i = 0; i <= joints_; ++i) link_[i] = link_of(constant_[i]);
   Columns(constant_[0]).store(base_);
-  usual_ = revolute_[0];
-  for (int i = 1; i < joints_; ++i) usual_ = usual_ && revolute_[i] && link_[i].plain;
+  all_turn_ = joints_ == 6;
+  for (int i = 0; i < joints_; ++i) all_turn_ = all_turn_ && revolute_[i];
+  usual_ = all_turn_;
+  for (int i = 1; i < joints_; ++i) usual_ = usual_ && link_[i].plain;
 }
 
 Chain::Link Chain::link_of(const Transformd& C) noexcept {
@@ -73,94 +74,63 @@ void jacobian(const Chain& chain, const ChainFrames& frames, Jacobian& out) noex
   }
 }
 
-/// One way along the chain.
-class Chain::Walk {
- public:
-  Walk(const Chain& chain, std::span<const double> q) noexcept : chain_(chain) {
-    const double* at = q.data();
-    if (chain.joints_ == 6)
-      prepare<6>(at);
-    else
-      prepare<0>(at);
-  }
-
-  /// behind_joint(i, X_BPi) for every joint; returns X_BT.
-  template <class F>
-  Columns along(F behind_joint) const noexcept {
-    if (chain_.joints_ != 6) return along<0, false>(behind_joint);
-    return chain_.usual_ ? along<6, true>(behind_joint) : along<6, false>(behind_joint);
-  }
-
- private:
-  /// Positions, sines and cosines. kJoints: known when compiled, so that the loops are unrolled; 0:
-  /// any number. What goes into a register is gathered there: from memory just written in parts it
-  /// would have to wait.
-  template <int kJoints>
-  void prepare(const double* q) noexcept {
-    const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : chain_.joints_);
-    for (std::size_t i = 0; i < n; i += kPackedLanes) {
-      const Packed at = load_some(q + i, n - i) * load(&chain_.scale_[i]) + load(&chain_.zero_[i]);
-      Packed sin, cos;
-      portable::sin_cos_packed(at, sin, cos);
-      store(at, &position_[i]);
-      store(sin, &sin_[i]);
-      store(cos, &cos_[i]);
-    }
-  }
-
-  /// kUsual: nothing of joints and links need be asked.
-  template <int kJoints, bool kUsual, class F>
-  Columns along(F behind_joint) const noexcept {
-    const auto n = static_cast<std::size_t>(kJoints > 0 ? kJoints : chain_.joints_);
-    Columns X(chain_.base_);
-#pragma GCC unroll 6
-    for (std::size_t i = 0; i < n; ++i) {
-      if (kUsual || chain_.revolute_[i])
-        X.turn(sin_[i], cos_[i]);
-      else
-        X.slide(position_[i]);
-      behind_joint(i, X);
-      const Link& link = chain_.link_[i + 1];
-      if ((kUsual && i + 1 < n) || link.plain)
-        X.append_link(link.d, link.a, link.sin_alpha, link.cos_alpha);
-      else
-        X.append(chain_.constant_[i + 1]);
-    }
-    return X;
-  }
-
-  const Chain& chain_;
-  alignas(32) std::array<double, kRoom> position_, sin_, cos_;
-};
-
 Transformd Chain::forward(std::span<const double> q) const noexcept {
-  return Walk(*this, q).along([](std::size_t, const Columns&) {}).pose();
+  return Walk(*this).along(q, [](std::size_t, const Columns&) {}).pose();
 }
 
 void Chain::frames(std::span<const double> q, ChainFrames& out) const noexcept {
-  Walk(*this, q)
-      .along([&out](std::size_t i, const Columns& X) { X.store_over(out.joint[i]); })
+  Walk(*this)
+      .along(q, [&out](std::size_t i, const Columns& X) { X.store_over(out.joint[i]); })
       .store(out.tip);
 }
 
 void Chain::frames(std::span<const double> q, ChainAxes& out) const noexcept {
-  Walk(*this, q)
-      .along([&out](std::size_t i, const Columns& X) {
-        store(X.z(), out.joint[i].along.data());
-        store(X.p(), out.joint[i].through.data());
-      })
+  Walk(*this)
+      .along(q,
+             [&out](std::size_t i, const Columns& X) {
+               store(X.z(), out.joint[i].along.data());
+               store(X.p(), out.joint[i].through.data());
+             })
       .store(out.tip);
 }
+
+namespace {
+
+/// Notes the frame behind a joint or of the tip, and where its point is.
+struct PointsAndFrames {
+  const JointPoints& of_joints;
+  const WidePoint& of_tool;
+  ChainFrames& out;
+  ChainPoints& points_B;
+  int joints;
+
+  void operator()(std::size_t i, const Columns& X) const {
+    X.store_over(out.joint[i]);
+    store(X.point(of_joints[i]), points_B.at[i].data());
+  }
+  void operator()(const Columns& X) const {
+    X.store(out.tip);
+    store(X.point(of_tool), points_B.at[static_cast<std::size_t>(joints)].data());
+  }
+};
+
+}  // namespace
 
 void Chain::frames(std::span<const double> q, const JointPoints& of_joints,
                    const WidePoint& of_tool, ChainFrames& out,
                    ChainPoints& points_B) const noexcept {
-  const Columns tip = Walk(*this, q).along([&](std::size_t i, const Columns& X) {
-    X.store_over(out.joint[i]);
-    store(X.point(of_joints[i]), points_B.at[i].data());
-  });
-  tip.store(out.tip);
-  store(tip.point(of_tool), points_B.at[static_cast<std::size_t>(joints_)].data());
+  if (!usual_) return unusual_frames(q, of_joints, of_tool, out, points_B);
+  const PointsAndFrames note{of_joints, of_tool, out, points_B, 6};
+  note(Walk(*this).usual(internal::SixJoints(q.data()), note));
+}
+
+/// Never inlined: what it needs would be saved on the usual way too.
+[[gnu::noinline]] void Chain::unusual_frames(std::span<const double> q,
+                                             const JointPoints& of_joints, const WidePoint& of_tool,
+                                             ChainFrames& out,
+                                             ChainPoints& points_B) const noexcept {
+  const PointsAndFrames note{of_joints, of_tool, out, points_B, joints_};
+  note(Walk(*this).unusual(q, note));
 }
 
 }  // namespace plumb

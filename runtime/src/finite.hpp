@@ -4,9 +4,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "lanes.hpp"
+#include "six_joints.hpp"
 
 /// What the cycle accepts as input. Never traps, whatever the bits are.
 namespace plumb::internal {
@@ -28,25 +30,33 @@ inline bool is_finite(const Vector3& v) noexcept {
   return is_finite((v(0) - v(0)) + (v(1) - v(1)) + (v(2) - v(2)));
 }
 
-/// Of the first three.
-inline bool is_finite(const Lanes& v) noexcept {
-  const Lanes none = v - v;
-  return none[0] + none[1] + none[2] == 0.0;
+/// Whether the first three are of that magnitude at most; none is that is no number.
+inline bool three_within(const Lanes& v, double limit) noexcept {
+#ifdef __AVX__
+  return (__builtin_ia32_movmskpd256(reinterpret_cast<Packed>(within(v, limit))) & 7) == 7;
+#else
+  return all(within(Lanes{v[0], v[1], v[2], v[2]}, limit));
+#endif
 }
 
-/// kCount: known when compiled, so that the loop is unrolled; 0: any number.
-template <std::size_t kCount>
-bool all_within(std::span<const double> q) noexcept {
-  const std::size_t n = kCount > 0 ? kCount : q.size();
-  PackedBits near = ~PackedBits{};
-  for (std::size_t i = 0; i < n; i += kPackedLanes)
-    near &= within(load_some(q.data() + i, n - i), kMaxJointPosition);
-  return all(near);
+/// Of the first three.
+inline bool is_finite(const Lanes& v) noexcept {
+  return three_within(v, std::numeric_limits<double>::max());
 }
 
 /// Finite and within kMaxJointPosition.
+inline bool is_joint_state(const SixJoints& q) noexcept {
+  PackedBits near = ~PackedBits{};
+  for (const Packed& part : q.at) near &= within(part, kMaxJointPosition);
+  return all(near);
+}
+
 inline bool is_joint_state(std::span<const double> q) noexcept {
-  return q.size() == 6 ? all_within<6>(q) : all_within<0>(q);
+  if (q.size() == 6) return is_joint_state(SixJoints(q.data()));
+  PackedBits near = ~PackedBits{};
+  for (std::size_t i = 0; i < q.size(); i += kPackedLanes)
+    near &= within(load_some(q.data() + i, q.size() - i), kMaxJointPosition);
+  return all(near);
 }
 
 /// A finite translation and a proper rotation (determinant +1).

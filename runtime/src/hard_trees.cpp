@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "lanes.hpp"
+#include "hard_walks.hpp"
 
 namespace plumb {
 namespace {
@@ -39,49 +39,16 @@ HardTrees::HardTrees(const std::array<TreeView, format::kTreeAxes>& trees) noexc
 }
 
 void HardTrees::evaluate(std::span<const double> u, Values& out) const noexcept {
-  return usual_ ? usual(u.data(), out) : unusual(u, out);
-}
-
-inline HardTrees::Leaves HardTrees::leaves(const double* u) const noexcept {
-  static_assert(format::kTreeAxes == 3);
-  auto [x, y, z] = at_root_;
-  for (int left = sure_depth_; left > 0; --left) {
-    x.step_down(u);
-    y.step_down(u);
-    z.step_down(u);
-  }
-  for (int left = more_depth_; left > 0; --left) {
-    x.step(u);
-    y.step(u);
-    z.step(u);
-  }
-  return {x.leaf(), y.leaf(), z.leaf()};
+  if (!usual_) return unusual(u, out);
+  evaluate(internal::SixJoints(u.data()), u.data(), out);
 }
 
 /// Never inlined: in a function that calls, registers would be saved on the usual way too.
 [[gnu::noinline]] void HardTrees::unusual(std::span<const double> u, Values& out) const noexcept {
   const Leaves at = leaves(u.data());
+  out = {};
   for (std::size_t axis = 0; axis < trees_.size(); ++axis)
-    out[axis] = trees_[axis].evaluate_leaf(u, static_cast<int>(at[axis]));
-}
-
-/// An axis a lane; each sum in the order of leaf_value.
-inline void HardTrees::usual(const double* u, Values& out) const noexcept {
-  constexpr std::int64_t kTerms = 7, kBounds = 2;
-  const auto [i, j, k] = leaves(u);
-  const double* x = trees_[0].coefficients_ + kTerms * i;
-  const double* y = trees_[1].coefficients_ + kTerms * j;
-  const double* z = trees_[2].coefficients_ + kTerms * k;
-  const Lanes front = lanes(u), back = lanes(u + 2);
-  const auto a = columns(front * lanes(x + 1), front * lanes(y + 1), front * lanes(z + 1));
-  const auto b = columns(back * lanes(x + 3), back * lanes(y + 3), back * lanes(z + 3));
-  const Lanes sum = Lanes{x[0], y[0], z[0], 0.0} + a[0] + a[1] + a[2] + a[3] + b[2] + b[3];
-  const double* in_x = trees_[0].bounds_ + kBounds * i;
-  const double* in_y = trees_[1].bounds_ + kBounds * j;
-  const double* in_z = trees_[2].bounds_ + kBounds * k;
-  const Lanes e =
-      held(sum, Lanes{in_x[0], in_y[0], in_z[0], 0.0}, Lanes{in_x[1], in_y[1], in_z[1], 0.0});
-  out = {e[0], e[1], e[2]};
+    out[axis] = trees_[axis].evaluate_leaf(u, static_cast<int>(at[axis].leaf()));
 }
 
 }  // namespace plumb

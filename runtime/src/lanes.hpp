@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -79,9 +80,18 @@ inline Lanes spread(double x) { return twice(packed(x)); }
 
 inline Lanes operator*(const Lanes& a, const Wide& b) { return a * lanes(b.copies.data()); }
 
+/// Of integers, GCC would take a constant through a general register, in three steps.
+inline Packed common_bits(const Packed& a, const Packed& b) {
+#if defined(__AVX__) && !defined(__clang__)
+  return __builtin_ia32_andpd256(a, b);
+#else
+  return reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(a) &
+                                  reinterpret_cast<PackedBits>(b));
+#endif
+}
+
 inline Packed magnitude(const Packed& x) {
-  return reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(x) &
-                                  std::numeric_limits<std::int64_t>::max());
+  return common_bits(x, packed(std::bit_cast<double>(std::numeric_limits<std::int64_t>::max())));
 }
 
 /// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
@@ -89,6 +99,16 @@ inline PackedBits within(const Packed& x, double limit) { return magnitude(x) <=
 
 /// The same in each lane that is zero, of either sign.
 inline PackedBits zero(const Packed& x) { return x == packed(0.0); }
+
+/// All ones in each lane that is greater than `limit`, else zero, also for NaN.
+inline PackedBits above(const Packed& x, double limit) {
+#ifdef __AVX__  // as GCC makes a choice, one step longer, of what is ored with a comparison
+  constexpr int kGreater = 30;
+  return reinterpret_cast<PackedBits>(__builtin_ia32_cmppd256(x, packed(limit), kGreater));
+#else
+  return x > packed(limit);
+#endif
+}
 
 /// Whether all lanes are all ones; each is, or is zero.
 inline bool all(const PackedBits& x) {
@@ -105,6 +125,18 @@ inline PackedBits within(const Lanes& x, double limit) {
   return within(x.low, limit) & within(x.high, limit);
 }
 inline PackedBits zero(const Lanes& x) { return zero(x.low) & zero(x.high); }
+#endif
+
+#ifdef __AVX__
+using Half = double __attribute__((vector_size(2 * sizeof(double))));
+
+/// Two numbers from each.
+inline Packed load_halves(const double* first, const double* last) {
+  Half low, high;
+  std::memcpy(&low, first, sizeof low);
+  std::memcpy(&high, last, sizeof high);
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+}
 #endif
 
 /// The first `count` numbers from there, and zeros; all of them if there are more.
@@ -189,6 +221,17 @@ inline std::array<Lanes, 4> columns(const Lanes& x, const Lanes& y, const Lanes&
 #endif
 }
 
+/// Columns of three rows of two; likewise.
+inline std::array<Lanes, 2> columns_of_two(const double* x, const double* y, const double* z) {
+#ifdef __AVX__
+  const Lanes outer = load_halves(x, z), inner = load_halves(y, y);
+  return {__builtin_shufflevector(outer, inner, 0, 4, 2, 6),
+          __builtin_shufflevector(outer, inner, 1, 5, 3, 7)};
+#else
+  return {Lanes{x[0], y[0], z[0], 0.0}, Lanes{x[1], y[1], z[1], 0.0}};
+#endif
+}
+
 /// The origin of B in A; likewise.
 inline Lanes origin(const Transformd& X_AB) { return last_three(lanes(numbers(X_AB) + 8)); }
 
@@ -198,6 +241,15 @@ inline Lanes to_end(const Lanes& a) {
   return __builtin_shufflevector(a, a, 3, 0, 1, 2);
 #else
   return {a[3], a[0], a[1], a[2]};
+#endif
+}
+
+/// (x, y, z, a) -> (1, x, y, z).
+inline Lanes behind_one(const Lanes& a) {
+#ifdef __AVX__
+  return __builtin_shufflevector(packed(1.0), to_end(a), 0, 5, 6, 7);
+#else
+  return {1.0, a[0], a[1], a[2]};
 #endif
 }
 
@@ -268,6 +320,59 @@ inline Lanes cross_turned(const Lanes& a, const Lanes& b) { return a * turned(b)
 
 inline Lanes cross(const Lanes& a, const Lanes& b) { return turned(cross_turned(a, b)); }
 
+/// One lane in all of them.
+template <std::size_t kLane>
+Packed spread_lane(const Packed& x) {
+#ifdef __AVX__
+  return __builtin_shufflevector(x, x, kLane, kLane, kLane, kLane);
+#else
+  return __builtin_shufflevector(x, x, kLane, kLane);
+#endif
+}
+
+#ifndef __AVX__
+template <std::size_t kLane>
+Lanes spread_lane(const Lanes& x) {
+  return twice(spread_lane<kLane % 2>(kLane < 2 ? x.low : x.high));
+}
+#endif
+
+/// The columns of [v]x + d, d the same in all lanes.
+inline std::array<Lanes, 3> cross_columns(const Lanes& v, const Lanes& d) {
+#ifdef __AVX__
+  constexpr std::int64_t kSign = std::numeric_limits<std::int64_t>::min();
+  const auto signs = [](const Packed& x, const PackedBits& which) {
+    return reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(x) ^ which);
+  };
+  const Packed both = __builtin_shufflevector(v, d, 0, 1, 2, 7);
+  return {signs(__builtin_shufflevector(both, both, 3, 2, 1, 0), PackedBits{0, 0, kSign, 0}),
+          signs(__builtin_shufflevector(both, both, 2, 3, 0, 1), PackedBits{kSign, 0, 0, 0}),
+          signs(__builtin_shufflevector(both, both, 1, 0, 3, 2), PackedBits{0, kSign, 0, 0})};
+#else
+  const double d0 = d[0];
+  return {Lanes{d0, v[2], -v[1], 0.0}, Lanes{-v[2], d0, v[0], 0.0}, Lanes{v[1], -v[0], d0, 0.0}};
+#endif
+}
+
+/// (a_0 b_1, a_1 b_1, a_1 b_2): a column of what is as good as a b^T and keeps its symmetry.
+inline Lanes middle_products(const Lanes& a, const Lanes& b) {
+#ifdef __AVX__
+  return __builtin_shufflevector(a, a, 0, 1, 1, 1) * __builtin_shufflevector(b, b, 1, 1, 2, 2);
+#else
+  return Lanes{a[0], a[1], a[1], a[1]} * Lanes{b[1], b[1], b[2], b[2]};
+#endif
+}
+
+/// Lane by lane: the first where the whole number is even, else the second.
+inline Packed by_parity(const PackedBits& number, const Packed& even, const Packed& odd) {
+#ifdef __AVX__
+  return __builtin_ia32_blendvpd256(even, odd, reinterpret_cast<Packed>(number << 63));
+#else
+  const PackedBits e = reinterpret_cast<PackedBits>(even), o = reinterpret_cast<PackedBits>(odd);
+  return reinterpret_cast<Packed>(e ^ ((e ^ o) & -(number & 1)));
+#endif
+}
+
 /// A pose X_AB by its columns: the axes of B and its origin, in A; the fourth lane is 0 in an axis
 /// and 1 in the origin.
 class Columns {
@@ -278,6 +383,9 @@ class Columns {
         z_{X.R(0, 2), X.R(1, 2), X.R(2, 2), 0.0},
         p_{X.p(0), X.p(1), X.p(2), 1.0} {}
 
+  Columns(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& p)
+      : x_(x), y_(y), z_(z), p_(p) {}
+
   explicit Columns(const std::array<std::array<double, 4>, 4>& stored)
       : x_(lanes(stored[0].data())),
         y_(lanes(stored[1].data())),
@@ -285,10 +393,10 @@ class Columns {
         p_(lanes(stored[3].data())) {}
 
   /// X_AB <- X_AB Rz.
-  void turn(double sin, double cos) {
-    const Lanes before = x_;
-    x_ = before * cos + y_ * sin;
-    y_ = y_ * cos - before * sin;
+  void turn(const Packed& sin, const Packed& cos) {
+    const Lanes before = x_, s = twice(sin), c = twice(cos);
+    x_ = before * c + y_ * s;
+    y_ = y_ * c - before * s;
   }
 
   /// X_AB <- X_AB Tz.
@@ -341,7 +449,9 @@ class Columns {
     plumb::store(p_, out[3].data());
   }
 
-  /// The last axis, and the origin.
+  /// The axes, and the origin.
+  const Lanes& x() const { return x_; }
+  const Lanes& y() const { return y_; }
   const Lanes& z() const { return z_; }
   const Lanes& p() const { return p_; }
 

@@ -10,9 +10,6 @@
 // approximation error below 2^-57 on the reduced intervals.
 namespace plumb::portable {
 
-/// Ored into the bits of a number it makes it none.
-inline constexpr std::int64_t kNotANumber = 0x7ff8000000000000;
-
 /// x + kShift has no fractional bits left, |x| < 2^51: its last bits are the whole number nearest
 /// to x, ties to even, in two's complement.
 inline constexpr double kShift = 0x1.8p52;
@@ -69,24 +66,27 @@ void cosine(const Real& x, const Real& tail, Real& out) {
 
 inline constexpr double kLargestAngle = 1e5;
 
-/// The quadrant swaps sine and cosine and turns their signs: all with integers, so that a lane
-/// costs the same whatever is in it.
+/// x; where it is too large no number, nor is then what is made of it.
+inline Packed known_angle(const Packed& x) {
+  return reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(x) |
+                                  above(magnitude(x), kLargestAngle));
+}
+
+/// The quadrant swaps sine and cosine and turns their signs: all with bits, so that a lane costs
+/// the same whatever is in it. Half a turn negates both; a quarter more makes (c, -s) of (s, c).
 inline void sin_cos_packed(const Packed& x, Packed& sin_out, Packed& cos_out) {
   Reduced<Packed> r;
-  reduce(x, r);
+  reduce(known_angle(x), r);
   Packed s, c;
   sine(r.value, r.tail, s);
   cosine(r.value, r.tail, c);
   const PackedBits quadrant = reinterpret_cast<PackedBits>(r.shifted);
-  const PackedBits swap = -(quadrant & 1);
-  const PackedBits s_bits = reinterpret_cast<PackedBits>(s);
-  const PackedBits c_bits = reinterpret_cast<PackedBits>(c);
-  const PackedBits mixed = (s_bits ^ c_bits) & swap;
-  const PackedBits beyond = ~((x <= kLargestAngle) & (x >= -kLargestAngle)) & kNotANumber;
-  const PackedBits sin_bits = (s_bits ^ mixed ^ ((quadrant & 2) << 62)) | beyond;
-  const PackedBits cos_bits = (c_bits ^ mixed ^ (((quadrant + 1) & 2) << 62)) | beyond;
-  sin_out = reinterpret_cast<Packed>(sin_bits);
-  cos_out = reinterpret_cast<Packed>(cos_bits);
+  const PackedBits half_turn = reinterpret_cast<PackedBits>(
+      common_bits(reinterpret_cast<Packed>(quadrant << 62), packed(-0.0)));
+  const Packed s_here = reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(s) ^ half_turn);
+  const Packed c_here = reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(c) ^ half_turn);
+  sin_out = by_parity(quadrant, s_here, c_here);
+  cos_out = by_parity(quadrant, c_here, -s_here);
 }
 
 }  // namespace plumb::portable

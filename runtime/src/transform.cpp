@@ -1,41 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/transform.hpp"
 
-#include "lanes.hpp"
+#include "turn.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kSmallAngle = 1e-2;  // below it the series are exact to rounding
-
-struct ExpCoefficients {
-  double a;  // sin(t) / t
-  double b;  // (1 - cos t) / t^2
-  double c;  // (t - sin t) / t^3
-};
-
-ExpCoefficients exp_coefficients(double t2) noexcept {
-  if (t2 < kSmallAngle * kSmallAngle)
-    return {1.0 - t2 * (1.0 / 6 - t2 * (1.0 / 120 - t2 * (1.0 / 5040))),
-            0.5 - t2 * (1.0 / 24 - t2 * (1.0 / 720 - t2 * (1.0 / 40320))),
-            1.0 / 6 - t2 * (1.0 / 120 - t2 * (1.0 / 5040 - t2 * (1.0 / 362880)))};
-  const double t = portable::sqrt(t2);
-  const auto half = portable::sin_cos(0.5 * t);
-  const double sine = 2.0 * half.sin * half.cos;
-  return {sine / t, 2.0 * half.sin * half.sin / t2, (t - sine) / (t2 * t)};
-}
-
-/// 1 - b t^2 + b e e^T + a [e]x
-Matrix3 rotation(const Vector3& e, double t2, double a, double b) noexcept {
-  const double rest = 1.0 - b * t2;
-  const Vector3 be = b * e, ae = a * e;
-  const double xy = be(0) * e(1), xz = be(0) * e(2), yz = be(1) * e(2);
-  Matrix3 R;
-  R.col(0) = Vector3(rest + be(0) * e(0), xy + ae(2), xz - ae(1));
-  R.col(1) = Vector3(xy - ae(2), rest + be(1) * e(1), yz + ae(0));
-  R.col(2) = Vector3(xz + ae(1), yz - ae(0), rest + be(2) * e(2));
-  return R;
-}
 
 /// Unit quaternion (w, x, y, z), w >= 0, by the largest of its four squares [Shepperd 1978].
 std::array<double, 4> quaternion(const Matrix3& R) noexcept {
@@ -72,34 +41,26 @@ std::array<double, 4> quaternion(const Matrix3& R) noexcept {
 }  // namespace
 
 Matrix3 product(const Matrix3& A, const Matrix3& B) noexcept {
-  Lanes x, y, end;
-  std::memcpy(&x, A.data(), sizeof x);
-  std::memcpy(&y, A.data() + 3, sizeof y);
-  std::memcpy(&end, A.data() + 5, sizeof end);
-  const Lanes z = last_three(end);
-  const auto column = [&](const double* b) { return x * b[0] + y * b[1] + z * b[2]; };
-  const Lanes X = column(B.data()), Y = column(B.data() + 3), Z = column(B.data() + 6);
-  const Lanes last{Y[2], Z[0], Z[1], Z[2]};
   Matrix3 out;
-  std::memcpy(out.data(), &X, sizeof X);
-  std::memcpy(out.data() + 3, &Y, sizeof Y);
-  std::memcpy(out.data() + 5, &last, sizeof last);
+  (internal::Turn(A) * B).store(out);
   return out;
 }
 
 Transformd exp(const format::Twist& xi) noexcept {
   const Vector3 d(xi.d[0], xi.d[1], xi.d[2]);
   const Vector3 e(xi.e[0], xi.e[1], xi.e[2]);
-  const double t2 = dot(e, e);
-  const auto [a, b, c] = exp_coefficients(t2);
+  const auto k = internal::exp_coefficients(dot(e, e));
   const Vector3 ed = cross<double>(e, d);
-  return {.R = rotation(e, t2, a, b), .p = d + b * ed + c * cross<double>(e, ed)};
+  Transformd X;
+  internal::turn(Lanes{e(0), e(1), e(2), 0.0}, k).store(X.R);
+  X.p = d + k.b() * ed + k.c() * cross<double>(e, ed);
+  return X;
 }
 
 Matrix3 rotation_of(const Vector3& e) noexcept {
-  const double t2 = dot(e, e);
-  const ExpCoefficients k = exp_coefficients(t2);
-  return rotation(e, t2, k.a, k.b);
+  Matrix3 out;
+  internal::turn(Lanes{e(0), e(1), e(2), 0.0}).store(out);
+  return out;
 }
 
 Vector3 rotation_vector(const Matrix3& R) noexcept {

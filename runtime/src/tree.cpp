@@ -2,9 +2,8 @@
 #include "plumb/runtime/tree.hpp"
 
 #include <algorithm>
-#include <limits>
 
-#include "lanes.hpp"
+#include "trained_domain.hpp"
 
 namespace plumb {
 namespace {
@@ -27,26 +26,20 @@ TrainedDomain::TrainedDomain(const format::Domain& domain) noexcept
 }
 
 double TrainedDomain::normalise(std::span<const double> q, std::span<double> u) const noexcept {
-  if (joints_ == 6) return normalise<6>(q.data(), u.data());
-  return normalise<0>(q.data(), u.data());
-}
-
-/// kJoints: known when compiled, so that the loop is unrolled; 0: joints_. A joint that is NaN is
-/// infinitely far.
-template <std::size_t kJoints>
-double TrainedDomain::normalise(const double* q, double* u) const noexcept {
-  const std::size_t n = kJoints > 0 ? kJoints : static_cast<std::size_t>(joints_);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Packed farthest = packed(1.0);  // in half spans from the middle
-  for (std::size_t i = 0; i < n; i += kPackedLanes) {
-    const Packed at = (load_some(q + i, n - i) - load(&mid_[i])) * load(&half_inverse_[i]);
-    farthest = larger(smaller(magnitude(at), packed(kInfinity)), farthest);
-    store_some(smaller(larger(at, packed(-1.0)), packed(1.0)), u + i, n - i);
+  if (joints_ == 6) {
+    internal::SixJoints at;
+    const double trusted = normalise(internal::SixJoints(q.data()), at);
+    at.store(u.data());
+    return trusted;
   }
-  double most = farthest[0];
-  for (std::size_t lane = 1; lane < kPackedLanes; ++lane) most = std::max(most, farthest[lane]);
-  const Packed trusted = packed(1.0 - (most - 1.0) * fade_inverse_);
-  return smaller(larger(trusted, packed(0.0)), packed(1.0))[0];
+  const auto n = static_cast<std::size_t>(joints_);
+  Packed farthest = packed(1.0);
+  for (std::size_t i = 0; i < n; i += kPackedLanes) {
+    const Packed at = (load_some(&q[i], n - i) - load(&mid_[i])) * load(&half_inverse_[i]);
+    farthest = internal::farther(at, farthest);
+    store_some(internal::clamped_to_box(at), &u[i], n - i);
+  }
+  return internal::trust(farthest, fade_inverse_);
 }
 
 template void TreeView::active(std::span<const double>, ActiveLeaves<double>&) const noexcept;

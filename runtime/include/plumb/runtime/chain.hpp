@@ -75,14 +75,18 @@ class Chain {
   /// The constant C_i (0 .. n) of the formula above; frame P_i to the zero position of joint i + 1.
   const Transformd& constant(int i) const noexcept { return constant_[i]; }
 
- private:
+  /// What all of these are made of, for the library alone.
   class Walk;
 
+ private:
   /// A C_i that is no more than Tz(d) Tx(a) Rx(alpha), as rows of DH parameters give it.
   struct Link {
     Wide d, a, sin_alpha, cos_alpha;
     bool plain = false;
   };
+  void unusual_frames(std::span<const double> q, const JointPoints& of_joints,
+                      const WidePoint& of_tool, ChainFrames& out,
+                      ChainPoints& points_B) const noexcept;
   static Link link_of(const Transformd& C) noexcept;
 
   static constexpr std::size_t kRoom = 12;  // joints, in whole registers
@@ -93,7 +97,8 @@ class Chain {
   std::array<Link, kMaxJoints + 1> link_{};
   std::array<Transformd, kMaxJoints + 1> constant_{};
   int joints_ = 0;
-  bool usual_ = false;  // all joints turn, and what is between them is plain
+  bool all_turn_ = false;  // of six joints
+  bool usual_ = false;     // and what is between them is plain
   std::array<bool, kMaxJoints> revolute_{};
 };
 

@@ -13,6 +13,8 @@
 
 namespace plumb {
 
+class Columns;  // a pose in registers
+
 /// Where the true arm is, as far as the model knows.
 struct Prediction {
   Transformd X_BT;  // tool pose in the base frame, tree included
@@ -23,9 +25,12 @@ struct Prediction {
 /// How the arm at one pose departs from its calibrated chain: effects and tree. It changes little
 /// from pose to pose, so that near by it may stand for what it would be there.
 struct Deviation {
-  Motion<double> motion;  // of joints and tip, by the effects
-  Matrix3 turn_B;         // the tip's part of it that turns; of an arm with effects
-  Vector3 tree_B;         // [m]
+  using Column = std::array<double, 4>;  // x, y, z and a number that means nothing
+
+  Motion<double> motion;                     // of joints and tip, by the effects
+  alignas(32) std::array<Column, 3> turn_B;  // the tip's part of it that turns, as a rotation;
+                                             // of an arm with effects
+  alignas(32) Column tree_B;                 // [m]
   Status status;
 };
 
@@ -71,14 +76,16 @@ class ForwardModel {
   bool acceptable(std::span<const double> q) const noexcept;
   void find_deviation(std::span<const double> q, const Context& context,
                       Deviation& out) const noexcept;
+  void deviate(std::span<const double> q, EffectSet::Scene& scene, Deviation& out) const noexcept;
   void add_effects(std::span<const double> q, EffectSet::Scene& scene,
                    Deviation& out) const noexcept;
   void add_tree(std::span<const double> q, Deviation& out) const noexcept;
   bool bend(std::span<const double> q, const Deviation& deviation,
             JointPositions& out) const noexcept;
-  Prediction finished(const Transformd& X_BT, const Deviation& deviation) const noexcept;
-  Vector3 tree_at(std::span<const double> q, double& weight) const noexcept;
-  Vector3 trees_at(std::span<const double> u) const noexcept;
+  Prediction finished(const Columns& X_BT, const Deviation& deviation) const noexcept;
+  double tree_at(std::span<const double> q, Deviation::Column& out) const noexcept;
+  double other_tree_at(std::span<const double> q, Deviation::Column& out) const noexcept;
+  void trees_at(std::span<const double> u, Deviation::Column& out) const noexcept;
 
   EffectSet effects_;
   TreeView walked_;  // the first that is not empty
@@ -88,7 +95,8 @@ class ForwardModel {
   Chain chain_;
   bool has_tree_ = false;
   bool all_hard_ = false;
-  bool one_walk_ = false;  // the others differ from `walked_` in their numbers only
+  bool six_hard_trees_ = false;  // all hard, HardTrees' usual ones, and no walk serves them all
+  bool one_walk_ = false;        // the others differ from `walked_` in their numbers only
 };
 
 }  // namespace plumb

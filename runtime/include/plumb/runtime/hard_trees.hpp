@@ -35,6 +35,15 @@ class HardWalk {
 
   std::int64_t leaf() const noexcept { return ~(at_ >> kShift); }
 
+  /// Where the leaf's row is, `width` numbers a leaf from `begin` on. Of the place, which is minus
+  /// eight times the leaf's number and one more, nothing but multiples is needed.
+  const double* row(const double* begin, std::int64_t width) const noexcept {
+    static_assert(kStride == sizeof(double));
+    return reinterpret_cast<const double*>(reinterpret_cast<const std::byte*>(begin) -
+                                           at_ * width) -
+           width;
+  }
+
  private:
   using Child = std::int16_t;
   static constexpr int kShift = 3;
@@ -70,7 +79,8 @@ class HardWalk {
 /// Cost: of each as many compares as the deepest needs, and one leaf. Wait-free; any thread.
 class HardTrees {
  public:
-  using Values = std::array<double, format::kTreeAxes>;
+  /// One an axis, and a number that means nothing.
+  using Values = std::array<double, 4>;
 
   HardTrees() = default;
   explicit HardTrees(const std::array<TreeView, format::kTreeAxes>& trees) noexcept;
@@ -78,18 +88,23 @@ class HardTrees {
   /// What each says, as TreeView::evaluate [m]. u: as TrainedDomain normalises, so never NaN.
   void evaluate(std::span<const double> u, Values& out) const noexcept;
 
+  /// Six inputs, leaves that are affine and have no regions.
+  bool usual() const noexcept { return usual_; }
+
+  /// The same of such trees, for the library alone. u: also in memory, to look up.
+  void evaluate(const internal::SixJoints& u, const double* looked_up, Values& out) const noexcept;
+
  private:
-  using Leaves = std::array<std::int64_t, format::kTreeAxes>;
+  using Leaves = std::array<internal::HardWalk, format::kTreeAxes>;
 
   Leaves leaves(const double* u) const noexcept;
-  void usual(const double* u, Values& out) const noexcept;
   void unusual(std::span<const double> u, Values& out) const noexcept;
 
   std::array<TreeView, format::kTreeAxes> trees_;
   std::array<internal::HardWalk, format::kTreeAxes> at_root_;
   int sure_depth_ = 0;  // compares that every walk needs
   int more_depth_ = 0;  // those that the deepest needs besides
-  bool usual_ = false;  // six inputs, leaves that are affine and have no regions
+  bool usual_ = false;
 };
 
 }  // namespace plumb

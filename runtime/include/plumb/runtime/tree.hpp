@@ -8,6 +8,9 @@
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb {
+namespace internal {
+struct SixJoints;  // a number of each, in registers
+}
 
 /// Trained joint domain: normalises the trees' inputs and says how far to trust them.
 class TrainedDomain {
@@ -20,11 +23,11 @@ class TrainedDomain {
   /// outside it (worst joint counts).
   double normalise(std::span<const double> q, std::span<double> u) const noexcept;
 
+  /// The same of six joints, for the library alone.
+  double normalise(const internal::SixJoints& q, internal::SixJoints& u) const noexcept;
+
  private:
   static constexpr std::size_t kRoom = 12;  // joints, in whole registers
-
-  template <std::size_t kJoints>
-  double normalise(const double* q, double* u) const noexcept;
 
   int joints_ = 0;
   double fade_inverse_ = 0.0;

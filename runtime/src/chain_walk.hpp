@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+
+#include "lanes.hpp"
+#include "plumb/runtime/chain.hpp"
+#include "sin_cos_packed.hpp"
+#include "six_joints.hpp"
+
+namespace plumb {
+
+/// The way along the chain, by the columns of its frames.
+class Chain::Walk {
+ public:
+  explicit Walk(const Chain& chain) noexcept : chain_(chain) {}
+
+  /// behind_joint(i, X_BPi) for every joint; returns X_BT.
+  template <class F>
+  [[gnu::always_inline]] Columns along(std::span<const double> q,
+                                       const F& behind_joint) const noexcept {
+    if (chain_.usual_) return usual(internal::SixJoints(q.data()), behind_joint);
+    return unusual(q, behind_joint);
+  }
+
+  /// The same of six joints that turn and plain links between them: nothing need be asked.
+  bool is_usual() const noexcept { return chain_.usual_; }
+  template <class F>
+  [[gnu::always_inline]] Columns usual(const internal::SixJoints& q,
+                                       const F& behind_joint) const noexcept {
+    return turning<true>(q, behind_joint);
+  }
+
+  /// Of others. Never inlined: what it needs would be saved on the usual way too.
+  template <class F>
+  [[gnu::noinline]] Columns unusual(std::span<const double> q,
+                                    const F& behind_joint) const noexcept {
+    if (chain_.all_turn_) return turning<false>(internal::SixJoints(q.data()), behind_joint);
+    return any(q, behind_joint);
+  }
+
+ private:
+  static constexpr std::make_index_sequence<6> kSix{};
+
+  /// Six joints that turn: unrolled, so that sines and cosines never leave their registers.
+  template <bool kPlain, class F>
+  [[gnu::always_inline]] Columns turning(const internal::SixJoints& q,
+                                         const F& behind_joint) const noexcept {
+    using internal::SixJoints;
+    const SixJoints at =
+        q * SixJoints::constants(chain_.scale_.data()) + SixJoints::constants(chain_.zero_.data());
+    SixJoints sin, cos;
+    for (std::size_t r = 0; r < SixJoints::kRegisters; ++r)
+      portable::sin_cos_packed(at.at[r], sin.at[r], cos.at[r]);
+    return [&]<std::size_t... i>(std::index_sequence<i...>) {
+      Columns X(chain_.base_);
+      (
+          [&] {
+            X.turn(sin.spread<i>(), cos.spread<i>());
+            behind_joint(i, X);
+            append<kPlain && i + 1 < 6>(i + 1, X);
+          }(),
+          ...);
+      return X;
+    }
+    (kSix);
+  }
+
+  /// Joints of any number and kind.
+  template <class F>
+  Columns any(std::span<const double> q, const F& behind_joint) const noexcept {
+    const auto n = static_cast<std::size_t>(chain_.joints_);
+    alignas(32) std::array<double, kRoom> position, sin, cos;
+    for (std::size_t i = 0; i < n; i += kPackedLanes) {
+      const Packed at = load_some(&q[i], n - i) * load(&chain_.scale_[i]) + load(&chain_.zero_[i]);
+      Packed s, c;
+      portable::sin_cos_packed(at, s, c);
+      store(at, &position[i]);
+      store(s, &sin[i]);
+      store(c, &cos[i]);
+    }
+    Columns X(chain_.base_);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (chain_.revolute_[i])
+        X.turn(packed(sin[i]), packed(cos[i]));
+      else
+        X.slide(position[i]);
+      behind_joint(i, X);
+      append<false>(i + 1, X);
+    }
+    return X;
+  }
+
+  /// kPlain: known to be so.
+  template <bool kPlain>
+  void append(std::size_t i, Columns& X) const noexcept {
+    const Link& link = chain_.link_[i];
+    if (kPlain || link.plain)
+      X.append_link(link.d, link.a, link.sin_alpha, link.cos_alpha);
+    else
+      X.append(chain_.constant_[i]);
+  }
+
+  const Chain& chain_;
+};
+
+}  // namespace plumb
