@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "columns.hpp"
 #include "lanes.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "sin_cos_packed.hpp"

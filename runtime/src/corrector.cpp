@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "finite.hpp"
+#include "lane_order.hpp"
 #include "lanes.hpp"
 #include "normal_equations.hpp"
+#include "pose_lanes.hpp"
 #include "priority_step.hpp"
 #include "room.hpp"
 #include "square_system.hpp"

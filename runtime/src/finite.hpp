@@ -7,7 +7,10 @@
 #include <limits>
 #include <span>
 
+#include "lane_choices.hpp"
+#include "lane_order.hpp"
 #include "lanes.hpp"
+#include "pose_lanes.hpp"
 #include "six_joints.hpp"
 
 /// What the cycle accepts as input. Never traps, whatever the bits are.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "finite.hpp"
+#include "pose_lanes.hpp"
 
 namespace plumb {
 namespace {

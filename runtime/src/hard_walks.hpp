@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lane_choices.hpp"
+#include "lane_order.hpp"
 #include "lanes.hpp"
 #include "plumb/runtime/hard_trees.hpp"
 #include "six_joints.hpp"

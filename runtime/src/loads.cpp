@@ -5,7 +5,11 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "columns.hpp"
+#include "lane_choices.hpp"
+#include "lane_order.hpp"
 #include "lanes.hpp"
+#include "pose_lanes.hpp"
 
 namespace plumb {
 namespace {
@@ -115,17 +119,17 @@ Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>
 void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) const noexcept {
   const double* const given = numbers(context);
   const Lanes payload = known_or(plumb::lanes(given + kHangsAt), plumb::lanes(payload_.data()));
-  const Lanes at_T = plumb::lanes(X_TF_[0].data()) * every<1>(payload) +
-                     plumb::lanes(X_TF_[1].data()) * every<2>(payload) +
-                     plumb::lanes(X_TF_[2].data()) * every<3>(payload) +
+  const Lanes at_T = plumb::lanes(X_TF_[0].data()) * spread_lane<1>(payload) +
+                     plumb::lanes(X_TF_[1].data()) * spread_lane<2>(payload) +
+                     plumb::lanes(X_TF_[2].data()) * spread_lane<3>(payload) +
                      plumb::lanes(X_TF_[3].data());
-  store(every<0>(at_T), &payload_T.x);
-  store(every<1>(at_T), &payload_T.y);
-  store(every<2>(at_T), &payload_T.z);
+  store(spread_lane<0>(at_T), &payload_T.x);
+  store(spread_lane<1>(at_T), &payload_T.y);
+  store(spread_lane<2>(at_T), &payload_T.z);
   out.payload_kg = payload[0];
   const Lanes g = lanes(gravity_);
   store(g, &out.gravity);
-  store(g * every<0>(payload), &out.payload_force);
+  store(g * spread_lane<0>(payload), &out.payload_force);
   const Lanes force = plumb::lanes(given + kWrenchAt), moment = plumb::lanes(given + kWrenchAt + 2);
   store(force, &out.wrench);
   store(last_three(moment), &out.tip_moment);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scaled_jacobian.hpp"
 
+#include "pose_lanes.hpp"
+
 namespace plumb::internal {
 
 void ScaledJacobian::set(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "lane_order.hpp"
 #include "lanes.hpp"
 #include "plumb/runtime/chain.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "lane_choices.hpp"
 #include "lanes.hpp"
 
 /// Sine and cosine of one number or of a register of them, inlined: what `sin_cos` is made of.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lane_choices.hpp"
 #include "lanes.hpp"
 #include "plumb/runtime/tree.hpp"
 #include "six_joints.hpp"

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "lane_order.hpp"
 #include "lanes.hpp"
 #include "plumb/runtime/elementary.hpp"
 
