@@ -165,14 +165,14 @@ void EffectSet::prepare(const Context& context, Scene& out) const noexcept {
 
 bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scene,
                       Motion<double>& out) const noexcept {
-  chain.frames(q, weights_.centres(), scene.payload_T, scene.frames, scene.points_B);
-  weights_.weigh(scene.points_B, scene.loads);
   const Situation at{.q = q,
                      .chain = chain,
                      .frames = scene.frames,
                      .loads = scene.loads,
                      .context = *scene.context,
                      .stand_ins = stand_ins_};
+  chain.frames(q, weights_.centres(), scene.payload_T, scene.frames, scene.points_B);
+  weights_.weigh(scene.points_B, scene.loads);
   for (const BoundEffect& bound : std::span(effects_).first(count_)) bound.apply(bound, at, out);
   return scene.stood_in || out.undefined;
 }

@@ -22,10 +22,6 @@ double magnitude(double x) { return x < 0.0 ? -x : x; }
 
 double nearest(double x) { return (x + kShift) - kShift; }
 
-/// Two numbers in the lanes of what every machine with such registers has.
-using Two = double __attribute__((vector_size(2 * sizeof(double))));
-using TwoBits = std::int64_t __attribute__((vector_size(2 * sizeof(double))));
-
 /// 2^k for -1022 <= k <= 1023.
 double power_of_two(int k) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
@@ -219,15 +215,13 @@ double atan2(double y, double x) noexcept {
 double exp(double x) noexcept { return exp_clamped(x, 0.0); }
 
 /// What is not zero is normal, and so is the power of two, made of k in the last bits of `shifted`.
-std::array<double, 2> exp_of_negative(const std::array<double, 2>& x) noexcept {
-  const Two at{x[0], x[1]};
+Two exp_of_negative(Two x) noexcept {
   Two y, shifted;
-  exp_reduced(at, Two{}, y, shifted);
+  exp_reduced(x, Two{}, y, shifted);
   const TwoBits power =
       (reinterpret_cast<TwoBits>(shifted) << 52) + std::bit_cast<std::int64_t>(1.0);
   const Two value = y * reinterpret_cast<Two>(power);
-  const Two out = reinterpret_cast<Two>(reinterpret_cast<TwoBits>(value) & ~(at < kExpLowest));
-  return {out[0], out[1]};
+  return reinterpret_cast<Two>(reinterpret_cast<TwoBits>(value) & ~(x < kExpLowest));
 }
 
 double log(double x) noexcept {

@@ -76,6 +76,12 @@ double along(int j, const ChainFrames& frames, const Lanes& load) noexcept {
 
 Vector3 Loads::force(int j) const noexcept { return vector(force_of(*this, j)); }
 
+Vector3 Loads::payload_force_in(const Transformd& X_BC) const noexcept {
+  const Lanes force = lanes(payload_force);
+  const Lanes x = axis(X_BC, 0) * force, y = axis(X_BC, 1) * force, z = axis(X_BC, 2) * force;
+  return {sum_of_three(x), sum_of_three(y), sum_of_three(z)};
+}
+
 Vector3 Loads::moment(int j, const ChainFrames& frames) const noexcept {
   return vector(moment_of(*this, j, frames));
 }
@@ -136,7 +142,8 @@ void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) con
   out.pushed = !all(zero(force) & zero(moment));
 }
 
-void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
+/// Never inlined: who calls it would have to align his stack for registers that are never on it.
+[[gnu::noinline]] void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
   if (joints_ == 6) return weigh<6>(points_B, out);
   weigh<0>(points_B, out);
 }

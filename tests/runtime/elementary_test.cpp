@@ -137,8 +137,8 @@ TEST(Exp, OfTwoIsTheExpOfEach) {
   };
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(std::isnan(x) ? kNaN : x); };
   for (long i = tests::scaled(1000000); i > 0; --i) {
-    const std::array x{draw(), draw()};
-    const auto y = exp_of_negative(x);
+    const Two x{draw(), draw()};
+    const Two y = exp_of_negative(x);
     ASSERT_EQ(bits(y[0]), bits(exp(x[0]))) << x[0];
     ASSERT_EQ(bits(y[1]), bits(exp(x[1]))) << x[1];
   }

@@ -91,6 +91,15 @@ struct Situation {
 
   double direction(std::size_t j) const noexcept { return either(&Context::direction, j); }
   double travel(std::size_t j) const noexcept { return either(&Context::travel, j); }
+
+  /// Of two joints at once.
+  portable::Two directions(std::size_t j, std::size_t k) const noexcept {
+    return either(&Context::direction, j, k);
+  }
+  portable::Two travels(std::size_t j, std::size_t k) const noexcept {
+    return either(&Context::travel, j, k);
+  }
+
   double payload_kg() const noexcept { return either(context.payload_kg, stand_ins.payload_kg); }
   double time_s() const noexcept { return either(context.time_s, stand_ins.time_s); }
 
@@ -108,6 +117,12 @@ struct Situation {
   template <class Numbers>
   double either(Numbers Context::*of, std::size_t i) const noexcept {
     return either((context.*of)[i], (stand_ins.*of)[i]);
+  }
+  template <class Numbers>
+  portable::Two either(Numbers Context::*of, std::size_t i, std::size_t k) const noexcept {
+    const portable::Two known{(context.*of)[i], (context.*of)[k]};
+    const portable::Two stand_in{(stand_ins.*of)[i], (stand_ins.*of)[k]};
+    return known == known ? known : stand_in;
   }
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <cstdint>
+#include <limits>
 
 /// Elementary functions that give the same bits on every machine.
 ///
@@ -10,6 +11,10 @@
 /// pow 0.91, atan2 and tanh 1.6 units in the last place. Any thread, no state, fixed cost.
 /// NaN in gives NaN out; nothing traps, nothing sets errno.
 namespace plumb::portable {
+
+/// Two numbers in the lanes of what every machine with such registers has.
+using Two = double __attribute__((vector_size(2 * sizeof(double))));
+using TwoBits = std::int64_t __attribute__((vector_size(2 * sizeof(double))));
 
 template <class S>
 struct SinCos {
@@ -27,12 +32,18 @@ double atan2(double y, double x) noexcept;
 double exp(double x) noexcept;
 
 /// The same of two x <= 0, for little more than of one.
-std::array<double, 2> exp_of_negative(const std::array<double, 2>& x) noexcept;
+Two exp_of_negative(Two x) noexcept;
 
 /// Natural logarithm; -inf at 0, NaN below.
 double log(double x) noexcept;
 
 double tanh(double x) noexcept;
+
+/// -|x|.
+inline Two below_zero(Two x) noexcept {
+  constexpr std::int64_t kSign = std::numeric_limits<std::int64_t>::min();
+  return reinterpret_cast<Two>(reinterpret_cast<TwoBits>(x) | TwoBits{kSign, kSign});
+}
 
 /// x^y for x > 0; x^0 = 1; integer y also for x < 0.
 double pow(double x, double y) noexcept;

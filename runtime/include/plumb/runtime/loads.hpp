@@ -38,6 +38,9 @@ struct Loads {
 
   Vector3 force(int j) const noexcept;
 
+  /// The weight of the payload along the axes of frame C.
+  Vector3 payload_force_in(const Transformd& X_BC) const noexcept;
+
   /// About the origin of joint j.
   Vector3 moment(int j, const ChainFrames& frames) const noexcept;
 

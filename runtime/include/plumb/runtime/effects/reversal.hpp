@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <limits>
 
 #include "plumb/runtime/effect.hpp"
@@ -28,29 +27,39 @@ struct Reversal {
   static void apply(std::span<const S> h, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
     const std::size_t count = shape.joints.size();
-    const double r = shape.constants[0];
-    for (std::size_t i = 0; i < count; i += 2) {
-      const std::size_t next = i + 1 < count ? i + 1 : i;
-      const auto left = portable::exp_of_negative(
-          std::array{fade(at.travel(shape.joints[i]), r), fade(at.travel(shape.joints[next]), r)});
-      move(i, 1.0 - left[0], h, shape, at, out);
-      if (next > i) move(next, 1.0 - left[1], h, shape, at, out);
-    }
+    if (count > 0) move_two(0, h, shape, at, out);
+    if (count > 2) move_from_2(h, shape, at, out);
   }
 
  private:
-  /// -travel / r; where the travel is unknown, as after a long one.
-  static double fade(double travel, double r) {
-    if (!(travel == travel && r > 0.0)) return -std::numeric_limits<double>::infinity();
-    return -__builtin_fabs(travel) / r;
+  using Two = portable::Two;
+
+  /// Joint i of the effect and the next, if there is one.
+  template <class S>
+  static void move_two(std::size_t i, std::span<const S> h, const EffectShape& shape,
+                       const Situation& at, Motion<S>& out) {
+    const std::size_t next = i + 1 < shape.joints.size() ? i + 1 : i;
+    const std::size_t j = shape.joints[i], k = shape.joints[next];
+    const Two side = at.directions(j, k);
+    const Two left = portable::exp_of_negative(fade(at.travels(j, k), shape.constants[0]));
+    const Two behind = side * (1.0 - left);
+    if (side[0] == side[0]) out.dq[j] -= h[i] * behind[0];
+    if (next > i && side[1] == side[1]) out.dq[k] -= h[next] * behind[1];
   }
 
+  /// Never inlined: what a loop needs would be made ready for one or two joints too.
   template <class S>
-  static void move(std::size_t i, double grown, std::span<const S> h, const EffectShape& shape,
-                   const Situation& at, Motion<S>& out) {
-    const std::size_t j = shape.joints[i];
-    const double direction = at.direction(j);
-    if (direction == direction) out.dq[j] -= h[i] * (direction * grown);
+  [[gnu::noinline]] static void move_from_2(std::span<const S> h, const EffectShape& shape,
+                                            const Situation& at, Motion<S>& out) {
+    for (std::size_t i = 2; i < shape.joints.size(); i += 2) move_two(i, h, shape, at, out);
+  }
+
+  /// -travel / r; where the travel is unknown, as after a long one.
+  static Two fade(Two travel, double r) {
+    constexpr double kForever = -std::numeric_limits<double>::infinity();
+    const Two all_r{r, r}, none{}, forever{kForever, kForever};
+    const portable::TwoBits known = (travel == travel) & (all_r > none);
+    return known ? portable::below_zero(travel) / all_r : forever;
   }
 };
 

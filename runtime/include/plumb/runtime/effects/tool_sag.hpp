@@ -26,7 +26,7 @@ struct ToolSag {
 
   template <class S>
   static void apply(std::span<const S> c, const EffectShape&, const Situation& at, Motion<S>& out) {
-    const Vector3 pull = transpose_times<double>(at.frames.tip.R, at.loads.payload_force);
+    const Vector3 pull = at.loads.payload_force_in(at.frames.tip);
     out.displace(at.frames.tip.R, Vec3<S>(c[0] * pull(0) + c[1] * pull(1) + c[2] * pull(2),
                                           c[3] * pull(0) + c[4] * pull(1) + c[5] * pull(2),
                                           c[6] * pull(0) + c[7] * pull(1) + c[8] * pull(2)));
