@@ -174,7 +174,7 @@ bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scen
   chain.frames(q, weights_.centres(), scene.payload_T, scene.frames, scene.points_B);
   weights_.weigh(scene.points_B, scene.loads);
   for (const BoundEffect& bound : std::span(effects_).first(count_)) bound.apply(bound, at, out);
-  return scene.stood_in || out.undefined;
+  return scene.stood_in | out.undefined;
 }
 
 }  // namespace plumb
