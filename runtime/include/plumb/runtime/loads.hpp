@@ -28,13 +28,13 @@ struct Loads {
     double mass;           // of the same [kg]
   };
   std::array<Behind, kMaxJoints> joint;
-  double payload_kg;     // of the payload alone
-  Triple payload_force;  // its weight
+  Triple payload_force;  // weight of the payload alone
   Triple payload_at;     // its centre of mass
   Triple gravity;        // [m/s^2]
   Triple wrench;         // external, on the tip
   Triple tip_moment;     // of the same, about the tip
-  bool pushed = false;   // there is an external wrench
+  double payload_kg;
+  bool pushed = false;  // there is an external wrench
 
   Vector3 force(int j) const noexcept;
 

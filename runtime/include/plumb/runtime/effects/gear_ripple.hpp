@@ -25,25 +25,11 @@ struct GearRipple {
   template <class S>
   static void apply(std::span<const S> a, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
-    const std::size_t count = shape.joints.size();
-    if (count > 0) move(0, a, shape, at, out);
-    if (count > 1) move_from_1(a, shape, at, out);
-  }
-
- private:
-  template <class S>
-  static void move(std::size_t i, std::span<const S> a, const EffectShape& shape,
-                   const Situation& at, Motion<S>& out) {
-    const int j = shape.joints[i];
-    const auto t = portable::sin_cos(shape.constants[0] * at.q[j]);
-    out.dq[j] += a[2 * i] * t.sin + a[2 * i + 1] * t.cos;
-  }
-
-  /// Never inlined: what a loop needs would be made ready for one joint too, as most have.
-  template <class S>
-  [[gnu::noinline]] static void move_from_1(std::span<const S> a, const EffectShape& shape,
-                                            const Situation& at, Motion<S>& out) {
-    for (std::size_t i = 1; i < shape.joints.size(); ++i) move(i, a, shape, at, out);
+    for (std::size_t i = 0; i < shape.joints.size(); ++i) {
+      const int j = shape.joints[i];
+      const auto t = portable::sin_cos(shape.constants[0] * at.q[j]);
+      out.dq[j] += a[2 * i] * t.sin + a[2 * i + 1] * t.cos;
+    }
   }
 };
 
