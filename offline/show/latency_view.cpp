@@ -84,8 +84,7 @@ std::string cycle_share(const Benchmark& found) {
 
 std::string verdict(const Benchmark& found) {
   const Timing& cycle = found.cycle();
-  return fmt::format("whole step: {} median, {}{}.\n", duration(cycle.median()),
-                     cycle_share(found),
+  return fmt::format("whole step: {} median, {}{}.\n", duration(cycle.median()), cycle_share(found),
                      found.why_not_representative.empty()
                          ? ""
                          : ", on a machine that is not fit to judge a controller by");
