@@ -26,9 +26,7 @@ struct Reversal {
   template <class S>
   static void apply(std::span<const S> h, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
-    const std::size_t count = shape.joints.size();
-    if (count > 0) move_two(0, h, shape, at, out);
-    if (count > 2) move_from_2(h, shape, at, out);
+    for (std::size_t i = 0; i < shape.joints.size(); i += 2) move_two(i, h, shape, at, out);
   }
 
  private:
@@ -45,13 +43,6 @@ struct Reversal {
     const Two behind = side * (1.0 - left);
     if (side[0] == side[0]) out.dq[j] -= h[i] * behind[0];
     if (next > i && side[1] == side[1]) out.dq[k] -= h[next] * behind[1];
-  }
-
-  /// Never inlined: what a loop needs would be made ready for one or two joints too.
-  template <class S>
-  [[gnu::noinline]] static void move_from_2(std::span<const S> h, const EffectShape& shape,
-                                            const Situation& at, Motion<S>& out) {
-    for (std::size_t i = 2; i < shape.joints.size(); i += 2) move_two(i, h, shape, at, out);
   }
 
   /// -travel / r; where the travel is unknown, as after a long one.
