@@ -214,12 +214,14 @@ double atan2(double y, double x) noexcept {
 
 double exp(double x) noexcept { return exp_clamped(x, 0.0); }
 
-/// What is not zero is normal, and so is the power of two, made of k in the last bits of `shifted`.
+/// What is not zero is normal, and so is the power of two, made of k in the last bits of `shifted`;
+/// of others the power is any number, and is not asked for.
 Two exp_of_negative(Two x) noexcept {
+  using Modular = std::uint64_t __attribute__((vector_size(sizeof(Two))));
   Two y, shifted;
   exp_reduced(x, Two{}, y, shifted);
-  const TwoBits power =
-      (reinterpret_cast<TwoBits>(shifted) << 52) + std::bit_cast<std::int64_t>(1.0);
+  const Modular power =
+      (reinterpret_cast<Modular>(shifted) << 52) + std::bit_cast<std::uint64_t>(1.0);
   const Two value = y * reinterpret_cast<Two>(power);
   return reinterpret_cast<Two>(reinterpret_cast<TwoBits>(value) & ~(x < kExpLowest));
 }
