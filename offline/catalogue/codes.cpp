@@ -14,8 +14,7 @@ constexpr Explanation kCodes[] = {
      "cell's tolerance. No model was written."},
     {"E-GATE-TIME",
      "bench --max-us: a whole step of the cycle takes longer in the median. On a machine that is "
-     "not "
-     "representative that says little: the same gate on the controller's own PC counts."},
+     "not representative that says little: the same gate on the controller's own PC counts."},
     {"W-BENCH-HEAP",
      "While the cycle was timed, it took memory from the heap. It must not: an allocation can take "
      "any time. The tests of the runtime would have failed, so report it with the model file."},

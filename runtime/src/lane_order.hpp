@@ -10,23 +10,21 @@
 /// Lanes in another order: vectors x, y, z in the first three of four, and small matrices.
 namespace plumb {
 
-/// (a, x, y, z) -> (x, y, z, a): what stands at the end of an array is read without what is behind.
-inline Lanes last_three(const Lanes& end) {
+/// These lanes of it, in this order.
+template <int i, int j, int k, int l>
+Lanes ordered(const Lanes& a) {
 #ifdef __AVX__
-  return __builtin_shufflevector(end, end, 1, 2, 3, 0);
+  return __builtin_shufflevector(a, a, i, j, k, l);
 #else
-  return {end[1], end[2], end[3], end[0]};
+  return {a[i], a[j], a[k], a[l]};
 #endif
 }
 
+/// (a, x, y, z) -> (x, y, z, a): what stands at the end of an array is read without what is behind.
+inline Lanes last_three(const Lanes& end) { return ordered<1, 2, 3, 0>(end); }
+
 /// (x, y, z, a) -> (a, x, y, z): the other way round.
-inline Lanes to_end(const Lanes& a) {
-#ifdef __AVX__
-  return __builtin_shufflevector(a, a, 3, 0, 1, 2);
-#else
-  return {a[3], a[0], a[1], a[2]};
-#endif
-}
+inline Lanes to_end(const Lanes& a) { return ordered<3, 0, 1, 2>(a); }
 
 /// (x, y, z, a) -> (1, x, y, z).
 inline Lanes behind_one(const Lanes& a) {
@@ -38,13 +36,7 @@ inline Lanes behind_one(const Lanes& a) {
 }
 
 /// (x, y, z) -> (y, z, x).
-inline Lanes turned(const Lanes& a) {
-#ifdef __AVX__
-  return __builtin_shufflevector(a, a, 1, 2, 0, 3);
-#else
-  return {a[1], a[2], a[0], a[3]};
-#endif
-}
+inline Lanes turned(const Lanes& a) { return ordered<1, 2, 0, 3>(a); }
 
 /// Its `turned` is a x b; so a sum of cross products need be turned only once.
 inline Lanes cross_turned(const Lanes& a, const Lanes& b) { return a * turned(b) - turned(a) * b; }
@@ -112,11 +104,7 @@ inline std::array<Lanes, 3> cross_columns(const Lanes& v, const Lanes& d) {
 
 /// (a_0 b_1, a_1 b_1, a_1 b_2): a column of what is as good as a b^T and keeps its symmetry.
 inline Lanes middle_products(const Lanes& a, const Lanes& b) {
-#ifdef __AVX__
-  return __builtin_shufflevector(a, a, 0, 1, 1, 1) * __builtin_shufflevector(b, b, 1, 1, 2, 2);
-#else
-  return Lanes{a[0], a[1], a[1], a[1]} * Lanes{b[1], b[1], b[2], b[2]};
-#endif
+  return ordered<0, 1, 1, 1>(a) * ordered<1, 1, 2, 2>(b);
 }
 
 }  // namespace plumb
