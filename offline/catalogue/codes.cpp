@@ -18,6 +18,11 @@ constexpr Explanation kCodes[] = {
     {"W-BENCH-HEAP",
      "While the cycle was timed, it took memory from the heap. It must not: an allocation can take "
      "any time. The tests of the runtime would have failed, so report it with the model file."},
+    {"E-RUN-BASE",
+     "The run was made with fit --base controller, and the controller's positions are not those of "
+     "the arm in cell.toml: it has values of its own. On the bus plumb-rt computes where the "
+     "controller believes to be with the arm of the cell, and would refuse. With the controller's "
+     "own DH values in [robot] joints both are the same."},
     {"E-RUN-DATA",
      "The run was made from other measurement files than the cell has now, so its predictions "
      "belong to other poses. Fit again, or put the old files back."},
@@ -182,12 +187,25 @@ constexpr Explanation kCodes[] = {
     {"E-FIT-FAR",
      "The fit meets the points only by bending the nominal arm by more than 100 mm or 10 deg. Then "
      "cell.toml describes another arm, or the same one in the other DH convention."},
+    {"E-FIT-BASE",
+     "fit --base controller calibrates on top of the positions that the controller itself computes "
+     "at each pose. They belong into the measurements: nx_mm, ny_mm, nz_mm, one for each measured "
+     "axis."},
+    {"E-FIT-BASE-FAR",
+     "The positions nx, ny, nz differ from those of the nominal arm by more than 1 % of the length "
+     "of all links, even with the best base frame and tool. A unit, the order of columns or rows, "
+     "or the arm in cell.toml is wrong."},
     {"W-FIT-AMBIGUOUS",
      "Two positions of the tracker explain these poses almost equally well, for example one turned "
      "by 180 deg when all points lie in a plane. State the frame, or measure poses that differ."},
     {"W-FIT-FAR",
      "A fitted number of the arm ended far from its nominal value, farther than arms are built "
      "wrong. Often the nominal value is mistyped, or belongs to another variant of the robot."},
+    {"W-FIT-IMPOSSIBLE",
+     "A number of an effect ended where its law cannot be, by more than three sigma: a spring that "
+     "pushes the wrong way, say. The effect imitates another one that the model lacks, or masses "
+     "or "
+     "signs are wrong."},
     {"W-FIT-OUTLIERS",
      "Some poses lie farther from what all others predict than six times their usual scatter: a "
      "bumped reflector, a broken beam, a mistyped number. They were not fitted. Held-out poses are "

@@ -75,6 +75,7 @@ struct Measurements {
   Rows4 quat_M;               // measured orientation (w, x, y, z), or 0 rows
   Rows3 sigma_m;              // 1 sigma per axis from columns, or 0 rows
   Rows3 nominal_B;            // the controller's own position [m], or 0 rows
+  Rows3 departure_B;          // that, beyond the arm of the cell (controller_base.hpp), or 0 rows
   ContextRows context;        // what else is known of each pose
   std::vector<Table> tables;  // the files, in order
   int size() const { return static_cast<int>(q.rows()); }

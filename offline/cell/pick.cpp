@@ -68,6 +68,7 @@ Measurements pick(const Measurements& all, const std::vector<int>& rows) {
   out.quat_M = picked(all.quat_M, rows);
   out.sigma_m = picked(all.sigma_m, rows);
   out.nominal_B = picked(all.nominal_B, rows);
+  out.departure_B = picked(all.departure_B, rows);
   out.context = pick(all.context, rows);
   out.tables = pick_tables(all.tables, rows);
   return out;

@@ -5,13 +5,17 @@
 
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/controller_base.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
+#include "show/units.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kAsGoodAsTheArm_m = 50e-6;  // as plumb-rt compares poses with the controller
 
 void note_tables(const Measurements& measured, Outcome& outcome) {
   for (const auto& table : measured.tables) {
@@ -86,6 +90,27 @@ Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep
            fmt::format("there was no run of the present cell and data: made run {}", run.number),
        .help = "plumb runs"});
   return run;
+}
+
+void stand_on_base_of(const Run& run, const Cell& cell, Measurements& measured) {
+  if (run.fit.base == Base::kController) stand_on_controller(cell, measured);
+}
+
+void check_known_to_runtime(const Run& run, const Cell& cell, const Measurements& measured) {
+  if (run.fit.base == Base::kArm) return;
+  Measurements there = measured;
+  stand_on_controller(cell, there);
+  const double most = departure_of(there).max;
+  if (most <= kAsGoodAsTheArm_m) return;
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-RUN-BASE",
+       .message =
+           fmt::format("run {} stands on the controller's own positions, up to {} mm off the "
+                       "arm of the cell, which is all that plumb-rt knows",
+                       run.number, show::mm(most)),
+       .help =
+           "give [robot] joints the controller's own values, or calibrate that arm: plumb fit"});
 }
 
 show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured) {

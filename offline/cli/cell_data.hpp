@@ -34,6 +34,14 @@ enum class Keep { kRun, kNothing };
 Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep_it,
                        Outcome& outcome);
 
+/// From here on the measurements are compared with what the run was: the arm of the cell, or the
+/// controller's own positions.
+void stand_on_base_of(const Run& run, const Cell& cell, Measurements& measured);
+
+/// Refuses (E-RUN-BASE) what stands on positions that only the controller knows: the
+/// controller-side PC computes with the arm of the cell.
+void check_known_to_runtime(const Run& run, const Cell& cell, const Measurements& measured);
+
 /// Whether a run is of the present cell file and data.
 show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured);
 

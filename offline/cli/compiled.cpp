@@ -19,12 +19,14 @@ void CompileOptions::add_to(CLI::App& verb) {
 
 format::Model compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
                        Outcome& outcome) {
-  const Measurements measured = open_measurements(cell, outcome);
+  Measurements measured = open_measurements(cell, outcome);
   Run run =
       current_or_new_run(cell, measured, write.dry_run ? Keep::kNothing : Keep::kRun, outcome);
+  check_known_to_runtime(run, cell, measured);
   const std::string kept = run.number > 0 ? fmt::format("{:04}", run.number) : "not kept";
   if (options.refit_all) {
     const Progress progress("calibrating on every pose");
+    stand_on_base_of(run, cell, measured);
     run = draft_run(cell, measured, fit_all(cell, measured));
   }
   format::Model model = compile(cell, run);

@@ -42,9 +42,10 @@ std::string judged(const std::string& what, const Fit& before, const Fit& after)
 void change(const Options& options, const std::string& what, const std::string& undo,
             const Cell& cell, const std::vector<EffectEntry>& effects, Outcome& outcome) {
   const Cell edited = with_effects(cell, effects);
-  const Measurements measured = open_measurements(cell, outcome);
+  Measurements measured = open_measurements(cell, outcome);
   const Keep keep_it = options.dry_run ? Keep::kNothing : Keep::kRun;
   const Run before = current_or_new_run(cell, measured, keep_it, outcome);
+  stand_on_base_of(before, cell, measured);
   Fit fitted = fit_with_progress(edited, measured, outcome);
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);

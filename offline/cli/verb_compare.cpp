@@ -30,9 +30,10 @@ std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
 
 void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  const Measurements measured = open_measurements(cell, outcome);
+  Measurements measured = open_measurements(cell, outcome);
   const auto runs = wanted(names, cell, measured, outcome);
   const Run& last = runs.back().run;
+  stand_on_base_of(last, cell, measured);
   const auto comparison = compare::comparison(cell, measured, last.fit);
   outcome.result = show::compare_json(cell, measured, comparison, last);
   outcome.text = show::compare_text(cell, measured, comparison, last);

@@ -42,8 +42,12 @@ void keep(const Options& options, const Cell& cell, const Measurements& measured
 
 void diagnose_cell(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  const Measurements measured = open_measurements(cell, outcome);
-  if (!options.dry_run) current_or_new_run(cell, measured, Keep::kRun, outcome);
+  Measurements measured = open_measurements(cell, outcome);
+  if (options.dry_run) {
+    if (const auto run = current_run(cell, measured)) stand_on_base_of(*run, cell, measured);
+  } else {
+    stand_on_base_of(current_or_new_run(cell, measured, Keep::kRun, outcome), cell, measured);
+  }
   const auto found = [&] {
     const Progress progress(fmt::format("diagnosing {} poses", measured.size()));
     return diagnose(cell, measured, {.apply = options.apply, .tell = {}});

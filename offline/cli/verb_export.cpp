@@ -52,6 +52,7 @@ void run_export(const Options& options, const Globals& globals, Outcome& outcome
             ? current_or_new_run(cell, measured,
                                  options.write.dry_run ? Keep::kNothing : Keep::kRun, outcome)
             : load_run(cell, run_number(options.run));
+    check_known_to_runtime(run, cell, measured);
     arm = run.fit.calibration.state.arm;
     what = fmt::format("calibrated arm of run {}", run.number);
     outcome.result["run"] = run.number;

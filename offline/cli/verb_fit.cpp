@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
 #include "cli/cell_data.hpp"
 #include "cli/verbs.hpp"
+#include "fit/controller_base.hpp"
 #include "show/fit_view.hpp"
 #include "show/units.hpp"
 
@@ -18,6 +20,7 @@ struct Options {
   std::optional<double> max_rms_mm;
   std::optional<std::uint64_t> seed;
   std::string held_out;
+  Base base = Base::kArm;
 };
 
 void override_split(const Options& options, Cell& cell) {
@@ -65,7 +68,8 @@ void keep_run(const Options& options, const Cell& cell, const Measurements& meas
 void fit(const Options& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
-  const Measurements measured = open_measurements(cell, outcome);
+  Measurements measured = open_measurements(cell, outcome);
+  if (options.base == Base::kController) stand_on_controller(cell, measured);
   Fit fitted = fit_with_progress(cell, measured, outcome);
   outcome.result = show::fit_json(cell, measured, fitted);
   outcome.text = show::fit_text(cell, fitted);
@@ -90,6 +94,13 @@ void add_fit(Program& program) {
   verb.add_option("--held-out", options->held_out,
                   "Which poses are held out: auto, 20%, kfold:5, column:set, file:F.csv")
       ->type_name("RULE");
+  const std::map<std::string, Base> bases{{name_of(Base::kArm), Base::kArm},
+                                          {name_of(Base::kController), Base::kController}};
+  verb.add_option("--base", options->base,
+                  "What is calibrated: the arm of the cell, or the controller's own positions "
+                  "(columns nx_mm, ny_mm, nz_mm)")
+      ->type_name("arm|controller")
+      ->transform(CLI::CheckedTransformer(bases));
 }
 
 }  // namespace plumb::offline::cli

@@ -8,6 +8,7 @@
 #include "cli/model_file.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "fit/controller_base.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "show/units.hpp"
@@ -131,7 +132,11 @@ void predict_as_measured(const Options& options, const Globals& globals, Outcome
   const Measurements measured = open_measurements(cell, outcome);
   const Run run = chosen_run(options, cell, measured, outcome);
   const bool own = options.data.empty();
-  const Measurements rows = own ? measured : open_rows(options.data, cell.nominal, outcome);
+  Measurements rows = own ? measured : open_rows(options.data, cell.nominal, outcome);
+  if (!own && run.fit.base == Base::kController) {
+    check_same_data(run, measured);
+    stand_on_controller(cell, measured, rows);
+  }
   show::CsvColumns columns(rows.tables);
   set_points(own ? run.fit.predicted_M : predict_points(run.fit.calibration.state, rows), columns);
   if (own) set_split(run.fit.split, columns);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/fit_judgement.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -18,10 +20,7 @@ double times_usual(double value, double std, const EffectParameter& info) {
 }
 
 bool plausible(double value, double std, const EffectParameter& info) {
-  const double margin = kSure * std;
-  if (info.low != info.high && (value < info.low - margin || value > info.high + margin))
-    return false;
-  return times_usual(value, std, info) <= kMostTimes;
+  return possible(value, std, info) && times_usual(value, std, info) <= kMostTimes;
 }
 
 }  // namespace plumb::offline

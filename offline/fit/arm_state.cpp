@@ -22,8 +22,10 @@ Context context_of(const Measurements& at, Eigen::Index row,
   return out;
 }
 
-Rows3 predict_points(const ArmState& state, const Measurements& at) {
-  if (state.arm.effects.empty()) return predict_points(state, at.q);
+namespace {
+
+/// With the effects that a context brings.
+Rows3 predict_points_in(const ArmState& state, const Measurements& at) {
   const ForwardModel arm(state.arm);
   const auto sensors = temperature_names(state.arm);
   const Transformd X_MB = from_pose(state.X_MB);
@@ -33,6 +35,15 @@ Rows3 predict_points(const ArmState& state, const Measurements& at) {
     const Context context = context_of(at, i, sensors, X_MB);
     out.row(i) = (X_MB * (arm.predict(row_of(at.q, i), context).X_BT * target_T)).transpose();
   }
+  return out;
+}
+
+}  // namespace
+
+Rows3 predict_points(const ArmState& state, const Measurements& at) {
+  Rows3 out =
+      state.arm.effects.empty() ? predict_points(state, at.q) : predict_points_in(state, at);
+  if (at.departure_B.rows() > 0) out += at.departure_B * from_pose(state.X_MB).R.transpose();
   return out;
 }
 

@@ -17,10 +17,11 @@ struct ArmState {
   format::Pose X_TG;  // reflector (gauge) in the tool frame
 };
 
-/// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code.
+/// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code; from
+/// the controller's own positions where `at` has their departures.
 Rows3 predict_points(const ArmState& state, const Measurements& at);
 
-/// The same where nothing but the joint positions is known.
+/// The same by the arm alone, where nothing but the joint positions is known.
 Rows3 predict_points(const ArmState& state, const RowsN& q);
 
 /// What is known of row `row`; the tracker stands at the origin of the measurement frame.

@@ -234,6 +234,7 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   Calibration out = refined(cell, data, std::move(coarse), candidates);
   check_same_arm(out.estimates);
   warn_of_far_parameters(out.estimates, remarks);
+  warn_of_impossible_effects(out, remarks);
   out.remarks = std::move(remarks);
   return out;
 }

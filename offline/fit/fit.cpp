@@ -150,6 +150,7 @@ void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& 
 Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   Fit out;
   out.split = std::move(split);
+  if (measured.departure_B.rows() > 0) out.base = Base::kController;
   const std::vector<int> fit = fit_rows(out.split);
   Fitted final_model = fit_on(cell, measured, fit);
   const Rows3 final_points = predict_points(final_model.calibration.state, measured);

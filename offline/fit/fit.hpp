@@ -15,11 +15,17 @@
 
 namespace plumb::offline {
 
+/// What the fitted numbers are added to: the nominal arm of the cell, or what the controller itself
+/// says where it is.
+enum class Base { kArm, kController };
+constexpr const char* name_of(Base base) { return base == Base::kArm ? "arm" : "controller"; }
+
 /// One calibration with its evidence: what `plumb fit` makes and a run keeps.
 struct Fit {
   Calibration calibration;         // on the fit poses
   std::optional<TreeChoice> tree;  // if [effects.local_tree] is listed
   Split split;
+  Base base = Base::kArm;
   Rows3 predicted_M;         // per pose: by the final model, or out of fold where held out
   ErrorStats nominal_held;   // before: only frame and target fitted, same held-out poses
   ErrorStats held;           // after

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cell/formula_reader.hpp"
+#include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kFar_m = 20e-3;
 constexpr double kFar_rad = 2.0 * M_PI / 180.0;
 constexpr double kAnotherArm_m = 100e-3;
 constexpr double kAnotherArm_rad = 10.0 * M_PI / 180.0;
+constexpr double kSure = 3.0;  // sigma
 
 bool beyond(const Estimate& e, double limit_m, double limit_rad) {
   return e.of_robot && e.unit.empty() &&
@@ -102,6 +104,29 @@ void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<
            .message = how_far(e),
            .help = "compare the nominal value with the data sheet; to hold it: [fit] fixed = [\"" +
                    e.name + "\"]"});
+}
+
+bool possible(double value, double std, const EffectParameter& info) {
+  const double margin = kSure * std;
+  return info.low == info.high || (value >= info.low - margin && value <= info.high + margin);
+}
+
+void warn_of_impossible_effects(const Calibration& calibration, std::vector<Problem>& remarks) {
+  const format::Model& arm = calibration.state.arm;
+  for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
+    const Parameter& p = calibration.parameters[i];
+    if (!p.of_effect()) continue;
+    const Estimate& e = calibration.estimates[i];
+    const EffectParameter info = effect_parameter(arm, p.joint, p.component);
+    if (possible(e.value, e.std, info)) continue;
+    remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-FIT-IMPOSSIBLE",
+         .message = fmt::format("{} is {:.3g} {} (1 sigma {:.1g}), but its law goes from {:g} to "
+                                "{:g}: it imitates something else",
+                                e.name, e.value, e.unit, e.std, info.low, info.high),
+         .help = "find what it is: plumb diagnose"});
+  }
 }
 
 }  // namespace plumb::offline

@@ -5,6 +5,7 @@
 
 #include "fit/calibrate.hpp"
 #include "fit/solver.hpp"
+#include "plumb/runtime/effect.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -33,5 +34,11 @@ void check_same_arm(const std::vector<Estimate>& estimates);
 
 /// W-FIT-FAR: an arm's number more than 20 mm or 2 deg from nominal is rather a wrong nominal.
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks);
+
+/// Whether a parameter may be within the bounds of its law, three sigma allowed.
+bool possible(double value, double std, const EffectParameter& info);
+
+/// W-FIT-IMPOSSIBLE: an effect's number that its law rules out, a spring that pushes the wrong way.
+void warn_of_impossible_effects(const Calibration& calibration, std::vector<Problem>& remarks);
 
 }  // namespace plumb::offline

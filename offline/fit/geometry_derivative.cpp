@@ -189,15 +189,15 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
   }
 }
 
-void GeometryDerivative::evaluate(std::span<const double> q, const Context& context,
-                                  Point& out) const {
+void GeometryDerivative::evaluate(std::span<const double> q, const Context& context, Point& out,
+                                  const Vector3& departure_B) const {
   Bent bent;
   bend(q, context, bent);
   out.undefined = bent.undefined;
   const ChainFrames& frames = bent.frames;
   const Matrix3& R_MB = X_MB_.R;
   const Vector3 arm_B = frames.tip.R * X_TG_.p;  // before the twists turn it
-  const Vector3 p_B = frames.tip.p + bent.motion.shift_B + bent.turn * arm_B;
+  const Vector3 p_B = frames.tip.p + bent.motion.shift_B + bent.turn * arm_B + departure_B;
   const Matrix3 R_BT = bent.turn * frames.tip.R;
   out.p_M = X_MB_ * p_B;
   out.R_MG = R_MB * R_BT * X_TG_.R;

@@ -32,7 +32,9 @@ class GeometryDerivative {
   };
   /// q: shape (joints,). `out.columns` is resized once and reused. Columns of geometry leave out
   /// that it changes the loads of the effects a little; those of effects are exact.
-  void evaluate(std::span<const double> q, const Context& context, Point& out) const;
+  /// departure_B: moves the point besides [m].
+  void evaluate(std::span<const double> q, const Context& context, Point& out,
+                const Vector3& departure_B = Vector3::Zero()) const;
 
   /// Sensors in the order in which the context must hold them.
   const std::vector<std::string>& sensors() const { return sensors_; }

@@ -141,6 +141,7 @@ Json run_to_json(const Run& run) {
               {"cell_sha256", run.cell_sha256},
               {"inputs", run.inputs},
               {"effects", run.effects},
+              {"base", name_of(fit.base)},
               {"calibration", to_json(fit.calibration)},
               {"tree", nullptr},
               {"folds", fit.split.folds},
@@ -172,6 +173,7 @@ Run run_from_json(const Json& j) {
   j.at("inputs").get_to(run.inputs);
   j.at("effects").get_to(run.effects);
   Fit& fit = run.fit;
+  fit.base = j.value("base", "arm") == name_of(Base::kController) ? Base::kController : Base::kArm;
   fit.calibration = calibration_from(j.at("calibration"));
   if (!j.at("tree").is_null()) {
     fit.tree = tree_from(j.at("tree"));

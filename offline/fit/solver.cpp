@@ -82,12 +82,13 @@ class GeometryCost final : public ceres::CostFunction {
       ++row;
     };
     const auto& m = *data_.measured;
+    const bool departed = m.departure_B.rows() > 0;
     const bool has_effects = !geometry.state().arm.effects.empty();
     const Transformd X_MB = from_pose(geometry.state().X_MB);
     for (int i : data_.rows) {
       geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
-                        has_effects ? context_of(m, i, geometry.sensors(), X_MB) : Context{},
-                        point);
+                        has_effects ? context_of(m, i, geometry.sensors(), X_MB) : Context{}, point,
+                        departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero());
       if (point.undefined >= 0) {
         undefined_ = {i, point.undefined};
         return false;

@@ -20,7 +20,9 @@ constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are giv
 
 std::string error_table(const Fit& fit) {
   TextTable table({"position error [mm]", "poses", "mean", "RMS", "95 %", "max"});
-  table.add(row("held-out, nominal arm", fit.nominal_held));
+  table.add(
+      row(fit.base == Base::kArm ? "held-out, nominal arm" : "held-out, controller's own positions",
+          fit.nominal_held));
   if (fit.tree) table.add(row("held-out, without the tree", fit.geometry_held));
   table.add(row("held-out, calibrated", fit.held));
   if (!fit.held_outliers.empty())

@@ -125,6 +125,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   out["fit"] = stats_json(fit.fit);
   out["held_out_without_outliers"] = stats_json(fit.held_without_outliers);
   out["outliers"] = outliers_json(fit, measured.pose);
+  out["base"] = name_of(fit.base);
   out["nominal"] = stats_json(fit.nominal_held);
   out["geometry"] = stats_json(fit.geometry_held);
   add_floor(fit.floor, out);

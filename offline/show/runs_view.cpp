@@ -83,6 +83,7 @@ Json runs_json(const std::vector<ListedRun>& runs) {
     list.push_back({{"run", run.number},
                     {"created", run.created},
                     {"effects", run.effects},
+                    {"base", name_of(run.fit.base)},
                     {"current", state == ListedRun::State::kCurrent},
                     {"held_out", stats_json(run.fit.held)},
                     {"fit", stats_json(run.fit.fit)},
@@ -96,9 +97,11 @@ std::string runs_text(const std::vector<ListedRun>& runs) {
   table.left_from(7);
   for (const auto& [run, state] : runs) {
     const auto& s = run.fit.held;
-    table.add({fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
-               run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
-               fmt::format("{}", fmt::join(run.effects, ", "))});
+    table.add(
+        {fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
+         run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
+         fmt::format("{}{}", fmt::join(run.effects, ", "),
+                     run.fit.base == Base::kController ? ", on the controller's positions" : "")});
   }
   return fmt::format("{} run{}, held-out error in mm (* of the present cell and data):\n\n",
                      runs.size(), runs.size() == 1 ? "" : "s") +

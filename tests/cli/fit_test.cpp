@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "sandbox.hpp"
 
@@ -141,6 +143,63 @@ TEST_F(FitVerb, TheFirstLineForPeopleIsTheVerdict) {
   const Ran ran = box->plumb({"-C", "cell", "fit", "--dry-run"});
   const Json result = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
   EXPECT_EQ(ran.out.substr(0, ran.out.find('\n')), result.at("verdict").get<std::string>());
+}
+
+/// The tracker's columns once more, as what the controller says.
+std::string with_positions_of_the_controller(const std::string& text) {
+  std::istringstream in(text);
+  std::string out, line;
+  std::vector<std::size_t> places;
+  while (std::getline(in, line)) {
+    if (line.front() == '#') {
+      out += line + "\n";
+      continue;
+    }
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    const bool header = places.empty();
+    if (header)
+      for (const char* axis : {"x_mm", "y_mm", "z_mm"})
+        places.push_back(std::find(cells.begin(), cells.end(), axis) - cells.begin());
+    out += line;
+    for (const std::size_t place : places) out += (header ? ",n" : ",") + cells.at(place);
+    out += "\n";
+  }
+  return out;
+}
+
+TEST(FitOfAController, WhatFollowsStandsOnItsPositionsAndIsNotCompiled) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "compliance", "cell"}).exit, 0);
+  EXPECT_EQ(box.plumb({"-C", "cell", "fit", "--base", "controller"}).exit, 3);
+  box.write("cell/measurements.csv",
+            with_positions_of_the_controller(box.read("cell/measurements.csv")));
+  const Ran fit = box.plumb({"-C", "cell", "fit", "--base", "controller", "--json"});
+  ASSERT_EQ(fit.exit, 0) << fit.err;
+  const Json result = fit.json().at("result");
+  EXPECT_EQ(result.at("base"), "controller");
+  EXPECT_LT(result.at("held_out").at("mean_mm").get<double>(), 1e-3);  // it knows what was read
+  const Json compared = box.plumb({"-C", "cell", "compare", "--json"}).json().at("result");
+  EXPECT_EQ(compared.at("mean_mm"), result.at("held_out").at("mean_mm"));
+  const Json diagnosis = box.plumb({"-C", "cell", "diagnose", "--json"}).json().at("result");
+  EXPECT_LT(diagnosis.at("held_out_before_mm").get<double>(), 1e-3);
+  ASSERT_EQ(box.plumb({"-C", "cell", "predict", "--as-measured", "-o", "own.csv"}).exit, 0);
+  ASSERT_EQ(box.plumb({"-C", "cell", "predict", "--as-measured", "--data", "cell/measurements.csv",
+                       "-o", "again.csv"})
+                .exit,
+            0);
+  const Csv again = box.csv("again.csv");
+  for (const char* axis : {"x", "y", "z"}) {
+    const auto read = again.numbers(std::string(axis) + "_mm");
+    const auto predicted = again.numbers("p" + std::string(axis) + "_mm");
+    for (std::size_t i = 0; i < read.size(); ++i) EXPECT_NEAR(predicted[i], read[i], 0.01);
+  }
+  const Ran compile = box.plumb({"-C", "cell", "compile"});
+  EXPECT_EQ(compile.exit, 3);
+  EXPECT_NE(compile.err.find("E-RUN-BASE"), std::string::npos) << compile.err;
+  ASSERT_EQ(box.plumb({"-C", "cell", "fit"}).exit, 0);
+  EXPECT_EQ(box.plumb({"-C", "cell", "compile"}).exit, 0);
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/controller_base.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "fit/calibrate.hpp"
+#include "fit/parameter.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kOtherArm = 0.01;  // of the reach
+
+std::string file_of(const Measurements& measured) {
+  return measured.tables.empty() ? std::string() : measured.tables.front().file;
+}
+
+/// As if a tracker had read what the controller says.
+Measurements said_by_controller(const Measurements& measured) {
+  if (measured.nominal_B.rows() == 0)
+    throw Failure(Exit::kInput,
+                  {.code = "E-FIT-BASE",
+                   .message = "there are no positions of the controller's own: columns nx_mm, "
+                              "ny_mm, nz_mm",
+                   .place = Place{.file = file_of(measured)},
+                   .help = "to calibrate the arm of the cell: plumb fit"});
+  Measurements out = measured;
+  out.p_M = measured.nominal_B;
+  if (out.has_axis == std::array{false, false, false}) out.has_axis = {true, true, true};
+  out.sigma_m.resize(0, 3);
+  out.quat_M.resize(0, 4);
+  out.departure_B.resize(0, 3);
+  return out;
+}
+
+/// The nominal arm with the frame and the tool that the controller uses.
+ArmState placed_by_controller(const Cell& cell, const Measurements& said) {
+  Cell alone = cell;
+  alone.measurement.fit_frame = alone.measurement.fit_target = true;
+  std::erase_if(alone.effects, [](const EffectEntry& e) { return e.name != "geometry"; });
+  std::vector<int> rows(static_cast<std::size_t>(said.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  return place_nominal(alone, said, rows);
+}
+
+void check_same_arm(const Cell& cell, const Measurements& measured) {
+  const double mean = departure_of(measured).mean;
+  if (mean < kOtherArm * reach(cell.nominal)) return;
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-FIT-BASE-FAR",
+       .message = fmt::format("the controller's positions (nx, ny, nz) are {:.1f} mm off the "
+                              "nominal arm in the mean, whatever frame and tool it uses",
+                              mean * 1e3),
+       .place = Place{.file = file_of(measured)},
+       .help = "look at units and order of these columns, and at [robot] joints: plumb check"});
+}
+
+}  // namespace
+
+void stand_on_controller(const Cell& cell, Measurements& measured) {
+  stand_on_controller(cell, measured, measured);
+}
+
+void stand_on_controller(const Cell& cell, const Measurements& measured, Measurements& rows) {
+  const ArmState placed = placed_by_controller(cell, said_by_controller(measured));
+  const Measurements said = said_by_controller(rows);
+  rows.departure_B = to_base(placed, residuals(said, predict_points(placed, said)));
+  check_same_arm(cell, rows);
+}
+
+Departure departure_of(const Measurements& measured) {
+  if (measured.departure_B.rows() == 0) return {};
+  const Eigen::VectorXd size = measured.departure_B.rowwise().norm();
+  return {.mean = size.mean(), .max = size.maxCoeff()};
+}
+
+}  // namespace plumb::offline
