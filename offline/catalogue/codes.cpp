@@ -210,6 +210,18 @@ constexpr Explanation kCodes[] = {
      "Some poses lie farther from what all others predict than six times their usual scatter: a "
      "bumped reflector, a broken beam, a mistyped number. They were not fitted. Held-out poses are "
      "never left out of the held-out error; a second figure without the outliers stands beside."},
+    {"W-FIT-HELD-OUTLIERS",
+     "Some held-out poses lie farther off than six times the usual scatter of the others: bad "
+     "readings, or places where the model fails. Held-out figures are never trimmed, so they "
+     "count; "
+     "a second line shows the rest."},
+    {"W-FIT-HELD-TWICE",
+     "Rows of the fit repeat poses that are held out: the same joints or the same name. Held-out "
+     "poses must have no say, so these rows were not fitted."},
+    {"W-FIT-STILL",
+     "A joint stood still in every pose of the fit. What is wrong behind it looks like something "
+     "else, and held-out poses that are alike do not show it: the figures hold for that position "
+     "only."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
      "out. State [measurement] sigma_urad to use them."},
@@ -224,6 +236,21 @@ constexpr Explanation kCodes[] = {
      "Two neighbouring leaves of the tree disagree by more than a tenth of the guard's limit at "
      "their border, so a path across it gets a step that the guard has to spread over time. More "
      "poses near the border, or the missing physical effect, make it smaller."},
+    {"W-AUDIT-SIGMA",
+     "From the scatter of the fit follows how well the tool's place is known all over the trained "
+     "range: there it is known worse than a third of the largest correction. Poses are too few, "
+     "too "
+     "alike, or two numbers of the model imitate each other."},
+    {"W-AUDIT-STILL",
+     "A joint never moved in the fitted poses. Elsewhere the model corrects blindly: measure poses "
+     "all over the range that the robot will use."},
+    {"W-COMPILE-TOLERANCE",
+     "The model was compiled, but its held-out error does not keep [cell] tolerance_mm: at 95 % of "
+     "the poses, or three times over at the worst. With --gate nothing would have been written."},
+    {"N-COMPILE-LEFT",
+     "Effects of the measurement or of the procedure (drift, step, tracker, settling_lag) clean "
+     "the "
+     "other numbers of the fit. They are not the robot's, and are not compiled."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-EMIT-NO-TREE",

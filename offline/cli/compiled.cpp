@@ -3,11 +3,60 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/progress.hpp"
 #include "compile/compiler.hpp"
+#include "fit/verdict.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
+namespace {
+
+/// Why the held-out figure of a model does not keep the tolerance; empty if it does.
+std::string beyond_tolerance(const format::Model& model, double tolerance_m) {
+  const auto& held = model.provenance.held_out;
+  if (held.poses == 0 || keeps({.n = static_cast<int>(held.poses),
+                                .mean = held.mean_m,
+                                .rms = held.rms_m,
+                                .p95 = held.p95_m,
+                                .max = held.max_m},
+                               tolerance_m))
+    return "";
+  if (held.p95_m > tolerance_m)
+    return fmt::format("the held-out error at 95 %, {} mm, exceeds the tolerance of {} mm",
+                       show::mm(held.p95_m), show::mm(tolerance_m));
+  return fmt::format("a held-out pose misses by {} mm, far beyond the tolerance of {} mm",
+                     show::mm(held.max_m), show::mm(tolerance_m));
+}
+
+void warn_of_tolerance(const format::Model& model, double tolerance_m, Outcome& outcome) {
+  const std::string why = beyond_tolerance(model, tolerance_m);
+  if (why.empty()) return;
+  outcome.remarks.push_back({.severity = Severity::kWarning,
+                             .code = "W-COMPILE-TOLERANCE",
+                             .message = why,
+                             .help = "see where it fails: plumb compare"});
+}
+
+/// What was fitted and is not in the model: it belongs to the measurement.
+void note_what_is_left(const Run& run, const format::Model& model, Outcome& outcome) {
+  std::vector<std::string> names;
+  for (const auto& effect : run.fit.calibration.state.arm.effects) {
+    const auto same = [&](const format::Effect& other) { return other.name == effect.name; };
+    if (std::none_of(model.effects.begin(), model.effects.end(), same))
+      names.push_back(effect.name);
+  }
+  if (names.empty()) return;
+  outcome.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-COMPILE-LEFT",
+       .message = fmt::format("not in the model, for it belongs to the measurement: {}",
+                              fmt::join(names, ", ")),
+       .help = "plumb explain " + names.front()});
+}
+
+}  // namespace
 
 void CompileOptions::add_to(CLI::App& verb) {
   verb.add_flag("--refit-all", refit_all,
@@ -30,6 +79,8 @@ format::Model compiled(const Cell& cell, const CompileOptions& options, const Wr
     run = draft_run(cell, measured, fit_all(cell, measured));
   }
   format::Model model = compile(cell, run);
+  note_what_is_left(run, model, outcome);
+  if (!options.gate) warn_of_tolerance(model, cell.tolerance_m, outcome);
   model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
   return model;
 }
@@ -44,10 +95,7 @@ void check_gate(const Audit& audit, const format::Model& model, double tolerance
   };
   for (const auto& remark : audit.remarks)
     if (remark.severity == Severity::kWarning) fail(remark.message);
-  const auto& held = model.provenance.held_out;
-  if (held.poses > 0 && held.p95_m > tolerance_m)
-    fail(fmt::format("the held-out error at 95 %, {} mm, exceeds the tolerance of {} mm",
-                     show::mm(held.p95_m), show::mm(tolerance_m)));
+  if (const std::string why = beyond_tolerance(model, tolerance_m); !why.empty()) fail(why);
 }
 
 std::string compiled_headline(const format::Model& model) {

@@ -8,6 +8,7 @@
 #include "cli/verbs.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/verdict.hpp"
+#include "fit/verdict.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/effect_arguments.hpp"
 #include "show/text_table.hpp"

@@ -16,9 +16,11 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kBorderPoints = 32;   // looked at on each leaf border
-constexpr int kHalvings = 60;       // down to neighbouring numbers
-constexpr double kLargeJump = 0.1;  // of the guard's limit: worth a warning
+constexpr int kBorderPoints = 32;    // looked at on each leaf border
+constexpr int kHalvings = 60;        // down to neighbouring numbers
+constexpr double kStill = 1e-3;      // [rad] or [m]
+constexpr double kLargeJump = 0.1;   // of the guard's limit: worth a warning
+constexpr double kLargeSigma = 0.3;  // likewise
 
 using Box = std::vector<std::pair<double, double>>;
 
@@ -157,6 +159,14 @@ void look_at_uncertainty(const format::Model& model, Audit& out) {
   }
 }
 
+/// Numbers, from 1, of those whose trained range is a point.
+std::vector<std::size_t> still_joints(const format::Model& model) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < model.domain.q_min.size(); ++i)
+    if (model.domain.q_max[i] - model.domain.q_min[i] < kStill) out.push_back(i + 1);
+  return out;
+}
+
 void judge(const format::Model& model, Audit& out) {
   if (out.worst_correction_m > model.guard.max_correction_m)
     out.remarks.push_back(
@@ -175,6 +185,23 @@ void judge(const format::Model& model, Audit& out) {
                                 "such a step over time, but the arm leaves its path meanwhile",
                                 out.worst_jump_m * 1e3),
          .help = "blend the leaves: [effects.local_tree] form = \"blended\""});
+  if (out.sigma_tool_max_m > kLargeSigma * model.guard.max_correction_m)
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-AUDIT-SIGMA",
+         .message =
+             fmt::format("the poses leave the tool uncertain by {:.3f} mm (1 sigma) somewhere "
+                         "in the trained range",
+                         out.sigma_tool_max_m * 1e3),
+         .help = "measure more poses: plumb plan --n 30"});
+  if (const auto still = still_joints(model); !still.empty())
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-AUDIT-STILL",
+         .message = fmt::format("joint {} never moved in the poses that were fitted: of what the "
+                                "arm does where {} elsewhere this model knows nothing",
+                                fmt::join(still, ", "), still.size() == 1 ? "it is" : "they are"),
+         .help = "measure poses all over the joint limits: plumb plan --n 30"});
   if (model.provenance.held_out.poses == 0)
     out.remarks.push_back({.severity = Severity::kWarning,
                            .code = "W-AUDIT-HELD",

@@ -109,7 +109,10 @@ void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, 
     out.added.push_back(
         {step.entry, step.cycles, step.ln_bayes, held_out_of(w, step.effects, step.calibration)});
   out.full = found.full;
-  if (!found.steps.empty()) out.effects = found.steps.back().effects;
+  if (!found.steps.empty()) {
+    out.effects = found.steps.back().effects;
+    out.floor = noise_floor(w.cell, w.measured, found.steps.back().calibration.state);
+  }
   if (w.split.folds > 0) {
     out.nested = true;
     out.after = nested_held_out(w);
@@ -150,7 +153,7 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
   const auto rows = without_outliers(w.fit, base.outliers);
   const Stage stage = make_stage(w.cell, measured, base, rows, w.held);
   const Scan first = scan(stage, w.not_testable, {});
-  out.floor = noise_floor(w.cell, measured);
+  out.floor = noise_floor(w.cell, measured, base.state);
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());
   out.blocks = first.blocks;

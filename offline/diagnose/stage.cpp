@@ -45,8 +45,7 @@ void deal(const Measurements& measured, const std::vector<int>& fit, const std::
   out.held.end = static_cast<Eigen::Index>(out.row.size());
 }
 
-NoiseScale noise_scale(const Cell& cell, const Measurements& measured, double sigma_m) {
-  const NoiseFloor floor = noise_floor(cell, measured);
+NoiseScale noise_scale(const NoiseFloor& floor, double sigma_m) {
   NoiseScale out;
   const double sigma = std::max(floor.sigma_m, kSmallestSigma_m);
   if (floor.source == NoiseFloor::Source::kNone) return out;
@@ -189,7 +188,7 @@ Stage make_stage(const Cell& cell, const Measurements& measured, const Calibrati
   clear_of_model(calibration, out, sigma_m);
   fill_carriers(out);
   fold_joints(out);
-  out.noise = noise_scale(cell, measured, out.sigma_m);
+  out.noise = noise_scale(noise_floor(cell, measured, calibration.state), out.sigma_m);
   return out;
 }
 

@@ -192,14 +192,37 @@ Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
   return std::move(all.front());
 }
 
+/// What can be told apart at that state; but of frame and target only what the arm alone shows. The
+/// small motion of an effect shows them too (a leaning column tells how high the reflector of a
+/// SCARA is), but so weakly that the product of both runs away.
+ParameterSubset fine_subset(const FitData& data, const ArmState& state,
+                            const std::vector<Parameter>& candidates) {
+  const auto all = identifiable_parameters(data, state, candidates, kFine);
+  if (state.arm.effects.empty()) return all;
+  ArmState bare = state;
+  bare.arm.effects.clear();
+  std::vector<Parameter> of_arm;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(of_arm),
+               [](const Parameter& p) { return !p.of_effect(); });
+  const auto shown = identifiable_parameters(data, bare, of_arm, kFine);
+  ParameterSubset out{.kept = {}, .held = all.held};
+  for (const auto& p : all.kept) {
+    if (p.of_robot() || p.of_effect() || holds(shown.kept, p.name))
+      out.kept.push_back(p);
+    else
+      out.held.push_back(p.name);
+  }
+  return out;
+}
+
 Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
                     const std::vector<Parameter>& candidates) {
   FitData data = whole;  // with the stated sigma
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
   widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
-  const auto fine = identifiable_parameters(data, coarse.solution.state,
-                                            led_by(coarse.subset.kept, candidates), kFine);
+  const auto fine =
+      fine_subset(data, coarse.solution.state, led_by(coarse.subset.kept, candidates));
   data.rows = whole.rows;
   Solution solution = std::move(coarse.solution);
   solution.state = with_held_at_nominal(solution.state, nominal, candidates, fine.held);

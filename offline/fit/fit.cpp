@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fit/arm_state.hpp"
 #include "tree/domain.hpp"
@@ -14,7 +15,7 @@ namespace {
 constexpr double kFarTimes = 6.0;              // the usual scatter: an outlier
 constexpr double kSmallestScatter_m = 0.1e-6;  // of noise-free data
 constexpr std::size_t kListed = 5;
-constexpr double kAtTheFloor = 1.3;  // times the noise floor: nothing left to explain
+constexpr double kStill = 1e-3;  // [rad] or [m]
 
 const EffectEntry* find_effect(const Cell& cell, std::string_view name) {
   const auto it = std::find_if(cell.effects.begin(), cell.effects.end(),
@@ -120,9 +121,7 @@ void find_held_outliers(const Measurements& measured, const std::vector<int>& he
   out.held_without_outliers = stats_of(measured, out.predicted_M, rest);
 }
 
-void remark_on_outliers(const Measurements& measured, Fit& out) {
-  const auto& found = out.calibration.outliers;
-  if (found.empty()) return;
+std::string named(const Measurements& measured, const std::vector<Outlier>& found) {
   std::vector<std::string> names;
   for (const auto& outlier : found)
     names.push_back(
@@ -131,12 +130,71 @@ void remark_on_outliers(const Measurements& measured, Fit& out) {
     names.resize(kListed);
     names.push_back(fmt::format("{} more", found.size() - kListed));
   }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void remark_on_outliers(const Measurements& measured, Fit& out) {
+  constexpr const char* kHelp = "measure them again, or mark them: column set = ignore";
+  const auto& fitted = out.calibration.outliers;
+  if (!fitted.empty())
+    out.remarks.push_back({.severity = Severity::kWarning,
+                           .code = "W-FIT-OUTLIERS",
+                           .message = fmt::format("{} of the fit poses contradict the others and "
+                                                  "were not fitted: {}",
+                                                  fitted.size(), named(measured, fitted)),
+                           .help = kHelp});
+  // With folds a pose is both, and named already.
+  if (!out.held_outliers.empty() && out.split.folds == 0)
+    out.remarks.push_back({.severity = Severity::kWarning,
+                           .code = "W-FIT-HELD-OUTLIERS",
+                           .message = fmt::format("held-out poses that stand out, and count in the "
+                                                  "figures: {}",
+                                                  named(measured, out.held_outliers)),
+                           .help = kHelp});
+}
+
+void remark_on_repeats_of_held(Fit& out) {
+  if (out.split.repeats_of_held == 0) return;
   out.remarks.push_back(
       {.severity = Severity::kWarning,
-       .code = "W-FIT-OUTLIERS",
-       .message = fmt::format("{} of the fit poses contradict the others and were not fitted: {}",
-                              found.size(), fmt::join(names, ", ")),
-       .help = "measure them again, or mark them: column set = ignore"});
+       .code = "W-FIT-HELD-TWICE",
+       .message = fmt::format("{} rows repeat poses that are held out and were not fitted: else "
+                              "these poses would vouch for themselves",
+                              out.split.repeats_of_held),
+       .help = "hold out poses that are not fitted, all repeats of a pose on one side"});
+}
+
+/// Joints that stand where they are in all poses of the fit.
+std::vector<std::string> still_joints(const Cell& cell, const Measurements& measured,
+                                      const std::vector<int>& rows) {
+  std::vector<std::string> out;
+  const RowsN q = measured.q(rows, Eigen::all);
+  for (Eigen::Index j = 0; j < q.cols(); ++j)
+    if (q.col(j).maxCoeff() - q.col(j).minCoeff() < kStill)
+      out.push_back(cell.nominal.joints[static_cast<std::size_t>(j)].name);
+  return out;
+}
+
+void remark_on_still_joints(Fit& out) {
+  if (out.still.empty()) return;
+  out.remarks.push_back({.severity = Severity::kWarning,
+                         .code = "W-FIT-STILL",
+                         .message = fmt::format("{} never moved in the poses of the fit: whatever "
+                                                "is wrong there nobody can see",
+                                                fmt::join(out.still, ", ")),
+                         .help = "measure poses all over the joint limits: plumb plan --n 30"});
+}
+
+/// How many times the noise an arm that is right may miss poses it has not seen, its numbers fitted
+/// to so few. With d = n - p - 1 the mean square grows by 1 + p / d, of normal columns [Stein
+/// 1960], and is known to sqrt(2 / d), two of which are allowed.
+double unavoidable_ratio(const Measurements& measured, const Fit& fit) {
+  const auto axes = std::count(measured.has_axis.begin(), measured.has_axis.end(), true);
+  const double share = fit.split.folds > 0 ? 1.0 - 1.0 / static_cast<double>(fit.split.folds) : 1.0;
+  const double n = share * static_cast<double>(axes * fit.fit.n);
+  const auto p = static_cast<double>(fit.calibration.estimates.size());
+  const double d = std::max(1.0, n - p - 1.0);
+  return std::sqrt((1.0 + p / d) * (1.0 + 2.0 * std::sqrt(2.0 / d)));
 }
 
 void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& out) {
@@ -168,11 +226,15 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   out.held = stats_of(measured, predicted.full, held);
   out.fit = stats_of(measured, final_points, fit);
   out.predicted_M = std::move(predicted.full);
-  out.floor = noise_floor(cell, measured);
+  out.floor = noise_floor(cell, measured, final_model.calibration.state);
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
+  out.still = still_joints(cell, measured, fit);
+  out.unavoidable_ratio = unavoidable_ratio(measured, out);
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
+  remark_on_repeats_of_held(out);
+  remark_on_still_joints(out);
   remark_on_orientation(cell, measured, out);
   out.tree = std::move(final_model.tree);
   return out;
@@ -192,34 +254,6 @@ Fit fit_all(const Cell& cell, const Measurements& measured) {
   split.used.assign(measured.size(), true);
   for (int i = 0; i < measured.size(); ++i) split.used[i] = measured.set[i] != SetMark::kIgnore;
   return assemble(cell, measured, std::move(split));
-}
-
-std::string verdict(const Fit& fit, double tolerance_m) {
-  if (fit.held.n == 0) return "No pose was held out: this fit says nothing about its accuracy.";
-  const double mean = fit.held.mean * 1e3, p95 = fit.held.p95 * 1e3;
-  const bool within = fit.held.p95 <= tolerance_m;
-  const std::string size = fmt::format(
-      "held-out error {:.3f} mm mean, {:.3f} mm at 95 % ({} poses)", mean, p95, fit.held.n);
-  if (fit.floor.source == NoiseFloor::Source::kNone)
-    return fmt::format("{}: {}; tolerance {:.3f} mm; noise floor unknown.",
-                       within ? "Good" : "Not good enough", size, tolerance_m * 1e3);
-  const double ratio = fit.floor.mean_m > 0 ? fit.held.mean / fit.floor.mean_m : 0.0;
-  const std::string floor = fmt::format("noise floor {:.3f} mm", fit.floor.mean_m * 1e3);
-  if (within && ratio <= kAtTheFloor)
-    return fmt::format("Good: {}, at the {}; nothing more can be learnt from these poses.", size,
-                       floor);
-  if (within)
-    return fmt::format(
-        "Good: {}, within {:.3f} mm; but {:.1f} times the {}: something physical is "
-        "still missing.",
-        size, tolerance_m * 1e3, ratio, floor);
-  if (ratio <= kAtTheFloor)
-    return fmt::format("Limited by the measurement: {}, at the {}, but the tolerance is {:.3f} mm.",
-                       size, floor, tolerance_m * 1e3);
-  return fmt::format(
-      "Not good enough: {}, {:.1f} times the {} and over the tolerance of {:.3f} mm: "
-      "something physical is missing.",
-      size, ratio, floor, tolerance_m * 1e3);
 }
 
 }  // namespace plumb::offline

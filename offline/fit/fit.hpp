@@ -34,6 +34,8 @@ struct Fit {
   ErrorStats held_without_outliers;    // the second figure
   ErrorStats fit;                      // in-sample: never accuracy
   NoiseFloor floor;
+  double unavoidable_ratio = 1.0;  // times the noise floor, of an arm that is right: few poses
+  std::vector<std::string> still;  // joints that never moved
   std::vector<Problem> remarks;
 };
 
@@ -43,8 +45,5 @@ Fit fit_cell(const Cell& cell, const Measurements& measured);
 
 /// Final model on every pose; carries no held-out figure.
 Fit fit_all(const Cell& cell, const Measurements& measured);
-
-/// "Is my calibration good?" in one sentence.
-std::string verdict(const Fit& fit, double tolerance_m);
 
 }  // namespace plumb::offline

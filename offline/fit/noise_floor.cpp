@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/noise_floor.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kEnoughRepeats = 5;  // degrees of freedom per axis
+constexpr int kEnoughRepeats = 5;         // degrees of freedom per axis
+constexpr double kFarTimes = 6.0;         // the usual scatter: a bad reading
+constexpr double kNormalMedian = 1.4826;  // sigma / median of a normal distance
 
 /// Mean of the chi distribution: E|x| of an isotropic normal vector with unit sigma.
 double mean_norm(int axes) {
@@ -21,32 +25,109 @@ double mean_norm(int axes) {
   }
 }
 
+using Readings = std::vector<Eigen::RowVector3d>;
+
+/// Readings that are equal to the last digit are copies of one.
+void take_copies_once(const Rows3& p_M, std::vector<int>& rows) {
+  const auto number = [&](int row) { return std::array{p_M(row, 0), p_M(row, 1), p_M(row, 2)}; };
+  std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return number(a) < number(b); });
+  const auto same = [&](int a, int b) { return number(a) == number(b); };
+  rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
+}
+
+/// What is left of the readings of every repeated pose.
+std::vector<Readings> repeated(const Measurements& m, const Rows3& left_M) {
+  std::map<int, std::vector<int>> groups;
+  for (int i = 0; i < m.size(); ++i)
+    if (m.set.empty() || m.set[i] != SetMark::kIgnore) groups[m.replicate_group[i]].push_back(i);
+  std::vector<Readings> out;
+  for (auto& [group, rows] : groups) {
+    take_copies_once(m.p_M, rows);
+    if (rows.size() < 2) continue;
+    Readings readings;
+    for (const int row : rows) readings.push_back(left_M.row(row));
+    out.push_back(std::move(readings));
+  }
+  return out;
+}
+
+Eigen::RowVector3d mean_of(const Readings& readings) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const auto& p : readings) sum += p;
+  return sum / static_cast<double>(readings.size());
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Where most of them are; of two or three, where their mean is.
+Eigen::RowVector3d centre_of(const Readings& readings) {
+  if (readings.size() < 4) return mean_of(readings);
+  Eigen::RowVector3d out;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> values;
+    for (const auto& p : readings) values.push_back(p(k));
+    out(k) = median(std::move(values));
+  }
+  return out;
+}
+
+/// One less is known of the distance from a mean.
+double unbiased(const Readings& readings) {
+  const auto n = static_cast<double>(readings.size());
+  return std::sqrt(n / (n - 1.0));
+}
+
+/// Per axis, of most of them, whatever a few say [m].
+double usual_sigma(const std::vector<Readings>& poses, const std::array<bool, 3>& has_axis) {
+  std::vector<double> distances;
+  for (const auto& readings : poses) {
+    const Eigen::RowVector3d centre = centre_of(readings);
+    for (const auto& p : readings)
+      for (int k = 0; k < 3; ++k)
+        if (has_axis[k]) distances.push_back(std::abs(p(k) - centre(k)) * unbiased(readings));
+  }
+  return kNormalMedian * median(std::move(distances));
+}
+
+/// A bad reading is no noise. Of two that contradict each other neither is believed.
+void drop_contradicted(std::vector<Readings>& poses, double far) {
+  for (auto& readings : poses) {
+    const Eigen::RowVector3d centre = centre_of(readings);
+    const double most = far / unbiased(readings);
+    std::erase_if(readings, [&](const auto& p) { return (p - centre).norm() > most; });
+  }
+  std::erase_if(poses, [](const Readings& readings) { return readings.size() < 2; });
+}
+
 struct Pooled {
   double squares = 0.0;
   int dof = 0;  // poses, not coordinates
 };
 
-Pooled pooled_repeats(const Measurements& m) {
-  std::map<int, std::vector<int>> groups;
-  for (int i = 0; i < m.size(); ++i) groups[m.replicate_group[i]].push_back(i);
+Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
+  std::vector<Readings> poses = repeated(m, left_M);
+  if (poses.empty()) return {};
+  const double usual = usual_sigma(poses, m.has_axis);
+  if (usual > 0.0) drop_contradicted(poses, kFarTimes * std::sqrt(axes) * usual);
   Pooled out;
-  for (const auto& [group, rows] : groups) {
-    if (rows.size() < 2) continue;
-    Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-    for (int i : rows) mean += m.p_M.row(i) / static_cast<double>(rows.size());
-    for (int i : rows) out.squares += (m.p_M.row(i) - mean).squaredNorm();
-    out.dof += static_cast<int>(rows.size()) - 1;
+  for (const auto& readings : poses) {
+    const Eigen::RowVector3d mean = mean_of(readings);
+    for (const auto& p : readings) out.squares += (p - mean).squaredNorm();
+    out.dof += static_cast<int>(readings.size()) - 1;
   }
   return out;
 }
 
-}  // namespace
-
-NoiseFloor noise_floor(const Cell& cell, const Measurements& measured) {
+/// left_M: readings, or what a model leaves of them.
+NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3& left_M) {
   int axes = 0;
   for (bool has : measured.has_axis) axes += has ? 1 : 0;
   NoiseFloor out;
-  const Pooled repeats = pooled_repeats(measured);
+  const Pooled repeats = pooled_repeats(measured, left_M, axes);
   if (repeats.dof >= kEnoughRepeats) {
     out.sigma_m = std::sqrt(repeats.squares / (repeats.dof * axes));
     out.source = NoiseFloor::Source::kRepeats;
@@ -63,6 +144,16 @@ NoiseFloor noise_floor(const Cell& cell, const Measurements& measured) {
   out.mean_m = mean_norm(axes) * out.sigma_m;
   out.rms_m = std::sqrt(static_cast<double>(axes)) * out.sigma_m;
   return out;
+}
+
+}  // namespace
+
+NoiseFloor noise_floor(const Cell& cell, const Measurements& measured) {
+  return floor_of(cell, measured, measured.p_M);
+}
+
+NoiseFloor noise_floor(const Cell& cell, const Measurements& measured, const ArmState& model) {
+  return floor_of(cell, measured, residuals(measured, predict_points(model, measured)));
 }
 
 }  // namespace plumb::offline

@@ -3,6 +3,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "fit/arm_state.hpp"
 
 namespace plumb::offline {
 
@@ -16,7 +17,12 @@ struct NoiseFloor {
 };
 
 /// From repeats of a pose if there are at least five degrees of freedom, else from the stated
-/// sigma.
+/// sigma. Readings that contradict the others of their pose, by six times the usual scatter, are
+/// bad readings and no noise; those equal to the last digit are copies and no repeats.
 NoiseFloor noise_floor(const Cell& cell, const Measurements& measured);
+
+/// The same of what a model leaves of the readings: repeats that a drift or a bumped reflector lies
+/// between tell of noise only once the model knows of it.
+NoiseFloor noise_floor(const Cell& cell, const Measurements& measured, const ArmState& model);
 
 }  // namespace plumb::offline

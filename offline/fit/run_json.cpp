@@ -157,6 +157,8 @@ Json run_to_json(const Run& run) {
                 {"mean_m", fit.floor.mean_m},
                 {"rms_m", fit.floor.rms_m},
                 {"source", static_cast<int>(fit.floor.source)}}}};
+  out["unavoidable_ratio"] = fit.unavoidable_ratio;
+  out["still_joints"] = fit.still;
   if (fit.tree) out["tree"] = to_json(*fit.tree);
   return out;
 }
@@ -190,6 +192,8 @@ Run run_from_json(const Json& j) {
   fit.held_without_outliers = j.contains("held_out_without_outliers")
                                   ? stats_from(j.at("held_out_without_outliers"))
                                   : fit.held;
+  fit.unavoidable_ratio = j.value("unavoidable_ratio", 1.0);
+  fit.still = j.value("still_joints", std::vector<std::string>());
   const Json& floor = j.at("noise_floor");
   fit.floor = {.sigma_m = floor.at("sigma_m"),
                .mean_m = floor.at("mean_m"),

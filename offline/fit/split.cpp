@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "cell/random.hpp"
 
@@ -118,6 +119,23 @@ void hold_last_file(const Measurements& m, Split& split) {
   for (int i = first; i < m.size(); ++i) split.held[i] = split.used[i];
 }
 
+/// Held out wins: a pose that is fitted as well would vouch for itself.
+void leave_out_repeats_of_held(const Measurements& m, Split& split) {
+  std::set<int> held;
+  for (int i = 0; i < m.size(); ++i)
+    if (split.held[i]) held.insert(m.replicate_group[i]);
+  int left = 0;
+  for (int i = 0; i < m.size(); ++i) {
+    if (!split.used[i] || split.held[i]) continue;
+    const bool repeats = held.contains(m.replicate_group[i]);
+    split.used[i] = !repeats;
+    (repeats ? split.repeats_of_held : left) += 1;
+  }
+  if (left == 0 && split.repeats_of_held > 0)
+    fail("every pose to be fitted is held out as well, so that nothing is left to fit",
+         "hold out other poses than those fitted, or let plumb choose: held_out = \"auto\"");
+}
+
 }  // namespace
 
 Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed) {
@@ -148,6 +166,7 @@ Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t 
       hold_last_file(m, split);
       break;
   }
+  leave_out_repeats_of_held(m, split);
   return split;
 }
 

@@ -13,10 +13,11 @@ namespace plumb::offline {
 /// With folds, every used pose is fitted in all folds but its own and held out in that one; the
 /// final model then uses them all. Replicates of a pose are never split.
 struct Split {
-  int folds = 0;           // 0: one held-out set
-  std::vector<int> fold;   // per row: its fold (0 …), or -1 = always fitted
-  std::vector<bool> held;  // per row: held out from the final model
-  std::vector<bool> used;  // per row: false = `set` says ignore
+  int folds = 0;            // 0: one held-out set
+  std::vector<int> fold;    // per row: its fold (0 …), or -1 = always fitted
+  std::vector<bool> held;   // per row: held out from the final model
+  std::vector<bool> used;   // per row: false = `set` says ignore, or it repeats a held-out pose
+  int repeats_of_held = 0;  // so many rows that would have been fitted
 };
 
 /// Stratified in joint space: neighbours along a k-d order share a stratum, and each stratum gives

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/verdict.hpp"
 #include "show/compare_view.hpp"
 #include "show/compare_words.hpp"
 #include "show/error_table.hpp"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/verdict.hpp"
 #include "show/compare_words.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "cell/formula_reader.hpp"
+#include "fit/verdict.hpp"
 #include "show/error_table.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
@@ -129,6 +130,8 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   out["nominal"] = stats_json(fit.nominal_held);
   out["geometry"] = stats_json(fit.geometry_held);
   add_floor(fit.floor, out);
+  put(out, "unavoidable_ratio", fit.unavoidable_ratio);
+  out["still_joints"] = fit.still;
   out["effects"] = effects_json(cell);
   out["frame"] = pose_json(c.state.X_MB);
   out["frame"]["fitted"] = cell.measurement.fit_frame;

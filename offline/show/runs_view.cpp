@@ -65,6 +65,11 @@ std::string number(double si, const ParameterUnit& unit, const char* sign) {
   return (si >= 0 ? sign : "") + unit.text(si);
 }
 
+bool same_held_out(const Run& a, const Run& b) {
+  return a.inputs == b.inputs && a.fit.split.held == b.fit.split.held &&
+         a.fit.split.fold == b.fit.split.fold;
+}
+
 std::string verdict_of(const Run& a, const Run& b) {
   if (a.fit.held.n == 0 || b.fit.held.n == 0)
     return "One of the runs has no held-out poses: their accuracy cannot be compared.";
@@ -72,7 +77,10 @@ std::string verdict_of(const Run& a, const Run& b) {
   return fmt::format("Held-out mean {} -> {} mm from run {} to run {} ({:+.1f} %){}.",
                      mm(a.fit.held.mean), mm(b.fit.held.mean), a.number, b.number,
                      a.fit.held.mean > 0 ? 100.0 * change / a.fit.held.mean : 0.0,
-                     a.inputs == b.inputs ? "" : "; the measurements differ");
+                     a.inputs != b.inputs ? "; the measurements differ"
+                     : !same_held_out(a, b)
+                         ? "; but other poses were held out, so part of it is chance"
+                         : "");
 }
 
 }  // namespace
@@ -114,6 +122,7 @@ Json diff_json(const Run& a, const Run& b) {
   Json out{{"a", a.number},
            {"b", b.number},
            {"same_measurements", a.inputs == b.inputs},
+           {"same_held_out", same_held_out(a, b)},
            {"parameters", parameters},
            {"effects_added", only_in(b.effects, a.effects)},
            {"effects_dropped", only_in(a.effects, b.effects)},

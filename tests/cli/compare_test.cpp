@@ -91,6 +91,7 @@ TEST_F(CompareVerb, ShowsRunsSideBySideAndWhatChanged) {
   EXPECT_EQ(both.at("runs").size(), 2U);
   const Json diff = result({"diff", a, b});
   EXPECT_EQ(diff.at("same_measurements"), true);
+  EXPECT_EQ(diff.at("same_held_out"), false);  // another seed
   EXPECT_NEAR(diff.at("held_out").at("change_mean_mm").get<double>(),
               diff.at("held_out").at("b").at("mean_mm").get<double>() -
                   diff.at("held_out").at("a").at("mean_mm").get<double>(),

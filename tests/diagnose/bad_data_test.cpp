@@ -59,10 +59,15 @@ TEST(DiagnoseBadData, GrossOutliersAreListedAndChangeNoVerdict) {
   request.outlier_share = 0.02;
   request.poses = 300;
   request.effects = {"joint_compliance:J2:5"};
-  const BlindCase blind = make_blind_case(request);
-  const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+  const Diagnosis d = diagnosed(request);
+  request.outlier_share = 0.0;
+  const Diagnosis clean = diagnosed(request, false);
   EXPECT_EQ(d.finding, Finding::kMissing);
-  EXPECT_EQ(d.candidates.front().entry.joints, std::vector<int>{1});
+  EXPECT_EQ(d.candidates.front().entry.name, "joint_compliance");
+  EXPECT_EQ(d.candidates.front().entry.joints, clean.candidates.front().entry.joints);
+  EXPECT_NEAR(d.candidates.front().ln_bayes, clean.candidates.front().ln_bayes,
+              0.05 * clean.candidates.front().ln_bayes);
+  EXPECT_NEAR(d.floor.mean_m, clean.floor.mean_m, 0.1 * clean.floor.mean_m);
   EXPECT_FALSE(d.outliers.empty());
   EXPECT_LE(d.added.size(), 2U);
 }

@@ -45,6 +45,35 @@ TEST(NoiseFloor, WithoutRepeatsTheStatedSigmaCountsAndWithoutBothNothingIsClaime
   EXPECT_EQ(noise_floor(cell, m).sigma_m, 2e-5);
 }
 
+TEST(NoiseFloor, AFewBadReadingsDoNotChangeIt) {
+  Measurements m = repeats_of(40, 2, 1e-5, 4);
+  const double clean = noise_floor(Cell{}, m).sigma_m;
+  m.p_M(7, 1) += 5e-2;
+  m.p_M(40, 0) += 6e-4;
+  EXPECT_NEAR(noise_floor(Cell{}, m).sigma_m, clean, 0.1 * clean);
+  Measurements one = repeats_of(1, 20, 1e-5, 5);
+  const double alone = noise_floor(Cell{}, one).sigma_m;
+  one.p_M(3, 2) -= 1e-2;
+  EXPECT_NEAR(noise_floor(Cell{}, one).sigma_m, alone, 0.1 * alone);
+}
+
+TEST(NoiseFloor, CopiesOfAReadingAndIgnoredRowsAreNoRepeats) {
+  Measurements m = repeats_of(30, 2, 1e-5, 6);
+  for (int i = 0; i < m.size(); i += 2) m.p_M.row(i + 1) = m.p_M.row(i);
+  Cell cell;
+  cell.measurement.sigma_m = 2e-5;
+  EXPECT_EQ(noise_floor(cell, m).source, NoiseFloor::Source::kSigma);
+  Measurements ignored = repeats_of(30, 2, 1e-5, 6);
+  ignored.set.assign(60, SetMark::kIgnore);
+  EXPECT_EQ(noise_floor(cell, ignored).source, NoiseFloor::Source::kSigma);
+}
+
+TEST(NoiseFloor, RepeatsRoundedToTheNoiseStillCount) {
+  Measurements m = repeats_of(500, 3, 1e-5, 8);
+  m.p_M = (m.p_M * 1e5).array().round().matrix() * 1e-5;  // to one sigma
+  EXPECT_NEAR(noise_floor(Cell{}, m).sigma_m, 1.04e-5, 1e-6);
+}
+
 TEST(ErrorStats, AgreeWithNumbersDoneByHand) {
   const ErrorStats s = summarise({3.0, 1.0, 2.0, 4.0});
   EXPECT_DOUBLE_EQ(s.mean, 2.5);

@@ -221,5 +221,28 @@ TEST(Prior, FreesWhatThePosesCannotTellApart) {
   EXPECT_LE(found->std, 1.2e-4);
 }
 
+/// The leaning column of a warm SCARA shows how high the reflector is, ten thousand times too
+/// weakly.
+TEST(RobustFit, AnEffectDoesNotCarryTheReflectorAway) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Cell cell = random_cell(seed, 4, format::Convention::kModified, ArmKind::kScara);
+    cell.measurement.sigma_m = kNoise_m;
+    SimulationPlan plan = plan_of(seed, 200, kNoise_m);
+    plan.truth.sized.push_back(
+        {.name = "thermal_growth", .size = {}, .size_sigma = 5.0, .joints = {}, .numbers = {}});
+    const Simulation s = simulate(cell, plan);
+    ASSERT_FALSE(s.measured.context.sensors.empty());
+    const Calibration without = calibrate(cell, s.measured, all_rows(s.measured));
+    cell.effects.push_back(
+        {.name = "thermal_growth",
+         .joints = {},
+         .options = {{"sensor", std::string(s.measured.context.sensors.front())}},
+         .place = {}});
+    const Calibration with = calibrate(cell, s.measured, all_rows(s.measured));
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(with.state.X_TG.p[k], without.state.X_TG.p[k], 2e-3) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace plumb::offline

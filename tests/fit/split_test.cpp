@@ -119,5 +119,34 @@ TEST(Split, AColumnWithoutAHeldRowIsRefused) {
   EXPECT_THROW(split_poses(random_poses(3, 5), folds(5), 1), Failure);
 }
 
+TEST(Split, RepeatsOfAHeldOutPoseAreNotFitted) {
+  Measurements m = random_poses(30, 6);
+  int marked = 0;
+  for (int i = 0; i < m.size(); ++i) {  // of every repeated pose the last reading
+    const bool last = i > 0 && m.replicate_group[i] == m.replicate_group[i - 1] &&
+                      (i + 1 == m.size() || m.replicate_group[i] != m.replicate_group[i + 1]);
+    m.set[i] = last ? SetMark::kHeld : SetMark::kFit;
+    marked += last ? 1 : 0;
+  }
+  const Split split = split_poses(m, {.kind = HeldOutRule::Kind::kColumn}, 1);
+  std::set<int> held;
+  for (int i : held_rows(split)) held.insert(m.replicate_group[i]);
+  for (int i : fit_rows(split)) EXPECT_FALSE(held.contains(m.replicate_group[i])) << i;
+  EXPECT_EQ(held_rows(split).size(), static_cast<std::size_t>(marked));
+  EXPECT_EQ(split.repeats_of_held, 2 * marked);
+}
+
+TEST(Split, AFileThatIsFittedCannotVouchForItself) {
+  Measurements m = random_poses(30, 6);
+  const int n = m.size();
+  std::vector<int> twice;
+  for (int i = 0; i < 2 * n; ++i) twice.push_back(i % n);
+  m = pick(m, twice);
+  m.tables.resize(2);
+  m.tables[0].lines.resize(n);
+  m.tables[1].lines.resize(n);
+  EXPECT_THROW(split_poses(m, {.kind = HeldOutRule::Kind::kFile}, 1), Failure);
+}
+
 }  // namespace
 }  // namespace plumb::offline
