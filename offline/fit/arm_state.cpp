@@ -57,14 +57,18 @@ Rows3 predict_points(const ArmState& state, const RowsN& q) {
   return out;
 }
 
-Rows4 predict_orientations(const ArmState& state, const RowsN& q) {
+Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured) {
   const ForwardModel arm(state.arm);
+  const auto sensors = temperature_names(state.arm);
   const Transformd X_MB = from_pose(state.X_MB);
-  const Transformd X_TG = from_pose(state.X_TG);
-  Rows4 out(q.rows(), 4);
-  for (Eigen::Index i = 0; i < q.rows(); ++i) {
-    const auto quaternion = to_pose(X_MB * arm.predict(row_of(q, i)).X_BT * X_TG).q;
-    for (int k = 0; k < 4; ++k) out(i, k) = quaternion[k];
+  const Matrix3 R_TG = from_pose(state.X_TG).R;
+  Eigen::VectorXd out(measured.q.rows());
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const Context context = context_of(measured, i, sensors, X_MB);
+    const Matrix3 R_MG = X_MB.R * arm.predict(row_of(measured.q, i), context).X_BT.R * R_TG;
+    const auto quat = measured.quat_M.row(i);
+    const Matrix3 read = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
+    out(i) = rotation_vector(read * R_MG.transpose()).norm();
   }
   return out;
 }

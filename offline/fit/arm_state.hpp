@@ -28,8 +28,8 @@ Rows3 predict_points(const ArmState& state, const RowsN& q);
 Context context_of(const Measurements& at, Eigen::Index row,
                    const std::vector<std::string>& sensors, const Transformd& X_MB);
 
-/// Predicted orientation of the reflector in the measurement frame, (w, x, y, z), shape (n, 4).
-Rows4 predict_orientations(const ArmState& state, const RowsN& q);
+/// Angle between measured and predicted orientation of the reflector [rad], shape (n,).
+Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured);
 
 /// measured - predicted [m]; missing axes are 0.
 Rows3 residuals(const Measurements& measured, const Rows3& predicted);

@@ -82,6 +82,7 @@ Rows3 predicted_at(const ArmState& state, const Measurements& measured,
 /// Out-of-fold predictions of the three models compared, for one set of held-out rows.
 struct Prediction3 {
   Rows3 nominal, geometry, full;
+  Eigen::VectorXd turn_errors;  // of the full one, if orientations are fitted
 };
 
 void predict_held(const Cell& cell, const Measurements& measured, const Fitted& fitted,
@@ -90,6 +91,8 @@ void predict_held(const Cell& cell, const Measurements& measured, const Fitted& 
   overwrite(out.nominal, held, predicted_at(nominal, measured, held));
   overwrite(out.geometry, held, predicted_at(fitted.geometry_only, measured, held));
   overwrite(out.full, held, predicted_at(fitted.calibration.state, measured, held));
+  if (out.turn_errors.size() > 0)
+    out.turn_errors(held) = turn_errors(fitted.calibration.state, pick(measured, held));
 }
 
 ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
@@ -212,7 +215,9 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   const std::vector<int> fit = fit_rows(out.split);
   Fitted final_model = fit_on(cell, measured, fit);
   const Rows3 final_points = predict_points(final_model.calibration.state, measured);
-  Prediction3 predicted{final_points, final_points, final_points};
+  Prediction3 predicted{final_points, final_points, final_points, {}};
+  if (measured.has_orientation() && cell.measurement.sigma_rad)
+    predicted.turn_errors = Eigen::VectorXd::Zero(measured.size());
   for (int k = 0; k < out.split.folds; ++k) {
     const auto inside = fit_rows(out.split, k);
     predict_held(cell, measured, fit_on(cell, measured, inside), inside, held_rows(out.split, k),
@@ -224,6 +229,10 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   out.nominal_held = stats_of(measured, predicted.nominal, held);
   out.geometry_held = stats_of(measured, predicted.geometry, held);
   out.held = stats_of(measured, predicted.full, held);
+  if (predicted.turn_errors.size() > 0) {
+    const Eigen::VectorXd turns = predicted.turn_errors(held);
+    out.turn_held = summarise({turns.begin(), turns.end()});
+  }
   out.fit = stats_of(measured, final_points, fit);
   out.predicted_M = std::move(predicted.full);
   out.floor = noise_floor(cell, measured, final_model.calibration.state);

@@ -30,6 +30,7 @@ struct Fit {
   ErrorStats nominal_held;   // before: only frame and target fitted, same held-out poses
   ErrorStats held;           // after
   ErrorStats geometry_held;  // geometry without the tree
+  ErrorStats turn_held;      // of orientations [rad]; none if these are not fitted
   std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` counts them
   ErrorStats held_without_outliers;    // the second figure
   ErrorStats fit;                      // in-sample: never accuracy

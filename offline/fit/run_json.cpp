@@ -148,6 +148,7 @@ Json run_to_json(const Run& run) {
               {"held_out", to_json(fit.held)},
               {"held_out_nominal", to_json(fit.nominal_held)},
               {"held_out_geometry", to_json(fit.geometry_held)},
+              {"held_out_turn", to_json(fit.turn_held)},
               {"fit", to_json(fit.fit)},
               {"outliers", to_json(fit.calibration.outliers)},
               {"held_out_outliers", to_json(fit.held_outliers)},
@@ -186,6 +187,7 @@ Run run_from_json(const Json& j) {
   fit.held = stats_from(j.at("held_out"));
   fit.nominal_held = stats_from(j.at("held_out_nominal"));
   fit.geometry_held = stats_from(j.at("held_out_geometry"));
+  if (j.contains("held_out_turn")) fit.turn_held = stats_from(j.at("held_out_turn"));
   fit.fit = stats_from(j.at("fit"));
   fit.calibration.outliers = outliers_from(j, "outliers");
   fit.held_outliers = outliers_from(j, "held_out_outliers");

@@ -14,6 +14,15 @@ std::vector<std::string> row(const std::string& name, const ErrorStats& s) {
   return {name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max)};
 }
 
+std::string turn_table(const ErrorStats& s) {
+  if (s.n == 0) return "";
+  TextTable table({"orientation error [deg]", "poses", "mean", "RMS", "95 %", "max"});
+  const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
+  table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
+             deg(s.max)});
+  return "\n" + table.text();
+}
+
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
 
 }  // namespace
@@ -32,7 +41,18 @@ std::string error_table(const Fit& fit) {
     table.add({"noise floor: unknown"});
   else
     table.add({"noise floor", "", mm(fit.floor.mean_m), mm(fit.floor.rms_m)});
-  return table.text();
+  return table.text() + turn_table(fit.turn_held);
+}
+
+void add_turns(const ErrorStats& turn_held, Json& out) {
+  const ErrorStats& s = turn_held;
+  if (s.n == 0) return put_null(out, "held_out_orientation", "orientations are not fitted");
+  Json turns{{"n", s.n}};
+  put(turns, "mean_deg", to_deg(s.mean));
+  put(turns, "rms_deg", to_deg(s.rms));
+  put(turns, "p95_deg", to_deg(s.p95));
+  put(turns, "max_deg", to_deg(s.max));
+  out["held_out_orientation"] = turns;
 }
 
 void add_floor(const NoiseFloor& floor, Json& out) {

@@ -8,8 +8,12 @@
 
 namespace plumb::offline::show {
 
-/// Before and after on the held-out poses, the fit poses, and the noise floor [mm].
+/// Before and after on the held-out poses, the fit poses, and the noise floor [mm]; of orientations
+/// [deg], if they are fitted.
 std::string error_table(const Fit& fit);
+
+/// held_out_orientation: in deg; null with reason if orientations are not fitted.
+void add_turns(const ErrorStats& turn_held, Json& out);
 
 /// noise_floor_mm (mean) and noise_floor_rms_mm; null with reason if nothing is known.
 void add_floor(const NoiseFloor& floor, Json& out);

@@ -123,6 +123,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   out["identifiable_rank"] = c.rank;
   put(out, "calibrability", c.calibrability);
   out["held_out"] = stats_json(fit.held);
+  add_turns(fit.turn_held, out);
   out["fit"] = stats_json(fit.fit);
   out["held_out_without_outliers"] = stats_json(fit.held_without_outliers);
   out["outliers"] = outliers_json(fit, measured.pose);
