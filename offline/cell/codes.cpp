@@ -56,6 +56,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "Two columns mean the same quantity, for example q1_deg and q1_rad. Delete one: nothing says "
      "which is right."},
     {"E-CSV-EMPTY", "The file holds nothing, or only comments. Export the measurements again."},
+    {"E-CSV-FAR",
+     "A joint beyond 10,000 rad or m, or a point more than 10 km away, is no reading of an arm: "
+     "the "
+     "column's unit is not the one in its name, or a decimal point was lost."},
     {"E-CSV-HEADER",
      "Every column has a name. A comma at the end of the header makes one too many."},
     {"E-CSV-JOINT",

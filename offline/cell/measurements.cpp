@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/arm_columns.hpp"
+#include "cell/arm_reach.hpp"
 #include "cell/measurement_warnings.hpp"
 #include "cell/replicates.hpp"
 #include "cell/table_place.hpp"
@@ -27,6 +28,8 @@ class Assembler {
   Measurements finish() {
     for (const auto& table : tables_)
       columns_.push_back(find_arm_columns(table, is_angle_, needs_, problems_));
+    for (std::size_t i = 0; i < tables_.size(); ++i)
+      check_reach(tables_[i], columns_[i], problems_);
     check_agreement();
     fill_if_sound();
     problems_.stop_on_errors();

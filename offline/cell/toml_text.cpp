@@ -67,7 +67,8 @@ std::string toml_list(const std::vector<std::string>& texts) {
 
 std::string toml_value(const EffectEntry::Value& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* number = std::get_if<double>(&value)) return text_in(Unit{}, *number);
+  // Whoever reads it back compares: the shortest digits that mean the very same number.
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number + 0.0);
   if (const auto* text = std::get_if<std::string>(&value)) return toml_string(*text);
   return toml_list(std::get<std::vector<std::string>>(value));
 }

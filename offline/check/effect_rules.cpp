@@ -181,6 +181,9 @@ Verdict thermal(const Evidence& e) {
   }
   if (e.data.hours > 0.5)
     return weakly(fmt::format("no temperature, but {:.1f} h of time", e.data.hours));
+  if (e.data.hours > 0.0)
+    return no(fmt::format("no temperature is recorded, and {:.0f} min are too short to warm up",
+                          60.0 * e.data.hours));
   return no("neither temperature nor time is recorded");
 }
 

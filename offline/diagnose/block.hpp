@@ -49,8 +49,10 @@ Block library_block(const Stage& stage, const EffectEntry& entry);
 /// Waves of one joint at these cycles a turn, together.
 Block ripple_block(const Stage& stage, int joint, const std::vector<double>& cycles);
 
-/// What a scan of waves tries: k of every joint, in steps its range can tell apart.
+/// What a scan of waves tries: k of every joint, in steps its range can tell apart. Usual: up to 40
+/// cycles a turn; fast: from there to 200, and those of the motor where the gear ratio is given.
 std::vector<double> ripple_grid(const Stage& stage, int joint);
+std::vector<double> fast_ripple_grid(const Stage& stage, int joint);
 
 /// Largest load of a joint at the poses [N m].
 double largest_torque(const Stage& stage, int joint);

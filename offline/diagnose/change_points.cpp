@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kTypical = 300e-6;  // m and rad: of `step` in the library
 constexpr Eigen::Index kLeast = 4;   // poses on either side
+constexpr double kSamePayload_kg = 1e-6;
 
 /// Running products of one kind of motion over the poses behind a cut.
 struct Running {
@@ -34,6 +35,16 @@ struct Running {
     Xy.noalias() += X.transpose() * s.y.segment(pose * s.axes, s.axes);
   }
 };
+
+/// Whether another tool hangs on the arm from this pose on: one payload before, one behind. Joints
+/// then yield by another torque; that is no slipped encoder.
+bool changes_payload(const Stage& s, const std::vector<Eigen::Index>& order, Eigen::Index cut) {
+  const auto payload = [&](Eigen::Index i) { return s.context[order[i]].payload_kg; };
+  if (!(std::abs(payload(cut) - payload(cut - 1)) > kSamePayload_kg)) return false;
+  for (Eigen::Index k = 1; k < kLeast; ++k)
+    if (payload(cut - 1 - k) != payload(cut - 1) || payload(cut + k) != payload(cut)) return false;
+  return true;
+}
 
 EffectEntry step_of(const char* of, std::vector<int> joints = {}) {
   EffectEntry out{.name = "step", .joints = std::move(joints), .options = {}, .place = {}};
@@ -66,6 +77,7 @@ std::vector<ChangePoint> change_points(const Stage& s, int& tried) {
       kind.add(s, order[cut]);
       if (n - cut < kLeast) continue;
       const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
+      if (!kind.entry.joints.empty() && changes_payload(s, order, cut)) continue;
       ++tried;
       const Evidence found = evidence(kind.XX - kind.UX.transpose() * kind.UX, kind.Xy, s.Q, scale);
       if (found.ln_bayes <= best.ln_bayes) continue;

@@ -15,6 +15,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kFewestFreeLines = 20.0;
+constexpr double kGross = 6.0;  // times the median error: no reading of this tracker
 
 /// The cell without what is learnt: the tree comes after the physics.
 Cell physics_of(Cell cell) {
@@ -26,22 +27,34 @@ Cell physics_of(Cell cell) {
 class HeldOut {
  public:
   HeldOut(const Measurements& measured, const Split& split)
-      : measured_(measured), rows_(held_rows(split)), predicted_(measured.p_M) {}
+      : measured_(&measured), rows_(held_rows(split)), predicted_(measured.p_M) {}
 
   void put(const Calibration& calibration, const std::vector<int>& rows) {
-    const Rows3 points = predict_points(calibration.state, pick(measured_, rows));
+    const Rows3 points = predict_points(calibration.state, pick(*measured_, rows));
     for (std::size_t i = 0; i < rows.size(); ++i)
       predicted_.row(rows[i]) = points.row(static_cast<Eigen::Index>(i));
   }
-  ErrorStats stats() const {
-    const Rows3 error = residuals(measured_, predicted_);
+  std::vector<double> norms() const {
+    const Rows3 error = residuals(*measured_, predicted_);
     std::vector<double> norms;
     for (int row : rows_) norms.push_back(error.row(row).norm());
-    return summarise(std::move(norms));
+    return norms;
+  }
+  ErrorStats stats() const { return summarise(norms()); }
+
+  /// Mean without gross errors, which are the reading's and not the model's.
+  double usual_mean() const {
+    std::vector<double> all = norms();
+    if (all.empty()) return 0.0;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    const double limit = kGross * *middle;
+    std::erase_if(all, [limit](double norm) { return norm > limit; });
+    return summarise(std::move(all)).mean;
   }
 
  private:
-  const Measurements& measured_;
+  const Measurements* measured_;
   std::vector<int> rows_;
   Rows3 predicted_;
 };
@@ -63,18 +76,18 @@ struct Work {
 };
 
 /// A list of effects, chosen beforehand, on poses that had no say.
-ErrorStats held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
-                       const Calibration& fitted) {
+HeldOut held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
+                    const Calibration& fitted) {
   HeldOut out(w.measured, w.split);
   if (w.split.folds == 0) out.put(fitted, w.held);
   for (int k = 0; k < w.split.folds; ++k)
     out.put(refitted(w.cell, w.measured, fit_rows(w.split, k), effects, fitted),
             held_rows(w.split, k));
-  return out.stats();
+  return out;
 }
 
 /// The whole selection once more around every fold.
-ErrorStats nested_held_out(const Work& w) {
+HeldOut nested_held_out(const Work& w) {
   HeldOut out(w.measured, w.split);
   for (int k = 0; k < w.split.folds; ++k) {
     const auto inside = fit_rows(w.split, k);
@@ -85,7 +98,17 @@ ErrorStats nested_held_out(const Work& w) {
         forward(w.start(inside, true), base, stage, scan(stage, w.not_testable, {}));
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
   }
-  return out.stats();
+  return out;
+}
+
+/// Against what a model with these many parameters cannot avoid.
+std::optional<LeftOver> left_over_of(const Work& w, const HeldOut& held, const Calibration& fitted,
+                                     const NoiseFloor& floor) {
+  const double inside = w.split.folds > 0 ? 1.0 - 1.0 / w.split.folds : 1.0;
+  const auto axes =
+      static_cast<double>(std::count(w.measured.has_axis.begin(), w.measured.has_axis.end(), true));
+  return left_over(held.usual_mean(), floor, inside * axes * static_cast<double>(w.fit.size()),
+                   static_cast<double>(fitted.parameters.size()));
 }
 
 bool judgeable(const Stage& stage) {
@@ -105,25 +128,31 @@ Finding finding_of(const Scan& look, const Stage& stage, const Calibration& cali
 void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, const Scan& first,
                     Diagnosis& out) {
   const Forward found = forward(w.start(w.fit, false), base, stage, first);
-  for (const auto& step : found.steps)
-    out.added.push_back(
-        {step.entry, step.cycles, step.ln_bayes, held_out_of(w, step.effects, step.calibration)});
+  std::optional<HeldOut> held;
+  for (const auto& step : found.steps) {
+    held = held_out_of(w, step.effects, step.calibration);
+    out.added.push_back({step.entry, step.cycles, step.ln_bayes, held->stats()});
+  }
   out.full = found.full;
+  out.unlikely = found.unlikely;
   if (!found.steps.empty()) {
     out.effects = found.steps.back().effects;
     out.floor = noise_floor(w.cell, w.measured, found.steps.back().calibration.state);
   }
   if (w.split.folds > 0) {
     out.nested = true;
-    out.after = nested_held_out(w);
-  } else if (!out.added.empty()) {
-    out.after = out.added.back().held;
+    held = nested_held_out(w);
+  }
+  if (held) {
+    out.after = held->stats();
+    out.left_over = left_over_of(
+        w, *held, found.steps.empty() ? base : found.steps.back().calibration, out.floor);
   }
   out.finding_after = Finding::kComplete;
   if (found.unknown) {
     out.finding_after = Finding::kUnknown;
     out.unknown_after = found.unknown;
-  } else if (!stage.noise.known || !judgeable(stage)) {
+  } else if (!stage.noise.known || !judgeable(stage) || out.tied) {
     out.finding_after = Finding::kUndecidable;
   }
 }
@@ -166,7 +195,9 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
     out.tied = other->entry;
   }
   if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(stage, *first.pattern);
-  out.before = out.after = held_out_of(w, w.cell.effects, base);
+  const HeldOut held = held_out_of(w, w.cell.effects, base);
+  out.before = out.after = held.stats();
+  out.left_over = left_over_of(w, held, base, out.floor);
   out.effects = w.cell.effects;
   if (request.apply) go_all_the_way(w, base, stage, first, out);
   out.text = verdict_text(w.cell, out);

@@ -10,6 +10,7 @@
 #include "cell/measurements.hpp"
 #include "check/effect_rules.hpp"
 #include "diagnose/block.hpp"
+#include "diagnose/left_over.hpp"
 #include "fit/error_stats.hpp"
 #include "fit/noise_floor.hpp"
 
@@ -51,14 +52,20 @@ struct Candidate {
   std::optional<EffectEntry> rival;          // the first of them
 };
 
+/// An added effect, at one joint, of a size that hardly any arm has.
+struct Oversized {
+  EffectEntry entry;
+  double times = 0.0;    // the usual size; 0: there is none
+  bool possible = true;  // false: its law rules out that sign or size
+};
+
 struct UnknownStructure {
   Pattern pattern;
   double share = 0.0;    // of what the model leaves
   double rms_m = 0.0;    // motion of the measured point
   double rms_rad = 0.0;  // of the joint; 0: no joint
-  /// The effect of the library that would explain it, were it not that many times too large.
-  std::optional<EffectEntry> instead;
-  double times = 0.0;
+  /// The effect of the library that would explain it, were its size not what it is.
+  std::optional<Oversized> instead;
 };
 
 struct Addition {
@@ -83,6 +90,8 @@ struct Diagnosis {
   std::vector<Testable> not_testable;
   std::optional<UnknownStructure> unknown;        // at the start
   std::optional<UnknownStructure> unknown_after;  // at the end
+  std::vector<Oversized> unlikely;                // added and well founded, but large
+  std::optional<LeftOver> left_over;              // at the end; none without a noise floor
   std::vector<EffectEntry> effects;               // the list at the end
   std::vector<std::string> outliers;              // poses left out
   double blocks = 0.0;                            // tried in one look

@@ -12,6 +12,9 @@ struct EvidenceScale {
   double lines = 0.0;     // independent coordinates: lines less rank of the model
 };
 
+/// What nothing would choose: ln B of columns whose sign is wrong, or that are not finite.
+inline constexpr double kImpossible = -1e6;
+
 /// Evidence for one block of columns over none.
 struct Evidence {
   double ln_bayes = 0.0;  // ln of the mean of B over the widths of the prior

@@ -11,6 +11,7 @@
 #include "diagnose/candidates.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/model_parts.hpp"
+#include "diagnose/real_fall.hpp"
 #include "diagnose/refit.hpp"
 #include "diagnose/rivals.hpp"
 #include "plumb/format/limits.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr int kMostSteps = 60;
 constexpr std::size_t kMostExchanges = 4;
+constexpr double kRealShare = 0.005;  // of the RMS, in a refit: half of what a scan must promise
 constexpr std::size_t kMostEffects = format::kMaxEffects - 4;  // some are left to the user
 
 /// One selection under way.
@@ -50,6 +52,7 @@ class Selection {
         break;
     }
     if (!out.unknown) out.unknown = behind_oversized();
+    out.unlikely = std::move(unlikely_);
     out.steps = steps();
     return out;
   }
@@ -104,6 +107,12 @@ class Selection {
     if (start_.tell) start_.tell(key_of(now_.cell, best.entry));
     try {
       Model next = fitted(with_all(now_.cell.effects, best));
+      if (real_fall(start_.cell, start_.measured, start_.fit, now_.calibration, next.calibration) <
+          kRealShare) {
+        banned_.push_back(key_of(now_.cell, best.entry));
+        look_ = scan(stage_, start_.not_testable, banned_);
+        return;
+      }
       const auto weak =
           lost(next.cell, stage_of(next), next.calibration, start_.cell.effects, best.entry);
       if (weak) next = fitted(without_effect(next.cell.effects, *weak));
@@ -221,21 +230,38 @@ class Selection {
     }
   }
 
-  /// An effect of a size that no arm has describes something else.
+  /// An effect of a size that hardly any arm has may describe something else: it does if its law
+  /// rules that size out, if a pattern of no law explains as much, or if it leaves more than noise.
+  /// Otherwise it is what it says, only large: a wrong constant, a worn gear.
   std::optional<UnknownStructure> behind_oversized() {
-    const auto too_large = oversized(now_.cell, stage_, now_.calibration, start_.cell.effects);
-    if (!too_large) return std::nullopt;
-    const Without without(*this, too_large->entry, {});
-    if (!without.look.pattern) return std::nullopt;
-    UnknownStructure out = unknown_structure(without.stage, *without.look.pattern);
-    out.instead = too_large->entry;
-    out.times = too_large->times;
-    for (const int joint : too_large->entry.joints) {
-      const std::string q = fmt::format("q{}", joint + 1);
-      auto& inputs = out.pattern.depends_on;
-      if (std::find(inputs.begin(), inputs.end(), q) == inputs.end()) inputs.push_back(q);
+    for (const auto& one : oversized(now_.cell, stage_, now_.calibration, start_.cell.effects)) {
+      const Without without(*this, one.entry, {});
+      const auto& pattern = without.look.pattern;
+      const bool only_large =
+          one.possible && times_noise(stage_) < kAboveNoise && pattern &&
+          evidence_of(without.stage, one.entry) > pattern->ln_bayes() + kAhead_nats;
+      if (!pattern || only_large) {
+        unlikely_.push_back(one);
+        continue;
+      }
+      UnknownStructure out = unknown_structure(without.stage, *pattern);
+      out.instead = one;
+      for (const int joint : one.entry.joints) {
+        const std::string q = fmt::format("q{}", joint + 1);
+        auto& inputs = out.pattern.depends_on;
+        if (std::find(inputs.begin(), inputs.end(), q) == inputs.end()) inputs.push_back(q);
+      }
+      return out;
     }
-    return out;
+    return std::nullopt;
+  }
+
+  static double evidence_of(const Stage& stage, const EffectEntry& entry) {
+    const Judge judge(stage);
+    if (entry.name != "gear_ripple")
+      return judge.judge(library_block(stage, entry)).evidence.ln_bayes;
+    const double cycles = std::get<double>(entry.options.at("cycles_per_turn"));
+    return judge.judge(ripple_block(stage, entry.joints.front(), {cycles})).evidence.ln_bayes;
   }
 
   /// A wave of a ripple may go alone, and a joint of several; their fellows stay.
@@ -300,6 +326,7 @@ class Selection {
   Scan look_;
   std::vector<std::string> banned_;
   std::vector<Found> added_;
+  std::vector<Oversized> unlikely_;
   std::map<std::string, int> dropped_;
   std::set<std::string> tried_, doubted_, renewed_;
 };

@@ -26,7 +26,8 @@ struct Forward {
   std::vector<ForwardStep> steps;
   bool full = false;  // more is supported, but a model holds no more effects
   std::optional<UnknownStructure>
-      unknown;  // left at the end, or what an oversized effect stands for
+      unknown;                      // left at the end, or what an oversized effect stands for
+  std::vector<Oversized> unlikely;  // of the steps: large, but nothing else explains as much
 };
 
 /// What a selection works on; the cell's own effects are the start.

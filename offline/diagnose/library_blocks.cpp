@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnose/block.hpp"
+#include "diagnose/few_digits.hpp"
 #include "fit/dual.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/effect_library.hpp"
@@ -185,7 +186,7 @@ std::vector<EffectEntry> on_grid(const Stage& s, const EffectEntry& entry) {
   if (entry.name == "joint_compliance_soft" || entry.name == "backlash_load") {
     const double torque = largest_torque(s, entry.joints.front());
     for (double share : kTorqueShares)
-      if (torque > 0.0) with("torque_Nm", share * torque);
+      if (torque > 0.0) with("torque_Nm", three_digits(share * torque));
   } else if (entry.name == "reversal") {
     for (double transition : kTransitions_deg) with("transition_deg", transition);
   } else if (entry.name == "gravity_compensator") {
@@ -196,7 +197,7 @@ std::vector<EffectEntry> on_grid(const Stage& s, const EffectEntry& entry) {
       }
   } else if (entry.name == "drift") {
     out.push_back(entry);
-    for (double share : kSettlingShares) with("settling_s", share * session_of(s));
+    for (double share : kSettlingShares) with("settling_s", three_digits(share * session_of(s)));
   } else if (entry.name == "thermal_growth") {
     for (const auto& sensor : s.sensors) with("sensor", sensor);
   } else {

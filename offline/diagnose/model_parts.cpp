@@ -10,6 +10,7 @@
 #include "diagnose/plausible.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/fit_judgement.hpp"
 #include "plumb/runtime/effect_library.hpp"
 
 namespace plumb::offline {
@@ -123,23 +124,29 @@ std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
   return out;
 }
 
-std::optional<Oversized> oversized(const Cell& cell, const Stage& stage,
-                                   const Calibration& calibration,
-                                   const std::vector<EffectEntry>& given) {
-  std::optional<Oversized> out;
+std::vector<Oversized> oversized(const Cell& cell, const Stage& stage,
+                                 const Calibration& calibration,
+                                 const std::vector<EffectEntry>& given) {
+  std::vector<Oversized> out;
   const double s = std::sqrt(stage.noise.variance);
   for (const auto& part : parts_of(cell, calibration)) {
     if (has_effect(given, part.entry)) continue;
+    Oversized one{.entry = part.entry};
+    bool fine = true;
     for (const Eigen::Index i : part.index) {
       const Parameter& p = calibration.parameters[static_cast<std::size_t>(i)];
       const auto info = effect_parameter(calibration.state.arm, p.joint, p.component);
       const double value = value_of(calibration.state, p);
       const double std = s * std::sqrt(std::max(0.0, stage.inverse_information(i, i)));
-      if (plausible(value, std, info)) continue;
-      const double times = times_usual(value, std, info);
-      if (!out || times > out->times) out = Oversized{part.entry, times};
+      fine = fine && plausible(value, std, info);
+      one.possible = one.possible && possible(value, std, info);
+      one.times = std::max(one.times, times_usual(value, std, info));
     }
+    if (!fine) out.push_back(std::move(one));
   }
+  std::sort(out.begin(), out.end(), [](const Oversized& a, const Oversized& b) {
+    return a.possible != b.possible ? b.possible : a.times > b.times;
+  });
   return out;
 }
 

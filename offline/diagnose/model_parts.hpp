@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnose/diagnosis.hpp"
 #include "diagnose/scan.hpp"
 #include "fit/calibrate.hpp"
 
@@ -22,13 +23,10 @@ std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
                                 const Calibration& calibration,
                                 const std::vector<EffectEntry>& given, const EffectEntry& fresh);
 
-/// An added effect, at one joint, whose size no arm has, and how many times the usual one that is.
-struct Oversized {
-  EffectEntry entry;
-  double times = 0.0;
-};
-std::optional<Oversized> oversized(const Cell& cell, const Stage& stage,
-                                   const Calibration& calibration,
-                                   const std::vector<EffectEntry>& given);
+/// The added effects, at one joint each, whose sizes are not plausible; impossible ones first, then
+/// the largest.
+std::vector<Oversized> oversized(const Cell& cell, const Stage& stage,
+                                 const Calibration& calibration,
+                                 const std::vector<EffectEntry>& given);
 
 }  // namespace plumb::offline

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnose/block.hpp"
@@ -9,7 +10,10 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
+constexpr double kFastest = 200.0;
+constexpr std::array kMotorWaves = {0.5, 1.0, 2.0};  // cycles a turn of the motor
 constexpr double kLeastRange_rad = 0.2;
+constexpr double kMostRange_rad = 8.0 * M_PI;  // of a joint that turns on and on: finer is no use
 
 double range_of(const Stage& s, int joint) {
   double low = 1e300, high = -1e300;
@@ -17,7 +21,7 @@ double range_of(const Stage& s, int joint) {
     low = std::min(low, s.q(i)[joint]);
     high = std::max(high, s.q(i)[joint]);
   }
-  return high - low;
+  return std::min(high - low, kMostRange_rad);
 }
 
 /// Slower waves over the joint's range are its first two harmonics, or a straight line.
@@ -36,6 +40,18 @@ std::vector<double> ripple_grid(const Stage& s, int joint) {
   return out;
 }
 
+std::vector<double> fast_ripple_grid(const Stage& s, int joint) {
+  std::vector<double> out;
+  const double range = range_of(s, joint);
+  if (range < kLeastRange_rad) return out;
+  const double step = std::min(kRippleStep, M_PI / range);
+  for (double k = kLastRipple + step; k <= kFastest; k += step) out.push_back(k);
+  if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
+    for (const double waves : kMotorWaves)
+      if (waves * std::abs(*ratio) > kLastRipple) out.push_back(waves * std::abs(*ratio));
+  return out;
+}
+
 Block ripple_block(const Stage& s, int joint, const std::vector<double>& cycles) {
   const double typical = effect_info(find_effect_law("gear_ripple")).parameters[0].typical;
   Block out;
@@ -44,7 +60,9 @@ Block ripple_block(const Stage& s, int joint, const std::vector<double>& cycles)
   const auto count = static_cast<Eigen::Index>(cycles.size());
   out.columns.resize(s.poses(), 2 * count);
   out.typical = Eigen::VectorXd::Constant(2 * count, typical);
-  const bool even = count > 2 && std::abs(cycles[2] - 2.0 * cycles[1] + cycles[0]) < 1e-12;
+  bool even = count > 2;
+  for (Eigen::Index k = 2; even && k < count; ++k)
+    even = std::abs(cycles[k] - 2.0 * cycles[k - 1] + cycles[k - 2]) < 1e-9;
   if (!cycles.empty()) out.entry.options["cycles_per_turn"] = cycles.front();
   for (Eigen::Index c = 0; c < 2 * count; ++c) out.members.push_back(static_cast<int>(c % 2));
   for (Eigen::Index i = 0; i < s.poses(); ++i) {

@@ -10,7 +10,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kMostWaves = 12;
-constexpr double kPays = 3.0;  // nats, after what the search costs
+constexpr std::size_t kTogether = 16;  // waves judged in one pass over the poses
+constexpr double kPays = 3.0;          // nats, after what the search costs
 constexpr int kIterations = 4;
 constexpr double kLeastShare = 0.2;  // of a step
 constexpr double kLeastSteps = 1.6;  // between two waves; 2 is a whole wave more over the range
@@ -126,6 +127,29 @@ Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried) {
     field.pick(best);
   }
   if (out.strongest_ln_bayes >= price) refine(judge, out, step);
+  return out;
+}
+
+Ripples scan_fast_ripples(const Judge& judge, int joint, int& tried) {
+  Ripples out{.joint = joint, .cycles = {}, .strongest_ln_bayes = kImpossible};
+  const auto grid = fast_ripple_grid(judge.stage(), joint);
+  tried += static_cast<int>(grid.size());
+  for (std::size_t first = 0; first < grid.size(); first += kTogether) {
+    const std::vector<double> waves(
+        grid.begin() + static_cast<std::ptrdiff_t>(first),
+        grid.begin() + static_cast<std::ptrdiff_t>(std::min(first + kTogether, grid.size())));
+    const Products all = judge.products(ripple_block(judge.stage(), joint, waves));
+    for (std::size_t k = 0; k < waves.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(2 * k);
+      const auto UX = all.UX.middleCols(at, 2);
+      const Evidence found = evidence(all.XX.block(at, at, 2, 2) - UX.transpose() * UX,
+                                      all.Xy.segment(at, 2), judge.stage().Q, judge.scale());
+      if (found.ln_bayes <= out.strongest_ln_bayes) continue;
+      out.strongest_ln_bayes = found.ln_bayes;
+      out.cycles = {waves[k]};
+    }
+  }
+  if (!out.cycles.empty()) refine(judge, out, grid[1] - grid[0]);
   return out;
 }
 

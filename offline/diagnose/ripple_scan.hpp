@@ -19,4 +19,9 @@ struct Ripples {
 /// are then refined. `tried` grows by the waves on the grid. Cost: poses * (waves on the grid)^2.
 Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried);
 
+/// The best single wave of a joint beyond those of the usual scan, refined. Fast waves are rare,
+/// and trying them costs as much as all the rest of a look: for when nothing else explains what is
+/// left. Cost: poses * waves on the grid * (rank + 32).
+Ripples scan_fast_ripples(const Judge& judge, int joint, int& tried);
+
 }  // namespace plumb::offline

@@ -9,10 +9,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kLongest = 3;           // effects of an explanation
-constexpr int kRivals = 5;            // besides the chosen one
-constexpr double kNearly = 0.5;       // of what the chosen one explains
-constexpr double kAhead_nats = 10.0;  // over the chosen one's explanation
+constexpr int kLongest = 3;      // effects of an explanation
+constexpr int kRivals = 5;       // besides the chosen one
+constexpr double kNearly = 0.5;  // of what the chosen one explains
 
 Explanation followed(const Stage& from, const Found& first,
                      const std::vector<std::string>& not_testable,

@@ -9,26 +9,42 @@
 
 #include "diagnose/change_points.hpp"
 #include "diagnose/effect_list.hpp"
+#include "diagnose/few_digits.hpp"
 #include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kAhead_nats = 10.0;   // a pattern over the library's best
-constexpr double kAhead_share = 0.05;  // and of what is left
+constexpr double kAhead_share = 0.05;  // of what is left: a pattern over the library's best
 constexpr int kRefinements = 12;
 constexpr double kLongestTransition_deg = 3.0;  // beyond it is no friction
 constexpr double kWidestTransition = 0.35;      // of the largest torque: beyond it is a spring
+
+const std::vector<std::string> kOnceAJoint = {"joint_compliance_soft", "backlash_load", "reversal",
+                                              "gravity_compensator"};
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
+/// Whether the model has that law at that joint with another constant. A joint has one spring, one
+/// backlash and one friction; a second one would only bend the first.
+bool has_with_other_constant(const Stage& stage, const EffectEntry& entry) {
+  if (!contains(kOnceAJoint, entry.name)) return false;
+  EffectEntry any = entry;
+  any.options.clear();
+  return std::any_of(stage.cell->effects.begin(), stage.cell->effects.end(), [&](EffectEntry old) {
+    old.options.clear();
+    return has_effect({old}, any);
+  });
+}
+
 /// Whether an entry is not to be tried: it failed before, or the model has it.
 bool is_out(const Stage& stage, const std::vector<std::string>& banned, const std::string& key,
             const EffectEntry& entry) {
-  return contains(banned, key) || has_effect(stage.cell->effects, entry);
+  return contains(banned, key) || has_effect(stage.cell->effects, entry) ||
+         has_with_other_constant(stage, entry);
 }
 
 /// Waves of one joint as one candidate. Each of them was searched for, so each pays.
@@ -122,9 +138,49 @@ void round_knob(const Stage& stage, const Judge& judge, Found& found) {
   const auto knob = knob_of(stage, found.entry);
   if (!knob) return;
   double& value = std::get<double>(found.entry.options[knob->key]);
-  const double digits = knob->factor ? std::pow(10.0, 2 - std::floor(std::log10(value))) : 100.0;
-  value = std::round(value * digits) / digits;
+  value = knob->factor ? three_digits(value) : std::round(100.0 * value) / 100.0;
   found.trial = judge.judge(library_block(stage, found.entry));
+}
+
+/// The joints where waves faster than the usual ones are worth a look, while what is left is
+/// clearly wrong and would stay so: all of them if nothing was found, or no law; that of slow waves
+/// if they are the best, since fast ones may look like them.
+std::vector<int> joints_for_fast_waves(const Stage& stage, const Scan& look) {
+  const Found* best = look.unknown() ? &*look.pattern : look.supported();
+  const double left = best == nullptr ? 1.0 : 1.0 - best->trial.explained;
+  if (left * times_noise(stage) < kAboveNoise) return {};
+  if (best != nullptr && best->entry.name == "gear_ripple") return best->entry.joints;
+  if (best != nullptr && best->pattern.empty()) return {};
+  std::vector<int> out;
+  for (int j = 0; j < stage.joints(); ++j)
+    if (stage.chain.revolute(j)) out.push_back(j);
+  return out;
+}
+
+/// Fast waves, in place of the slow ones of the same joint where they explain more. They alone pay
+/// for their search: it is made only when all else has failed.
+void add_fast_waves(const Stage& stage, const Judge& judge, const std::vector<std::string>& banned,
+                    Scan& out) {
+  int tried = 0;
+  std::vector<Ripples> fast;
+  for (const int joint : joints_for_fast_waves(stage, out))
+    fast.push_back(scan_fast_ripples(judge, joint, tried));
+  if (fast.empty()) return;
+  const double paid = std::log(std::max(1.0, out.blocks + tried));
+  for (const auto& waves : fast) {
+    auto found = found_ripples(judge, waves, paid);
+    if (!found || is_out(stage, banned, key_of(*stage.cell, found->entry), found->entry)) continue;
+    if (!(found->score > kSupported)) continue;
+    found->gain = judge.gain(found->trial);
+    const auto slow = std::find_if(out.library.begin(), out.library.end(), [&](const Found& f) {
+      return f.entry.name == "gear_ripple" && f.entry.joints == found->entry.joints;
+    });
+    if (slow == out.library.end())
+      out.library.push_back(std::move(*found));
+    else if (found->score > slow->score)
+      *slow = std::move(*found);
+  }
+  out.blocks += tried;
 }
 
 }  // namespace
@@ -180,8 +236,10 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
   visit_library(stage, not_testable, [&](const Block& b) { all.take(b); });
   if (!contains(not_testable, "step")) {
     int cuts = 0;
-    for (const auto& point : change_points(stage, cuts))
-      all.take(library_block(stage, point.entry));
+    for (const auto& point : change_points(stage, cuts)) {
+      const Block block = library_block(stage, point.entry);
+      if (block.columns.cols() > 0) all.take(block);
+    }
     all.count(cuts);
   }
   visit_patterns(stage, [&](const Block& b) { all.take_pattern(b); });
@@ -202,6 +260,8 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
       refine(stage, judge, *found);
       round_knob(stage, judge, *found);
     }
+    // Refinement may end where the model already stands.
+    if (is_out(stage, banned, key, found->entry)) continue;
     out.library.push_back(std::move(*found));
   }
   for (const auto& waves : ripples)
@@ -222,6 +282,10 @@ Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
   if (out.pattern) {
     out.pattern->score = out.pattern->ln_bayes() - paid;
     out.pattern->gain = judge.gain(out.pattern->trial);
+  }
+  if (!contains(not_testable, "gear_ripple")) {
+    add_fast_waves(stage, judge, banned, out);
+    std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
   }
   return out;
 }

@@ -43,7 +43,8 @@ struct Scan {
   bool unknown() const;
 };
 
-inline constexpr double kSupported = 3.0;  // nats
+inline constexpr double kSupported = 3.0;    // nats
+inline constexpr double kAhead_nats = 10.0;  // of one explanation over another: clearly
 
 /// `banned`: keys (see key_of) of what is not to be tried.
 Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,

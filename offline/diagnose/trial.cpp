@@ -9,10 +9,9 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kClearShare = 0.01;
-constexpr double kAtNoise = 1.15;     // times the noise's mean square
-constexpr double kNearlyAll = 0.75;   // of what is left
-constexpr double kImpossible = -1e6;  // ln B of what only the wrong sign would explain
-constexpr double kRidge = 1e-9;       // a fold may be all that says something about a parameter
+constexpr double kAtNoise = 1.15;    // times the noise's mean square
+constexpr double kNearlyAll = 0.75;  // of what is left
+constexpr double kRidge = 1e-9;      // a fold may be all that says something about a parameter
 
 Products products_of_joint(const Stage& s, const Block& block, const Segment& at) {
   const auto S = block.columns.middleRows(at.begin, at.size());
@@ -121,6 +120,8 @@ Trial Judge::judge(const Block& block) const {
     const Eigen::MatrixXd gram = whole(out.active, out.active);
     const Eigen::VectorXd v = all.Xy(out.active);
     out.evidence = evidence(gram, v, stage_.Q, scale_);
+    if (out.evidence.ln_bayes <= kImpossible) out.active.clear();
+    if (out.active.empty()) break;
     const double ridge = scale_.variance / std::pow(out.evidence.width, 2);
     const Eigen::VectorXd theta =
         (gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).ldlt().solve(v);

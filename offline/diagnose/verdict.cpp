@@ -11,6 +11,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kWavesShown = 4;
+constexpr double kFewPoses = 1.15;  // times the noise: worth a word
 
 std::string mm(double metres) { return fmt::format("{:.3f} mm", metres * 1e3); }
 
@@ -25,9 +26,13 @@ std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
   std::string out =
       fmt::format("{} {} ({:.0f} % of what the model leaves, {} RMS)", unknown.pattern.subject,
                   unknown.pattern.words, 100.0 * unknown.share, size);
-  if (unknown.instead)
+  if (unknown.instead && unknown.instead->possible)
     out += fmt::format("; the {} that imitates it would be {:.0f} times its usual size",
-                       in_words(cell, *unknown.instead), unknown.times);
+                       in_words(cell, unknown.instead->entry), unknown.instead->times);
+  else if (unknown.instead)
+    out +=
+        fmt::format("; the {} that imitates it would need a sign or a size that its law rules out",
+                    in_words(cell, unknown.instead->entry));
   return out;
 }
 
@@ -35,19 +40,47 @@ std::string complete_words(const Diagnosis& d, const ErrorStats& held) {
   if (d.floor.source == NoiseFloor::Source::kNone)
     return fmt::format("nothing more is supported by these poses; held-out error {}",
                        mm(held.mean));
-  const double times = held.mean / d.floor.mean_m;
+  const std::string floor = floor_words(d.floor);
   if (d.full)
     return fmt::format(
         "more is supported, but a model holds no more effects; held-out error {}, {:.1f} times the "
         "{}: a local tree may learn the rest",
-        mm(held.mean), times, floor_words(d.floor));
-  if (times < 1.3)
-    return fmt::format("nothing more is supported by these poses; held-out error {}, {}",
-                       mm(held.mean), floor_words(d.floor));
-  return fmt::format(
-      "nothing more is supported by these poses, although the held-out error of {} is {:.1f} times "
-      "the {}: a local tree may learn the rest, or more poses may show it",
-      mm(held.mean), times, floor_words(d.floor));
+        mm(held.mean), held.mean / d.floor.mean_m, floor);
+  const std::string out = "nothing more is supported by these poses";
+  if (d.left_over && d.left_over->lack_of_fit())
+    return fmt::format(
+        "{}; but what is left is {:.1f} times the {}: something that these poses do not name. A "
+        "local tree may learn it, or more poses may show it",
+        out, d.left_over->times, floor);
+  if (d.left_over && d.left_over->unavoidable > kFewPoses)
+    return fmt::format(
+        "{}; held-out error {}, {} (so few poses leave {:.1f} times that even to a "
+        "model that is right)",
+        out, mm(held.mean), floor, d.left_over->unavoidable);
+  return fmt::format("{}; held-out error {}, {}", out, mm(held.mean), floor);
+}
+
+/// How a held-out error goes on: it need not fall.
+std::string fall_words(double before_m, double after_m) {
+  if (mm(after_m) != mm(before_m) && after_m < before_m)
+    return fmt::format("the held-out error falls from {} to {}", mm(before_m), mm(after_m));
+  return fmt::format("the held-out error does not fall ({} -> {})", mm(before_m), mm(after_m));
+}
+
+/// Effects that were added although hardly any arm has them that large.
+std::string unlikely_words(const Cell& cell, const Diagnosis& d) {
+  std::string out;
+  for (const auto& one : d.unlikely)
+    out += fmt::format("; supported, but of an unlikely size: {}, {:.0f} times the usual",
+                       in_words(cell, one.entry), one.times);
+  return out;
+}
+
+std::string tie_words(const Cell& cell, const Diagnosis& d) {
+  const Candidate& first = d.candidates.front();
+  return fmt::format("one of them serves, but these poses cannot tell {} from {}: measure {}",
+                     in_words(cell, first.entry, first.cycles), in_words(cell, *d.tied),
+                     separating_measurement(first.entry, *d.tied));
 }
 
 }  // namespace
@@ -92,11 +125,9 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
   switch (d.finding) {
     case Finding::kMissing: {
       const Candidate& best = d.candidates.front();
-      return fmt::format(
-          "Missing: {} (ln Bayes {:.0f}); with it the held-out error falls from {} "
-          "to {}, {}.",
-          in_words(cell, best.entry, best.cycles), best.ln_bayes, mm(d.before.mean),
-          mm(best.alone.mean), floor_words(d.floor));
+      return fmt::format("Missing: {} (ln Bayes {:.0f}); with it {}, {}.",
+                         in_words(cell, best.entry, best.cycles), best.ln_bayes,
+                         fall_words(d.before.mean, best.alone.mean), floor_words(d.floor));
     }
     case Finding::kUnknown:
       return fmt::format(
@@ -106,11 +137,10 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
       if (d.tied)
         return fmt::format(
             "Undecidable: {} and {} explain these poses equally well (ln Bayes {:.0f}); with "
-            "either "
-            "the held-out error falls from {} to {}, {}. To tell them apart: {}.",
+            "either {}, {}. To tell them apart: {}.",
             in_words(cell, d.candidates.front().entry, d.candidates.front().cycles),
-            in_words(cell, *d.tied), d.candidates.front().ln_bayes, mm(d.before.mean),
-            mm(d.candidates.front().alone.mean), floor_words(d.floor),
+            in_words(cell, *d.tied), d.candidates.front().ln_bayes,
+            fall_words(d.before.mean, d.candidates.front().alone.mean), floor_words(d.floor),
             separating_measurement(d.candidates.front().entry, *d.tied));
       if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format(
@@ -137,9 +167,10 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
                                                   : "unknown structure is left",
                          unknown_words(cell, *d.unknown_after));
     case Finding::kUndecidable:
+      if (d.tied && !d.added.empty()) return fmt::format("{}; {}.", fall, tie_words(cell, d));
       return fall + "; what is left cannot be judged without a noise floor.";
     default:
-      return fmt::format("{}; {}.", fall, complete_words(d, d.after));
+      return fmt::format("{}; {}{}.", fall, complete_words(d, d.after), unlikely_words(cell, d));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
@@ -17,18 +18,37 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 
 constexpr double kNoChange = 1e-7;    // of the cost in the last iteration
 constexpr double kDenseQrUpTo = 2e5;  // numbers; beyond it the normal equations are much faster
+constexpr int kMostIterations = 300;  // what is hardly seen comes to rest slowly
 
 /// A parameter of which something is known beforehand.
 struct KnownParameter {
+  enum class Tail { kNormal, kHeavy };
   Eigen::Index index;  // among those fitted
   double mean, sigma;
+  Tail tail;
 };
+using Tail = KnownParameter::Tail;
+
+/// What a distance of u sigma from the mean adds to the residuals, and its slope. Heavy: Huber's,
+///
+///   u^2 / 2 up to one sigma, |u| - 1/2 beyond
+///
+/// so that what is hardly seen stays small, what the poses clearly show may be as large as it is,
+/// and there is one best fit.
+struct Pull {
+  double residual, slope;
+};
+Pull pull_of(double u, Tail tail) {
+  if (tail == Tail::kNormal || std::abs(u) <= 1.0) return {u, 1.0};
+  const double length = std::sqrt(2.0 * std::abs(u) - 1.0);
+  return {std::copysign(length, u), 1.0 / length};
+}
 
 constexpr double kWidePrior = 5.0;     // typical sizes
 constexpr double kTrackerPrior = 1.0;  // its scale is hardly to be told from the arm's
 
-/// What the cell says, and of effects: that they are hardly ever many times their typical size.
-/// Without it, what geometry nearly imitates (the scale of a tracker) would run away.
+/// What the cell says, and of effects: that they are rarely many times their typical size. Without
+/// it, what geometry nearly imitates (the scale of a tracker) would run away.
 std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
                                   const std::vector<Parameter>& parameters) {
   std::vector<KnownParameter> out;
@@ -41,14 +61,16 @@ std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
     const double width = effect.name == "tracker" ? kTrackerPrior : kWidePrior;
     const double mean =
         effect.formula.code.empty() ? 0.0 : effect.formula.parameters[component].start;
-    if (typical > 0.0) out.push_back({static_cast<Eigen::Index>(i), mean, width * typical});
+    if (typical > 0.0)
+      out.push_back({static_cast<Eigen::Index>(i), mean, width * typical, Tail::kHeavy});
   }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;
   for (const auto& [name, sigma] : data.cell->fit.priors)
     for (std::size_t i = 0; i < parameters.size(); ++i)
       if (parameters[i].name == name)
-        out.push_back({static_cast<Eigen::Index>(i), value_of(nominal, parameters[i]), sigma});
+        out.push_back(
+            {static_cast<Eigen::Index>(i), value_of(nominal, parameters[i]), sigma, Tail::kNormal});
   return out;
 }
 
@@ -101,12 +123,14 @@ class GeometryCost final : public ceres::CostFunction {
       const Vector3 turn = rotation_vector(R_MG * point.R_MG.transpose());
       for (int k = 0; k < 3; ++k) emit(turn(k), data_.sigma_rad, 3 + k);
     }
-    for (const auto& [index, mean, sigma] : known_) {
-      residual[row] = (mean - value_of(geometry.state(), parameters_[index])) / sigma;
+    for (const auto& [index, mean, sigma, tail] : known_) {
+      const Pull pull =
+          pull_of((mean - value_of(geometry.state(), parameters_[index])) / sigma, tail);
+      residual[row] = pull.residual;
       if (jacobian != nullptr) {
         Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
         slopes.setZero();
-        slopes(index) = -1.0 / sigma;
+        slopes(index) = -pull.slope / sigma;
       }
       ++row;
     }
@@ -169,13 +193,19 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   ceres::Solver::Options options;
   const double size = static_cast<double>(data.residual_count()) * static_cast<double>(x.size());
   options.linear_solver_type = size > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
-  options.max_num_iterations = 100;
+  options.max_num_iterations = kMostIterations;
   options.function_tolerance = tolerance;
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  // Where the start has no finite value there is nothing to climb from.
+  if (summary.iterations.empty()) {
+    Solution none;
+    none.reason = summary.message;
+    check_converged(none);
+  }
   Solution out = evaluate(data, moved(start, parameters, x), parameters);
   out.iterations = static_cast<int>(summary.iterations.size()) - 1;
   // Two parameters that do nearly the same make the last digits slow, and nobody needs them.

@@ -134,6 +134,20 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     out["verdict_after"] = name_of(*d.finding_after);
     out["verdict_after_text"] = d.text_after;
   }
+  out["unlikely"] = Json::array();
+  for (const auto& one : d.unlikely) {
+    Json large{{"effect", one.entry.name},
+               {"joints", joints_json(cell, one.entry)},
+               {"options", options_json(one.entry)}};
+    put(large, "times_usual", one.times);
+    out["unlikely"].push_back(std::move(large));
+  }
+  if (d.left_over)
+    out["left_over"] = {{"times_floor", d.left_over->times},
+                        {"unavoidable_times", d.left_over->unavoidable},
+                        {"lack_of_fit", d.left_over->lack_of_fit()}};
+  else
+    put_null(out, "left_over", "no noise floor is known");
   out["outliers"] = d.outliers;
   out["blocks_tried"] = d.blocks;
   return out;

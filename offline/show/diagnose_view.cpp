@@ -54,6 +54,8 @@ std::string candidates_text(const Cell& cell, const Diagnosis& d) {
   }
   std::string out =
       "\nCandidates: held-out error [mm] alone and with the first one\n" + table.text();
+  if (d.candidates.size() > kShown)
+    out += fmt::format("  and {} more: --json\n", d.candidates.size() - kShown);
   const Candidate& best = d.candidates.front();
   if (!best.supported) return out;
   out += "\n  " + in_words(cell, best.entry, best.cycles) + ":";

@@ -91,6 +91,14 @@ TEST(CsvMessage, OfCellsThatAreNoFiniteNumbers) {
   EXPECT_EQ(problems[2].message, "column 'x_mm' holds 'nan'");
 }
 
+TEST(CsvMessage, OfNumbersThatNoArmCanHave) {
+  const auto problems =
+      of_arm("q1_deg,q2_deg,x_mm,y_mm,z_mm\n1e7,2,3,4,5\n1,2,1e308,4,-2e7\n1,360000,9.9e6,4,5\n");
+  EXPECT_EQ(summary(problems), (Summary{"E-CSV-FAR 2:1", "E-CSV-FAR 3:5", "E-CSV-FAR 3:13"}));
+  EXPECT_EQ(problems[0].message, "column 'q1_deg': 2.78e+04 turns is nothing a joint can have");
+  EXPECT_NE(problems[0].help.find("unit"), std::string::npos);
+}
+
 TEST(CsvMessage, OfADecimalCommaBetweenCommasIsARaggedRow) {
   EXPECT_EQ(summary(of_table("x_mm,y_mm\n1,5,2,5\n")), Summary{"E-CSV-RAGGED 2:5"});
 }

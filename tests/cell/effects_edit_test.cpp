@@ -75,6 +75,15 @@ TEST(EffectsEdit, RemovesTheTableAndLeavesTheNextOnesComment) {
             kRobot + "# the payload bends it\n[effects.payload_compliance]\n");
 }
 
+TEST(EffectsEdit, ANumberThatNoDecimalMeetsIsReadBackToTheLastBit) {
+  for (const double seconds : {425.52000000000004, 0.1 + 0.2, 1.0 / 3.0, 857.0, 1e-7}) {
+    const std::vector<EffectEntry> wanted = {kGeometry,
+                                             effect("drift", {}, {{"settling_s", seconds}})};
+    const Cell again = parse_cell(edited(kRobot, wanted), "/c/cell.toml");
+    EXPECT_EQ(std::get<double>(again.effects.back().options.at("settling_s")), seconds);
+  }
+}
+
 TEST(EffectsEdit, WritesAFormulaThatIsReadBack) {
   const EffectEntry formula =
       effect("formula", {},

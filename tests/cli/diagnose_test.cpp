@@ -71,6 +71,17 @@ TEST_F(DiagnoseVerb, GivesTheObjectOfTheContract) {
   }
 }
 
+TEST_F(DiagnoseVerb, SaysWhatIsLeftAndThatMoreCandidatesExist) {
+  const Json result = plumb({"diagnose", "--json"}).json().at("result");
+  EXPECT_GT(result.at("left_over").at("times_floor").get<double>(), 2.0);
+  EXPECT_EQ(result.at("left_over").at("lack_of_fit"), true);
+  EXPECT_TRUE(result.at("unlikely").empty());
+  const auto listed = result.at("candidates").size();
+  ASSERT_GT(listed, 8U);
+  const std::string more = "and " + std::to_string(listed - 8) + " more: --json";
+  EXPECT_NE(plumb({"diagnose"}).out.find(more), std::string::npos);
+}
+
 TEST_F(DiagnoseVerb, WhatItProposesCanBeTyped) {
   const Ran ran = plumb({"diagnose"});
   ASSERT_EQ(ran.exit, 0) << ran.err;

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// A diagnosis says what it found and no more: nothing twice, nothing that does not help, nothing
+// left unsaid.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/change_points.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/effect_list.hpp"
+#include "diagnose/evidence.hpp"
+#include "diagnose/left_over.hpp"
+#include "diagnose/real_fall.hpp"
+#include "diagnose/scan.hpp"
+#include "diagnose/verdict.hpp"
+#include "simulate/blind_case.hpp"
+
+namespace plumb::offline {
+namespace {
+
+BlindRequest hiding(const std::string& effect, int poses = 150) {
+  BlindRequest out;
+  out.poses = poses;
+  out.effects = {effect};
+  return out;
+}
+
+Diagnosis diagnosed(const BlindRequest& request) {
+  const BlindCase blind = make_blind_case(request);
+  return diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+}
+
+/// A calibrated arm and the stage of all its poses.
+struct Looked {
+  BlindCase blind;
+  Cell cell;
+  Calibration calibration;
+  Stage stage;
+  explicit Looked(const BlindRequest& request) : blind(make_blind_case(request)), cell(blind.cell) {
+    calibration = calibrate(cell, blind.measured.measured, rows());
+    stage = make_stage(cell, blind.measured.measured, calibration,
+                       without_outliers(rows(), calibration.outliers), {});
+  }
+  Looked(const Looked&) = delete;
+  std::vector<int> rows() const {
+    std::vector<int> out(static_cast<std::size_t>(blind.measured.measured.size()));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<int>(i);
+    return out;
+  }
+};
+
+TEST(DiagnoseHonest, NeverOffersWhatTheModelHoldsEvenIfRefinementEndsThere) {
+  Looked at(hiding("joint_compliance_soft:J2:5"));
+  const Scan before = scan(at.stage, {}, {});
+  const Found* soft = before.find(at.cell, "joint_compliance_soft:J2");
+  ASSERT_NE(soft, nullptr);
+  at.cell.effects.push_back(soft->entry);
+  for (const auto& found : scan(at.stage, {}, {}).library)
+    for (const auto& entry : found.entries())
+      EXPECT_FALSE(has_effect(at.cell.effects, entry)) << key_of(at.cell, entry);
+}
+
+TEST(DiagnoseHonest, ConstantsOfEveryCandidateHaveFewDigits) {
+  const Looked at(hiding("drift::5"));
+  for (const auto& found : scan(at.stage, {}, {}).library)
+    for (const auto& [key, value] : found.entry.options)
+      if (const auto* number = std::get_if<double>(&value)) {
+        EXPECT_NEAR(*number, std::stod(fmt::format("{:.5g}", *number)), 1e-12 * std::abs(*number))
+            << found.entry.name << " " << key;
+      }
+}
+
+TEST(DiagnoseHonest, ARefitThatBringsNothingIsNoFall) {
+  const Looked at(hiding("gear_harmonics:J2:5"));
+  const auto& measured = at.blind.measured.measured;
+  EXPECT_EQ(real_fall(at.cell, measured, at.rows(), at.calibration, at.calibration), 0.0);
+  Cell with = at.cell;
+  with.effects.push_back({.name = "gear_harmonics", .joints = {1}, .options = {}, .place = {}});
+  const Calibration better = calibrate(with, measured, at.rows());
+  EXPECT_GT(real_fall(at.cell, measured, at.rows(), at.calibration, better), 0.5);
+}
+
+TEST(DiagnoseHonest, WhatIsNotFiniteIsNeverEvidence) {
+  const Eigen::MatrixXd gram = Eigen::MatrixXd::Constant(2, 2, NAN);
+  const Evidence none = evidence(gram, Eigen::Vector2d(1.0, 2.0), 3.0, {.lines = 100.0});
+  EXPECT_EQ(none.ln_bayes, kImpossible);
+}
+
+TEST(DiagnoseHonest, AJointThatTurnedOnForEverIsNoCrash) {
+  BlindCase blind = make_blind_case({});
+  blind.measured.measured.q(20, 1) = 1.7e5;
+  try {
+    diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+  } catch (const Failure& failure) {
+    EXPECT_FALSE(std::string(failure.what()).empty());
+  }
+}
+
+TEST(DiagnoseHonest, APointThatIsNoNumberIsRefused) {
+  BlindCase blind = make_blind_case({});
+  blind.measured.measured.p_M(20, 1) = 1e308;
+  EXPECT_THROW(diagnose(blind.cell, blind.measured.measured, {}), Failure);
+}
+
+TEST(DiagnoseHonest, AFastRippleIsFoundAndItsSlowShadowsAreNot) {
+  const Diagnosis d = diagnosed(hiding("gear_ripple:J3:5@cycles=60", 300));
+  ASSERT_EQ(d.finding, Finding::kMissing) << d.text;
+  const Candidate& first = d.candidates.front();
+  EXPECT_EQ(first.entry.name, "gear_ripple");
+  EXPECT_EQ(first.entry.joints, std::vector<int>{2});
+  ASSERT_FALSE(first.cycles.empty());
+  EXPECT_NEAR(first.cycles.front(), 60.0, 0.3);
+  EXPECT_LT(d.after.mean, 0.5 * d.before.mean);
+}
+
+TEST(DiagnoseHonest, ALargeButTrueEffectIsFlaggedAndNotUnknown) {
+  const Diagnosis d = diagnosed(hiding("encoder_scale:J5:8", 300));
+  ASSERT_TRUE(d.finding_after.has_value());
+  EXPECT_NE(*d.finding_after, Finding::kUnknown) << d.text_after;
+  ASSERT_FALSE(d.unlikely.empty()) << d.text_after;
+  EXPECT_EQ(d.unlikely.front().entry.name, "encoder_scale");
+  EXPECT_NE(d.text_after.find("unlikely size"), std::string::npos) << d.text_after;
+}
+
+TEST(DiagnoseHonest, WhatIsLeftIsMeasuredAgainstWhatSoFewPosesMakeUnavoidable) {
+  NoiseFloor floor;
+  EXPECT_FALSE(left_over(1e-4, floor, 300.0, 33.0).has_value()) << "no floor is known";
+  floor.source = NoiseFloor::Source::kSigma;
+  floor.mean_m = 1e-4;
+  EXPECT_NEAR(left_over(2e-4, floor, 334.0, 33.0)->unavoidable, std::sqrt(1.11), 1e-12);
+  EXPECT_TRUE(left_over(1.5e-4, floor, 3000.0, 33.0)->lack_of_fit());
+  EXPECT_FALSE(left_over(1.5e-4, floor, 108.0, 33.0)->lack_of_fit());
+}
+
+TEST(DiagnoseHonest, SaysInTheSentenceThatSomethingIsLeft) {
+  const Cell cell;
+  Diagnosis d;
+  d.floor.source = NoiseFloor::Source::kSigma;
+  d.floor.mean_m = 1e-5;
+  d.before.mean = 3.1e-5;
+  d.left_over = LeftOver{.times = 3.1, .unavoidable = 1.05};
+  EXPECT_NE(verdict_text(cell, d).find("what is left is 3.1 times the noise floor"),
+            std::string::npos)
+      << verdict_text(cell, d);
+  d.left_over = LeftOver{.times = 1.1, .unavoidable = 1.05};
+  EXPECT_EQ(verdict_text(cell, d).find("left"), std::string::npos) << verdict_text(cell, d);
+}
+
+TEST(DiagnoseHonest, NeverCallsARiseAFall) {
+  const Cell cell;
+  Diagnosis d;
+  d.finding = Finding::kMissing;
+  d.before.mean = 196e-6;
+  d.candidates.emplace_back();
+  d.candidates.front().entry.name = "drift";
+  d.candidates.front().alone.mean = 205e-6;
+  EXPECT_EQ(verdict_text(cell, d).find("falls"), std::string::npos) << verdict_text(cell, d);
+  EXPECT_NE(verdict_text(cell, d).find("does not fall (0.196 mm -> 0.205 mm)"), std::string::npos);
+}
+
+TEST(DiagnoseHonest, NeverSaysZeroTimesTheUsualSize) {
+  const Cell cell;
+  Diagnosis d;
+  d.finding_after = Finding::kUnknown;
+  d.unknown_after.emplace();
+  d.unknown_after->pattern = {.subject = "joint 3", .words = "depends on q2", .depends_on = {"q2"}};
+  d.unknown_after->instead =
+      Oversized{.entry = {.name = "drift", .joints = {}, .options = {}, .place = {}},
+                .times = 0.0,
+                .possible = false};
+  const std::string text = verdict_after_text(cell, d);
+  EXPECT_EQ(text.find(" 0 times"), std::string::npos) << text;
+  EXPECT_NE(text.find("its law rules out"), std::string::npos) << text;
+}
+
+TEST(DiagnoseHonest, AnotherPayloadFromOnePoseOnIsNoSlippedEncoder) {
+  Looked at(hiding("joint_compliance:J3:5"));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(at.stage.fit_poses()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return at.stage.context[a].order < at.stage.context[b].order; });
+  // The joint sagged and the payload changed behind half of the poses.
+  const std::size_t half = order.size() / 2;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    at.stage.context[order[i]].payload_kg = i < half ? 0.0 : 20.0;
+    if (i < half) continue;
+    for (Eigen::Index line = 3 * order[i]; line < 3 * order[i] + 3; ++line)
+      at.stage.y(line) += 2e-4 * at.stage.joint[2](line);
+  }
+  const double row = at.stage.context[order[half]].order;
+  int tried = 0;
+  for (const auto& point : change_points(at.stage, tried))
+    if (!point.entry.joints.empty()) {
+      EXPECT_GT(std::abs(std::get<double>(point.entry.options.at("after_row")) - row), 0.6)
+          << key_of(at.cell, point.entry);
+    }
+}
+
+}  // namespace
+}  // namespace plumb::offline
