@@ -274,6 +274,10 @@ constexpr Explanation kCodes[] = {
      "A listed effect needs something that these measurements do not hold: the direction from "
      "which "
      "joints came, a temperature, the row after which something moved."},
+    {"E-EFFECT-OPTION",
+     "add or drop was told something of an effect that it has no option for, or a value or joints "
+     "that make no sense. --set takes KEY=VALUE as [effects] in cell.toml does; "
+     "cycles_per_turn=7.91,17.49 is two effects at once."},
     {"E-MODEL-MALFORMED", "The structure of the file is broken."},
     {"E-MODEL-INCONSISTENT",
      "The file is whole, but its content makes no sense: a number out of range, a tree that points "
