@@ -201,6 +201,20 @@ TEST(CellMessage, OfJointsThatAnEffectCannotHave) {
   EXPECT_EQ(with("[effects.step]\nafter_row = 3\nof = \"joint\"\njoints = [\"J1\"]"), Summary{});
 }
 
+TEST(CellMessage, OfConventionsByOtherNames) {
+  for (const auto& [word, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"craig", "modified"},
+                                                        {"Craig", "modified"},
+                                                        {"proximal", "modified"},
+                                                        {"distal", "standard"},
+                                                        {"classic", "standard"}}) {
+    const auto problems = problems_in("schema = \"cell/1\"\n[robot]\ndh_convention = \"" + word +
+                                      "\"\njoints = [{ q = [-90, 90] }]\n");
+    ASSERT_EQ(summary(problems), Summary{"E-CELL-RANGE 3:17"}) << word;
+    EXPECT_EQ(problems[0].help, "dh_convention = \"" + meant + "\"");
+  }
+}
+
 TEST(CellMessage, OfUnknownEffects) {
   const auto problems = problems_in(kRobot + "[effects]\nlocal_tre = true\nzzzzzz = {}\n");
   EXPECT_EQ(summary(problems), (Summary{"E-CELL-EFFECT 6:13", "E-CELL-EFFECT 7:10"}));
