@@ -183,7 +183,7 @@ constexpr Explanation kCodes[] = {
     {"E-FIT-FEW",
      "There are fewer measured coordinates than parameters. Measure more poses, or "
      "hold parameters with [fit] fixed."},
-    {"E-FIT-STILL",
+    {"E-FIT-ONE-POSE",
      "The arm hardly moves between the poses, so nothing tells its numbers apart. Units are not to "
      "blame: measure poses all over the workspace; plumb plan chooses them."},
     {"E-FIT-FORMULA",

@@ -33,7 +33,7 @@ void check_poses(const Measurements& measured, const std::vector<int>& rows) {
                    .help = "mark some rows fit in column 'set', or: plumb fit --held-out 20%"});
   if (rows.size() > 1 && largest_range(measured, rows) < kOnePose)
     throw Failure(Exit::kNumbersSayNo,
-                  {.code = "E-FIT-STILL",
+                  {.code = "E-FIT-ONE-POSE",
                    .message = fmt::format("the {} poses to fit are nearly all one pose: no joint "
                                           "moves by more than {:.2g} rad or m",
                                           rows.size(), kOnePose),

@@ -8,7 +8,7 @@
 namespace plumb::offline {
 
 /// Throws Failure (kNumbersSayNo) before a fit that no solver can save: E-FIT-FEW if every row is
-/// held out, E-FIT-STILL if the poses of `rows` are nearly all one pose.
+/// held out, E-FIT-ONE-POSE if the poses of `rows` are nearly all one pose.
 void check_poses(const Measurements& measured, const std::vector<int>& rows);
 
 }  // namespace plumb::offline

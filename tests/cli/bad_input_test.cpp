@@ -202,7 +202,7 @@ TEST(BadInputs, PosesThatAreNearlyOneAreCalledSo) {
   });
   const Ran ran = box.plumb({"-C", "cell", "fit"});
   EXPECT_EQ(ran.exit, 4) << ran.err;
-  EXPECT_NE(ran.err.find("E-FIT-STILL"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("E-FIT-ONE-POSE"), std::string::npos) << ran.err;
 }
 
 TEST(BadInputs, AnAxisThatLacksIsWarnedOfInSpaceAndNotInThePlane) {
