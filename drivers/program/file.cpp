@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <pthread.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -58,7 +60,8 @@ int sync(int fd) {
   int result = 0;
   do result = ::fsync(fd);
   while (result != 0 && errno == EINTR);
-  return result == 0 ? 0 : errno;
+  // A pipe or a device has nothing to wait for.
+  return result == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
 }
 
 /// 0 or errno.
@@ -80,6 +83,26 @@ int write_draft(const fs::path& draft, const fs::path& target, std::string_view 
   if (::stat(target.c_str(), &present) == 0 && ::fchmod(file.get(), present.st_mode & 07777) != 0)
     return errno;
   return write_all(file.get(), bytes);
+}
+
+bool is_stream(const fs::path& file) {
+  std::error_code ignored;
+  const auto status = fs::status(file, ignored);
+  return fs::is_fifo(status) || fs::is_character_file(status);
+}
+
+/// Waits for a reader if it is a pipe; until then nothing can be left half-written, so an interrupt
+/// ends the program as anywhere else.
+void write_into(const fs::path& stream, std::string_view bytes) {
+  sigset_t interrupts, before;
+  sigemptyset(&interrupts);
+  sigaddset(&interrupts, SIGINT);
+  sigaddset(&interrupts, SIGTERM);
+  pthread_sigmask(SIG_UNBLOCK, &interrupts, &before);
+  const Descriptor out(stream.c_str(), O_WRONLY | O_NOCTTY);
+  const int error = out.get() < 0 ? errno : write_all(out.get(), bytes);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (error != 0) cannot_write(stream, error);
 }
 
 /// A name that no other writer uses, nor one that died before.
@@ -123,6 +146,7 @@ std::string read_file(const fs::path& file) {
 void write_file_atomically(const fs::path& file, std::string_view bytes) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) cannot_write(file, EISDIR);
+  if (is_stream(file)) return write_into(file, bytes);
   // A link stays a link: what it points to is replaced.
   const fs::path target = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file) : file;
   const fs::path draft = draft_beside(target);
@@ -136,9 +160,13 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
   if (directory.get() >= 0) sync(directory.get());
 }
 
-void write_new_file(const fs::path& file, std::string_view bytes, Overwrite overwrite) {
+bool would_replace(const fs::path& file) {
   std::error_code ignored;
-  if (overwrite == Overwrite::kNo && fs::exists(file, ignored))
+  return fs::exists(file, ignored) && !is_stream(file);
+}
+
+void write_new_file(const fs::path& file, std::string_view bytes, Overwrite overwrite) {
+  if (overwrite == Overwrite::kNo && would_replace(file))
     throw Failure(Exit::kUsage, {.code = "E-EXISTS",
                                  .message = fmt::format("{} is already there", display_name(file)),
                                  .help = "to replace it add --force"});

@@ -14,8 +14,14 @@ std::string display_name(const std::filesystem::path& file);
 std::string read_file(const std::filesystem::path& file);
 
 /// Writes all or nothing: a temporary file beside the target, fsync, rename, fsync of the folder.
-/// Throws Failure (kEnvironment) with the system's reason; the temporary file is removed.
+/// A pipe, a terminal or another device is written into instead: replacing its node would cut off
+/// who reads there. Throws Failure (kEnvironment) with the system's reason; the temporary file is
+/// removed.
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
+
+/// Whether writing to this name would replace something: not where nothing stands, nor a pipe or a
+/// character device such as /dev/null, which keep nothing.
+bool would_replace(const std::filesystem::path& file);
 
 /// The same, but refuses (kUsage, E-EXISTS) to replace a file unless `force`.
 enum class Overwrite { kNo, kForce };

@@ -22,7 +22,7 @@ void OutputFiles::add(fs::path file, std::string bytes) {
 void OutputFiles::refuse_existing() const {
   std::vector<Problem> problems;
   for (const auto& [file, bytes] : files_)
-    if (fs::exists(file))
+    if (would_replace(file))
       problems.push_back({.code = "E-EXISTS",
                           .message = fmt::format("{} is already there", file.string()),
                           .help = "to replace it add --force"});

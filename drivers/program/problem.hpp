@@ -65,6 +65,9 @@ class Failure : public std::exception {
   std::string what_;
 };
 
+/// Letters to insert, delete, replace or swap with their neighbour to make `b` of `a`.
+int edit_distance(const std::string& a, const std::string& b);
+
 /// The candidate nearest to `word`, if near enough for "did you mean".
 std::optional<std::string> did_you_mean(const std::string& word,
                                         const std::vector<std::string>& candidates);

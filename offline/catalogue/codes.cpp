@@ -134,7 +134,8 @@ constexpr Explanation kCodes[] = {
      "import reads text. Export the measurements as text (CSV) from the program they come from."},
     {"E-IMPORT-EMPTY", "There is nothing in the file."},
     {"E-IMPORT-HEADER",
-     "No line names the columns. Name them yourself: --header \"pose,q1_deg,...,x_mm,y_mm,z_mm\"."},
+     "No line names the columns, or none of the names is known. Name them yourself: --header "
+     "\"pose,q1_deg,...,x_mm,y_mm,z_mm\"."},
     {"E-IMPORT-RAGGED",
      "A row has more or fewer cells than the header. Often the last line was cut off while "
      "copying, "
@@ -146,8 +147,15 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-NUMBER", "A column of numbers holds something else. NaN and infinity are none."},
     {"E-IMPORT-UNIT",
      "A recognised column does not say its unit. Name it: --map \"X=x_mm\". A wrong unit is the "
-     "commonest cause of a wrong calibration, so none is assumed."},
-    {"E-IMPORT-MAP", "--map names a column that the file has not, or a new name without a unit."},
+     "commonest cause of a wrong calibration, so none is assumed. Units that plumb does not know, "
+     "cm "
+     "for example, are not converted: do that where the file comes from."},
+    {"W-IMPORT-UNIT",
+     "The same of a preview, which shows the rest of the file all the same. Without --preview it "
+     "is "
+     "an error."},
+    {"E-IMPORT-MAP",
+     "--map names a column that the file has not, a new name without a unit, or one column twice."},
     {"E-IMPORT-TWICE", "Two columns would become the same one. Leave one out with --map OLD=-."},
     {"E-IMPORT-ROT",
      "The order of three turns: xyz-fixed is R = Rz Ry Rx, xyz-moving is R = Rx Ry Rz, and so on "
@@ -175,6 +183,9 @@ constexpr Explanation kCodes[] = {
     {"E-FIT-FEW",
      "There are fewer measured coordinates than parameters. Measure more poses, or "
      "hold parameters with [fit] fixed."},
+    {"E-FIT-ONE-POSE",
+     "The arm hardly moves between the poses, so nothing tells its numbers apart. Units are not to "
+     "blame: measure poses all over the workspace; plumb plan chooses them."},
     {"E-FIT-FORMULA",
      "A formula divides by zero, takes the root or logarithm of a negative number or is otherwise "
      "no number at one of the poses, or its value is beyond 1 m or 1 rad or its slope infinite, so "
@@ -222,6 +233,9 @@ constexpr Explanation kCodes[] = {
      "A joint stood still in every pose of the fit. What is wrong behind it looks like something "
      "else, and held-out poses that are alike do not show it: the figures hold for that position "
      "only."},
+    {"W-CSV-AXES",
+     "One or two of x, y, z are missing although the arm moves in space. The fit goes on with what "
+     "there is, and every error is of the given axes only: smaller than that of the point."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
      "out. State [measurement] sigma_urad to use them."},
@@ -274,6 +288,10 @@ constexpr Explanation kCodes[] = {
      "A listed effect needs something that these measurements do not hold: the direction from "
      "which "
      "joints came, a temperature, the row after which something moved."},
+    {"E-EFFECT-OPTION",
+     "add or drop was told something of an effect that it has no option for, or a value or joints "
+     "that make no sense. --set takes KEY=VALUE as [effects] in cell.toml does; "
+     "cycles_per_turn=7.91,17.49 is two effects at once."},
     {"E-MODEL-MALFORMED", "The structure of the file is broken."},
     {"E-MODEL-INCONSISTENT",
      "The file is whole, but its content makes no sense: a number out of range, a tree that points "

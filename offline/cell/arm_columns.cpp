@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cell/column_names.hpp"
+#include "cell/context_columns.hpp"
 #include "cell/rotation.hpp"
 #include "cell/table_place.hpp"
 
@@ -139,6 +140,7 @@ ArmColumns find_arm_columns(const Table& table, const std::vector<bool>& joint_i
   out.sigma = find_companions(table, "s", "um", out.p, problems);
   out.nominal = find_companions(table, "n", "mm", out.p, problems);
   check_sigma(table, out.sigma, problems);
+  check_context_columns(table, joint_is_angle, problems);
   out.pose = table.find("pose");
   out.set = table.find("set");
   return out;

@@ -40,10 +40,12 @@ struct HeldOutRule {
   int folds = 5;                    // kFolds
   std::string column = "set";       // kColumn
   std::filesystem::path file = {};  // kFile, absolute
+  Place named_at = {};              // where the cell file says so, if it does
 };
 
 struct MeasurementSettings {
   std::vector<std::filesystem::path> files;  // absolute
+  std::vector<Place> named_at;               // of each file in the cell file, if it was read there
   bool fit_frame = true;
   format::Pose X_MB;  // base in the measurement frame, if not fitted
   bool fit_target = true;

@@ -52,6 +52,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CSV-BINARY",
      "A measurement file is text, and this one holds zero bytes: a spreadsheet or an archive, "
      "perhaps. Save the table as CSV in UTF-8."},
+    {"E-CSV-CONTEXT",
+     "A value that cannot be: a direction dir_jN is 1, -1 or 0 (not known), the size of a travel "
+     "and "
+     "a payload are 0 or more, a temperature lies above -273.15 degC."},
     {"E-CSV-DUPLICATE",
      "Two columns mean the same quantity, for example q1_deg and q1_rad. Delete one: nothing says "
      "which is right."},
@@ -110,6 +114,9 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CSV-SIGMA",
      "A standard deviation of zero would give its reading all the weight. Give the instrument's "
      "1 sigma, or delete the columns and set sigma_um in cell.toml."},
+    {"E-CSV-TIME",
+     "The column 'time' holds dates and times of ISO 8601, 2026-03-01T12:30:00 for example, with a "
+     "zone or without. Give seconds in a column t_s instead if there is no date."},
     {"E-CSV-UNIT",
      "Every numeric column carries its unit in its name: x_mm, q1_deg, temp_degC. Units are mm, m, "
      "um, in, deg, rad, mrad, urad, kg, g, degC, K, s, ms, us, N, Nm. Only pose, repeat, set, "
@@ -159,11 +166,17 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "Joints without limits are taken to reach ±360° or ±10 m. Limits bound the poses that are "
      "simulated and planned, so give them: q = [min, max]."},
     {"N-CSV-SEMICOLON",
-     "The header is separated by ';', so a comma in a number is read as the decimal sign."},
+     "The header is separated by ';', so a comma in a number is read as the decimal sign; a point "
+     "is "
+     "too, and the message says which one the numbers have."},
     {"W-CELL-ANGLE",
      "An angle looks as if it were in another unit: 90 in a file in radians, 1.5708 in a file in "
      "degrees, or joint limits of a few degrees or of many turns. Check angle_unit in [robot]."},
     {"W-CELL-LENGTH", "A link is longer than 20 m. Check length_unit in [robot]."},
+    {"W-CSV-COLUMN",
+     "A column of that name is not known, so nothing reads it; but it differs by a slip from one "
+     "that "
+     "is. Columns of your own are welcome under any other name."},
     {"W-CSV-DOUBLE",
      "Rows are identical to the last digit. Copied by mistake they count twice and make the noise "
      "look smaller than it is; a true repeat has its own reading."},

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/column_names.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <map>
+#include <utility>
+
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -28,6 +32,10 @@ const Names& names_with_unit() {
   static const Names names = [] {
     Names out{
         {"payload", Quantity::kMass}, {"temp", Quantity::kTemperature}, {"t", Quantity::kTime}};
+    for (const char* axis : {"x", "y", "z"}) {
+      out.emplace(std::string("f") + axis, Quantity::kForce);
+      out.emplace(std::string("m") + axis, Quantity::kTorque);
+    }
     for (const char* prefix : {"", "n", "s", "p", "c", "payload_c"})
       for (const char* axis : {"x", "y", "z"})
         out.emplace(std::string(prefix) + axis, Quantity::kLength);
@@ -35,6 +43,45 @@ const Names& names_with_unit() {
     return out;
   }();
   return names;
+}
+
+/// Names that others use for what has another one here.
+const std::map<std::string, std::string, std::less<>>& other_words() {
+  static const std::map<std::string, std::string, std::less<>> words = [] {
+    std::map<std::string, std::string, std::less<>> out{
+        {"temperature", "temp"}, {"time", "t"}, {"load", "payload"}};
+    for (const char* prefix : {"sigma_", "sigma", "std_", "sd_"})
+      for (const char* axis : {"x", "y", "z"})
+        out.emplace(std::string(prefix) + axis, std::string("s") + axis);
+    return out;
+  }();
+  return words;
+}
+
+constexpr int kMostSlips = 2;         // letters wrong, missing, too many or swapped
+constexpr std::size_t kShortest = 3;  // among shorter names everything is near to everything
+
+bool near(std::string_view word, std::string_view known) {
+  if (word.size() < kShortest || known.size() <= kShortest) return false;
+  const int most = std::min(kMostSlips, std::max(1, static_cast<int>(word.size()) / 3));
+  return edit_distance(std::string(word), std::string(known)) <= most;
+}
+
+std::string lower(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+bool is_known(std::string_view name) {
+  return unitless_quantity(name).has_value() || !allowed_quantities(name).empty();
+}
+
+/// "travl_j3": the word, and the number that ends it.
+std::pair<std::string_view, std::string_view> split_number(std::string_view name) {
+  std::size_t end = name.size();
+  while (end > 0 && std::isdigit(static_cast<unsigned char>(name[end - 1])) != 0) --end;
+  return {name.substr(0, end), name.substr(end)};
 }
 
 bool belongs_to_joint(std::string_view name) {
@@ -69,6 +116,8 @@ std::vector<Quantity> allowed_quantities(std::string_view name) {
 }
 
 std::string usual_unit(std::string_view name) {
+  for (const char* angle : {"alpha", "theta", "beta", "q_min", "q_max", "offset"})
+    if (name == angle) return "deg";  // of DH tables
   const auto allowed = allowed_quantities(name);
   if (allowed.empty()) return "mm";
   switch (allowed.front()) {
@@ -80,16 +129,53 @@ std::string usual_unit(std::string_view name) {
       return "degC";
     case Quantity::kTime:
       return "s";
+    case Quantity::kForce:
+      return "N";
+    case Quantity::kTorque:
+      return "Nm";
     default:
       return name.starts_with('s') ? "um" : "mm";
   }
 }
 
 std::optional<std::string> known_spelling(std::string_view name) {
-  std::string lower;
-  for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (lower == name) return std::nullopt;
-  if (unitless_quantity(lower) || !allowed_quantities(lower).empty()) return lower;
+  const std::string small = lower(name);
+  if (small == name || !is_known(small)) return std::nullopt;
+  return small;
+}
+
+std::optional<std::string> misspelt(std::string_view name, Quantity quantity) {
+  const std::string small = lower(name);
+  const auto fits = [&](std::string_view known) {
+    const auto allowed = allowed_quantities(known);
+    return std::find(allowed.begin(), allowed.end(), quantity) != allowed.end();
+  };
+  if (const auto other = other_words().find(small); other != other_words().end())
+    return fits(other->second) ? std::optional(other->second) : std::nullopt;
+  if (is_known(small)) return std::nullopt;
+  for (const auto& [known, kind] : names_with_unit())
+    if (kind == quantity && near(small, known)) return known;
+  if (const auto [word, number] = split_number(small); !number.empty() && near(word, "travel_j"))
+    if (const std::string travel = "travel_j" + std::string(number); fits(travel)) return travel;
+  const auto bar = small.find('_');
+  if (quantity == Quantity::kTemperature && bar != std::string::npos && bar + 1 < small.size() &&
+      (near(small.substr(0, bar), "temp") || small.starts_with("temperature_")))
+    return "temp" + std::string(name.substr(bar));
+  return std::nullopt;
+}
+
+std::optional<std::string> misspelt_header(std::string_view header) {
+  const std::string small = lower(header);
+  if (unitless_quantity(small)) return small;
+  if (!allowed_quantities(small).empty()) return small + "_" + usual_unit(small);
+  for (const auto& [known, kind] : unitless_names())
+    if (near(small, known)) return known;
+  const auto [word, number] = split_number(small);
+  if (!number.empty() && (near(word, "dir_j") || word == "direction_j"))
+    return "dir_j" + std::string(number);
+  for (const Quantity kind : {Quantity::kMass, Quantity::kTemperature, Quantity::kLength,
+                              Quantity::kAngle, Quantity::kTime})
+    if (const auto known = misspelt(small, kind)) return *known + "_" + usual_unit(*known);
   return std::nullopt;
 }
 

@@ -22,6 +22,13 @@ std::string usual_unit(std::string_view name);
 /// The known name that differs from `name` only by its case: "X" is x.
 std::optional<std::string> known_spelling(std::string_view name);
 
+/// The known name that a column of the user's own was perhaps meant to have: "paylod" is payload,
+/// "sigma_x" is sx. Nothing for known names and for those far from all of them.
+std::optional<std::string> misspelt(std::string_view name, Quantity quantity);
+
+/// The same of a header without unit: "psoe" is pose, "Q1" is q1_deg.
+std::optional<std::string> misspelt_header(std::string_view header);
+
 /// The joint number behind a prefix: ("q12", "q") is 12; 0 if there is none.
 int joint_number(std::string_view name, std::string_view prefix);
 

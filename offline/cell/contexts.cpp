@@ -2,10 +2,9 @@
 #include "cell/contexts.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 
+#include "cell/iso_time.hpp"
 #include "cell/measurements.hpp"
 
 namespace plumb::offline {
@@ -58,20 +57,6 @@ std::vector<std::string> sensors_of(std::span<const Table> tables) {
   return out;
 }
 
-/// "2026-03-01T12:30:00.5", UTC or not: only differences count. NaN if it is none.
-double seconds_of(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-  double second = 0.0;
-  if (std::sscanf(text.c_str(), "%d-%d-%d%*[T ]%d:%d:%lf", &year, &month, &day, &hour, &minute,
-                  &second) < 5)
-    return kUnknown;
-  const auto date = std::chrono::year{year} / std::chrono::month(static_cast<unsigned>(month)) /
-                    std::chrono::day(static_cast<unsigned>(day));
-  if (!date.ok()) return kUnknown;
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return static_cast<double>(days) * 86400.0 + hour * 3600.0 + minute * 60.0 + second;
-}
-
 Eigen::VectorXd times_of(std::span<const Table> tables) {
   const auto numbers = gathered(tables, {"t"});
   if (numbers.rows() > 0) return numbers.col(0);
@@ -80,7 +65,7 @@ Eigen::VectorXd times_of(std::span<const Table> tables) {
   for (const auto& table : tables) {
     if (const Column* column = table.find("time"); column != nullptr)
       for (std::size_t i = 0; i < column->text.size(); ++i)
-        out(first + static_cast<int>(i)) = seconds_of(column->text[i]);
+        out(first + static_cast<int>(i)) = iso_seconds(column->text[i]).value_or(kUnknown);
     first += table.rows();
   }
   return out.hasNaN() ? Eigen::VectorXd() : out;

@@ -24,7 +24,8 @@ std::string listed(const std::vector<Quantity>& kinds) {
 
 class HeaderReader {
  public:
-  HeaderReader(const CsvPlace& place, ProblemList& problems) : at_(place), problems_(problems) {}
+  HeaderReader(const CsvPlace& place, TableOf of, ProblemList& problems)
+      : at_(place), of_(of), problems_(problems) {}
 
   Column read(const CsvCell& cell) {
     Column column;
@@ -46,7 +47,8 @@ class HeaderReader {
     const Heading heading = split_heading(column.header);
     const auto unit = unit_of(heading.unit);
     if (!unit)
-      return heading.unit.empty() ? no_unit(cell, column) : bad_unit(cell, column, heading);
+      return heading.unit.empty() || is_name_alone(column.header) ? no_unit(cell, column)
+                                                                  : bad_unit(cell, column, heading);
     column.name = heading.name;
     column.unit = heading.unit;
     column.quantity = unit->quantity;
@@ -67,25 +69,46 @@ class HeaderReader {
           fmt::format("rename it to '{}_{}' if it is meant", *known, column.unit));
   }
 
+  /// A name with an underscore of its own: payload_cx, travel_j1, q_min.
+  bool is_name_alone(const std::string& header) const {
+    if (of_ == TableOf::kRobot) return header == "q_min" || header == "q_max";
+    return misspelt_header(header).has_value();
+  }
+
   void no_unit(const CsvCell& cell, const Column& column) {
-    std::string renamed = column.header + "_" + usual_unit(column.header);
+    const bool robot = of_ == TableOf::kRobot;
+    const auto meant = robot ? std::nullopt : misspelt_header(column.header);
+    std::string renamed = meant.value_or(column.header + "_" + usual_unit(column.header));
     std::replace(renamed.begin(), renamed.end(), ' ', '_');
+    std::string help = fmt::format("rename it to '{}'", renamed);
+    if (!robot)
+      help += fmt::format(", or: plumb import {} --map {}", at_.file,
+                          shell_word(column.header + "=" + renamed));
+    const bool another = meant && !meant->starts_with(column.header + "_");
     problems_.error("E-CSV-UNIT", fmt::format("column '{}' has no unit", column.header),
-                    at_.of(cell.text, "add a unit suffix"),
-                    fmt::format("rename it to '{}', or: plumb import {} --map {}", renamed,
-                                at_.file, shell_word(column.header + "=" + renamed)));
+                    at_.of(cell.text, another ? fmt::format("did you mean '{}'?", renamed)
+                                              : "add a unit suffix"),
+                    help);
   }
 
   void bad_unit(const CsvCell& cell, const Column& column, const Heading& heading) {
+    const auto report = [&](const std::string& label, const std::string& help) {
+      problems_.error("E-CSV-UNIT",
+                      fmt::format("column '{}': '{}' is not a unit", column.header, heading.unit),
+                      at_.of(cell.text, label), help);
+    };
+    if (const auto* foreign = foreign_unit(heading.unit))
+      return report(
+          fmt::format("not one of plumb's: {}", foreign->equals),
+          fmt::format("convert the numbers and rename it to '{}_{}'", heading.name, foreign->use));
+    const std::string name = known_spelling(heading.name).value_or(heading.name);
     const auto guess = did_you_mean(heading.unit, unit_names());
-    problems_.error("E-CSV-UNIT",
-                    fmt::format("column '{}': '{}' is not a unit", column.header, heading.unit),
-                    at_.of(cell.text, "unknown unit"),
-                    guess ? fmt::format("did you mean '{}_{}'?", heading.name, *guess)
-                          : fmt::format("known units: {}", fmt::join(unit_names(), " ")));
+    report("unknown unit", guess ? fmt::format("did you mean '{}_{}'?", name, *guess)
+                                 : fmt::format("known units: {}", fmt::join(unit_names(), " ")));
   }
 
   const CsvPlace& at_;
+  TableOf of_;
   ProblemList& problems_;
 };
 
@@ -117,10 +140,10 @@ char find_separator(std::string_view header) {
 }
 
 std::vector<Column> read_header(const std::vector<CsvCell>& cells, const CsvPlace& place,
-                                ProblemList& problems) {
+                                TableOf of, ProblemList& problems) {
   std::vector<Column> out;
   for (const auto& cell : cells) {
-    Column column = HeaderReader(place, problems).read(cell);
+    Column column = HeaderReader(place, of, problems).read(cell);
     const auto twin = std::find_if(out.begin(), out.end(),
                                    [&](const Column& c) { return same_meaning(c, column); });
     if (twin != out.end() && !column.header.empty())

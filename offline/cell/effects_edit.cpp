@@ -105,9 +105,13 @@ class Editor {
     return comment;
   }
 
+  /// What was added is taken back to the letter: the blank line behind the table is not its own,
+  /// unless another one stands ahead of it.
   void remove(const EffectEntry& old) {
     const std::size_t first = line_of(old);
-    const std::size_t end = is_header(lines_[first]) ? end_of_table(first) : first + 1;
+    std::size_t end = is_header(lines_[first]) ? end_of_table(first) : first + 1;
+    if (first > 0 && !is_blank(lines_[first - 1]))
+      while (end > first + 1 && is_blank(lines_[end - 1])) --end;
     lines_.erase(lines_.begin() + static_cast<long>(first),
                  lines_.begin() + static_cast<long>(end));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cell/cell_sections.hpp"
+#include "cell/effect_option.hpp"
 #include "cell/formula_reader.hpp"
 
 namespace plumb::offline {
@@ -25,70 +26,51 @@ bool is_known(TomlTable& t, const std::string& name) {
   return false;
 }
 
-void read_min_gain(TomlTable& t, EffectEntry& entry) {
-  const toml::node* node = t.node("min_gain");
-  if (node == nullptr) return;
-  double gain = -1.0;
-  if (node->is_string()) gain = parse_percent(*node->value<std::string>()).value_or(-1.0);
-  if (node->is_number()) gain = node->value<double>().value_or(-1.0);
-  if (gain >= 0.0 && gain < 1.0)
-    entry.options["min_gain"] = gain;
-  else
-    t.out_of_range("min_gain", "a share like \"2%\" or 0.02");
-}
-
-/// Words and numbers that say what kind of tree is wanted.
-void read_tree_options(TomlTable& t, EffectEntry& entry) {
-  const auto word = [&](const char* key, const char* usual, const char* other) {
-    if (t.node(key) == nullptr) return;
-    const auto text = t.text(key);
-    if (text && (*text == usual || *text == other))
-      entry.options[key] = *text;
-    else
-      t.out_of_range(key, fmt::format("\"{}\" or \"{}\"", usual, other));
-  };
-  read_min_gain(t, entry);
-  word("form", "blended", "crisp");
-  word("splits", "shared", "own");
-  if (t.node("degree") == nullptr) return;
-  const auto degree = t.number("degree");
-  if (degree && (*degree == 1.0 || *degree == 2.0))
-    entry.options["degree"] = *degree;
-  else
-    t.out_of_range("degree", "1 (affine leaves) or 2 (quadratic ones too)");
-}
-
-/// A number or a text that an effect may be given.
-struct Option {
-  const char* effect;
-  const char* key;
-  bool is_text = false;
-  bool required = false;
-};
-
-constexpr Option kOptions[] = {{"gear_ripple", "cycles_per_turn", false, true},
-                               {"joint_compliance_soft", "torque_Nm"},
-                               {"backlash_load", "torque_Nm"},
-                               {"reversal", "transition_deg"},
-                               {"drift", "settling_s"},
-                               {"thermal_growth", "sensor", true},
-                               {"thermal_growth", "reference_degC"},
-                               {"step", "after_row", false, true},
-                               {"step", "of", true},
-                               {"gravity_compensator", "length_ratio"},
-                               {"gravity_compensator", "anchor_ratio"}};
-
-void read_options(const std::string& name, TomlTable& t, EffectEntry& entry) {
-  for (const auto& option : kOptions) {
-    if (name != option.effect) continue;
-    if (option.is_text) {
-      if (const auto text = t.text(option.key)) entry.options[option.key] = *text;
-    } else if (const auto number = t.number(option.key)) {
-      entry.options[option.key] = *number;
-    } else if (option.required && t.node(option.key) == nullptr) {
-      t.missing(option.key, fmt::format("add {} = 1 to [effects.{}]", option.key, name));
-    }
+void read_option(const EffectOption& option, TomlTable& t, EffectEntry& entry) {
+  using Takes = EffectOption::Takes;
+  const std::string key(option.key);
+  const toml::node* node = t.node(key);
+  if (node == nullptr) {
+    if (option.required)
+      t.missing(key, fmt::format("add {} = {} to [effects.{}]", key, option.example, entry.name));
+    return;
   }
+  const auto keep = [&](const auto& value, bool good) {
+    if (good)
+      entry.options[key] = value;
+    else
+      t.out_of_range(key, option.rule);
+  };
+  if (option.takes == Takes::kText || option.takes == Takes::kWord) {
+    if (const auto text = t.text(key)) keep(*text, makes_sense(option, *text));
+  } else if (option.takes == Takes::kShare && node->is_string()) {
+    const auto share = parse_percent(*node->value<std::string>());
+    keep(share.value_or(0.0), share && makes_sense(option, *share));
+  } else if (const auto number = t.number(key)) {
+    keep(*number, makes_sense(option, *number));
+  }
+}
+
+void read_joints(TomlTable& t, CellDraft& draft, EffectEntry& entry) {
+  bool known = true;
+  for (const auto& [joint, node] : t.texts("joints")) {
+    const int index = draft.joint_index(joint);
+    known = known && index >= 0;
+    if (index < 0)
+      unknown_joint(t, joint, *node, draft);
+    else
+      entry.joints.push_back(index);
+  }
+  const std::string fault = joints_fault(entry);
+  if (fault.empty() || !known) return;
+  const std::string message = fmt::format("effect '{}' {}", entry.name, fault);
+  const std::string help = entry.joints.empty()
+                               ? fmt::format("add joints = [...] to [effects.{}]", entry.name)
+                               : "correct the list, or delete it";
+  if (const toml::node* node = t.node("joints"))
+    t.error("E-CELL-JOINT", message, *node, "not these", help);
+  else
+    t.source().problems().error("E-CELL-JOINT", message, t.place("belongs here"), help);
 }
 
 void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
@@ -99,16 +81,25 @@ void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
     draft.cell.effects.push_back(std::move(entry));
     return;
   }
-  for (const auto& [joint, node] : t.texts("joints")) {
-    const int index = draft.joint_index(joint);
-    if (index < 0)
-      unknown_joint(t, joint, *node, draft);
-    else
-      entry.joints.push_back(index);
-  }
-  if (name == "local_tree") read_tree_options(t, entry);
-  read_options(name, t, entry);
+  for (const EffectOption* option : options_of(name)) read_option(*option, t, entry);
+  fill_in_usual(entry);
+  read_joints(t, draft, entry);
   t.done();
+  draft.cell.effects.push_back(std::move(entry));
+}
+
+/// An effect that is only switched on: NAME = true.
+void read_plain(const std::string& name, const toml::node& node, TomlTable& t, CellDraft& draft) {
+  EffectEntry entry{
+      .name = name, .joints = {}, .options = {}, .place = t.source().place(node.source(), "")};
+  for (const EffectOption* option : options_of(name))
+    if (option->required)
+      return t.error("E-CELL-MISSING", fmt::format("effect '{}' needs '{}'", name, option->key),
+                     node, "a table is needed",
+                     fmt::format("{} = {{ {} = {} }}", name, option->key, option->example));
+  if (const std::string fault = joints_fault(entry); !fault.empty())
+    return t.error("E-CELL-JOINT", fmt::format("effect '{}' {}", name, fault), node,
+                   "a table is needed", fmt::format("{} = {{ joints = [\"J2\", \"J3\"] }}", name));
   draft.cell.effects.push_back(std::move(entry));
 }
 
@@ -117,11 +108,7 @@ void read_entries(const std::string& name, TomlTable& t, CellDraft& draft) {
   if (node.is_array()) {
     for (auto& entry : t.tables(name)) read_effect(name, entry, draft);
   } else if (node.is_boolean() && name != "formula") {
-    if (*node.value<bool>())
-      draft.cell.effects.push_back({.name = name,
-                                    .joints = {},
-                                    .options = {},
-                                    .place = t.source().place(node.source(), "")});
+    if (*node.value<bool>()) read_plain(name, node, t, draft);
   } else if (auto entry = t.table(name)) {
     read_effect(name, *entry, draft);
   }

@@ -31,20 +31,24 @@ void read_files(TomlTable& t, CellDraft& draft) {
     else if (std::find(files.begin(), files.end(), file) != files.end())
       t.error("E-CELL-RANGE", fmt::format("'{}' names '{}' twice", t.name("files"), text), *node,
               "second one", "delete one: every reading would count double");
-    else
+    else {
       files.push_back(file);
+      draft.cell.measurement.named_at.push_back(t.source().place(node->source(), "named here"));
+    }
   }
 }
 
 void read_held_out(TomlTable& t, CellDraft& draft) {
   const auto text = t.text("held_out");
   if (!text) return;
-  if (const auto rule = parse_held_out(*text, draft.cell.directory))
-    draft.cell.measurement.held_out = *rule;
-  else
+  if (auto rule = parse_held_out(*text, draft.cell.directory)) {
+    rule->named_at = t.source().place(t.node("held_out")->source(), "named here");
+    draft.cell.measurement.held_out = *std::move(rule);
+  } else {
     t.error("E-CELL-HELD", fmt::format("'{}' is \"{}\"", t.name("held_out"), *text),
             *t.node("held_out"), "not a rule",
             "write \"auto\", \"20%\", \"kfold:5\", \"column:set\" or \"file:verify.csv\"");
+  }
 }
 
 void read_seed(TomlTable& t, MeasurementSettings& m) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cell/column_names.hpp"
 #include "cell/table_place.hpp"
 
 namespace plumb::offline {
@@ -29,6 +30,19 @@ void warn_of_name(Table& table, int row, const std::string& pose) {
 }
 
 }  // namespace
+
+void warn_of_misspelt(Table& table) {
+  for (const auto& column : table.columns) {
+    const auto meant = misspelt(column.name, column.quantity);
+    if (!meant || table.find(*meant) != nullptr) continue;
+    const std::string name = *meant + "_" + column.unit;
+    table.remarks.push_back(
+        {Severity::kWarning, "W-CSV-COLUMN",
+         fmt::format("column '{}' is not known, so nothing reads it", column.header),
+         place_in_header(table, column, fmt::format("did you mean '{}'?", name)),
+         fmt::format("rename it to '{}' if it is meant", name)});
+  }
+}
 
 void warn_of_doubles(Table& table) {
   std::vector<std::pair<std::size_t, int>> hashes(table.rows());

@@ -5,6 +5,10 @@
 
 namespace plumb::offline {
 
+/// W-CSV-COLUMN: a column that means nothing here, but whose name is that of a known one but for a
+/// slip. Added to the table's remarks.
+void warn_of_misspelt(Table& table);
+
 /// W-CSV-DOUBLE: a row copied by mistake counts twice and makes the noise look smaller than it is.
 /// Added to the table's remarks, once a file.
 void warn_of_doubles(Table& table);

@@ -35,7 +35,10 @@ class Assembler {
     problems_.stop_on_errors();
     m_.replicate_group = replicate_groups(names_, file_, m_.q);
     m_.context = read_contexts(tables_, m_.q);
-    for (auto& table : tables_) warn_of_doubles(table);
+    for (auto& table : tables_) {
+      warn_of_misspelt(table);
+      warn_of_doubles(table);
+    }
     m_.tables = std::move(tables_);
     warn_of_names(m_);
     return std::move(m_);

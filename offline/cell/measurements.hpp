@@ -52,10 +52,14 @@ struct Table {
   const Column* find(std::string_view name) const;
 };
 
+/// What a table is about; messages propose other names for the columns of a DH table.
+enum class TableOf { kMeasurements, kRobot };
+
 /// Reads a CSV file strictly: UTF-8, header with units, no ragged rows, only finite numbers.
 /// Throws Failure with all problems (exit 3).
-Table read_table(const std::filesystem::path& file);
-Table parse_table(std::string_view text, const std::string& file_name);
+Table read_table(const std::filesystem::path& file, TableOf of = TableOf::kMeasurements);
+Table parse_table(std::string_view text, const std::string& file_name,
+                  TableOf of = TableOf::kMeasurements);
 
 /// Values with mask: what a file says of the measured point.
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
+#include <string>
 
 #include "cell/cell_sections.hpp"
 #include "cell/rotation.hpp"
@@ -42,9 +44,26 @@ class RobotReader {
     if (t_.node("dh_convention") == nullptr)
       return t_.missing("dh_convention",
                         "dh_convention = \"standard\" (distal) or \"modified\" (Craig)");
+    if (const char* meant = other_name(t_.text_or("dh_convention", "")))
+      return t_.error(
+          "E-CELL-RANGE",
+          fmt::format("'{}' is \"{}\"", t_.name("dh_convention"), t_.text_or("dh_convention", "")),
+          *t_.node("dh_convention"), fmt::format("did you mean \"{}\"?", meant),
+          fmt::format("dh_convention = \"{}\"", meant));
     cell_.nominal.convention = t_.choice("dh_convention", {"standard", "modified"}) == "modified"
                                    ? format::Convention::kModified
                                    : format::Convention::kStandard;
+  }
+
+  /// Books name the conventions by where the frame sits on the link, or by their authors.
+  static const char* other_name(std::string word) {
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (word == "craig" || word == "proximal" || word == "khalil" || word == "mdh")
+      return "modified";
+    if (word == "distal" || word == "classic" || word == "classical" || word == "paul" ||
+        word == "spong" || word == "sdh")
+      return "standard";
+    return nullptr;
   }
 
   void joints() {

@@ -18,7 +18,9 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 class TableReader {
  public:
-  TableReader(std::string_view text, const std::string& file) : text_(text) { table_.file = file; }
+  TableReader(std::string_view text, const std::string& file, TableOf of) : text_(text), of_(of) {
+    table_.file = file;
+  }
 
   Table read() {
     check_bytes(text_, table_.file);
@@ -30,6 +32,11 @@ class TableReader {
     }
     check_content();
     problems_.stop_on_errors();
+    if (separator_ == ';')
+      problems_.note("N-CSV-SEMICOLON",
+                     fmt::format("read with ';' between columns and decimal {}",
+                                 commas_ ? "commas" : "points"),
+                     semicolon_, "");
     table_.raw_rows = KeptRows(std::move(kept_), std::move(begins_), std::move(sizes_));
     table_.remarks = std::move(problems_.remarks());
     return std::move(table_);
@@ -61,12 +68,10 @@ class TableReader {
                       here(line).of(line, ""), fmt::format("plumb import {}", table_.file));
       problems_.stop_on_errors();
     }
-    if (separator_ == ';')
-      problems_.note("N-CSV-SEMICOLON", "read with ';' between columns and decimal commas",
-                     here(line).of(line.substr(line.find(';'), 1), "separator"), "");
+    if (separator_ == ';') semicolon_ = here(line).of(line.substr(line.find(';'), 1), "separator");
     if (!cut(line)) return;
     const CsvPlace place = here(line);
-    table_.columns = read_header(cells_, place, problems_);
+    table_.columns = read_header(cells_, place, of_, problems_);
     for (const auto& column : table_.columns)
       units_.push_back(unit_of(column.unit).value_or(Unit{}));
     reserve();
@@ -131,6 +136,7 @@ class TableReader {
       return;
     }
     double value = 0.0;
+    commas_ = commas_ || cells_[i].text.find(',') != std::string_view::npos;
     NumberFault fault = read_number(cells_[i].text, separator_, value);
     value = units_[i].to_si(value);
     if (fault == NumberFault::kNone && !std::isfinite(value)) fault = NumberFault::kOutOfRange;
@@ -190,6 +196,7 @@ class TableReader {
   CsvPlace here(std::string_view line) const { return {table_.file, line_number_, line}; }
 
   std::string_view text_;
+  TableOf of_;
   Table table_;
   ProblemList problems_;
   std::vector<CsvCell> cells_;
@@ -197,6 +204,8 @@ class TableReader {
   std::string kept_;
   std::vector<std::size_t> begins_, sizes_;
   char separator_ = ',';
+  Place semicolon_;      // the first one of the header
+  bool commas_ = false;  // in a number
   int line_number_ = 0;
 };
 
@@ -208,14 +217,14 @@ const Column* Table::find(std::string_view name) const {
   return nullptr;
 }
 
-Table parse_table(std::string_view text, const std::string& file_name) {
-  Table table = TableReader(text, file_name).read();
+Table parse_table(std::string_view text, const std::string& file_name, TableOf of) {
+  Table table = TableReader(text, file_name, of).read();
   table.sha256 = sha256(text);
   return table;
 }
 
-Table read_table(const std::filesystem::path& file) {
-  return parse_table(read_file(file), display_name(file));
+Table read_table(const std::filesystem::path& file, TableOf of) {
+  return parse_table(read_file(file), display_name(file), of);
 }
 
 }  // namespace plumb::offline

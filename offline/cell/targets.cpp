@@ -7,6 +7,8 @@
 
 #include "cell/arm_columns.hpp"
 #include "cell/column_names.hpp"
+#include "cell/context_columns.hpp"
+#include "cell/measurement_warnings.hpp"
 #include "cell/table_place.hpp"
 
 namespace plumb::offline {
@@ -24,7 +26,9 @@ class TargetReader {
     read_orientations();
     out_.commanded = has_joints("qc");
     if (has_joints("qc") || has_joints("q")) read_seed(out_.commanded ? "qc" : "q");
+    check_context_columns(out_.table, is_angle_, problems_);
     problems_.stop_on_errors();
+    warn_of_misspelt(out_.table);
     const auto joints = static_cast<Eigen::Index>(is_angle_.size());
     out_.context = read_contexts({&out_.table, 1}, RowsN::Zero(out_.table.rows(), joints));
     return std::move(out_);

@@ -34,7 +34,32 @@ constexpr std::array<std::pair<std::string_view, Unit>, 17> kUnits{{
     {"Nm", {Quantity::kTorque}},
 }};
 
+constexpr auto kForeign = std::to_array<ForeignUnit>({
+    {"cm", "mm", "1 cm = 10 mm"},
+    {"dm", "mm", "1 dm = 100 mm"},
+    {"km", "m", "1 km = 1000 m"},
+    {"nm", "um", "1 nm = 0.001 um"},
+    {"ft", "in", "1 ft = 12 in"},
+    {"rev", "deg", "1 rev = 360 deg"},
+    {"turns", "deg", "1 turn = 360 deg"},
+    {"gon", "deg", "1 gon = 0.9 deg"},
+    {"grad", "deg", "1 grad = 0.9 deg"},
+    {"arcmin", "deg", "1 arcmin = 1/60 deg"},
+    {"arcsec", "urad", "1 arcsec = 4.848137 urad"},
+    {"lb", "kg", "1 lb = 0.45359237 kg"},
+    {"degF", "degC", "x degF = (x - 32) 5/9 degC"},
+    {"kN", "N", "1 kN = 1000 N"},
+    {"lbf", "N", "1 lbf = 4.448222 N"},
+    {"kNm", "Nm", "1 kNm = 1000 Nm"},
+});
+
 }  // namespace
+
+const ForeignUnit* foreign_unit(std::string_view name) {
+  for (const auto& unit : kForeign)
+    if (unit.name == name) return &unit;
+  return nullptr;
+}
 
 std::optional<Unit> unit_of(std::string_view name) {
   for (const auto& [text, unit] : kUnits)

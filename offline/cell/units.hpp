@@ -36,6 +36,12 @@ struct Heading {
 };
 Heading split_heading(std::string_view header);
 
+/// A unit that others use and plumb does not: it is converted, never taken for its neighbour.
+struct ForeignUnit {
+  std::string_view name, use, equals;  // "cm", "mm", "1 cm = 10 mm"
+};
+const ForeignUnit* foreign_unit(std::string_view name);
+
 /// Every unit, for messages.
 const std::vector<std::string>& unit_names();
 

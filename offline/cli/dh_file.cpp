@@ -118,7 +118,7 @@ class DhReader {
 
 format::Chain read_dh(const std::filesystem::path& file, format::Convention convention,
                       Outcome& outcome) {
-  const Table table = read_table(file);
+  const Table table = read_table(file, TableOf::kRobot);
   outcome.inputs.push_back({table.file, table.sha256});
   outcome.remark(table.remarks);
   format::Chain chain;

@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
+#include "cell/effect_option.hpp"
 #include "cell/effects_edit.hpp"
 #include "cli/effect_naming.hpp"
 
@@ -30,13 +29,16 @@ std::vector<std::string> parts(const std::string& text, char separator) {
 
 void read_number(const std::string& text, EffectEntry& out) {
   const auto equals = text.find('=');
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  if (equals == std::string::npos ||
-      std::from_chars(text.data() + equals + 1, end, number).ptr != end)
-    refuse(fmt::format("'@{}' is no KEY=NUMBER", text),
+  const std::string key = text.substr(0, equals);
+  const EffectOption* option = find_option(out.name, key);
+  const auto value = option == nullptr || equals == std::string::npos
+                         ? std::nullopt
+                         : option_value(*option, text.substr(equals + 1));
+  if (!value || !std::holds_alternative<double>(*value))
+    refuse(option == nullptr ? fmt::format("'@{}' is no KEY=NUMBER of {}", text, out.name)
+                             : fmt::format("'@{}': '{}' must be {}", text, key, option->rule),
            "plumb plan --separate gear_ripple:J2@cycles_per_turn=20,gear_harmonics:J2");
-  out.options[text.substr(0, equals)] = number;
+  out.options[key] = *value;
 }
 
 EffectEntry one_effect(const Cell& cell, const std::string& text) {

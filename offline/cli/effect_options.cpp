@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 
+#include "cell/effect_option.hpp"
 #include "cli/effect_naming.hpp"
+#include "program/shell_word.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -17,19 +19,80 @@ constexpr const char* kUsageCode = "E-USAGE";
                 {.code = kUsageCode, .message = std::move(message), .help = std::move(help)});
 }
 
-/// A number where it reads as one; a share like "2%" too; else the text, for the reader to judge.
-EffectEntry::Value value_of(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size()) return number;
-  if (const auto share = parse_percent(text)) return *share;
-  return text;
+[[noreturn]] void refuse_option(std::string message, std::string given, std::string help) {
+  Problem problem{
+      .code = "E-EFFECT-OPTION", .message = std::move(message), .help = std::move(help)};
+  if (!given.empty()) problem.place.emplace().file = std::move(given);
+  throw Failure(Exit::kUsage, std::move(problem));
 }
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+std::vector<std::string> parts(const std::string& text) {
+  std::vector<std::string> out;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    out.push_back(trimmed(text.substr(at, end - at)));
+    at = end + 1;
+  }
+  return out;
+}
+
+const EffectOption& option_named(const std::string& effect, const std::string& key,
+                                 const std::string& given) {
+  if (const auto* option = find_option(effect, key)) return *option;
+  std::vector<std::string> known;
+  for (const auto* option : options_of(effect)) known.emplace_back(option->key);
+  const auto guess = did_you_mean(key, known);
+  refuse_option(fmt::format("{} has no option '{}'", effect, key), given,
+                guess           ? fmt::format("did you mean '{}'?", *guess)
+                : known.empty() ? "leave it out: it takes no options"
+                                : fmt::format("its options: {}", fmt::join(known, ", ")));
+}
+
+/// Each effect of `entries` with each of the values of "KEY=VALUE,VALUE".
+std::vector<EffectEntry> with_option(const std::vector<EffectEntry>& entries,
+                                     const std::string& text) {
+  const std::string& effect = entries.front().name;
+  const std::string given = "--set " + shell_word(text);
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    refuse(fmt::format("--set: '{}' is not KEY=VALUE", text), "--set cycles_per_turn=20");
+  const std::string key = text.substr(0, equals), values = text.substr(equals + 1);
+  const EffectOption& option = option_named(effect, key, given);
+  std::vector<EffectEntry> out;
+  for (const auto& part : option.lists ? parts(values) : std::vector<std::string>{values}) {
+    const auto value = option_value(option, part);
+    if (!value)
+      refuse_option(fmt::format("'{}' of {} must be {}{}", key, effect, option.rule,
+                                option.lists ? "; several with commas between" : ""),
+                    given, fmt::format("--set {}={}", key, option.example));
+    for (EffectEntry entry : entries) {
+      entry.options[key] = *value;
+      if (std::any_of(out.begin(), out.end(),
+                      [&](const EffectEntry& other) { return other.options == entry.options; }))
+        refuse_option(fmt::format("'{}' of {} is given twice: {}", key, effect, part), given,
+                      "leave one out");
+      out.push_back(std::move(entry));
+    }
+  }
+  return out;
+}
+
+/// What a whole effect cannot do without.
+void check_whole(const EffectEntry& entry, const std::string& joints) {
+  for (const auto* option : options_of(entry.name))
+    if (option->required && !entry.options.contains(std::string(option->key)))
+      refuse_option(fmt::format("{} needs '{}': {}", entry.name, option->key, option->rule), "",
+                    fmt::format("--set {}={}", option->key, option->example));
+  if (const std::string fault = joints_fault(entry); !fault.empty())
+    refuse_option(fmt::format("{} {}", entry.name, fault),
+                  joints.empty() ? "" : "--joints " + joints,
+                  entry.joints.empty() ? "--joints J2,J3" : "plumb explain " + entry.name);
 }
 
 /// "dq2 = k * tau2": what moves, and by how much.
@@ -58,7 +121,7 @@ void EffectOptions::add_to(CLI::App& verb, bool law_too) {
       ->type_name("WORD");
 }
 
-EffectEntry EffectOptions::entry(const Cell& cell) const {
+std::vector<EffectEntry> EffectOptions::to_drop(const Cell& cell) const {
   require_effect(name, kUsageCode);
   const bool lawful = !formula.empty() || !parameters.empty() || !domain.empty();
   if (name != "formula" && (lawful || !formula_name.empty()))
@@ -67,19 +130,36 @@ EffectEntry EffectOptions::entry(const Cell& cell) const {
            kFormulaExample);
   if (name == "formula" && !joints.empty())
     refuse("a formula says itself which joints it reads and moves", kFormulaExample);
-  EffectEntry out{.name = name, .joints = {}, .options = {}, .place = {}};
-  for (const auto& joint : joints) out.joints.push_back(joint_named(cell, joint, kUsageCode));
-  for (const auto& text : set) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      refuse(fmt::format("--set: '{}' is not KEY=VALUE", text), "--set cycles_per_turn=20");
-    out.options[text.substr(0, equals)] = value_of(text.substr(equals + 1));
-  }
-  if (!formula.empty()) set_law(formula, out);
-  if (!parameters.empty()) out.options["parameters"] = parameters;
-  if (!formula_name.empty()) out.options["name"] = formula_name;
-  if (!domain.empty()) out.options["domain"] = domain;
+  EffectEntry one{.name = name, .joints = {}, .options = {}, .place = {}};
+  for (const auto& joint : joints) one.joints.push_back(joint_named(cell, joint, kUsageCode));
+  if (!formula.empty()) set_law(formula, one);
+  if (!parameters.empty()) one.options["parameters"] = parameters;
+  if (!formula_name.empty()) one.options["name"] = formula_name;
+  if (!domain.empty()) one.options["domain"] = domain;
+  std::vector<EffectEntry> out{std::move(one)};
+  for (const auto& text : set) out = with_option(out, text);
   return out;
+}
+
+std::vector<EffectEntry> EffectOptions::to_add(const Cell& cell) const {
+  auto out = to_drop(cell);
+  for (auto& entry : out) {
+    fill_in_usual(entry);
+    check_whole(entry, fmt::format("{}", fmt::join(joints, ",")));
+  }
+  if (name == "formula" && formula.empty()) refuse("formula needs a law", kFormulaExample);
+  return out;
+}
+
+std::string EffectOptions::option_at(const Place& place) const {
+  const std::string line = trimmed(place.source);
+  if (line.starts_with("parameters"))
+    return fmt::format("--parameter {}",
+                       shell_word(fmt::format("{}", fmt::join(parameters, ", "))));
+  if (line.starts_with("name")) return "--name " + shell_word(formula_name);
+  if (line.starts_with("domain")) return "--domain " + shell_word(domain);
+  if (name == "formula") return "--formula " + shell_word(formula);
+  return set.empty() ? name : "--set " + shell_word(fmt::format("{}", fmt::join(set, " --set ")));
 }
 
 }  // namespace plumb::offline::cli

@@ -14,6 +14,7 @@ inline constexpr const char* kFormulaExample =
 
 /// An effect on the command line: NAME [--joints J2,J3] [--set KEY=VALUE ...], and for the user's
 /// own formula --formula "dq2 = k * tau2" --parameter "k [rad/(N m)] ~ 1e-6" --name N --domain D.
+/// --set cycles_per_turn=7.91,17.49 is two effects.
 struct EffectOptions {
   std::string name;
   std::vector<std::string> joints;
@@ -26,8 +27,15 @@ struct EffectOptions {
   /// The options that name an effect; `law_too` adds those that define a formula.
   void add_to(CLI::App& verb, bool law_too);
 
-  /// As it would stand in the cell file. Throws Failure (kUsage) with "did you mean".
-  EffectEntry entry(const Cell& cell) const;
+  /// As they would stand in the cell file, whole. Throws Failure (kUsage) with "did you mean".
+  std::vector<EffectEntry> to_add(const Cell& cell) const;
+
+  /// As far as they are described. Throws Failure (kUsage) with "did you mean".
+  std::vector<EffectEntry> to_drop(const Cell& cell) const;
+
+  /// The option that a place in the text of a cell with these effects comes from:
+  /// "--formula 'dq2 = tau9'".
+  std::string option_at(const Place& place) const;
 };
 
 }  // namespace plumb::offline::cli

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cli/number_rules.hpp"
+
 namespace plumb::offline::cli {
 namespace {
 
@@ -56,6 +58,7 @@ void add_measuring_options(CLI::App& verb, SimulateOptions& options) {
       ->capture_default_str();
   verb.add_option("--seed", options.seed, "Seed of arm, poses and noise")
       ->type_name("N")
+      ->check(seed_number())
       ->capture_default_str();
 }
 
@@ -77,7 +80,7 @@ void add_session_options(CLI::App& verb, SimulateOptions& options) {
       ->capture_default_str();
   verb.add_option("--seconds", options.seconds, "Time from row to row")
       ->type_name("S")
-      ->check(CLI::PositiveNumber)
+      ->check(greater_than_zero())
       ->capture_default_str();
   verb.add_option("--fresh", options.fresh, "Also fresh poses of the same session, noise-free")
       ->type_name("FILE");

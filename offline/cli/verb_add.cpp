@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "cli/cell_writing.hpp"
 #include "cli/effect_options.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/verdict.hpp"
+#include "fit/cell_data.hpp"
 #include "fit/verdict.hpp"
+#include "program/file.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/effect_arguments.hpp"
 #include "show/text_table.hpp"
@@ -39,21 +43,50 @@ std::string judged(const std::string& what, const Fit& before, const Fit& after)
                      show::mm(before.held.mean), show::mm(after.held.mean), 100.0 * change);
 }
 
+/// An effect of the command line stands in no file yet: what is wrong with it is said of the option
+/// it comes from.
+void checked(const EffectOptions& options, const Cell& cell, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Failure& failure) {
+    std::vector<Problem> problems = failure.problems();
+    bool ours = false;
+    for (auto& problem : problems) {
+      if (!problem.place || problem.place->line <= 0 ||
+          problem.place->file != display_name(cell.file))
+        continue;
+      problem.place = Place{.file = options.option_at(*problem.place)};
+      ours = true;
+    }
+    throw Failure(ours ? Exit::kUsage : failure.exit_code(), std::move(problems));
+  }
+}
+
+/// What is done, and how it is taken back.
+struct Change {
+  std::string what, undo;
+  std::vector<EffectEntry> effects;
+};
+
 /// Refits with other effects, shows before and after, and only then touches the cell file.
-void change(const Options& options, const std::string& what, const std::string& undo,
-            const Cell& cell, const std::vector<EffectEntry>& effects, Outcome& outcome) {
-  const Cell edited = with_effects(cell, effects);
+void make(const Change& change, const Options& options, const Cell& cell, Outcome& outcome) {
+  std::optional<Cell> read_back;
+  checked(options.effect, cell, [&] { read_back = with_effects(cell, change.effects); });
+  const Cell& edited = *read_back;
   Measurements measured = open_measurements(cell, outcome);
+  checked(options.effect, cell, [&] { check_rows(edited, measured); });
   const Keep keep_it = options.dry_run ? Keep::kNothing : Keep::kRun;
   const Run before = current_or_new_run(cell, measured, keep_it, outcome);
   stand_on_base_of(before, cell, measured);
-  Fit fitted = fit_with_progress(edited, measured, outcome);
+  Fit fitted;
+  checked(options.effect, cell, [&] { fitted = fit_with_progress(edited, measured, outcome); });
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);
   outcome.result["run_before"] = before.number;
   outcome.result["verdict"] = verdict(fitted, cell.tolerance_m);
-  outcome.text = judged(what, before.fit, fitted) + "\n\n" + before_and_after(before.fit, fitted) +
-                 "\n" + verdict(fitted, cell.tolerance_m) + "\n";
+  outcome.text = judged(change.what, before.fit, fitted) + "\n\n" +
+                 before_and_after(before.fit, fitted) + "\n" + verdict(fitted, cell.tolerance_m) +
+                 "\n";
   replace_cell(edited, options.dry_run, outcome);
   if (options.dry_run) {
     show::put_null(outcome.result, "run", "--dry-run keeps nothing");
@@ -61,50 +94,76 @@ void change(const Options& options, const std::string& what, const std::string& 
   }
   const Run after = keep(edited, measured, std::move(fitted));
   outcome.result["run"] = after.number;
-  outcome.text += fmt::format("kept as run {}; to take it back: plumb {}\n", after.number, undo);
+  outcome.text +=
+      fmt::format("kept as run {}; to take it back: plumb {}\n", after.number, change.undo);
+}
+
+/// "gear ripple of J2, 7.91 and 17.49 cycles a turn"
+std::string together(const Cell& cell, const std::vector<EffectEntry>& entries) {
+  std::vector<double> cycles;
+  for (const auto& entry : entries)
+    if (const auto it = entry.options.find("cycles_per_turn"); it != entry.options.end())
+      cycles.push_back(std::get<double>(it->second));
+  if (cycles.size() == entries.size()) return in_words(cell, entries.front(), cycles);
+  std::vector<std::string> out;
+  for (const auto& entry : entries) out.push_back(in_words(cell, entry));
+  return fmt::format("{}", fmt::join(out, " and "));
+}
+
+void say_which(const Cell& cell, const std::vector<EffectEntry>& entries, Outcome& outcome) {
+  outcome.result["effect"] = entries.front().name;
+  outcome.result["joints"] = show::joints_json(cell, entries.front());
 }
 
 void add(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  const EffectEntry entry = options.effect.entry(cell);
-  outcome.result["effect"] = entry.name;
-  outcome.result["joints"] = show::joints_json(cell, entry);
-  if (entry.name == "formula" && !entry.options.contains("target"))
-    throw Failure(Exit::kUsage,
-                  {.code = "E-USAGE", .message = "formula needs a law", .help = kFormulaExample});
-  if (has_effect(cell.effects, entry))
-    throw Failure(Exit::kInput,
-                  Problem{.code = "E-ADD-TWICE",
-                          .message = fmt::format("the model already has {}", in_words(cell, entry)),
-                          .place = Place{.file = cell.file.string()},
-                          .help = "see what is in it: plumb compare"});
-  change(options, "Added " + in_words(cell, entry), "drop " + show::dropping_arguments(cell, entry),
-         cell, with_effect(cell.effects, entry), outcome);
+  const auto entries = options.effect.to_add(cell);
+  say_which(cell, entries, outcome);
+  Change change{.what = "Added " + together(cell, entries),
+                .undo = "drop " + show::dropping_arguments(cell, entries),
+                .effects = cell.effects};
+  for (const auto& entry : entries) {
+    if (has_effect(cell.effects, entry))
+      throw Failure(Exit::kInput, Problem{.code = "E-ADD-TWICE",
+                                          .message = fmt::format("the model already has {}",
+                                                                 in_words(cell, entry)),
+                                          .place = Place{.file = cell.file.string()},
+                                          .help = "see what is in it: plumb compare"});
+    change.effects = with_effect(change.effects, entry);
+  }
+  make(change, options, cell, outcome);
+}
+
+[[noreturn]] void nothing_to_drop(const Cell& cell, const EffectEntry& entry) {
+  std::vector<std::string> there;
+  for (const auto& e : cell.effects)
+    if (e.name != "geometry") there.push_back(in_words(cell, e));
+  throw Failure(Exit::kInput,
+                {.code = "E-DROP-NONE",
+                 .message = fmt::format("the model has no {}{}", in_words(cell, entry),
+                                        entry.name == "geometry" ? " that could be dropped" : ""),
+                 .place = Place{.file = cell.file.string()},
+                 .help = there.empty() ? "it contains geometry alone"
+                                       : fmt::format("it contains: {}", fmt::join(there, "; "))});
 }
 
 void drop(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  const EffectEntry entry = options.effect.entry(cell);
-  outcome.result["effect"] = entry.name;
-  outcome.result["joints"] = show::joints_json(cell, entry);
-  const auto effects = without_effect(cell.effects, entry);
-  const auto gone = taken_out(cell.effects, effects);
-  if (gone.empty() || entry.name == "geometry") {
-    std::vector<std::string> there;
-    for (const auto& e : cell.effects)
-      if (e.name != "geometry") there.push_back(in_words(cell, e));
-    throw Failure(Exit::kInput,
-                  {.code = "E-DROP-NONE",
-                   .message = fmt::format("the model has no {}{}", in_words(cell, entry),
-                                          entry.name == "geometry" ? " that could be dropped" : ""),
-                   .place = Place{.file = cell.file.string()},
-                   .help = there.empty() ? "it contains geometry alone"
-                                         : fmt::format("it contains: {}", fmt::join(there, "; "))});
+  const auto entries = options.effect.to_drop(cell);
+  say_which(cell, entries, outcome);
+  auto effects = cell.effects;
+  for (const auto& entry : entries) {
+    const auto less = without_effect(effects, entry);
+    if (entry.name == "geometry" || taken_out(effects, less).empty()) nothing_to_drop(cell, entry);
+    effects = less;
   }
   std::vector<std::string> undo;
-  for (const auto& e : gone) undo.push_back("add " + show::adding_arguments(cell, e));
-  change(options, "Dropped " + in_words(cell, entry),
-         fmt::format("{}", fmt::join(undo, " && plumb ")), cell, effects, outcome);
+  for (const auto& words : show::adding_arguments(cell, taken_out(cell.effects, effects)))
+    undo.push_back("add " + words);
+  make({.what = "Dropped " + together(cell, entries),
+        .undo = fmt::format("{}", fmt::join(undo, " && plumb ")),
+        .effects = effects},
+       options, cell, outcome);
 }
 
 using Verb = void (*)(const Options&, const Globals&, Outcome&);
@@ -124,7 +183,7 @@ void add_add(Program& program) {
            {.name = "add",
             .summary = "Put an effect into the model, refit, and watch the held-out error",
             .examples = "  plumb add joint_compliance --joints J2,J3\n"
-                        "  plumb add gear_ripple --joints J2 --set cycles_per_turn=20 --dry-run\n"
+                        "  plumb add gear_ripple --joints J2 --set cycles_per_turn=8,20 --dry-run\n"
                         "  plumb add formula --formula \"dq2 = k*tau2\" "
                         "--parameter \"k [rad/(N m)] ~ 1e-6\""},
            true, add);

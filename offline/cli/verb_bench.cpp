@@ -6,6 +6,7 @@
 
 #include "bench/benchmark.hpp"
 #include "cli/model_file.hpp"
+#include "cli/number_rules.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "program/output_files.hpp"
@@ -91,11 +92,13 @@ void add_bench(Program& program) {
                   "Of each part of the cycle; a hundredth of it, at most 1000, cold")
       ->check(CLI::Range(1L, bench::TimingRequest::kMostCalls))
       ->capture_default_str();
-  verb.add_option("--seed", options->seed, "Of the random poses")->capture_default_str();
+  verb.add_option("--seed", options->seed, "Of the random poses")
+      ->check(seed_number())
+      ->capture_default_str();
   verb.add_option("--max-us", options->max_us,
                   "Gate: exit 1 if a whole step takes longer than this in the median")
       ->type_name("US")
-      ->check(CLI::PositiveNumber);
+      ->check(greater_than_zero());
   CLI::Option* const figure =
       verb.add_option("-o,--output", options->figure, "SVG file: histogram of the latency")
           ->type_name("FILE");

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/cell_data.hpp"
+#include "cli/number_rules.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
 #include "show/fit_view.hpp"
@@ -88,9 +89,11 @@ void add_fit(Program& program) {
   verb.add_flag("--dry-run", options->dry_run, "Fit and show, but keep no run");
   verb.add_option("--max-rms", options->max_rms_mm,
                   "Gate: exit 1 and keep nothing if the held-out RMS exceeds this [mm]")
-      ->type_name("MM");
+      ->type_name("MM")
+      ->check(greater_than_zero());
   verb.add_option("--seed", options->seed, "Seed of the split, instead of the cell's")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(seed_number());
   verb.add_option("--held-out", options->held_out,
                   "Which poses are held out: auto, 20%, kfold:5, column:set, file:F.csv")
       ->type_name("RULE");

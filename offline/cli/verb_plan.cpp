@@ -6,6 +6,7 @@
 
 #include "cli/cell_data.hpp"
 #include "cli/effect_argument.hpp"
+#include "cli/number_rules.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "plan/pose_plan.hpp"
@@ -115,7 +116,7 @@ void add_plan(Program& program) {
       ->type_name("SHARE");
   verb.add_option("--pool", options->pool, "Random poses to choose from (5000)")
       ->check(CLI::Range(10, 100000));
-  verb.add_option("--seed", options->seed, "Of the random poses (1)");
+  verb.add_option("--seed", options->seed, "Of the random poses (1)")->check(seed_number());
   verb.add_option("-o,--output", options->output, "CSV file to write (plan.csv)")
       ->type_name("FILE");
   options->write.add_to(verb);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cli/number_rules.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "program/output_files.hpp"
@@ -123,7 +124,7 @@ void add_study(Program& program) {
   verb.add_flag("--without-finest", options->without_finest,
                 "planar: leave out the 148,680 positions, which take most of the time");
   verb.add_option("--draws", options->draws, "six-axis: how many arms")->check(CLI::Range(1, 1000));
-  verb.add_option("--seed", options->seed, "Of noise, poses and arms");
+  verb.add_option("--seed", options->seed, "Of noise, poses and arms")->check(seed_number());
   options->write.add_to(verb);
 }
 

@@ -83,6 +83,24 @@ std::string tie_words(const Cell& cell, const Diagnosis& d) {
                      separating_measurement(first.entry, *d.tied));
 }
 
+const double* number_in(const EffectEntry& entry, const char* key) {
+  const auto it = entry.options.find(key);
+  return it == entry.options.end() ? nullptr : std::get_if<double>(&it->second);
+}
+
+std::string step_words(const Cell& cell, const EffectEntry& entry) {
+  const auto of = entry.options.find("of");
+  const auto* moved = of == entry.options.end() ? nullptr : std::get_if<std::string>(&of->second);
+  std::string out = "step";
+  if (!entry.joints.empty())
+    out += " of the encoder of " + cell.nominal.joints[entry.joints.front()].name;
+  else if (moved != nullptr)
+    out += " of the " + (*moved == "joint" ? "encoder" : *moved);
+  if (const double* row = number_in(entry, "after_row"))
+    out += fmt::format(" behind row {:g}", *row);
+  return out;
+}
+
 }  // namespace
 
 std::string in_words(const Cell& cell, const EffectEntry& entry) {
@@ -93,14 +111,9 @@ std::string in_words(const Cell& cell, const EffectEntry& entry) {
   for (std::size_t i = 0; i < entry.joints.size(); ++i)
     out +=
         fmt::format("{}{}", i == 0 ? " of " : " and ", cell.nominal.joints[entry.joints[i]].name);
-  if (const auto it = entry.options.find("cycles_per_turn"); it != entry.options.end())
-    out += fmt::format(", {:g} cycles a turn", std::get<double>(it->second));
-  if (entry.name == "step")
-    out = fmt::format("step of the {} behind row {:g}",
-                      std::get<std::string>(entry.options.at("of")) == "joint"
-                          ? "encoder of " + cell.nominal.joints[entry.joints.front()].name
-                          : std::get<std::string>(entry.options.at("of")),
-                      std::get<double>(entry.options.at("after_row")));
+  if (const double* cycles = number_in(entry, "cycles_per_turn"))
+    out += fmt::format(", {:g} cycles a turn", *cycles);
+  if (entry.name == "step") out = step_words(cell, entry);
   return out;
 }
 

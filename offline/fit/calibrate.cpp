@@ -12,6 +12,7 @@
 #include "fit/formula_binding.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
+#include "fit/pose_sense.hpp"
 #include "fit/weights.hpp"
 
 namespace plumb::offline {
@@ -240,6 +241,7 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
 
 Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                        const ArmState* start) {
+  check_poses(measured, rows);
   const FitData data = fit_data(cell, measured, rows);
   const auto candidates = candidates_of(cell, data);
   check_enough(data, 0);

@@ -1,7 +1,104 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/cell_data.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "cell/table_place.hpp"
+#include "plumb/runtime/chain.hpp"
+#include "program/file.hpp"
+
 namespace plumb::offline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kParallel = 1e-3;  // [rad] between two axes
+
+/// True unless all turning joints have parallel axes and all sliding ones move across them.
+bool moves_in_space(const Cell& cell) {
+  const Chain chain(cell.nominal);
+  const std::vector<double> zero(static_cast<std::size_t>(chain.joints()), 0.0);
+  ChainAxes axes;
+  chain.frames(zero, axes);
+  const auto axis = [&](int j) {
+    const auto& z = axes.joint[static_cast<std::size_t>(j)].along;
+    return Vector3(z[0], z[1], z[2]);
+  };
+  std::optional<Vector3> turning;
+  for (int j = 0; j < chain.joints(); ++j)
+    if (chain.revolute(j) && !turning) turning = axis(j);
+  if (!turning) return true;
+  for (int j = 0; j < chain.joints(); ++j) {
+    const double along = dot(*turning, axis(j));
+    const double across = 1.0 - along * along;
+    if (chain.revolute(j) ? across > kParallel * kParallel : std::abs(along) > kParallel)
+      return true;
+  }
+  return false;
+}
+
+/// W-CSV-AXES: errors of fewer axes look smaller than those of the point in space.
+void warn_of_missing_axes(const Cell& cell, Measurements& measured) {
+  std::string missing, given;
+  for (int k = 0; k < 3; ++k) {
+    std::string& list = measured.has_axis[k] ? given : missing;
+    list += (list.empty() ? "" : " and ") + std::string(1, "xyz"[k]);
+  }
+  if (missing.empty() || given.empty() || measured.tables.empty() || !moves_in_space(cell)) return;
+  Table& table = measured.tables.front();
+  const std::string first(1, missing.front());
+  table.remarks.push_back(
+      {Severity::kWarning, "W-CSV-AXES",
+       fmt::format("{} not measured, though the arm moves in space: every error is of {} alone",
+                   missing + (missing.size() > 1 ? " are" : " is"), given),
+       place_of_missing(table, fmt::format("no '{}_mm'", first)),
+       fmt::format("if the file has it under another name: plumb import {} --map NAME={}_mm",
+                   table.file, first)});
+}
+
+/// The name of a file in the folder of `file` that it was perhaps meant to be.
+std::optional<std::string> neighbour_like(const fs::path& file) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), ignored))
+    if (entry.is_regular_file(ignored)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return did_you_mean(file.filename().string(), names);
+}
+
+Problem no_such_file(const Cell& cell, const fs::path& file, Place place) {
+  if (place.file.empty()) place.file = display_name(cell.file);
+  const auto guess = neighbour_like(file);
+  if (guess) place.label = fmt::format("did you mean '{}'?", *guess);
+  return {.code = "E-READ",
+          .message = fmt::format("cannot read {}: no such file", display_name(file)),
+          .place = std::move(place),
+          .help = guess ? fmt::format("write \"{}\"", (file.parent_path() / *guess)
+                                                          .lexically_proximate(cell.directory)
+                                                          .generic_string())
+                        : "see what is there: ls -l " + file.parent_path().string()};
+}
+
+/// Files that the cell names and that are not there, each with its place in cell.toml.
+void check_files(const Cell& cell) {
+  std::vector<Problem> problems;
+  std::error_code ignored;
+  const auto& m = cell.measurement;
+  for (std::size_t i = 0; i < m.files.size(); ++i)
+    if (!fs::exists(m.files[i], ignored))
+      problems.push_back(
+          no_such_file(cell, m.files[i], i < m.named_at.size() ? m.named_at[i] : Place{}));
+  if (m.held_out.kind == HeldOutRule::Kind::kFile && !fs::exists(m.held_out.file, ignored))
+    problems.push_back(no_such_file(cell, m.held_out.file, m.held_out.named_at));
+  if (!problems.empty()) throw Failure(Exit::kInput, std::move(problems));
+}
+
+}  // namespace
 
 std::vector<bool> joint_is_angle(const Cell& cell) {
   std::vector<bool> out;
@@ -11,10 +108,31 @@ std::vector<bool> joint_is_angle(const Cell& cell) {
 }
 
 Measurements read_cell_measurements(const Cell& cell) {
+  check_files(cell);
   auto files = cell.measurement.files;
   if (cell.measurement.held_out.kind == HeldOutRule::Kind::kFile)
     files.push_back(cell.measurement.held_out.file);
-  return read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
+  Measurements out = read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
+  check_rows(cell, out);
+  warn_of_missing_axes(cell, out);
+  return out;
+}
+
+void check_rows(const Cell& cell, const Measurements& measured) {
+  std::vector<Problem> problems;
+  for (const auto& effect : cell.effects) {
+    const auto it = effect.options.find("after_row");
+    const auto* row = it == effect.options.end() ? nullptr : std::get_if<double>(&it->second);
+    if (row == nullptr || *row < measured.size()) continue;
+    problems.push_back(
+        {.code = "E-EFFECT-DATA",
+         .message = fmt::format("effect '{}' begins behind row {:g}, but the last of "
+                                "the measurements is row {}",
+                                effect.name, *row, measured.size()),
+         .place = effect.place,
+         .help = fmt::format("after_row = {}   # or less", std::max(1, measured.size() - 1))});
+  }
+  if (!problems.empty()) throw Failure(Exit::kInput, std::move(problems));
 }
 
 }  // namespace plumb::offline

@@ -36,8 +36,10 @@ void check_enough(const FitData& data, std::size_t parameters) {
   if (data.residual_count() > static_cast<int>(parameters)) return;
   throw Failure(Exit::kNumbersSayNo,
                 {.code = "E-FIT-FEW",
-                 .message = fmt::format("{} poses give {} coordinates, too few for {} parameters",
-                                        data.rows.size(), data.residual_count(), parameters),
+                 .message = fmt::format("{} of {} measured poses are fitted and give {} "
+                                        "coordinates, too few for {} parameters",
+                                        data.rows.size(), data.measured->size(),
+                                        data.residual_count(), parameters),
                  .help = "measure more poses, or hold parameters with [fit] fixed = [\"J6.a\"]"});
 }
 

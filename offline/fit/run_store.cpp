@@ -43,6 +43,27 @@ std::vector<format::InputHash> inputs_of(const Measurements& measured) {
                  .help = "delete this run and fit again: plumb fit"});
 }
 
+[[noreturn]] void cannot_write(const fs::path& what, const std::string& why,
+                               const fs::path& folder) {
+  throw Failure(Exit::kEnvironment,
+                {.code = "E-WRITE",
+                 .message = fmt::format("cannot write {}: {}", display_name(what), why),
+                 .help = "check free space and permissions: df -h && ls -ld " + folder.string()});
+}
+
+/// The folder in which a run is made before it gets its number. What denies it is the folder that
+/// is there: runs/, or the cell's own.
+fs::path make_draft(const Cell& cell) {
+  const fs::path runs = runs_folder(cell), draft = runs / fmt::format(".draft-{}", getpid());
+  std::error_code error;
+  fs::create_directories(runs, error);
+  if (error)
+    cannot_write(runs, error.message(), fs::exists(runs) ? runs : fs::path(cell.directory));
+  fs::create_directories(draft, error);
+  if (error) cannot_write(runs, error.message(), runs);
+  return draft;
+}
+
 }  // namespace
 
 Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
@@ -59,10 +80,8 @@ Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
 
 Run save_run(const Cell& cell, const Measurements& measured, Fit fit) {
   Run run = draft_run(cell, measured, std::move(fit));
+  const fs::path draft = make_draft(cell);
   std::error_code error;
-  fs::create_directories(runs_folder(cell), error);
-  const fs::path draft = runs_folder(cell) / fmt::format(".draft-{}", getpid());
-  fs::create_directories(draft, error);
   const auto numbers = list_runs(cell);
   // Another fit may take the number between the look and the rename: then the next one is ours.
   for (run.number = numbers.empty() ? 1 : numbers.back() + 1;; ++run.number) {
@@ -74,11 +93,7 @@ Run save_run(const Cell& cell, const Measurements& measured, Fit fit) {
     if (!fs::exists(run.directory)) break;
   }
   fs::remove_all(draft);
-  throw Failure(
-      Exit::kEnvironment,
-      {.code = "E-WRITE",
-       .message = fmt::format("cannot write {}: {}", run.directory.string(), error.message()),
-       .help = "check free space and permissions of the cell's folder"});
+  cannot_write(run.directory, error.message(), runs_folder(cell));
 }
 
 std::vector<int> list_runs(const Cell& cell) {

@@ -37,18 +37,27 @@ std::string known_unit(std::string text) {
   return found == kOther.end() ? std::string() : found->second;
 }
 
+/// The unit of others that a text is, or empty.
+std::string unit_of_others(std::string text) {
+  std::erase_if(text,
+                [](char c) { return c == '[' || c == ']' || c == '(' || c == ')' || c == ' '; });
+  for (const auto& tried : {text, lower(text)})
+    if (foreign_unit(tried) != nullptr) return tried;
+  return {};
+}
+
 /// Header without its unit, and the unit.
 struct Named {
   std::string name, unit;
 };
 
-Named split_unit(const std::string& header) {
+Named split_unit(const std::string& header, std::string (*read_unit)(std::string)) {
   static const std::regex kBrackets(R"(^(.*?)\s*[\[\(]\s*([^\]\)]*)\s*[\]\)]\s*$)");
   static const std::regex kTail(R"(^(.*?)\s*[/_\s,]\s*([^\s/_,]+)\s*$)");
   std::smatch match;
   for (const auto* pattern : {&kBrackets, &kTail})
     if (std::regex_match(header, match, *pattern))
-      if (const std::string unit = known_unit(match[2]); !unit.empty()) return {match[1], unit};
+      if (const std::string unit = read_unit(match[2]); !unit.empty()) return {match[1], unit};
   return {header, ""};
 }
 
@@ -122,8 +131,12 @@ void apply_wish(const std::string& wish, std::vector<ColumnPlan>& plans) {
                  : fmt::format("its columns: {}", fmt::join(names, ", ")));
   }
   ColumnPlan& plan = plans[static_cast<std::size_t>(at - names.begin())];
+  if (plan.wished)
+    refuse("E-IMPORT-MAP", fmt::format("--map: column '{}' is named twice", from),
+           "say once what it is");
   plan.wished = true;
   plan.lacks_unit = false;
+  plan.foreign.clear();
   if (to == "-") {
     plan.name.clear();
     return;
@@ -136,7 +149,9 @@ void apply_wish(const std::string& wish, std::vector<ColumnPlan>& plans) {
   const Heading heading = split_heading(to);
   if (heading.unit.empty() || !unit_of(heading.unit))
     refuse("E-IMPORT-MAP", fmt::format("--map: '{}' has no unit plumb knows", to),
-           fmt::format("--map \"{}={}_{}\"", from, heading.name, usual_unit(heading.name)));
+           foreign_unit(heading.unit) != nullptr
+               ? fmt::format("convert the numbers first: {}", foreign_unit(heading.unit)->equals)
+               : fmt::format("--map \"{}={}_{}\"", from, heading.name, usual_unit(heading.name)));
   plan.name = heading.name;
   plan.unit = heading.unit;
 }
@@ -172,11 +187,16 @@ ColumnPlan guess_column(const std::string& header, const std::string& unit_row) 
       out.name = name;
     return out;
   }
-  const Named named = split_unit(header);
+  const Named named = split_unit(header, known_unit);
   out.name = canonical(named.name);
   out.unit = !named.unit.empty() ? named.unit : known_unit(unit_row);
   if (unitless_quantity(out.name)) out.unit.clear();
   out.lacks_unit = needs_unit(out.name) && out.unit.empty();
+  const Named other = split_unit(header, unit_of_others);
+  const std::string name = canonical(other.name);
+  if (!named.unit.empty() || !needs_unit(name)) return out;
+  out.foreign = !other.unit.empty() ? other.unit : out.unit.empty() ? unit_of_others(unit_row) : "";
+  if (!out.foreign.empty()) out.name = name;
   return out;
 }
 

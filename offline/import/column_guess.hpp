@@ -15,6 +15,7 @@ struct ColumnPlan {
   std::string unit = {};  // of the file's numbers: "rad"; empty for texts and plain numbers
   bool wished = false;    // by --map
   bool lacks_unit = false;
+  std::string foreign = {};  // a unit that plumb does not convert: "cm"
 };
 
 /// Plans a column: "X [mm]", "x(mm)", "Joint 1 / deg", "A1", "axis_3 deg", "Temp °C" are known; a

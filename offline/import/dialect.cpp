@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "cell/units.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb::offline {
@@ -161,7 +162,9 @@ void find_header(const SourceText& text, const DialectWishes& wishes, Dialect& d
   const auto nearest = names_of(above[0]);
   const bool units =
       above.size() > 1 && std::all_of(nearest.begin(), nearest.end(), [](const std::string& cell) {
-        return std::find(kUnits.begin(), kUnits.end(), cell) != kUnits.end();
+        const bool brackets = cell.size() > 2 && cell.front() == '[' && cell.back() == ']';
+        return std::find(kUnits.begin(), kUnits.end(), cell) != kUnits.end() ||
+               foreign_unit(brackets ? cell.substr(1, cell.size() - 2) : cell) != nullptr;
       });
   d.header = units ? names_of(above[1]) : nearest;
   d.header_line = static_cast<int>(units ? above[1] : above[0]) + 1;

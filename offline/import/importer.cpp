@@ -76,6 +76,7 @@ class Importer {
       else
         add_numbers(plans[k], k);
     }
+    refuse_if_nothing_is_known();
     problems_.stop_on_errors();
     turn_to_quaternions();
     say_what_was_left_out();
@@ -83,11 +84,11 @@ class Importer {
   }
 
  private:
-  /// A recognised column must say its unit; a preview only warns.
+  /// A recognised column must say its unit, and one that plumb knows; a preview only warns.
   void look_at_units(std::vector<ColumnPlan>& plans) {
     for (auto& plan : plans) {
-      if (!plan.lacks_unit) continue;
-      const Problem problem = unitless(plan);
+      if (!plan.lacks_unit && plan.foreign.empty()) continue;
+      const Problem problem = plan.foreign.empty() ? unitless(plan) : of_another_unit(plan);
       if (wishes_.preview)
         out_.remarks.push_back(problem), plan.unit = "?";
       else
@@ -96,20 +97,52 @@ class Importer {
     problems_.stop_on_errors();
   }
 
+  /// A file of which no column was understood would be written empty.
+  void refuse_if_nothing_is_known() {
+    if (!out_.columns.empty() || !problems_.errors().empty() || wishes_.preview) return;
+    const int line = std::max(rows_.dialect.header_line, 1);
+    problems_.error("E-IMPORT-HEADER", "none of the columns is known",
+                    Place{.file = text_.file,
+                          .line = line,
+                          .column = 1,
+                          .source = std::string(text_.lines[line - 1]),
+                          .label = "taken as the header"},
+                    fmt::format("say what they are: --map \"{}=q1_deg\"",
+                                rows_.dialect.header.empty() ? "NAME" : rows_.dialect.header[0]));
+  }
+
   Problem unitless(const ColumnPlan& plan) const {
+    return of_unit(plan, fmt::format("column '{}' has no unit", plan.from),
+                   fmt::format("taken as '{}'", plan.name),
+                   fmt::format("--map \"{}={}_{}\"", plan.from, plan.name, usual_unit(plan.name)));
+  }
+
+  Problem of_another_unit(const ColumnPlan& plan) const {
+    const ForeignUnit& unit = *foreign_unit(plan.foreign);
+    return of_unit(plan,
+                   fmt::format("column '{}' is in {}, which is none of plumb's units", plan.from,
+                               plan.foreign),
+                   std::string(unit.equals),
+                   fmt::format("convert the numbers and name the column {}_{}, or leave it out: "
+                               "--map \"{}=-\"",
+                               plan.name, unit.use, plan.from));
+  }
+
+  Problem of_unit(const ColumnPlan& plan, std::string message, std::string label,
+                  std::string help) const {
     const int line = std::max(rows_.dialect.header_line, 1);
     const std::string source(text_.lines[line - 1]);
     const auto column = std::min(source.find(plan.from), source.size());
     return {.severity = wishes_.preview ? Severity::kWarning : Severity::kError,
-            .code = "E-IMPORT-UNIT",
-            .message = fmt::format("column '{}' has no unit", plan.from),
+            .code = wishes_.preview ? "W-IMPORT-UNIT" : "E-IMPORT-UNIT",
+            .message = std::move(message),
             .place = Place{.file = text_.file,
                            .line = line,
                            .column = static_cast<int>(column) + 1,
                            .length = static_cast<int>(plan.from.size()),
                            .source = source,
-                           .label = fmt::format("taken as '{}'", plan.name)},
-            .help = fmt::format("--map \"{}={}_{}\"", plan.from, plan.name, usual_unit(plan.name))};
+                           .label = std::move(label)},
+            .help = std::move(help)};
   }
 
   void add_texts(const ColumnPlan& plan, std::size_t k) {

@@ -84,7 +84,7 @@ std::string next_text(const Cell& cell, const Diagnosis& d) {
   if (d.finding_after || d.finding != Finding::kMissing) return {};
   return fmt::format(
       "\nAdd it:            plumb add {}\nOr go all the way: plumb diagnose --apply\n",
-      adding_arguments(cell, d.candidates.front().entry));
+      adding_arguments(cell, d.candidates.front().entry, d.candidates.front().cycles));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
 #include "program/shell_word.hpp"
 
@@ -18,25 +19,60 @@ std::string formula_arguments(const EffectEntry& effect) {
   return out;
 }
 
+constexpr const char* kCycles = "cycles_per_turn";
+
+std::string value_text(const EffectEntry::Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? shell_word(*text) : std::string();
+}
+
+EffectEntry without_cycles(EffectEntry effect) {
+  effect.options.erase(kCycles);
+  return effect;
+}
+
+bool differ_in_cycles_alone(const EffectEntry& a, const EffectEntry& b) {
+  return a.options.contains(kCycles) && b.options.contains(kCycles) &&
+         same_effect(without_cycles(a), without_cycles(b));
+}
+
 }  // namespace
 
-std::string adding_arguments(const Cell& cell, const EffectEntry& effect) {
+std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
+                             const std::vector<double>& cycles) {
   if (effect.name == "formula" && effect.options.contains("target"))
     return formula_arguments(effect);
   std::string out = effect.name;
   for (std::size_t i = 0; i < effect.joints.size(); ++i)
     out += (i == 0 ? " --joints " : ",") + cell.nominal.joints[effect.joints[i]].name;
-  for (const auto& [key, value] : effect.options) {
-    out += fmt::format(" --set {}=", key);
-    if (const auto* number = std::get_if<double>(&value)) out += fmt::format("{}", *number);
-    if (const auto* text = std::get_if<std::string>(&value)) out += shell_word(*text);
+  for (const auto& [key, value] : effect.options)
+    out += fmt::format(" --set {}={}", key,
+                       key == kCycles && !cycles.empty() ? fmt::format("{}", fmt::join(cycles, ","))
+                                                         : value_text(value));
+  return out;
+}
+
+std::vector<std::string> adding_arguments(const Cell& cell,
+                                          const std::vector<EffectEntry>& effects) {
+  std::vector<std::string> out;
+  std::vector<bool> said(effects.size(), false);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    std::vector<double> cycles;
+    for (std::size_t k = i; k < effects.size(); ++k) {
+      if (said[k] || !differ_in_cycles_alone(effects[i], effects[k])) continue;
+      cycles.push_back(std::get<double>(effects[k].options.at(kCycles)));
+      said[k] = k > i;
+    }
+    if (!said[i]) out.push_back(adding_arguments(cell, effects[i], cycles));
   }
   return out;
 }
 
-std::string dropping_arguments(const Cell& cell, const EffectEntry& effect) {
-  if (effect.name == "formula") return "formula --name " + formula_label(formula_text(effect));
-  return adding_arguments(cell, effect);
+std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>& effects) {
+  if (effects.front().name == "formula")
+    return "formula --name " + formula_label(formula_text(effects.front()));
+  return fmt::format("{}", fmt::join(adding_arguments(cell, effects), " && plumb drop "));
 }
 
 std::string planning_argument(const Cell& cell, const EffectEntry& effect) {

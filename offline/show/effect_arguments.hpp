@@ -2,16 +2,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cell/cell.hpp"
 
 namespace plumb::offline::show {
 
-/// gear_ripple --joints J2 --set cycles_per_turn=20: what `plumb add` takes.
-std::string adding_arguments(const Cell& cell, const EffectEntry& effect);
+/// What `plumb add` takes, a ripple with all its waves:
+/// gear_ripple --joints J2 --set cycles_per_turn=7.91,17.49.
+std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
+                             const std::vector<double>& cycles);
 
-/// The same for `plumb drop`: a formula goes by its name.
-std::string dropping_arguments(const Cell& cell, const EffectEntry& effect);
+/// One for each effect; those that differ in cycles_per_turn alone go together.
+std::vector<std::string> adding_arguments(const Cell& cell,
+                                          const std::vector<EffectEntry>& effects);
+
+/// What `plumb drop` takes of effects that were added together: a formula goes by its name.
+std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>& effects);
 
 /// gravity_free:J2+J3: what `plumb plan --separate` takes two of.
 std::string planning_argument(const Cell& cell, const EffectEntry& effect);

@@ -166,6 +166,55 @@ TEST(CellMessage, OfUnknownJoints) {
   EXPECT_EQ(with("[[robot.links]]\nmass_kg = 1"), Summary{"E-CELL-MISSING 5:1"});
 }
 
+TEST(CellMessage, OfOptionsThatMakeNoSense) {
+  const auto code = [](const std::string& effect, const std::string& option) {
+    const auto problems = with("[effects." + effect + "]\n" + option);
+    return problems.empty() ? std::string() : problems.front();
+  };
+  for (const char* cycles : {"0", "-3", "1e6"})
+    EXPECT_EQ(code("gear_ripple", std::string("cycles_per_turn = ") + cycles), "E-CELL-RANGE 6:19");
+  EXPECT_EQ(code("joint_compliance_soft", "torque_Nm = 0"), "E-CELL-RANGE 6:13");
+  EXPECT_EQ(code("backlash_load", "torque_Nm = -50"), "E-CELL-RANGE 6:13");
+  EXPECT_EQ(code("drift", "settling_s = 0"), "E-CELL-RANGE 6:14");
+  EXPECT_EQ(code("gravity_compensator", "anchor_ratio = 1e9"), "E-CELL-RANGE 6:16");
+  EXPECT_EQ(code("step", "after_row = 0"), "E-CELL-RANGE 6:13");
+  EXPECT_EQ(code("step", "after_row = 8.5"), "E-CELL-RANGE 6:13");
+  EXPECT_EQ(with("[effects.step]\nafter_row = 8\nof = \"tol\""), Summary{"E-CELL-RANGE 7:6"});
+  EXPECT_EQ(with("[effects.step]\nafter_row = 8"), Summary{});
+  EXPECT_EQ(with("[effects]\ngear_ripple = true"), Summary{"E-CELL-MISSING 6:15"});
+  EXPECT_EQ(with("[effects]\nstep = true"), Summary{"E-CELL-MISSING 6:8"});
+}
+
+TEST(CellMessage, OfJointsThatAnEffectCannotHave) {
+  for (const char* effect : {"drift", "tracker", "tool_sag", "base_compliance", "local_tree"})
+    EXPECT_EQ(with(std::string("[effects.") + effect + "]\njoints = [\"J1\"]"),
+              Summary{"E-CELL-JOINT 6:10"})
+        << effect;
+  EXPECT_EQ(with("[effects.cross_compliance]"), Summary{"E-CELL-JOINT 5:1"});
+  EXPECT_EQ(with("[effects]\ncross_compliance = true"), Summary{"E-CELL-JOINT 6:20"});
+  EXPECT_EQ(with("[effects.cross_compliance]\njoints = [\"J1\", \"J1\"]"),
+            Summary{"E-CELL-JOINT 6:10"});
+  EXPECT_EQ(with("[effects.joint_compliance]\njoints = [\"J1\", \"J1\"]"),
+            Summary{"E-CELL-JOINT 6:10"});
+  EXPECT_EQ(with("[effects.step]\nafter_row = 3\njoints = [\"J1\"]"), Summary{"E-CELL-JOINT 7:10"});
+  EXPECT_EQ(with("[effects.step]\nafter_row = 3\nof = \"joint\""), Summary{"E-CELL-JOINT 5:1"});
+  EXPECT_EQ(with("[effects.step]\nafter_row = 3\nof = \"joint\"\njoints = [\"J1\"]"), Summary{});
+}
+
+TEST(CellMessage, OfConventionsByOtherNames) {
+  for (const auto& [word, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"craig", "modified"},
+                                                        {"Craig", "modified"},
+                                                        {"proximal", "modified"},
+                                                        {"distal", "standard"},
+                                                        {"classic", "standard"}}) {
+    const auto problems = problems_in("schema = \"cell/1\"\n[robot]\ndh_convention = \"" + word +
+                                      "\"\njoints = [{ q = [-90, 90] }]\n");
+    ASSERT_EQ(summary(problems), Summary{"E-CELL-RANGE 3:17"}) << word;
+    EXPECT_EQ(problems[0].help, "dh_convention = \"" + meant + "\"");
+  }
+}
+
 TEST(CellMessage, OfUnknownEffects) {
   const auto problems = problems_in(kRobot + "[effects]\nlocal_tre = true\nzzzzzz = {}\n");
   EXPECT_EQ(summary(problems), (Summary{"E-CELL-EFFECT 6:13", "E-CELL-EFFECT 7:10"}));

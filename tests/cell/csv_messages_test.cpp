@@ -46,6 +46,37 @@ TEST(CsvMessage, ProposesTheUsualUnitAndQuotesForTheShell) {
             "rename it to 'Goal_x_mm', or: plumb import t.csv --map 'Goal x=Goal_x_mm'");
 }
 
+TEST(CsvMessage, OfAMisspeltNameWithoutUnitProposesTheKnownOne) {
+  const auto help = [](const std::string& header) { return of_table(header + "\n1\n")[0].help; };
+  EXPECT_EQ(help("psoe"), "rename it to 'pose', or: plumb import t.csv --map psoe=pose");
+  EXPECT_EQ(help("Pose"), "rename it to 'pose', or: plumb import t.csv --map Pose=pose");
+  EXPECT_EQ(help("Q1"), "rename it to 'q1_deg', or: plumb import t.csv --map Q1=q1_deg");
+  EXPECT_EQ(help("direction_j3"),
+            "rename it to 'dir_j3', or: plumb import t.csv --map direction_j3=dir_j3");
+  EXPECT_EQ(help("payload_cx"),
+            "rename it to 'payload_cx_mm', or: plumb import t.csv --map payload_cx=payload_cx_mm");
+  EXPECT_EQ(of_table("psoe\n1\n")[0].place->label, "did you mean 'pose'?");
+  EXPECT_EQ(help("Q1_DEG"), "did you mean 'q1_deg'?");
+}
+
+TEST(CsvMessage, OfADhTableProposesItsOwnColumns) {
+  const auto help = [](const std::string& header) {
+    return problems_of([&] { parse_table(header + "\n1\n", "dh.csv", TableOf::kRobot); })[0].help;
+  };
+  EXPECT_EQ(help("alpha"), "rename it to 'alpha_deg'");
+  EXPECT_EQ(help("theta"), "rename it to 'theta_deg'");
+  EXPECT_EQ(help("a"), "rename it to 'a_mm'");
+  EXPECT_EQ(help("q_min"), "rename it to 'q_min_deg'");
+}
+
+/// The nearest unit of plumb would be wrong by a factor of ten.
+TEST(CsvMessage, OfAForeignUnitSaysHowToConvert) {
+  const auto problems = of_table("x_cm,payload_lb\n1,2\n");
+  EXPECT_EQ(summary(problems), (Summary{"E-CSV-UNIT 1:1", "E-CSV-UNIT 1:6"}));
+  EXPECT_EQ(problems[0].help, "convert the numbers and rename it to 'x_mm'");
+  EXPECT_EQ(problems[0].place->label, "not one of plumb's: 1 cm = 10 mm");
+}
+
 TEST(CsvMessage, OfAnUnknownUnitProposesTheNearest) {
   const auto problems = of_table("x_mmm,y_parsec\n1,2\n");
   EXPECT_EQ(summary(problems), (Summary{"E-CSV-UNIT 1:1", "E-CSV-UNIT 1:7"}));
@@ -204,6 +235,54 @@ TEST(ArmMessage, OfStandardDeviations) {
             Summary{"E-CSV-AXIS 1:25"});
   EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,sx_um\n1,2,3,5\n1,2,4,0\n1,2,5,-1\n")),
             (Summary{"E-CSV-SIGMA 3:7", "E-CSV-SIGMA 4:7"}));
+}
+
+TEST(ArmMessage, OfColumnsWhoseNameIsASlip) {
+  const auto remarks = remarks_of_arm(
+      "q1_deg,q2_deg,x_mm,paylod_kg,tmep_degC,sigma_x_um,travl_j1_deg,time_s,tmep_arm_degC\n"
+      "1,2,3,4,5,6,7,8,9\n");
+  EXPECT_EQ(summary(remarks),
+            (Summary{"W-CSV-COLUMN 1:20", "W-CSV-COLUMN 1:30", "W-CSV-COLUMN 1:40",
+                     "W-CSV-COLUMN 1:51", "W-CSV-COLUMN 1:64", "W-CSV-COLUMN 1:71"}));
+  std::vector<std::string> labels;
+  for (const auto& remark : remarks) labels.push_back(remark.place->label);
+  EXPECT_EQ(labels,
+            (std::vector<std::string>{"did you mean 'payload_kg'?", "did you mean 'temp_degC'?",
+                                      "did you mean 'sx_um'?", "did you mean 'travel_j1_deg'?",
+                                      "did you mean 't_s'?", "did you mean 'temp_arm_degC'?"}));
+}
+
+TEST(ArmMessage, NeverOfColumnsOfOnesOwn) {
+  EXPECT_EQ(summary(remarks_of_arm(
+                "q1_deg,q2_deg,x_mm,dx_mm,ex_um,err_mm,speed_mm,room_degC,w_mm,force_N,mass_kg,"
+                "payload_kg,payload2_kg\n1,2,3,4,5,6,7,8,9,10,11,12,13\n")),
+            Summary{});
+}
+
+TEST(ArmMessage, OfContextThatCannotBe) {
+  const std::string head = "q1_deg,q2_deg,x_mm,";
+  EXPECT_EQ(summary(of_arm(head + "dir_j1\n1,2,3,1\n1,2,3,-1\n1,2,3,0\n1,2,3,2\n")),
+            Summary{"E-CSV-CONTEXT 5:7"});
+  EXPECT_EQ(summary(of_arm(head + "dir_j9,travel_j9_deg\n1,2,3,1,4\n")),
+            (Summary{"E-CSV-JOINT 1:20", "E-CSV-JOINT 1:27"}));
+  EXPECT_EQ(summary(of_arm(head + "travel_j1_deg\n1,2,3,-5\n")), Summary{"E-CSV-CONTEXT 2:7"});
+  EXPECT_EQ(summary(of_arm(head + "travel_j1_mm\n1,2,3,5\n")), Summary{"E-CSV-KIND 1:20"});
+  EXPECT_EQ(summary(of_arm(head + "payload_kg\n1,2,3,-5\n")), Summary{"E-CSV-CONTEXT 2:7"});
+  EXPECT_EQ(summary(of_arm(head + "temp_arm_degC\n1,2,3,-300\n")), Summary{"E-CSV-CONTEXT 2:7"});
+}
+
+TEST(ArmMessage, OfTimesThatAreNoneOfIso8601) {
+  const auto of = [](const std::string& time) {
+    return summary(of_arm("q1_deg,q2_deg,x_mm,time\n1,2,3," + time + "\n"));
+  };
+  for (const char* good :
+       {"2026-03-01T12:30:00", "2026-03-01 12:30", "2026-03-01T12:30:00.5Z",
+        "2026-03-01T12:30:00+01:00", "20260301T123000Z", "2026-03-01T12:30-0530"})
+    EXPECT_EQ(of(good), Summary{}) << good;
+  for (const char* bad :
+       {"", "12:30", "01.03.2026 12:30", "3/1/2026 12:30", "2026-03-01", "2026-02-30T12:30:00",
+        "2026-03-01T25:30:00", "2026-03-01T12:30:00 PM", "2026-03-01T12:30:", "1772368200"})
+    EXPECT_EQ(of(bad), Summary{"E-CSV-TIME 2:7"}) << bad;
 }
 
 TEST(ArmMessage, OfUnknownMarks) {

@@ -84,6 +84,19 @@ TEST(EffectsEdit, ANumberThatNoDecimalMeetsIsReadBackToTheLastBit) {
   }
 }
 
+TEST(EffectsEdit, TakesBackToTheLetterWhatItAdded) {
+  for (const std::string gap : {"", "\n", "\n\n", "\n# how it is deployed\n"}) {
+    const std::string before =
+        kRobot + "[effects]\ngeometry = true\n" + gap + "[deploy]\ncycle_us = 4000\n";
+    const std::string more = edited(before, {kGeometry, effect("joint_compliance", {1})});
+    EXPECT_EQ(edited(more, {kGeometry}), before);
+  }
+  const std::string apart =
+      kRobot + "\n[effects.reversal]\n\n[effects.drift]\n\n[deploy]\ncycle_us = 4000\n";
+  EXPECT_EQ(edited(apart, {kGeometry, effect("reversal")}),
+            kRobot + "\n[effects.reversal]\n\n[deploy]\ncycle_us = 4000\n");
+}
+
 TEST(EffectsEdit, WritesAFormulaThatIsReadBack) {
   const EffectEntry formula =
       effect("formula", {},

@@ -90,6 +90,23 @@ TEST(File, KeepsThePermissionsOfWhatItReplacesAndALinkALink) {
   EXPECT_EQ(present.st_mode & 0777, 0640u);
 }
 
+TEST(File, WritesIntoAPipeOrADeviceAndLeavesItThere) {
+  const Folder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::string heard;
+  std::thread reader([&] { heard = read_file(pipe); });
+  write_new_file(pipe, "for the reader", Overwrite::kNo);
+  reader.join();
+  EXPECT_EQ(heard, "for the reader");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(entries(folder.path()), 1);
+  write_new_file("/dev/null", "gone", Overwrite::kForce);
+  write_new_file("/dev/null", "gone", Overwrite::kNo);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(problems_of([] { write_file_atomically("/dev/full", "x"); })[0].code, "E-WRITE");
+}
+
 TEST(File, IsAlwaysOneWholeTextWhileTwoWritersCompete) {
   const Folder folder;
   const auto file = folder.path() / "a";

@@ -129,7 +129,9 @@ Cell random_cell(Dice& dice, const std::filesystem::path& folder) {
   if (dice.coin()) c.effects.push_back({"geometry", {}, {}, {}});
   if (dice.coin())
     c.effects.push_back(
-        {"local_tree", {0}, {{"min_gain", 0.02}, {"form", "crisp"}, {"degree", 2.0}}, {}});
+        {"local_tree", {}, {{"min_gain", 0.02}, {"form", "crisp"}, {"degree", 2.0}}, {}});
+  if (dice.coin())
+    c.effects.push_back({"step", {0}, {{"after_row", 84.0}, {"of", std::string("joint")}}, {}});
   c.fit.model = dice.coin() ? FitSettings::Model::kDh : FitSettings::Model::kComplete;
   if (dice.coin()) c.fit.fixed = {c.nominal.joints[0].name + ".d", "frame.x"};
   if (dice.coin()) c.fit.priors = {{c.nominal.joints[0].name + ".a", dice.uniform(1e-5, 1e-3)}};

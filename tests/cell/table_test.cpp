@@ -45,6 +45,9 @@ TEST(Table, AnnouncesSemicolonsAndKeepsCanonicalRows) {
   const auto t = parse_table("pose;x_mm;note;y_mm\nA;1,5;a, b;-2,5e1\nB;1.25;\"c;d\";3\n", "t.csv");
   ASSERT_EQ(summary(t.remarks), Summary{"N-CSV-SEMICOLON 1:5"});
   EXPECT_EQ(t.remarks[0].severity, Severity::kNote);
+  EXPECT_EQ(t.remarks[0].message, "read with ';' between columns and decimal commas");
+  EXPECT_EQ(parse_table("pose;x_mm;note\nA;1.5;a, b\n", "t.csv").remarks.at(0).message,
+            "read with ';' between columns and decimal points");
   EXPECT_EQ(t.find("x")->values, (std::vector<double>{0.0015, 0.00125}));
   EXPECT_EQ(t.find("y")->values, (std::vector<double>{-0.025, 0.003}));
   EXPECT_EQ(t.raw_header, "pose,x_mm,note,y_mm");

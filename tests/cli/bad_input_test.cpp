@@ -145,6 +145,76 @@ TEST(BadInputs, AMistypedEffectIsAskedAboutByItsRightName) {
             std::string::npos);
 }
 
+TEST(BadInputs, AMissingFileIsShownWhereTheCellNamesItWithItsNeighbour) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+  in_cell(box, "measurements.csv", "measurments.csv");
+  const Ran ran = box.plumb({"-C", "cell", "fit"});
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_TRUE(std::regex_search(ran.err, std::regex("cell.toml:[0-9]+:10"))) << ran.err;
+  EXPECT_NE(ran.err.find("did you mean 'measurements.csv'?"), std::string::npos) << ran.err;
+  in_cell(box, "measurments.csv", "measurements.csv");
+  in_cell(box, "held_out = \"auto\"", "held_out = \"file:verify.csv\"");
+  const Ran verify = box.plumb({"-C", "cell", "fit"});
+  EXPECT_EQ(verify.exit, 3);
+  EXPECT_TRUE(std::regex_search(verify.err, std::regex("cell.toml:[0-9]+:12"))) << verify.err;
+}
+
+/// Rows of the clean demo, changed one by one by `change`.
+void change_rows(const Sandbox& box, const std::string& more_header,
+                 const std::function<std::string(std::string)>& change) {
+  std::istringstream in(box.read("cell/measurements.csv"));
+  std::string line, out;
+  while (std::getline(in, line))
+    out += (line.starts_with("#")      ? line
+            : line.starts_with("pose") ? line + more_header
+                                       : change(line)) +
+           "\n";
+  box.write("cell/measurements.csv", out);
+}
+
+TEST(BadInputs, EveryRowHeldOutIsSaidInThoseWords) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+  change_rows(box, ",set", [](const std::string& row) { return row + ",held"; });
+  in_cell(box, "held_out = \"auto\"", "held_out = \"column:set\"");
+  const Ran ran = box.plumb({"-C", "cell", "fit"});
+  EXPECT_TRUE(ran.exit == 3 || ran.exit == 4) << ran.err;
+  EXPECT_NE(ran.err.find("every row is held out"), std::string::npos) << ran.err;
+}
+
+TEST(BadInputs, PosesThatAreNearlyOneAreCalledSo) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+  int i = 0;
+  std::string first;
+  change_rows(box, "", [&](const std::string& row) {
+    if (first.empty()) first = row.substr(row.find(','));
+    // Each joint reading a thousandth of a degree apart.
+    std::string out = "N" + std::to_string(i);
+    std::istringstream cells(first.substr(1));
+    std::string cell;
+    for (int k = 0; std::getline(cells, cell, ','); ++k)
+      out +=
+          k < 6 ? "," + std::to_string(std::stod(cell) + 1e-3 * ((i * (k + 3)) % 7)) : "," + cell;
+    ++i;
+    return out;
+  });
+  const Ran ran = box.plumb({"-C", "cell", "fit"});
+  EXPECT_EQ(ran.exit, 4) << ran.err;
+  EXPECT_NE(ran.err.find("E-FIT-ONE-POSE"), std::string::npos) << ran.err;
+}
+
+TEST(BadInputs, AnAxisThatLacksIsWarnedOfInSpaceAndNotInThePlane) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+  in_csv(box, "z_mm", "height_mm");
+  const Ran ran = box.plumb({"-C", "cell", "fit"});
+  EXPECT_NE(ran.err.find("warning[W-CSV-AXES]: z is not measured"), std::string::npos) << ran.err;
+  ASSERT_EQ(box.plumb({"demo", "beam", "plane"}).exit, 0);
+  EXPECT_EQ(box.plumb({"-C", "plane", "fit"}).err.find("W-CSV-AXES"), std::string::npos);
+}
+
 TEST(BadInputs, ReadingsBeyondTheLimitsAreFoundByCheckWithTheirLine) {
   const Sandbox box;
   ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);

@@ -93,6 +93,8 @@ TEST_F(PlanVerb, RefusesWhatMakesNoSenseWithAMessageThatHelps) {
   refused({"--separate", "reversal:J2"}, 2, "two effects, not 1");
   refused({"--separate", "reversal:J2,reversal:J2"}, 2, "two different effects");
   refused({"--separate", "gear_ripple:J2,reversal:J2"}, 2, "cycles");
+  refused({"--separate", "gear_ripple:J2@cycles_per_turn=0,reversal:J2"}, 2, "greater than 0");
+  refused({"--separate", "gear_ripple:J2@cycles=20,reversal:J2"}, 2, "KEY=NUMBER of gear_ripple");
   refused({"--box", "1,2,3"}, 2, "is no box");
   refused({"--box", "90000,90001,0,1,0,1"}, 4, "E-PLAN-BOX");
   refused({"--joint-limits", "150%"}, 2, "no share");

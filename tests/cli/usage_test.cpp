@@ -65,6 +65,24 @@ TEST(Usage, EveryMistakeOfTheCommandLineIsExitTwo) {
   EXPECT_TRUE(box.listing().empty());
 }
 
+TEST(Usage, ANumberOutOfRangeIsExitTwoWithAShortRange) {
+  const Sandbox box;
+  for (const auto& [words, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"fit", "--max-rms", "-1"}, "-1 is not a number greater than 0"},
+           {{"fit", "--max-rms", "nan"}, "nan is not a number greater than 0"},
+           {{"fit", "--max-rms", "0"}, "0 is not a number greater than 0"},
+           {{"bench", "m.plumb", "--max-us", "0"}, "0 is not a number greater than 0"},
+           {{"bench", "m.plumb", "--max-us", "inf"}, "inf is not a number greater than 0"},
+           {{"fit", "--seed", "-2"}, "-2 is not a whole number from 0 to 2^53"},
+           {{"simulate", "--seed", "-2"}, "-2 is not a whole number from 0 to 2^53"},
+           {{"plan", "--seed", "1.5"}, "1.5 is not a whole number from 0 to 2^53"},
+           {{"study", "planar", "--seed", "-1"}, "-1 is not a whole number from 0 to 2^53"}}) {
+    const Ran ran = box.plumb(words);
+    EXPECT_EQ(ran.exit, 2) << words[0] << words[1];
+    EXPECT_TRUE(has(ran.err, says)) << ran.err;
+  }
+}
+
 TEST(Usage, WithJsonAMistakeIsOneObjectOnStdout) {
   const Sandbox box;
   for (const auto& words :

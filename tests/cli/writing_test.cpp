@@ -103,6 +103,28 @@ TEST_F(Writing, AFolderWithoutPermissionIsExitFiveAndStaysEmpty) {
   fs::permissions(box.path() / "locked", fs::perms::owner_all);
 }
 
+TEST_F(Writing, ADeviceIsWrittenIntoWithoutForceAndStaysOne) {
+  EXPECT_EQ(box.plumb({"-C", "cell", "compile", "-o", "/dev/null"}).exit, 0);
+  EXPECT_EQ(box.plumb({"-C", "cell", "compile", "-o", "/dev/null", "--force"}).exit, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(Writing, ACellThatCannotBeWrittenSaysWhichFolderDeniesIt) {
+  fs::remove_all(box.path() / "cell" / "runs");
+  box.write("cell/runs", "a file where the folder should be");
+  const Ran ran = box.plumb({"-C", "cell", "fit"});
+  EXPECT_EQ(ran.exit, 5);
+  EXPECT_NE(ran.err.find("cannot write cell/runs: "), std::string::npos) << ran.err;
+  EXPECT_EQ(ran.err.find(".draft"), std::string::npos) << ran.err;
+  fs::remove(box.path() / "cell" / "runs");
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  fs::permissions(box.path() / "cell", fs::perms::owner_read | fs::perms::owner_exec);
+  const Ran denied = box.plumb({"-C", "cell", "fit"});
+  fs::permissions(box.path() / "cell", fs::perms::owner_all);
+  EXPECT_EQ(denied.exit, 5);
+  EXPECT_NE(denied.err.find("Permission denied"), std::string::npos) << denied.err;
+}
+
 TEST_F(Writing, AFullStdoutIsExitFive) {
   EXPECT_EQ(box.plumb_into("/dev/full", {"-C", "cell", "compare"}).exit, 5);
   EXPECT_EQ(box.plumb_into("/dev/full", {"-C", "cell", "fit", "--json", "--dry-run"}).exit, 5);

@@ -40,6 +40,12 @@ std::string refusal(const std::string& bytes, const ImportWishes& wishes = {}) {
   return "accepted";
 }
 
+ImportWishes mapped(const std::vector<std::string>& map) {
+  ImportWishes out;
+  out.map = map;
+  return out;
+}
+
 struct Style {
   const char* separator;
   char decimal;
@@ -166,6 +172,40 @@ TEST(Import, TheHelpOfAColumnWithoutUnitCanBePasted) {
   ImportWishes wishes;
   wishes.map = {"x=x_mm"};
   EXPECT_NEAR(table_of("q1_deg,x\n1,2\n", wishes).find("x")->values[0], 2e-3, 1e-18);
+}
+
+/// A column in a unit that plumb does not convert is not a column of the user's own.
+TEST(Import, RefusesAForeignUnitByName) {
+  for (const char* header : {"q1_deg,x_cm,y_mm", "q1_deg,X [cm],y_mm", "q1_deg,Pos X (cm),y_mm"}) {
+    const std::string bytes = std::string(header) + "\n1,2,3\n4,5,6\n";
+    EXPECT_EQ(refusal(bytes), "E-IMPORT-UNIT:1") << header;
+    try {
+      (void)imported(bytes);
+    } catch (const Failure& f) {
+      EXPECT_NE(f.problems()[0].message.find("is in cm"), std::string::npos) << header;
+      EXPECT_NE(f.problems()[0].help.find("x_mm"), std::string::npos) << header;
+    }
+  }
+  EXPECT_EQ(refusal("q1_deg,x,y_mm\ndeg,cm,mm\n1,2,3\n4,5,6\n").substr(0, 13), "E-IMPORT-UNIT");
+  EXPECT_EQ(refusal("q1_deg,x_cm\n1,2\n4,5\n", mapped({"x_cm=-"})), "accepted");
+  EXPECT_EQ(refusal("q1_deg,x_cm\n1,2\n4,5\n", mapped({"x_cm=x_cm"})), "E-IMPORT-MAP");
+  EXPECT_EQ(refusal("q1_deg,remark_cm\n1,2\n4,5\n"), "accepted");
+}
+
+TEST(Import, RefusesTwoWishesForOneColumn) {
+  EXPECT_EQ(refusal("X,Y\n1,2\n3,4\n", mapped({"X=x_mm", "X=y_mm"})), "E-IMPORT-MAP");
+}
+
+TEST(Import, APreviewWarnsWithACodeOfWarnings) {
+  for (const char* header : {"q1_deg,x", "q1_deg,x_cm"}) {
+    ImportWishes wishes;
+    wishes.preview = true;
+    const Imported data = imported(std::string(header) + "\n1,2\n4,5\n", wishes);
+    ASSERT_FALSE(data.remarks.empty()) << header;
+    for (const auto& remark : data.remarks)
+      EXPECT_EQ(remark.code[0] == 'W', remark.severity == Severity::kWarning) << remark.code;
+    EXPECT_EQ(data.remarks[0].code, "W-IMPORT-UNIT");
+  }
 }
 
 TEST(Import, RefusesWhatCannotBeMeantWithPlaceAndRemedy) {

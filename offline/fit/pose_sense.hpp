@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cell/measurements.hpp"
+
+namespace plumb::offline {
+
+/// Throws Failure (kNumbersSayNo) before a fit that no solver can save: E-FIT-FEW if every row is
+/// held out, E-FIT-ONE-POSE if the poses of `rows` are nearly all one pose.
+void check_poses(const Measurements& measured, const std::vector<int>& rows);
+
+}  // namespace plumb::offline
