@@ -1,38 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loads a model and corrects one pose: 01_correct_one_pose robot.plumb
 #include <cstdio>
-#include <vector>
-
-#include "examples/model_file.hpp"
-#include "plumb/runtime/guard.hpp"
+#include <plumb/robot.hpp>
 
 int main(int count, char** arguments) {
-  if (count != 2) {
-    std::fprintf(stderr, "usage: 01_correct_one_pose robot.plumb\n");
-    return 2;
-  }
+  const auto [robot, error] = plumb::Robot::load(count == 2 ? arguments[1] : "robot.plumb");
+  if (!robot) return std::fprintf(stderr, "%s\n", error->text.c_str()), 3;
 
-  // Load: slow, may allocate, may fail.
-  const auto loaded = load_or_exit(arguments[1]);
-  const plumb::Corrector& corrector = loaded->corrector();
-  plumb::Guard guard(loaded->limits());
+  // The target, and the joint positions by which the controller means to reach it.
+  plumb::CycleInput in{.target = plumb::Arrival::kArrived, .joints = plumb::Arrival::kArrived};
+  in.q_measured = in.q_commanded = {0.3, 0.8};
+  in.X_BD = robot->nominal_pose(in.q_commanded);
 
-  // The target: where the controller believes the arm is past the middle of its joint ranges.
-  std::vector<double> seed;
-  for (const auto& joint : loaded->model().nominal.joints)
-    seed.push_back(0.6 * joint.q_max + 0.4 * joint.q_min);
-  const plumb::Transformd X_BD = corrector.nominal().forward(seed);
+  // The cycle: fixed cost, never allocates, always returns. The correction ramps in.
+  plumb::CycleOutput out;
+  for (int cycle = 0; cycle < 1000; ++cycle, in.now_ns += 4'000'000) out = robot->correct(in);
 
-  // Cycle: fixed cost, never allocates, always returns.
-  const plumb::Correction correction = corrector.solve(X_BD, seed, plumb::SeedKind::kCommanded);
-  plumb::GuardOutput output;
-  for (int cycle = 0; cycle < 1000; ++cycle)
-    output = guard.step(X_BD, correction, loaded->limits().cycle_s);
-
-  const plumb::Vector3 shift = (correction.X_BC.p - X_BD.p) * 1e3;
-  const plumb::Vector3 sent = (output.X_BC.p - X_BD.p) * 1e3;
-  std::printf("status %s, correction [%.4f %.4f %.4f] mm, sent [%.4f %.4f %.4f] mm\n",
-              to_string(correction.status), shift(0), shift(1), shift(2), sent(0), sent(1),
-              sent(2));
-  return output.has_output && (shift - sent).norm() < 1e-6 ? 0 : 1;
+  const plumb::Vector3 shift_mm = (out.output.X_BC.p - in.X_BD.p) * 1e3;
+  std::printf("status %s, correction [%.4f %.4f %.4f] mm\n", to_string(out.output.status),
+              shift_mm(0), shift_mm(1), shift_mm(2));
+  return out.output.has_output ? 0 : 1;
 }

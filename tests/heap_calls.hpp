@@ -8,12 +8,13 @@
 #include <mm_malloc.h>  // of clang: it declares posix_memalign, and must come before ours
 #endif
 
-/// Every call of the C library's heap, by any thread of the program; operator new stands on it. In
-/// one source file a program only, and not where a sanitizer has a heap of its own.
+/// Counts every call of the C library's heap functions, by any thread of the program; operator new
+/// uses them. To be included by only one source file of a program, and not with a sanitizer that
+/// has a heap of its own.
 namespace plumb::tests {
 
 inline std::atomic<long> heap_calls{0};
-/// Where this thread's calls are counted besides, if anywhere.
+/// A counter for the calls of this thread alone, if one is set.
 inline thread_local std::atomic<long>* heap_calls_here = nullptr;
 
 inline void note_heap_call() noexcept {

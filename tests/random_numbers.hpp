@@ -26,8 +26,8 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Count of random cases, times PLUMB_TEST_SCALE: scripts/test-long sets it above 1, emulated
-/// processors below.
+/// The number of random cases multiplied by the environment variable PLUMB_TEST_SCALE.
+/// scripts/test-long sets it above 1, the tests on emulated processors set it below 1.
 inline long scaled(long count) {
   const char* scale = std::getenv("PLUMB_TEST_SCALE");
   if (scale == nullptr) return count;

@@ -4,7 +4,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// A count is a microradian or a micrometre: the same number in SI.
+/// Marks the positions of sliding joints as micrometres. The scale stays: 1 urad and 1 um are both
+/// 1e-6 in SI.
 void name_units(MessageLayout& message, const BusArm& arm) {
   if (message.kind != MessageKind::kJoints && message.kind != MessageKind::kCommanded) return;
   for (std::size_t i = 0; i < message.signals.size(); ++i)

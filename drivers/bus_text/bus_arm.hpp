@@ -8,14 +8,14 @@
 
 namespace plumb::drivers {
 
-/// What the default layout must be told of an arm.
+/// The properties of an arm on which the default bus layout depends.
 struct BusArm {
   std::vector<format::JointType> joints;
   double cycle_s = 0.004;
 };
 BusArm bus_arm(const format::Chain& chain, double cycle_s);
 
-/// Messages of the default layout, a sliding joint in micrometres.
+/// The default layout for this arm. Positions of sliding joints are sent in micrometres.
 BusLayout arm_layout(const BusArm& arm, int temperatures, CorrectionForm correction);
 MessageLayout arm_message(const BusArm& arm, MessageKind kind);
 

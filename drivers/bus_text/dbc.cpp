@@ -12,7 +12,7 @@
 namespace plumb::drivers {
 namespace {
 
-/// DBC knows no escapes.
+/// The text in quotes. A DBC file has no escape sequences, so quotes and backslashes are replaced.
 std::string quoted(std::string text) {
   std::replace(text.begin(), text.end(), '"', '\'');
   std::replace(text.begin(), text.end(), '\\', '/');
@@ -50,7 +50,7 @@ class Dbc {
       for (std::size_t i = 0; i < can_frames(layout_, message); ++i) what(message, i);
   }
 
-  /// Bit 31 says: 29 bits.
+  /// The identifier as a DBC file states it: bit 31 marks an extended identifier of 29 bits.
   std::uint32_t id(const MessageLayout& message, std::size_t i) const {
     const bool extended = layout_.id_kind == CanFrame::Id::kExtended;
     return (message.can_id + static_cast<std::uint32_t>(i)) | (extended ? 0x80000000U : 0U);
@@ -61,7 +61,8 @@ class Dbc {
                                              : fmt::format("{}_{}", message.name, i + 1);
   }
 
-  /// "0|24@1-": bit, bits, byte order (0: big, and the bit is the highest), sign.
+  /// The place of a number in its frame, for example "0|24@1-": start bit, number of bits, byte
+  /// order (0 is big-endian, and then the start bit is the most significant one) and sign.
   std::string place(int byte, int bytes, char sign) const {
     const bool big = layout_.byte_order == ByteOrder::kBig;
     return fmt::format("{}|{}@{}{}", 8 * byte + (big ? 7 : 0), 8 * bytes, big ? 0 : 1, sign);
@@ -88,7 +89,7 @@ class Dbc {
          (std::uint64_t{1} << 8 * bytes) - 1, to);
   }
 
-  /// Values of frame `i`, with their place in it.
+  /// Calls what(signal, k) for every value of frame `i`; k counts the values of the frame from 0.
   template <class Do>
   void each_value(const MessageLayout& message, std::size_t i, const Do& what) {
     const std::size_t values = can_form(layout_, message).values;
@@ -109,7 +110,8 @@ class Dbc {
                    : "CRC-8H2F over the identifier as four bytes, low byte first, and all before"));
   }
 
-  /// What tools show: bus type, cycle times, and which frames are FD.
+  /// Writes the attributes that bus tools display: bus type, cycle times, and which frames are CAN
+  /// FD.
   void attributes() {
     const bool fd = layout_.can_format == CanFrame::Format::kFd;
     line("BA_DEF_ \"BusType\" STRING ;\nBA_DEF_ BO_ \"GenMsgCycleTime\" INT 0 65535;");

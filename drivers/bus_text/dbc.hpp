@@ -7,8 +7,8 @@
 
 namespace plumb::drivers {
 
-/// The layout as a DBC file: a message a frame ("target_1", "target_2"), its values in their units,
-/// counter and check sum. `about`: of which cell.
+/// The layout as a DBC file: one DBC message for each frame ("target_1", "target_2"), with its
+/// values in their units, its counter and its check sum. `about` names the cell.
 std::string write_dbc(const BusLayout& layout, const std::string& about);
 
 }  // namespace plumb::drivers

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMicro = 1e-6;
 
-/// What a count is, for the values of that unit; a message without them does not know the key.
+/// Reads the size of one count for the values in that unit. A message without such values has no
+/// such key, so that the key is reported as unknown.
 void read_count(TomlTable& table, const std::string& unit, MessageLayout& message) {
   const bool has = std::any_of(message.signals.begin(), message.signals.end(),
                                [&](const Signal& s) { return s.unit == unit; });

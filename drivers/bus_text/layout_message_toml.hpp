@@ -6,7 +6,7 @@
 
 namespace plumb::drivers {
 
-/// can_id, register, period_us, count_um, count_urad of one message.
+/// Reads can_id, register, period_us, count_um and count_urad of one message.
 void read_message(TomlTable& table, MessageLayout& message);
 
 /// A whole number from `least` to `most`; anything else is reported and counts as absent.

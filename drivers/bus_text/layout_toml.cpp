@@ -40,7 +40,8 @@ void read_wire(TomlTable& bus, BusLayout& layout) {
   layout.data_bit_rate = bus.number_or("data_bit_rate", layout.data_bit_rate);
 }
 
-/// The message a table is of; null, and reported, if the layout has none. Asking adds `commanded`.
+/// The message that a table describes. A table for `commanded` adds that message to the layout. If
+/// the layout cannot have the message, the result is null and the table is reported.
 MessageLayout* message_for(TomlTable& bus, const std::string& name, MessageKind kind,
                            const BusArm& arm, BusLayout& layout) {
   if (MessageLayout* const found = find(layout, kind)) return found;
@@ -69,14 +70,16 @@ void read_messages(TomlTable& bus, const BusArm& arm, BusLayout& layout) {
 
 const char* word(ByteOrder order) { return order == ByteOrder::kBig ? "big" : "little"; }
 
-/// What a count of that unit is [1e-6 SI]; 0: the message has no such value.
+/// The size of one count of the values in that unit [1e-6 SI], or 0 if the message has no such
+/// value.
 double count_of(const MessageLayout& message, const std::string& unit) {
   for (const Signal& signal : message.signals)
     if (signal.unit == unit) return signal.scale / si_per_unit(unit);
   return 0.0;
 }
 
-/// As sensors are named in measurements: "temp", "temp_elbow"; a DBC file takes 32 characters.
+/// True if the name is one that measurement files allow ("temp", "temp_elbow") and has at most the
+/// 32 characters that a DBC file allows.
 bool is_sensor(const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
     return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -103,7 +106,7 @@ std::vector<std::string> named_temperatures(TomlTable& bus) {
   return out;
 }
 
-/// Either their number or their names.
+/// The temperatures that the controller reports, given either by their number or by their names.
 struct Temperatures {
   int count = 0;
   std::vector<std::string> names;
@@ -116,7 +119,8 @@ Temperatures read_temperatures(TomlTable& bus) {
   }
   auto names = named_temperatures(bus);
   const auto most = static_cast<std::size_t>(format::kMaxTemperatures);
-  return {.count = static_cast<int>(std::min(names.size(), most)), .names = std::move(names)};
+  const auto count = static_cast<int>(std::min(names.size(), most));
+  return {.count = count, .names = std::move(names)};
 }
 
 std::string write_temperatures(const BusLayout& layout) {

@@ -9,8 +9,8 @@
 
 namespace plumb::drivers {
 
-/// The table [bus] of rt.toml and [deploy.bus] of cell.toml. What it does not say is as in
-/// default_layout.
+/// Reads the table [bus] of rt.toml or [deploy.bus] of cell.toml. Keys that are not there have the
+/// values of default_layout.
 ///
 ///   can_format = "classic"        # or "fd"
 ///   id_kind = "standard"          # or "extended"
@@ -28,14 +28,15 @@ namespace plumb::drivers {
 ///   count_um = 1                  # what a count of its lengths and angles is
 ///   count_urad = 1
 ///
-/// Problems go to the table's source, unknown keys and every fault of the layout (code BUS) among
-/// them; the result then is not to be used.
+/// Problems are reported to the table's source, among them unknown keys and every fault of the
+/// layout (code BUS). After a problem the result must not be used.
 BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use);
 
 /// Reports a fault at its key, its message's table or the whole table (code BUS).
 void report_fault(TomlTable& bus, const LayoutFault& fault);
 
-/// The same table with everything said, so that nothing hangs on a default. `path`: "bus".
+/// Writes the same table with every key, so that nothing depends on a default value. `path` is the
+/// name of the table, for example "bus".
 std::string write_bus(const BusLayout& layout, const std::string& path);
 
 }  // namespace plumb::drivers

@@ -11,12 +11,13 @@
 namespace plumb::drivers {
 namespace {
 
-/// The largest count of a value.
+/// The largest number of counts that a value of this message can hold.
 double most_counts(const BusLayout& layout, const MessageLayout& message) {
   return std::ldexp(1.0, 8 * can_form(layout, message).value_bytes - 1) - 1.0;
 }
 
-/// Counts of `needed`, in whole micrometres or microradians, that fit.
+/// The smallest size of one count [um or urad], rounded up to 0.1, with which `needed` [m or rad]
+/// takes at most `most` counts.
 double count_for(double needed, double most) {
   return std::ceil(needed / most * 1e6 * 10.0) / 10.0;
 }

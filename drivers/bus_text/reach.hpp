@@ -9,9 +9,10 @@
 
 namespace plumb::drivers {
 
-/// What the numbers of classic CAN frames are too small for: a joint's limits, or the largest
-/// correction as an offset. It would arrive cut off. CAN FD and Modbus have 32 bits for everything.
-/// `path`: of the layout's table, for the help: "bus".
+/// Finds the quantities for which the numbers of classic CAN frames are too small: the limits of a
+/// joint, or the largest correction sent as an offset. They would arrive saturated. CAN FD and
+/// Modbus have 32 bits for every value. `path` is the name of the layout's table, for example
+/// "bus"; the help quotes it.
 std::vector<LayoutFault> find_short_reach(const BusLayout& layout, const format::Chain& chain,
                                           double max_correction_m, const std::string& path);
 

@@ -8,13 +8,14 @@
 
 namespace plumb::drivers {
 
-/// One sentence on a message, for DBC and Modbus map; without quotes, pipes and semicolons.
+/// One sentence that describes a message, for the DBC file and the Modbus map. It contains no
+/// quotes, pipes or semicolons.
 const char* meaning_of(MessageKind kind) noexcept;
 
-/// The same of a value; empty: its name says it.
+/// One sentence that describes a value; empty if the name of the value says enough.
 const char* meaning_of(MessageKind kind, const std::string& signal) noexcept;
 
-/// Numbers that have a name.
+/// A number with a name, for example a state of the controller.
 struct NamedNumber {
   int number = 0;
   const char* name = "";

@@ -9,12 +9,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <optional>
+#include <regex>
+#include <vector>
 
+#include "program/bounded_file.hpp"
+#include "program/byte_output.hpp"
 #include "program/problem.hpp"
 
 namespace plumb {
@@ -31,6 +37,15 @@ fs::path folder_of(const fs::path& file) {
                 {.code = "E-READ",
                  .message = fmt::format("cannot read {}: {}", display_name(file), why),
                  .help = "check the path: ls -l " + folder_of(file).string()});
+}
+
+[[noreturn]] void too_large(const fs::path& file, std::uintmax_t most) {
+  throw Failure(Exit::kInput,
+                {.code = "E-READ-SIZE",
+                 .message = fmt::format("{} holds more than {} MB, the most that is read of such a "
+                                        "file",
+                                        display_name(file), most >> 20),
+                 .help = "check what it is: file " + file.string()});
 }
 
 [[noreturn]] void cannot_write(const fs::path& file, int error) {
@@ -56,39 +71,31 @@ class Descriptor {
   int fd_;
 };
 
-int sync(int fd) {
-  int result = 0;
-  do result = ::fsync(fd);
-  while (result != 0 && errno == EINTR);
-  // A pipe or a device has nothing to wait for.
-  return result == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
-}
-
-/// 0 or errno.
-int write_all(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return sync(fd);
-}
-
-/// What is replaced keeps its permissions.
-int write_draft(const fs::path& draft, const fs::path& target, std::string_view bytes) {
-  const Descriptor file(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL);
-  if (file.get() < 0) return errno;
+/// What is replaced keeps its permissions. 0 or errno.
+int fill_draft(int fd, const fs::path& target, std::string_view bytes) {
   struct stat present {};
-  if (::stat(target.c_str(), &present) == 0 && ::fchmod(file.get(), present.st_mode & 07777) != 0)
+  if (::stat(target.c_str(), &present) == 0 && ::fchmod(fd, present.st_mode & 07777) != 0)
     return errno;
-  return write_all(file.get(), bytes);
+  return write_and_sync(fd, bytes);
 }
 
-bool is_stream(const fs::path& file) {
-  std::error_code ignored;
-  const auto status = fs::status(file, ignored);
-  return fs::is_fifo(status) || fs::is_character_file(status);
+/// The draft gets its name when it is whole. 0 or errno; nothing if the file system has no files
+/// without a name.
+std::optional<int> write_nameless_draft(const fs::path& draft, const fs::path& target,
+                                        std::string_view bytes) {
+  const Descriptor file(folder_of(target).c_str(), O_TMPFILE | O_WRONLY);
+  if (file.get() < 0) return std::nullopt;
+  if (const int error = fill_draft(file.get(), target, bytes); error != 0) return error;
+  const std::string self = fmt::format("/proc/self/fd/{}", file.get());
+  if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, draft.c_str(), AT_SYMLINK_FOLLOW) != 0)
+    return std::nullopt;
+  return 0;
+}
+
+int write_draft(const fs::path& draft, const fs::path& target, std::string_view bytes) {
+  if (const auto done = write_nameless_draft(draft, target, bytes)) return *done;
+  const Descriptor file(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL);
+  return file.get() < 0 ? errno : fill_draft(file.get(), target, bytes);
 }
 
 /// Waits for a reader if it is a pipe; until then nothing can be left half-written, so an interrupt
@@ -100,7 +107,7 @@ void write_into(const fs::path& stream, std::string_view bytes) {
   sigaddset(&interrupts, SIGTERM);
   pthread_sigmask(SIG_UNBLOCK, &interrupts, &before);
   const Descriptor out(stream.c_str(), O_WRONLY | O_NOCTTY);
-  const int error = out.get() < 0 ? errno : write_all(out.get(), bytes);
+  const int error = out.get() < 0 ? errno : write_and_sync(out.get(), bytes);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (error != 0) cannot_write(stream, error);
 }
@@ -110,6 +117,39 @@ fs::path draft_beside(const fs::path& target) {
   static std::atomic<unsigned> count{0};
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return target.string() + fmt::format(".{}-{}-{}.tmp", ::getpid(), now, count++);
+}
+
+/// The process in "12-345-6.tmp", what draft_beside puts behind the name of the target; 0 for any
+/// other text.
+pid_t writer_of(std::string_view ending) {
+  static const std::regex kEnding(R"((\d{1,9})-\d+-\d+\.tmp)");
+  std::match_results<std::string_view::const_iterator> match;
+  if (!std::regex_match(ending.begin(), ending.end(), match, kEnding)) return 0;
+  return std::stoi(match[1].str());
+}
+
+/// A process of another machine that shares the folder looks as if it were gone, but writes its
+/// draft now and not a minute ago.
+bool is_old(const fs::path& draft) {
+  std::error_code error;
+  const auto written = fs::last_write_time(draft, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::minutes(1);
+}
+
+/// Drafts of this target whose writers were killed.
+void remove_stale_drafts(const fs::path& target) {
+  const std::string begin = target.filename().string() + ".";
+  std::error_code ignored;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator at(folder_of(target), ignored), end; !ignored && at != end;
+       at.increment(ignored)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with(begin) || !name.ends_with(".tmp")) continue;
+    const pid_t writer = writer_of(std::string_view(name).substr(begin.size()));
+    const bool gone = writer > 0 && ::kill(writer, 0) != 0 && errno == ESRCH;
+    if (gone && is_old(at->path())) stale.push_back(at->path());
+  }
+  for (const auto& draft : stale) ::unlink(draft.c_str());
 }
 
 }  // namespace
@@ -123,22 +163,33 @@ std::string display_name(const fs::path& file) {
   return below ? relative.string() : file.string();
 }
 
-std::string read_file(const fs::path& file) {
+std::string read_file(const fs::path& file) { return read_file_up_to(file, kMostFileBytes); }
+
+std::string read_file_up_to(const fs::path& file, std::uintmax_t most) {
   std::error_code error;
   const auto status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) cannot_read(file, "no such file");
   if (error) cannot_read(file, error.message());
   if (fs::is_directory(status)) cannot_read(file, "it is a directory");
-  const Descriptor in(file.c_str(), O_RDONLY);
+  if (fs::is_socket(status)) cannot_read(file, "it is a socket");
+  if (fs::is_regular_file(status)) {
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (!error && size > most) too_large(file, most);
+  } else {
+    most = std::min(most, kMostStreamBytes);
+  }
+  const Descriptor in(file.c_str(), O_RDONLY | O_NOCTTY);
   if (in.get() < 0) cannot_read(file, std::strerror(errno));
   std::string out;
-  if (fs::is_regular_file(status)) out.reserve(fs::file_size(file, error) + 1);
+  const std::uintmax_t expected = fs::is_regular_file(status) ? fs::file_size(file, error) : 0;
+  if (!error && expected <= most) out.reserve(expected + 1);
   std::array<char, 1 << 16> chunk;
   for (;;) {
     const ssize_t n = ::read(in.get(), chunk.data(), chunk.size());
     if (n == 0) return out;
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) cannot_read(file, std::strerror(errno));
+    if (out.size() + static_cast<std::size_t>(n) > most) too_large(file, most);
     out.append(chunk.data(), static_cast<std::size_t>(n));
   }
 }
@@ -150,6 +201,7 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
   // A link stays a link: what it points to is replaced.
   const fs::path target = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file) : file;
   const fs::path draft = draft_beside(target);
+  remove_stale_drafts(target);
   int error = write_draft(draft, target, bytes);
   if (error == 0 && ::rename(draft.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {
@@ -157,7 +209,7 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
     cannot_write(file, error);
   }
   const Descriptor directory(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY);
-  if (directory.get() >= 0) sync(directory.get());
+  if (directory.get() >= 0) sync_to_disk(directory.get());
 }
 
 bool would_replace(const fs::path& file) {

@@ -14,6 +14,9 @@ std::string display_name(const std::filesystem::path& file);
 std::string read_file(const std::filesystem::path& file);
 
 /// Writes all or nothing: a temporary file beside the target, fsync, rename, fsync of the folder.
+/// Where the file system can, the temporary file has no name until it is whole, so that a killed
+/// program leaves nothing behind; elsewhere the next writer of the same target removes what a
+/// program that is gone has left.
 /// A pipe, a terminal or another device is written into instead: replacing its node would cut off
 /// who reads there. Throws Failure (kEnvironment) with the system's reason; the temporary file is
 /// removed.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "program/outcome.hpp"
+#include "program/verb_options.hpp"
 
 namespace plumb {
 
@@ -15,23 +16,33 @@ namespace plumb {
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
-  void add_to(CLI::App& verb);
+  void add_to(VerbOptions& verb);
 };
 
 /// Files that belong together: nothing is written unless all may be.
 class OutputFiles {
  public:
+  /// `folder`: one that was asked for and may be new, such as that of a new cell; none if empty.
+  explicit OutputFiles(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
+
   void add(std::filesystem::path file, std::string bytes);
 
-  /// Refuses (E-EXISTS) to replace a file without --force, makes folders, writes each file all or
-  /// nothing. Adds `files` and `dry_run` to the result, which must be an object.
+  /// Refuses names of folders (E-USAGE), and (E-EXISTS) to replace a file without --force; makes
+  /// folders and says so unless they were asked for, writes each file all or nothing. Adds `files`
+  /// and `dry_run` to the result, which must be an object.
   void commit(const WriteOptions& options, Outcome& outcome) const;
 
  private:
+  void refuse_folders() const;
   void refuse_existing() const;
+  std::vector<Problem> folder_notes(const WriteOptions& options) const;
 
+  std::filesystem::path folder_;
   std::vector<std::pair<std::filesystem::path, std::string>> files_;
 };
+
+/// N-WRITE-FOLDER if the folder of this file does not exist yet, so that writing makes it.
+std::optional<Problem> folder_note(const std::filesystem::path& file, const WriteOptions& options);
 
 /// "wrote x.csv" or, with --dry-run, "would write x.csv".
 std::string wrote(const std::filesystem::path& file, const WriteOptions& options);

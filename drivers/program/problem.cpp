@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "program/printable.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb {
@@ -22,7 +23,8 @@ const char* word(Severity severity) {
   }
 }
 
-constexpr int kWindow = 100;  // characters of a source line shown
+constexpr const char* kReplacement = "\xEF\xBF\xBD";  // one column wide, so that carets stay right
+constexpr int kWindow = 72;                           // characters of a source line shown
 
 struct Excerpt {
   std::string text;
@@ -37,13 +39,14 @@ Excerpt excerpt(const Place& place) {
   const int first = size <= kWindow ? 0 : std::clamp(at - kWindow / 2, 0, size - kWindow);
   const int last = std::min(size, first + kWindow);
   Excerpt out{.text = first > 0 ? "…" : "", .caret = at - first + (first > 0 ? 1 : 0)};
-  for (int i = first; i < last; ++i) out.text += line[i];
+  for (int i = first; i < last; ++i)
+    out.text += printable_line(line[i]) == line[i] ? line[i] : kReplacement;
   if (last < size) out.text += "…";
   return out;
 }
 
 std::string render_place(const Place& place) {
-  std::string at = place.file;
+  std::string at = printable_line(place.file);
   if (place.line > 0) at += fmt::format(":{}", place.line);
   if (place.line > 0 && place.column > 0) at += fmt::format(":{}", place.column);
   if (place.source.empty() || place.line <= 0) return fmt::format("\n  --> {}", at);
@@ -55,7 +58,7 @@ std::string render_place(const Place& place) {
   if (place.column > 0)
     out += fmt::format("\n{}| {}{}{}{}", gutter, std::string(shown.caret, ' '),
                        std::string(std::clamp(place.length, 1, kWindow), '^'),
-                       place.label.empty() ? "" : " ", place.label);
+                       place.label.empty() ? "" : " ", printable_line(place.label));
   return out;
 }
 
@@ -67,13 +70,13 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::string render(const Problem& problem) {
-  std::string out =
-      fmt::format("{}[{}]: {}", word(problem.severity), problem.code, problem.message);
+  std::string out = fmt::format("{}[{}]: {}", word(problem.severity), problem.code,
+                                printable_line(problem.message));
   if (problem.place) out += render_place(*problem.place);
   if (!problem.help.empty()) {
     const bool caret = problem.place && !problem.place->source.empty() && problem.place->line > 0;
     const std::size_t width = caret ? std::to_string(problem.place->line).size() + 2 : 2;
-    out += fmt::format("\n{}= help: {}", std::string(width, ' '), problem.help);
+    out += fmt::format("\n{}= help: {}", std::string(width, ' '), printable_line(problem.help));
   }
   return out;
 }

@@ -2,12 +2,15 @@
 #include "program/report.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "plumb/format/version.hpp"
+#include "program/printable.hpp"
+#include "program/screen.hpp"
 
 namespace plumb {
 namespace {
@@ -27,9 +30,9 @@ Json error_json(const Outcome& outcome) {
   return out;
 }
 
-void print_problems(const std::vector<Problem>& problems) {
+void print_problems(const std::vector<Problem>& problems, const Screen& screen) {
   for (std::size_t i = 0; i < std::min(kShown, problems.size()); ++i)
-    fmt::print(stderr, "{}\n", render(problems[i]));
+    fmt::print(stderr, "{}\n", painted(render(problems[i]), screen));
   if (problems.size() > kShown) fmt::print(stderr, "... and {} more\n", problems.size() - kShown);
 }
 
@@ -37,6 +40,14 @@ void print_problems(const std::vector<Problem>& problems) {
 bool print_out(const std::string& text) {
   return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
          std::fflush(stdout) == 0;
+}
+
+int cannot_print(int reason) {
+  fmt::print(stderr, "{}\n",
+             render({.code = "E-WRITE",
+                     .message = fmt::format("cannot write to stdout: {}", std::strerror(reason)),
+                     .help = "check what reads it: df -h"}));
+  return static_cast<int>(Exit::kEnvironment);
 }
 
 }  // namespace
@@ -62,17 +73,19 @@ Json envelope(const Command& command, const Outcome& outcome) {
 }
 
 int report(const Command& command, const Globals& globals, const Outcome& outcome) {
-  print_problems(outcome.remarks);
   const bool json = globals.output == Globals::Output::kJson;
-  const bool printed = print_out(json ? to_text(envelope(command, outcome)) : outcome.text);
+  const Screen messages = json ? Screen{} : screen_of(STDERR_FILENO);
+  print_problems(outcome.remarks, messages);
+  const bool printed =
+      print_out(json ? to_text(envelope(command, outcome))
+                     : laid_out(printable_text(outcome.text), screen_of(STDOUT_FILENO)));
   const int reason = errno;
-  print_problems(outcome.errors);
-  if (printed) return static_cast<int>(outcome.exit);
-  fmt::print(stderr, "{}\n",
-             render({.code = "E-WRITE",
-                     .message = fmt::format("cannot write to stdout: {}", std::strerror(reason)),
-                     .help = "check what reads it: df -h"}));
-  return static_cast<int>(Exit::kEnvironment);
+  print_problems(outcome.errors, messages);
+  return printed ? static_cast<int>(outcome.exit) : cannot_print(reason);
+}
+
+int print_verbatim(const std::string& text) {
+  return print_out(text) ? static_cast<int>(Exit::kDone) : cannot_print(errno);
 }
 
 }  // namespace plumb

@@ -23,4 +23,8 @@ Json envelope(const Command& command, const Outcome& outcome);
 /// or kEnvironment if stdout cannot be written.
 int report(const Command& command, const Globals& globals, const Outcome& outcome);
 
+/// Text for another program, such as a shell, on stdout as it is. Returns kDone, or kEnvironment if
+/// stdout cannot be written.
+int print_verbatim(const std::string& text);
+
 }  // namespace plumb

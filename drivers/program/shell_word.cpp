@@ -11,4 +11,8 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
+std::string command_in(const std::string& program, const std::string& directory) {
+  return directory.empty() ? program + " " : program + " -C " + shell_word(directory) + " ";
+}
+
 }  // namespace plumb

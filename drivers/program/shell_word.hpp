@@ -8,4 +8,8 @@ namespace plumb {
 /// As a shell takes it: quoted where it must be.
 std::string shell_word(const std::string& text);
 
+/// What a command begins with that works in the same cell: "plumb -C cell ", or "plumb " if no
+/// folder was named.
+std::string command_in(const std::string& program, const std::string& directory);
+
 }  // namespace plumb

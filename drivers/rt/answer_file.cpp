@@ -9,16 +9,27 @@
 #include "plumb/drivers/bus_content.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
+#include "rt/creatable.hpp"
 
 namespace plumb::drivers::rt {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, int error) {
+  throw Failure(
+      Exit::kEnvironment,
+      {.code = "E-RT-SINK",
+       .message = fmt::format("cannot write {}: {}", display_name(file), std::strerror(error)),
+       .help = "choose another file in rt.toml, [sink] file"});
+}
+
+}  // namespace
+
+void AnswerFile::check(const std::filesystem::path& file) {
+  if (const int error = creation_error(file); error != 0) refuse(file, error);
+}
 
 AnswerFile::AnswerFile(const std::filesystem::path& file) : file_(std::fopen(file.c_str(), "wxe")) {
-  if (file_ == nullptr)
-    throw Failure(
-        Exit::kEnvironment,
-        {.code = "E-RT-SINK",
-         .message = fmt::format("cannot write {}: {}", display_name(file), std::strerror(errno)),
-         .help = "choose another file in rt.toml, [sink] file"});
+  if (file_ == nullptr) refuse(file, errno);
   std::fputs("t_s,counter,cx_mm,cy_mm,cz_mm,cqw,cqx,cqy,cqz\n", file_);
 }
 

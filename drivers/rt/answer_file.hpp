@@ -13,6 +13,8 @@ class AnswerFile {
  public:
   /// An existing file is not replaced. Throws Failure (kEnvironment, E-RT-SINK).
   explicit AnswerFile(const std::filesystem::path& file);
+  /// Throws as the constructor would, and makes no file.
+  static void check(const std::filesystem::path& file);
   ~AnswerFile();
   AnswerFile(const AnswerFile&) = delete;
   AnswerFile& operator=(const AnswerFile&) = delete;

@@ -11,11 +11,6 @@
 namespace plumb::drivers::rt {
 namespace {
 
-/// A file carries what Modbus carries.
-BusUse use_of(const SourceConfig& source) {
-  return source.kind == SourceConfig::Kind::kCan ? BusUse::kCan : BusUse::kModbus;
-}
-
 void complete(Deployment& out) {
   SessionSettings& session = out.session = out.config.session;
   const double cycle_s = 1e-6 * out.config.cycle_us;
@@ -37,7 +32,7 @@ void complete(Deployment& out) {
 }  // namespace
 
 std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const LoadedModel& model) {
-  if (use_of(deployment.config.source) != BusUse::kCan) return {};
+  if (deployment.config.source->use() != BusUse::kCan) return {};
   return drivers::find_short_reach(deployment.layout, model.model().nominal,
                                    model.limits().max_correction_m, "bus");
 }
@@ -47,6 +42,12 @@ bool sensors_come(const Deployment& deployment, const LoadedModel& model) {
   const SensorPlaces& told = deployment.session.sensors;
   return std::equal(own.begin(), own.end(), told.begin(),
                     [](int wanted, int there) { return wanted < 0 || wanted == there; });
+}
+
+BusLayout record_layout(const Deployment& deployment) {
+  BusLayout out = deployment.layout;
+  if (deployment.config.source->use() != BusUse::kCan) out.can_format = CanFrame::Format::kFd;
+  return out;
 }
 
 Deployment load_deployment(const std::filesystem::path& folder) {
@@ -66,7 +67,7 @@ Deployment load_deployment(const std::filesystem::path& folder) {
   const toml::table nothing;
   TomlTable absent(nothing, "bus", source);
   TomlTable& table = bus ? *bus : absent;
-  out.layout = read_bus(table, arm, use_of(out.config.source));
+  out.layout = read_bus(table, arm, out.config.source->use());
   source.stop_on_errors();
   for (const LayoutFault& fault : find_short_reach(out, *out.model.loaded))
     report_fault(table, fault);

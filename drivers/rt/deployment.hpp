@@ -27,6 +27,10 @@ std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const Lo
 /// brings. Slow.
 bool sensors_come(const Deployment& deployment, const LoadedModel& model);
 
+/// The layout that the record is written in: of the bus if that is CAN, else its FD variant, which
+/// loses nothing of what other buses carry.
+BusLayout record_layout(const Deployment& deployment);
+
 /// Throws Failure (kInput) with everything that is wrong: codes E-RT-..., E-TOML. Sends nothing,
 /// opens no bus. Slow.
 Deployment load_deployment(const std::filesystem::path& folder);

@@ -12,7 +12,11 @@ int main(int argc, char** argv) {
                 "robot controller.",
        .examples = "  plumb-rt doctor --cycle-us 1000   # is this machine fit for 1 kHz?\n"
                    "  plumb-rt run mycell/deploy        # what plumb deploy wrote, until SIGTERM",
-       .first = "plumb-rt doctor"},
+       .first = "plumb-rt doctor",
+       .manual = {.files = {{"robot.plumb", "the model, in the folder that plumb deploy wrote"},
+                            {"rt.toml", "the bus, the cycle and the limits, in the same folder"}},
+                  .exits = plumb::ExitRow::Of::kBusPrograms,
+                  .see_also = {"plumb", "plumb-twin"}}},
       plumb::WorksIn::kAnywhere);
   rt::add_run(program);
   rt::add_status(program);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "plumb/drivers/can_codec.hpp"
-#include "rt/record_ring.hpp"
+#include "plumb/drivers/record_ring.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -20,6 +20,8 @@ class RecordWriter {
   /// Throws Failure (kEnvironment, E-RT-RECORD) if it cannot be made.
   RecordWriter(const std::filesystem::path& file, const BusLayout& layout, std::string bus,
                int most_mb);
+  /// Throws as the constructor would, and makes no file.
+  static void check(const std::filesystem::path& file);
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;

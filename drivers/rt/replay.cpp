@@ -11,7 +11,6 @@
 #include "plumb/drivers/can_codec.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
-#include "rt/open_bus.hpp"
 #include "rt/record_line.hpp"
 
 namespace plumb::drivers::rt {

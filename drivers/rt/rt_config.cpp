@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/rt_config.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
 #include <numbers>
+
+#include "rt/can_source.hpp"
+#include "rt/whole_number.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
 
 constexpr double kMilli = 1e-3, kMicro = 1e-6, kDegree = std::numbers::pi / 180.0;
-
-struct Range {
-  int least, most;
-};
-
-void read_whole(TomlTable& table, const char* key, Range range, int& out) {
-  const auto value = table.number(key);
-  if (!value) return;
-  if (*value != std::floor(*value) || *value < range.least || *value > range.most)
-    return table.out_of_range(key,
-                              fmt::format("a whole number, {} to {}", range.least, range.most));
-  out = static_cast<int>(*value);
-}
 
 void read_positive(TomlTable& table, const char* key, double unit, double& out) {
   if (const auto value = table.positive(key)) out = *value * unit;
@@ -52,33 +40,13 @@ void read_cycle(TomlTable table, RtConfig& out) {
   table.done();
 }
 
-void read_modbus(TomlTable& table, SourceConfig& out) {
-  out.role = table.choice("role", {"client", "server"}) == "client" ? SourceConfig::Role::kClient
-                                                                    : SourceConfig::Role::kServer;
-  out.address = table.text_or("address", out.address);
-  read_whole(table, "port", {1, 65535}, out.port);
-  read_whole(table, "unit", {0, 255}, out.unit);
-  for (const auto& peer : table.texts("peers")) out.peers.push_back(peer.text);
-  out.device = table.text_or("device", "");
-  read_whole(table, "baud", {300, 4'000'000}, out.baud);
-  out.interface = table.text_or("interface", "");
-}
-
-SourceConfig read_source(TomlTable table, const std::filesystem::path& folder) {
-  SourceConfig out;
-  const std::string kind = table.choice("kind", {"can", "modbus", "csv"});
-  if (kind == "can") {
-    out.interface = table.text_or("interface", out.interface);
-    if (out.interface.empty() || out.interface.size() > 15)
-      table.out_of_range("interface", "the name of a CAN interface, 1 to 15 characters");
-  } else if (kind == "modbus") {
-    out.kind = SourceConfig::Kind::kModbus;
-    read_modbus(table, out);
-  } else {
-    out.kind = SourceConfig::Kind::kCsv;
-    out.file = in(folder, table.text_or("file", ""));
-    if (out.file.empty()) table.missing("file", "file = \"targets.csv\"");
-  }
+std::shared_ptr<const BusSource> read_source(TomlTable table, const std::filesystem::path& folder) {
+  std::vector<std::string> words;
+  for (const BusKind& kind : bus_kinds()) words.emplace_back(kind.word);
+  const std::string word = table.choice("kind", words);
+  const auto kind = std::find_if(bus_kinds().begin(), bus_kinds().end(),
+                                 [&](const BusKind& one) { return one.word == word; });
+  auto out = kind->read(table, folder);
   table.done();
   return out;
 }
@@ -136,6 +104,7 @@ void read_log(TomlTable table, const std::filesystem::path& folder, RtConfig& ou
 RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder) {
   RtConfig out;
   out.model = folder / out.model;
+  out.source = std::make_shared<CanSource>();
   if (!top.text("schema")) top.missing("schema", "schema = \"rt/1\"");
   top.choice("schema", {"rt/1"});
   if (auto table = top.table("model")) read_model(*table, folder, out);

@@ -3,27 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "plumb/drivers/session.hpp"
 #include "program/toml_table.hpp"
+#include "rt/bus_source.hpp"
 
 namespace plumb::drivers::rt {
-
-/// Where desired targets come from, and, but for a file, where the answers go.
-struct SourceConfig {
-  enum class Kind : std::uint8_t { kCan, kModbus, kCsv } kind = Kind::kCan;
-  enum class Role : std::uint8_t { kClient, kServer } role = Role::kClient;  // ours
-  std::string interface = "can0";     // CAN; Modbus server: a network interface to listen on
-  std::string address = "127.0.0.1";  // Modbus TCP: of the controller, or to listen on
-  int port = 502;
-  int unit = 1;
-  std::vector<std::string> peers = {};  // Modbus server: addresses that may connect
-  std::string device = {};              // Modbus RTU; empty: TCP
-  int baud = 115200;
-  std::filesystem::path file = {};  // CSV
-};
 
 struct SinkConfig {
   enum class Kind : std::uint8_t { kSame, kCsv } kind = Kind::kSame;
@@ -39,7 +26,7 @@ struct RtConfig {
   int priority = 80;       // SCHED_FIFO; 0: an ordinary thread
   int cpu = -1;            // -1: any
   double give_up_s = 0.0;  // end with exit code 6 when the bus is down for so long; 0: never
-  SourceConfig source = {};
+  std::shared_ptr<const BusSource> source;  // never null once read
   SinkConfig sink = {};
   SessionSettings session = {};
   std::filesystem::path record = {};  // empty: none

@@ -46,7 +46,8 @@ std::string http(const char* line, const std::string& type, const std::string& b
 
 }  // namespace
 
-Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShared& shared)
+Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShared& shared,
+                 Files files)
     : deployment_(deployment),
       bus_(bus),
       slot_(slot),
@@ -54,16 +55,30 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
       control_(open_control(deployment.folder)),
       metrics_(open_metrics(deployment.config.metrics_port)) {
   const RtConfig& config = deployment.config;
-  facts_.bus = bus_name(config.source);
+  facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
   facts_.model_sha256 = deployment.model.sha256;
+  if (files == Files::kMade)
+    make_files();
+  else
+    check_files();
+}
+
+void Service::make_files() {
+  const RtConfig& config = deployment_.config;
   if (!config.record.empty()) {
-    record_ = std::make_unique<RecordWriter>(config.record, record_layout(deployment), facts_.bus,
+    record_ = std::make_unique<RecordWriter>(config.record, record_layout(deployment_), facts_.bus,
                                              config.record_max_mb);
     facts_.record = record_->file().string();
   }
   if (config.sink.kind == SinkConfig::Kind::kCsv)
     answers_ = std::make_unique<AnswerFile>(config.sink.file);
+}
+
+void Service::check_files() const {
+  const RtConfig& config = deployment_.config;
+  if (!config.record.empty()) RecordWriter::check(config.record);
+  if (config.sink.kind == SinkConfig::Kind::kCsv) AnswerFile::check(config.sink.file);
 }
 
 Service::~Service() {

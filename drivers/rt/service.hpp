@@ -5,13 +5,13 @@
 #include <optional>
 #include <thread>
 
+#include "plumb/drivers/run_shared.hpp"
 #include "plumb/runtime/model_slot.hpp"
+#include "rt/bus_source.hpp"
 #include "rt/control_path.hpp"
 #include "rt/deployment.hpp"
 #include "rt/notify.hpp"
-#include "rt/open_bus.hpp"
 #include "rt/record_writer.hpp"
-#include "rt/run_shared.hpp"
 #include "rt/status_text.hpp"
 
 namespace plumb::drivers::rt {
@@ -22,8 +22,11 @@ namespace plumb::drivers::rt {
 /// The cycle's thread shares RunShared and the model slot with it, and waits for neither.
 class Service {
  public:
+  /// Of record and answers. kChecked: none is made, for a service that is not to start.
+  enum class Files : std::uint8_t { kMade, kChecked };
+
   /// Opens sockets and files; throws Failure (kEnvironment) where that fails.
-  Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShared& shared);
+  Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShared& shared, Files files);
   ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
@@ -35,6 +38,8 @@ class Service {
   const RunFacts& facts() const noexcept { return facts_; }
 
  private:
+  void make_files();
+  void check_files() const;
   void run();
   void pass();
   void write_down();

@@ -65,9 +65,11 @@ std::string status_text(const Json& status) {
                      age(ages, "target_ms"), age(ages, "joints_ms"), age(ages, "controller_ms"),
                      age(ages, "robot_ms"));
   const Json& sync = status["sync"];
-  out += fmt::format("poses       {} agreed, {} of them apart; last {:.1f} um, worst {:.1f} um\n",
-                     sync["agreed"].dump(), sync["distinct"].dump(), number(sync, "last_um"),
-                     number(sync, "worst_um"));
+  out += fmt::format(
+      "poses       {} compared and in agreement, {} of them different poses; last {:.1f} um, "
+      "worst {:.1f} um\n",
+      sync["agreed"].dump(), sync["distinct"].dump(), number(sync, "last_um"),
+      number(sync, "worst_um"));
   out += fmt::format("counters    {}\n", all(status["counters"]));
   out += fmt::format("link        {} {}: {}\n", status["link"]["bus"].get<std::string>(),
                      status["link"]["state"].get<std::string>(), all(status["link"]));

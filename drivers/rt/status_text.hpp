@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "plumb/drivers/run_shared.hpp"
 #include "program/json.hpp"
-#include "rt/run_shared.hpp"
 
 namespace plumb::drivers::rt {
 

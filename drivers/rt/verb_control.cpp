@@ -86,40 +86,40 @@ void swap(const ControlOptions& options, Outcome& outcome) {
 
 void add_status(Program& program) {
   const auto options = std::make_shared<ControlOptions>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "status",
                     .summary = "How the plumb-rt that runs a folder stands",
                     .examples = "  plumb-rt status /etc/plumb/cell4\n"
                                 "  plumb-rt status /etc/plumb/cell4 --json"},
                    [options](const Globals&, Outcome& outcome) { show(options->dir, outcome); });
-  verb.add_option("DIR", options->dir, "The folder that runs")->capture_default_str();
+  verb.add_option("DIR", options->dir, "The folder that runs").shows_default();
 }
 
 void add_swap(Program& program) {
   const auto options = std::make_shared<ControlOptions>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "swap",
                     .summary = "Another model of the same robot, without missing a cycle",
                     .examples = "  plumb-rt swap better.plumb --dir /etc/plumb/cell4\n"
                                 "  plumb-rt swap better.plumb --json"},
                    [options](const Globals&, Outcome& outcome) { swap(*options, outcome); });
-  verb.add_option("FILE", options->file, "The model")->required();
-  verb.add_option("--dir", options->dir, "The folder that runs")->capture_default_str();
+  verb.add_option("FILE", options->file, "The model").required();
+  verb.add_option("--dir", options->dir, "The folder that runs").shows_default();
 }
 
 void add_monitor(Program& program) {
   const auto options = std::make_shared<ControlOptions>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "monitor",
        .summary = "Rates, ages, counters, correction and latency of a run, as they change",
        .examples = "  plumb-rt monitor /etc/plumb/cell4          # until interrupted\n"
                    "  plumb-rt monitor /etc/plumb/cell4 --once   # for a script"},
       [options](const Globals&, Outcome& outcome) { watch(*options, outcome); });
-  verb.add_option("DIR", options->dir, "The folder that runs")->capture_default_str();
+  verb.add_option("DIR", options->dir, "The folder that runs").shows_default();
   verb.add_flag("--once", options->once, "Once, and end");
   verb.add_option("--every", options->every_s, "Seconds from one look to the next")
-      ->check(CLI::Range(0.05, 3600.0))
-      ->capture_default_str();
+      .check(number_between(0.05, 3600.0))
+      .shows_default();
 }
 
 }  // namespace plumb::drivers::rt

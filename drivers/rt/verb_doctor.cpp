@@ -50,7 +50,7 @@ void look(const DoctorOptions& options, Outcome& outcome) {
 
 void add_doctor(Program& program) {
   const auto options = std::make_shared<DoctorOptions>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "doctor",
                     .summary = "What this machine grants a real-time cycle, and what it denies",
                     .examples = "  plumb-rt doctor                   # every check, and a verdict\n"
@@ -58,11 +58,11 @@ void add_doctor(Program& program) {
                                 "if not fit"},
                    [options](const Globals&, Outcome& outcome) { look(*options, outcome); });
   verb.add_option("--cycle-us", options->cycle_us, "The cycle to be fit for, in microseconds")
-      ->check(CLI::Range(kShortest_us, kLongest_us))
-      ->capture_default_str();
+      .check(whole_number_between(kShortest_us, kLongest_us))
+      .shows_default();
   verb.add_option("--root", options->root,
                   "Look at the copy of another machine's /proc and /sys in DIR; nothing is tried")
-      ->type_name("DIR");
+      .type_name("DIR");
   verb.add_flag("--strict", options->strict, "Exit code 5 when the machine is not fit");
 }
 

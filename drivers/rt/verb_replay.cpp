@@ -65,15 +65,15 @@ void play(const ReplayOptions& options, Outcome& outcome) {
 
 void add_replay(Program& program) {
   const auto options = std::make_shared<ReplayOptions>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "replay",
        .summary = "A record through the same session, offline: does it decide the same?",
        .examples =
            "  plumb-rt replay record.log --dir /etc/plumb/cell4\n"
            "  plumb-rt replay record.log --dir deployed --model better.plumb  # swapped to"},
       [options](const Globals&, Outcome& outcome) { play(*options, outcome); });
-  verb.add_option("FILE", options->file, "The record: [log] record in rt.toml")->required();
-  verb.add_option("--dir", options->dir, "The folder that ran")->capture_default_str();
+  verb.add_option("FILE", options->file, "The record: [log] record in rt.toml").required();
+  verb.add_option("--dir", options->dir, "The folder that ran").shows_default();
   verb.add_option("--model", options->models,
                   "A model that was swapped to, or that the run began with; repeatable");
 }

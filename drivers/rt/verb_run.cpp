@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "plumb/drivers/rt_process.hpp"
+#include "plumb/drivers/run_loop.hpp"
 #include "rt/rt_probe.hpp"
-#include "rt/run_loop.hpp"
 #include "rt/service.hpp"
 #include "rt/stop_signal.hpp"
 
@@ -79,7 +79,7 @@ void refuse_end(Loop::Next next, const Deployment& deployment, Outcome& outcome)
     outcome.exit = Exit::kBusLost;
     outcome.errors = {
         {.code = "E-RT-LOST",
-         .message = fmt::format("{} was down for {} s", bus_name(deployment.config.source),
+         .message = fmt::format("{} was down for {} s", deployment.config.source->name(),
                                 deployment.config.give_up_s),
          .help = "plumb-rt doctor"}};
   } else if (next == Loop::Next::kClockFailed) {
@@ -112,11 +112,12 @@ void run(const RunOptions& options, Outcome& outcome) {
   need_rights(deployment.config, outcome);
   note_sensors(deployment, outcome);
   static RunShared shared;  // the signal's handler keeps its address
-  const auto bus = open_bus(deployment);
+  const auto bus = deployment.config.source->open(deployment);
   ModelSlot slot(*deployment.model.loaded);
-  Service service(deployment, *bus, slot, shared);
+  Service service(deployment, *bus, slot, shared,
+                  options.check ? Service::Files::kChecked : Service::Files::kMade);
   if (options.check) {
-    outcome.text = fmt::format("{}: sound, nothing was sent\n", options.dir);
+    outcome.text = fmt::format("{}: sound, nothing was sent or written\n", options.dir);
     outcome.result = {{"checked", true}};
     return;
   }
@@ -124,7 +125,7 @@ void run(const RunOptions& options, Outcome& outcome) {
   stop_on_signal(shared.stop);
   service.start();
   std::cerr << fmt::format("plumb-rt: {} on {}, cycle {} us, mode {}\n",
-                           deployment.config.model.string(), bus_name(deployment.config.source),
+                           deployment.config.model.string(), deployment.config.source->name(),
                            deployment.config.cycle_us, to_string(deployment.session.mode));
   const Loop::Next next = cycle_until_told(deployment, *bus, slot, shared);
   service.stop();
@@ -137,18 +138,18 @@ void run(const RunOptions& options, Outcome& outcome) {
 
 void add_run(Program& program) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "run",
        .summary = "The real-time cycle with the model and the bus of a folder, until SIGTERM",
        .examples = "  plumb-rt run /etc/plumb/cell4              # as rt.toml says\n"
                    "  plumb-rt run deployed --check              # is all of it usable? sends "
                    "nothing"},
       [options](const Globals&, Outcome& outcome) { run(*options, outcome); });
-  verb.add_option("DIR", options->dir, "The folder that 'plumb deploy' wrote")->required();
+  verb.add_option("DIR", options->dir, "The folder that 'plumb deploy' wrote").required();
   verb.add_option("--priority", options->priority,
                   "SCHED_FIFO priority instead of that in rt.toml; 0: an ordinary thread")
-      ->check(CLI::Range(0, 99));
-  verb.add_flag("--check", options->check, "Open everything, send nothing, end");
+      .check(whole_number_between(0, 99));
+  verb.add_flag("--check", options->check, "Open everything, send and write nothing, end");
 }
 
 }  // namespace plumb::drivers::rt

@@ -22,7 +22,8 @@ BusMessage six(MessageKind kind, const Vector3& p, const Vector3& r, std::uint16
   return message_of(kind, {p(0), p(1), p(2), r(0), r(1), r(2)}, counter);
 }
 
-/// Position and rotation of a message of six finite values.
+/// The pose in a message of six values, three of position and three of a rotation vector. Nothing
+/// if a value is not finite.
 std::optional<Transformd> motion_in(const BusMessage& message) {
   const auto& v = message.values;
   if (message.size < 6 ||
@@ -33,7 +34,7 @@ std::optional<Transformd> motion_in(const BusMessage& message) {
   return out;
 }
 
-/// Value `i` if it is a whole number of that range.
+/// Value `i` if it is a whole number between `least` and `most`.
 std::optional<int> whole(const BusMessage& message, std::size_t i, int least, int most) {
   const double value = message.values[i];
   if (i >= message.size || !(value >= least && value <= most) || value != std::floor(value))

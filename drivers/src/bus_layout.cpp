@@ -9,16 +9,17 @@ namespace {
 
 constexpr double kMicro = 1e-6;
 
-/// Where a message stands in the default layout. Between CANopen's time stamp and its first
-/// process data; lower identifiers win the bus, so what the arm needs soonest comes first. What the
-/// controller sends lies within one Modbus request of 125 registers, context aside.
-struct Place {
+/// Identifier and registers of a message in the default layout. The identifiers lie between
+/// CANopen's time stamp and its first process data. Lower identifiers win the bus, so the most
+/// urgent messages have the lowest. Everything the controller sends, except the context, can be
+/// read with one Modbus request of 125 registers.
+struct Place {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of its table
   MessageKind kind;
   const char* name;
   Sender sender;
   std::uint32_t can_id;
   std::uint16_t first_register;
-  double period_s;  // 0: every cycle
+  double period_s;  // 0 means every cycle
 };
 
 constexpr Place kPlaces[] = {
@@ -60,7 +61,8 @@ std::vector<Signal> joint_signals(int joints) {
   return out;
 }
 
-/// In an int24: 8 t, 8 m, 23 hours, 8 kK.
+/// The values of the context message. In 24 bits their scales reach 8 t, 8 m, 23 hours and 8000
+/// degC.
 std::vector<Signal> context_signals(int temperatures) {
   std::vector<Signal> out{{"payload", "kg", 1e-3}};
   for (const char* name : {"com_x", "com_y", "com_z"}) out.push_back({name, "um", kMicro});
@@ -91,7 +93,7 @@ std::vector<Signal> signals_of(MessageKind kind, int joints, int temperatures) {
   }
 }
 
-/// The smallest whole number of cycles that is no shorter; 0: one cycle.
+/// The period rounded up to a whole number of cycles; a period of 0 becomes one cycle.
 double whole_cycles(double period_s, double cycle_s) {
   return cycle_s * std::max(1.0, std::ceil(period_s / cycle_s - 1e-9));
 }

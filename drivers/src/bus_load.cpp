@@ -6,7 +6,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// A stuff bit after every four bits but the first, which needs five: floor((n - 1) / 4).
+/// The largest number of stuff bits in n bits: the first takes five equal bits and every further
+/// one four, floor((n - 1) / 4).
 double stuff_bits(std::size_t bits) { return std::floor((static_cast<double>(bits) - 1.0) / 4.0); }
 
 /// Bits = 8 n + 44 + floor((34 + 8 n - 1) / 4) + 3, extended 8 n + 64 + floor((54 + 8 n - 1) / 4)
@@ -21,8 +22,8 @@ FrameBits classic_bits(CanFrame::Id id_kind, std::size_t n) {
 /// ISO 11898-1:2015. At the bit rate of the arbitration: start to bit rate switch (17 or 36 bits,
 /// stuffed), then CRC delimiter, acknowledgement 2, end 7, between frames 3. At the data bit rate:
 /// error state, length code 4, data (stuffed), then stuff count 4, CRC 17 or (n > 16) 21 and a
-/// fixed stuff bit before every four of them. Stuff bits: as many as all stuffed bits allow, those
-/// of the arbitration counted there.
+/// fixed stuff bit before every four of them. The number of stuff bits is the largest that all
+/// stuffed bits together allow; those in the arbitration phase are counted at its rate.
 FrameBits fd_bits(CanFrame::Id id_kind, std::size_t n) {
   const std::size_t head = id_kind == CanFrame::Id::kStandard ? 17 : 36;
   const std::size_t body = 5 + 8 * n;

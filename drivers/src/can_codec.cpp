@@ -18,7 +18,7 @@ std::uint32_t check_sum(const CanFrame& frame, const CanForm& form) noexcept {
   return crc.value();
 }
 
-/// How far `to` lies ahead of `from`, going round at the counter's width.
+/// How far the counter `to` is ahead of `from`. The counter has one or two bytes and wraps around.
 std::uint16_t ahead(std::uint16_t from, std::uint16_t to, int bytes) noexcept {
   const unsigned width = bytes == 1 ? 0xFFU : 0xFFFFU;
   return static_cast<std::uint16_t>((to - from) & width);
@@ -98,7 +98,8 @@ bool CanCodec::sound(const CanFrame& frame, const CanForm& form) const noexcept 
                      [](std::uint8_t byte) { return byte == 0; });
 }
 
-/// False if a place that holds no value is not 0.
+/// Reads the counter and the values of a frame. Returns false if an unused place of the frame is
+/// not 0.
 bool CanCodec::read(const CanFrame& frame, const Known& entry, Part& out) const noexcept {
   const CanForm& form = entry.form;
   out.index = frame.id - entry.first_id;
@@ -118,6 +119,7 @@ bool CanCodec::read(const CanFrame& frame, const Known& entry, Part& out) const 
 
 Heard CanCodec::collect(Known& entry, const Part& part, BusMessage& out) noexcept {
   if (overtaken(entry, part)) return Heard::kRepeated;
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): 1 or 2 bytes
   const std::int64_t round_ns = cycle_ns_ * (std::int64_t{1} << (8 * entry.form.counter_bytes - 1));
   const std::size_t first = part.index * entry.form.values;
   const auto values = std::min<std::size_t>(entry.form.values, entry.size - first);
@@ -165,7 +167,8 @@ Heard CanCodec::complete(Known& entry, BusMessage& out) noexcept {
   return Heard::kComplete;
 }
 
-/// Half a round ahead or more is a sender that began anew.
+/// Counts the messages that were skipped. A counter that is ahead by half its range or more is not
+/// counted, because the sender then has restarted.
 void CanCodec::count_skipped(const Known& entry) noexcept {
   const int gap = ahead(entry.last, entry.counter, entry.form.counter_bytes);
   if (!entry.heard || gap >= 1 << (8 * entry.form.counter_bytes - 1)) return;

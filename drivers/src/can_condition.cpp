@@ -59,7 +59,7 @@ void CanCondition::interface_down(std::int64_t now_ns) noexcept {
   down_since_ns_ = now_ns;
 }
 
-/// The controller of an interface that was down begins without errors.
+/// An interface that comes up again starts with a CAN controller without errors.
 void CanCondition::come_up() noexcept {
   interface_down_ = bus_off_ = false;
   confinement_ = Confinement::kActive;

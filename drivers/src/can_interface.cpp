@@ -40,7 +40,7 @@ class Netlink {
     return ::send(socket_, &request, sizeof(request), 0) == sizeof(request);
   }
 
-  /// The next messages; empty: there will be none.
+  /// The next messages; empty after the last.
   Bytes read() {
     const ssize_t bytes = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
     return Bytes(buffer_).first(bytes > 0 ? static_cast<std::size_t>(bytes) : 0);
@@ -51,7 +51,8 @@ class Netlink {
   std::array<std::uint8_t, 32768> buffer_;
 };
 
-/// Of an adapter on a serial line (slcan) whose rate was set by others.
+/// The bit rate that the kernel reports for an adapter on a serial line (slcan), because it does
+/// not know the rate.
 constexpr std::uint32_t kUnknown = 0xFFFFFFFF;
 
 std::optional<std::uint32_t> rate(Bytes timing) {
@@ -73,7 +74,7 @@ CanInterface read_link(const ifinfomsg& link, Bytes row) {
           .restart_ms = head<std::uint32_t>(attribute(can, IFLA_CAN_RESTART_MS))};
 }
 
-/// Returns whether more will come.
+/// Adds the CAN interfaces in these messages to `out`. Returns true if more messages will follow.
 bool read_links(Bytes messages, std::vector<CanInterface>& out) {
   while (const auto header = head<nlmsghdr>(messages)) {
     if (header->nlmsg_len < sizeof(nlmsghdr) || header->nlmsg_len > messages.size()) return false;

@@ -18,9 +18,9 @@
 namespace plumb::drivers {
 namespace {
 
-/// What the kernel tells beside a frame.
+/// The control data that the kernel delivers together with a frame.
 struct Beside {
-  std::int64_t stamp_ns = 0;  // 0: none
+  std::int64_t stamp_ns = 0;  // 0 if there is none
   std::optional<std::uint32_t> overflow_total;
 };
 
@@ -97,7 +97,7 @@ CanLink::Taken CanLink::take(CanFrame& frame) noexcept {
   const ClockReading before = ClockReading::now();
   const ssize_t bytes = ::recvmsg(socket_, &message, MSG_DONTWAIT);
   if (bytes <= 0) {
-    const int error = bytes < 0 ? errno : EPIPE;  // 0: the other end of a pair was closed
+    const int error = bytes < 0 ? errno : EPIPE;  // 0 bytes: a socket pair was closed
     if (error == EAGAIN) time_.saw_empty(before);
     return failed(error);
   }
@@ -126,7 +126,8 @@ CanLink::Taken CanLink::take(CanFrame& frame) noexcept {
   return Taken::kOther;
 }
 
-/// The kernel tells once that the interface went down; frames that came before are still there.
+/// Handles a failed read. The kernel reports only once that the interface went down; frames that
+/// were received before can still be read.
 CanLink::Taken CanLink::failed(int error) noexcept {
   if (!is_gone(error)) return error == EAGAIN ? Taken::kNothing : Taken::kOther;
   condition_.interface_down(ClockReading::now().monotonic_ns);
@@ -159,7 +160,8 @@ bool CanLink::keep(bool sent) noexcept {
   return sent;
 }
 
-/// The kernel takes frames for a controller that is bus-off, and drops them: ask first. No lock.
+/// True if the CAN controller takes part in the bus traffic. This is asked before sending, because
+/// for a controller that is bus-off the kernel accepts frames and drops them. Takes no lock.
 bool CanLink::carrier() const noexcept {
   if (interface_[0] == 0) return false;
   ifreq request{};

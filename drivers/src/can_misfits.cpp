@@ -7,7 +7,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// Controllers divide a clock: a rate is met within half a percent or is another one.
+/// True if the rates differ by at most 0.5 %. CAN controllers divide a clock and meet most rates
+/// only approximately.
 bool same_rate(double asked, double set) { return std::abs(asked - set) <= 5e-3 * asked; }
 
 std::string bits(double rate) { return std::to_string(std::llround(rate)) + " bit/s"; }

@@ -18,8 +18,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// What tells the state of the bus. Not every single bus error: a bad cable makes thousands a
-/// second of them.
+/// The error frames that tell the state of the bus. Single bus errors are left out, because a bad
+/// cable causes thousands of them per second.
 constexpr can_err_mask_t kErrors = CAN_ERR_TX_TIMEOUT | CAN_ERR_LOSTARB | CAN_ERR_CRTL |
                                    CAN_ERR_ACK | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
 constexpr int kStamps = SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_SOFTWARE;
@@ -54,7 +54,7 @@ int bind_to(int socket, int index) noexcept {
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = index;
-  if (index == 0) return ENODEV;  // to the kernel, 0 is all interfaces
+  if (index == 0) return ENODEV;  // for the kernel, 0 means all interfaces
   return error_unless(
       ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0);
 }
@@ -74,7 +74,7 @@ int set_filters(int socket, std::span<const CanFilter> listen) {
                       0);
 }
 
-/// The steps of CanLink::open; each returns an errno, or 0.
+/// The steps of CanLink::open. Each returns 0 or an errno.
 struct CanSocket {
   int socket;
   const CanStep& step;
@@ -121,7 +121,7 @@ struct CanSocket {
     return request.ifr_mtu >= static_cast<int>(CANFD_MTU) ? 0 : EMSGSIZE;
   }
 
-  /// The kernel may grant smaller queues than asked for (net.core.rmem_max), and says nothing.
+  /// The kernel may grant smaller queues than requested (net.core.rmem_max) without an error.
   int set_options() const {
     const int fd = options.format == CanFrame::Format::kFd ? 1 : 0;
     constexpr int kOn = 1, kOff = 0;
@@ -159,7 +159,8 @@ CanOpening CanLink::open(std::string_view interface, std::span<const CanFilter> 
   return out;
 }
 
-/// A socket whose interface went has lost its filters too.
+/// Sets up the socket again if its interface was removed and is back. Such a socket has lost its
+/// filters as well.
 bool CanLink::recover() const {
   const int index = index_of(socket_, interface_);
   if (interface_[0] == 0 || index == 0) return false;

@@ -8,7 +8,7 @@
 namespace plumb::drivers {
 namespace {
 
-/// vcan, vcan0, vxcan1: they have no bit rate.
+/// True for virtual interfaces such as vcan0 and vxcan1, which have no bit rate.
 bool is_virtual(const std::string& interface) {
   return interface.starts_with("vcan") || interface.starts_with("vxcan");
 }

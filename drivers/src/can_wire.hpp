@@ -9,13 +9,14 @@
 
 namespace plumb::drivers {
 
-/// Bytes to write for `frame`; 0: not a frame of such a link.
+/// The number of bytes to write for `frame`, or 0 if a link with these options cannot send it.
 std::size_t to_wire(const CanFrame& frame, const CanLinkOptions& options,
                     canfd_frame& out) noexcept;
 
 enum class WireKind : std::uint8_t { kData, kRemote, kError, kMalformed };
 
-/// What `bytes` read into `in` are; kData: `out` is filled but for its time.
+/// The kind of a frame of which `bytes` bytes were read into `in`. For kData, `out` is filled
+/// except for its time.
 WireKind from_wire(const canfd_frame& in, std::size_t bytes, CanFrame::Format format,
                    CanFrame& out) noexcept;
 

@@ -16,7 +16,8 @@ constexpr std::array<std::uint8_t, 256> crc8_table() {
   return out;
 }
 
-/// Reflected: 0xF4ACFB13 back to front.
+/// The table of the reflected algorithm, whose polynomial is 0xF4ACFB13 with the bits in reverse
+/// order.
 constexpr std::array<std::uint32_t, 256> crc32_table() {
   std::array<std::uint32_t, 256> out{};
   for (std::uint32_t i = 0; i < 256; ++i) {

@@ -6,14 +6,14 @@
 
 namespace plumb::drivers {
 
-/// Check sums over an identifier (as four bytes, low byte first) and then `data`. Both find every
-/// error of up to three bits in what we send.
+/// Check sums over an identifier (as four bytes, low byte first) and then `data`. Both detect every
+/// error of up to three bits in our messages.
 ///
 /// CRC-8H2F, polynomial 0x2F, start and final xor 0xFF. [AUTOSAR, Specification of CRC Routines]
 std::uint8_t crc8_of(std::uint32_t id, std::span<const std::uint8_t> data) noexcept;
 std::uint8_t crc8(std::span<const std::uint8_t> data) noexcept;
 
-/// CRC-32P4, polynomial 0xF4ACFB13 reflected, start and final xor 0xFFFFFFFF. [the same]
+/// CRC-32P4, polynomial 0xF4ACFB13 reflected, start and final xor 0xFFFFFFFF. [AUTOSAR, as above]
 class Crc32P4 {
  public:
   void add(std::uint8_t byte) noexcept;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kShift = std::countr_zero(unsigned{LatencyHistogram::kBinsPerOctave});
 
-/// Values below 2 * kBinsPerOctave are their own bins; above, four bits after the leading one.
+/// The bin of a value. Values below 2 * kBinsPerOctave have a bin each; above, the bin is given by
+/// the leading bit and the four bits after it.
 std::size_t bin_of(std::uint64_t value) noexcept {
   const int octave = std::max(0, static_cast<int>(std::bit_width(value)) - 1 - kShift);
   return static_cast<std::size_t>(octave) * LatencyHistogram::kBinsPerOctave +

@@ -30,7 +30,7 @@ std::string whole(double number) {
 bool is_scale(double scale) { return scale > 0.0 && scale <= 1e3; }
 bool is_period(double period_s) { return period_s >= 1e-5 && period_s <= 1e3; }
 
-/// First and last of the identifiers or registers of a message.
+/// The first and the last identifier, or register, of a message.
 struct Span {
   std::uint32_t first, last;
   bool meets(const Span& other) const { return first <= other.last && other.first <= last; }
@@ -43,7 +43,7 @@ class Faults {
   std::vector<LayoutFault> find() {
     for (const MessageLayout& message : layout_.messages) check(message);
     if (use_ == BusUse::kCan) check_rates();
-    if (!out_.empty()) return std::move(out_);  // spans and load make no sense before
+    if (!out_.empty()) return std::move(out_);  // faulty messages have no meaningful spans
     for (std::size_t i = 0; i < layout_.messages.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) check_apart(layout_.messages[j], layout_.messages[i]);
     if (use_ == BusUse::kCan) check_load();
@@ -85,7 +85,8 @@ class Faults {
           "the last that fits is " + std::to_string(0xFFFF - (span.last - span.first)));
   }
 
-  /// One message may be lost, and its sender does not count as silent.
+  /// Checks that the period is so short that one lost message does not make its sender count as
+  /// silent.
   void check_period(const MessageLayout& m) {
     if (!is_period(m.period_s))
       return add(m.name, "period_us",

@@ -19,7 +19,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// A new thread has the priority and the signal mask of the one that starts it.
+/// Blocks all signals while it exists. A new thread inherits priority and signal mask of the thread
+/// that starts it.
 class WithoutSignals {
  public:
   WithoutSignals() {

@@ -9,11 +9,11 @@
 
 namespace plumb::drivers {
 
-/// The thread of a link: named, of no real-time priority whoever starts it, and deaf to signals, so
-/// that those reach the program's own thread. It is asked to stop through a descriptor, which its
-/// waits also watch.
+/// The thread of a link. It has a name, never a real-time priority, and all signals blocked, so
+/// that they reach the program's own thread. It is asked to stop through a descriptor, which it
+/// also watches whenever it waits.
 ///
-/// start(), stop(): one thread, not its own.
+/// start() and stop() must be called from one other thread.
 class LinkThread {
  public:
   LinkThread();
@@ -21,14 +21,14 @@ class LinkThread {
   LinkThread(const LinkThread&) = delete;
   LinkThread& operator=(const LinkThread&) = delete;
 
-  /// `name`: 15 characters at most. 0, or an errno.
+  /// Starts the thread. `name` has at most 15 characters. Returns 0 or an errno.
   int start(const char* name, std::function<void()> work);
-  void stop();  // returns when `work` has; may be called twice
+  void stop();  // returns when `work` has returned; may be called twice
 
   bool stopping() const noexcept { return stopping_.load(std::memory_order_relaxed); }
-  int stop_event() const noexcept { return event_; }  // readable once it is to stop
+  int stop_event() const noexcept { return event_; }  // readable once the thread shall stop
 
-  /// False: it is to stop.
+  /// Returns false if the thread shall stop.
   bool sleep_until_ns(std::int64_t time_ns) const noexcept;
 
  private:
@@ -37,7 +37,7 @@ class LinkThread {
   std::thread thread_;
 };
 
-/// `time_ns` from now on, as ppoll takes it: 0 if past.
+/// The time from now until `time_ns` as ppoll takes it; 0 if that is past.
 timespec wait_until(std::int64_t time_ns) noexcept;
 
 constexpr std::int64_t to_ns(double time_s) noexcept {

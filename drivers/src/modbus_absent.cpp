@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instead of modbus_client.cpp and modbus_server.cpp where there is no libmodbus.
+// Takes the place of modbus_client.cpp and modbus_server.cpp where libmodbus is not installed.
 #include "plumb/drivers/modbus_client.hpp"
 #include "plumb/drivers/modbus_server.hpp"
 

@@ -28,7 +28,7 @@ SocketAddress from(const T& native) noexcept {
   return out;
 }
 
-/// 16 bytes that say the host, IPv4 mapped into IPv6.
+/// The address of the host as 16 bytes; IPv4 addresses are mapped into IPv6.
 std::array<std::uint8_t, 16> host_bytes(const SocketAddress& address) noexcept {
   std::array<std::uint8_t, 16> out{};
   if (address.family() == AF_INET) {

@@ -69,7 +69,7 @@ void ModbusClient::Work::serve() {
   talk_.end();
 }
 
-/// False: the connection is no good any more.
+/// Returns false if the connection can no longer be used.
 bool ModbusClient::Work::round(std::int64_t now_ns) {
   talk_.begin_round();
   if (!reader_.round(now_ns) || !writer_.round(now_ns)) return false;
@@ -79,7 +79,7 @@ bool ModbusClient::Work::round(std::int64_t now_ns) {
 }
 
 void ModbusClient::Work::back_off() {
-  // On a serial line nothing but time tells a late answer from the next one.
+  // On a serial line only waiting tells a late answer from the answer to the next request.
   const double wait_s = std::max(back_off_s_, serial() ? settings.response_timeout_s : 0.0);
   back_off_s_ = std::min(2 * back_off_s_, settings.longest_back_off_s);
   thread.sleep_until_ns(MonotonicTime::now_ns() + to_ns(wait_s));

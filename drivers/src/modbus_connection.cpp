@@ -26,7 +26,7 @@ void set_timeouts(modbus_t* context, double timeout_s) {
   ::modbus_set_error_recovery(context, MODBUS_ERROR_RECOVERY_NONE);
 }
 
-/// 0, or an errno.
+/// Waits until the connection is established. Returns 0 or an errno.
 int await_connection(int socket, double timeout_s, const LinkThread& thread) {
   std::array<pollfd, 2> events{pollfd{.fd = socket, .events = POLLOUT, .revents = 0},
                                pollfd{.fd = thread.stop_event(), .events = POLLIN, .revents = 0}};
@@ -40,7 +40,7 @@ int await_connection(int socket, double timeout_s, const LinkThread& thread) {
   return ::getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
 }
 
-/// 0, or an errno.
+/// Connects the socket. Returns 0 or an errno.
 int connect(int socket, const SocketAddress& to, double timeout_s, const LinkThread& thread) {
   const int on = 1;
   ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

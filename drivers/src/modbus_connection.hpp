@@ -22,34 +22,35 @@ struct ModbusClosed {
 };
 using ModbusContext = std::unique_ptr<modbus_t, ModbusClosed>;
 
-/// Opens a serial line; none: errno says why. Whole frames are awaited for `timeout_s`, without a
-/// time limit between bytes: libmodbus takes that instead of the limit for the frame.
+/// Opens a serial line; null on failure, with the reason in errno. `timeout_s` limits the wait for
+/// a whole frame. No limit is set between bytes, because libmodbus would use it in place of the
+/// limit for the frame.
 ModbusContext open_serial(const SerialLine& line, int unit, double timeout_s);
 
-/// One connection of a client, until its first error.
+/// One connection of a client, which lasts until its first error.
 ///
-/// libmodbus reads answers; it would accept a foreign unit, protocol, length or write echo, and
-/// modbus_send_raw_request numbers no transactions, so over TCP the header is written here, and
-/// every field of an answer is checked here. It aborts on a descriptor of FD_SETSIZE or above:
-/// such a one is refused.
+/// Answers are read with libmodbus. It would accept a wrong unit, protocol, length or echo of a
+/// write, and modbus_send_raw_request does not number transactions. Therefore the header of TCP
+/// requests is written here, and every field of an answer is checked here. libmodbus aborts on
+/// descriptors of FD_SETSIZE or above, so these are refused.
 class ModbusConnection {
  public:
   enum class Result : std::uint8_t {
     kDone,
-    kRefused,  // an exception answer, sound as such
-    kLate,     // no whole answer in time
-    kBad,      // an answer that is none to the request, or bytes that nobody asked for
-    kLost,     // the peer, or the device
+    kRefused,  // a valid exception answer
+    kLate,     // no complete answer in time
+    kBad,      // an answer that does not belong to the request, or unrequested bytes
+    kLost,     // the peer, or the serial device, is gone
   };
 
-  /// None: errno says why, ECANCELED if the thread is to stop.
+  /// Null on failure, with the reason in errno: ECANCELED if the thread shall stop.
   static std::unique_ptr<ModbusConnection> open(const ModbusClientSettings& settings,
                                                 const LinkThread& thread);
 
   Result read(std::uint16_t first, std::span<std::uint16_t> registers);         // <= kMostRead
   Result write(std::uint16_t first, std::span<const std::uint16_t> registers);  // <= kMostWrite
 
-  /// What the last exception answer said.
+  /// The code of the last exception answer.
   ModbusException exception() const noexcept { return ModbusException{answer_pdu_[1]}; }
 
  private:

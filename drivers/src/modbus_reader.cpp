@@ -12,7 +12,8 @@ namespace {
 constexpr double kShortestPoll_s = 100e-6;
 constexpr double kPollWithoutReads_s = 1e-3;
 
-/// Registers between blocks cost less than another request over TCP, and more on a serial line.
+/// The largest number of unused registers to read along. Over TCP they cost less than another
+/// request, on a serial line more.
 int widest_gap(const ModbusClientSettings& settings) {
   return std::holds_alternative<TcpAddress>(settings.server) ? int{kMostRead} : 0;
 }
@@ -45,7 +46,7 @@ void ModbusReader::begin() noexcept {
 bool ModbusReader::round(std::int64_t now_ns) {
   for (std::size_t i = 0; i < polls_.size(); ++i) {
     Poll& poll = polls_[i];
-    if (poll.due_ns > now_ns + wake_ns_ / 2) continue;  // the round nearest to it
+    if (poll.due_ns > now_ns + wake_ns_ / 2) continue;  // read in the round nearest to the due time
     const ModbusTalk::Result result = read(poll.span);
     if (!ModbusTalk::goes_on(result)) return false;
     poll.due_ns += poll.period_ns;
@@ -55,7 +56,8 @@ bool ModbusReader::round(std::int64_t now_ns) {
   return true;
 }
 
-/// A server need not have the registers between blocks.
+/// Reads the blocks of this span one by one from now on, if the server refused the registers
+/// between them. A server need not have those.
 void ModbusReader::split_if_gaps_are_refused(std::size_t poll) {
   const ModbusSpan span = polls_[poll].span;
   if (talk_.exception() != ModbusException::kIllegalAddress || span.blocks.size() < 2) return;

@@ -10,20 +10,20 @@
 
 namespace plumb::drivers {
 
-/// The half of a client that polls: reads the blocks of the other side as often as their messages
-/// ask for, and hands on what is sound. One thread.
+/// The reading half of a client. It polls the blocks of the other side with the periods of their
+/// messages and passes valid messages on. To be used by one thread.
 class ModbusReader {
  public:
   ModbusReader(const BusLayout& layout, ModbusCodec& codec, const ModbusClientSettings& settings,
                ModbusTalk& talk, ModbusExchange& exchange);
 
-  /// From one round to the next.
+  /// The time from one round to the next.
   std::int64_t wake_ns() const noexcept { return wake_ns_; }
 
-  /// Of a new connection: everything is due.
+  /// Starts with a new connection: every block is due at once.
   void begin() noexcept;
 
-  /// What is due. False: the connection is no good any more.
+  /// Reads the blocks that are due. Returns false if the connection can no longer be used.
   bool round(std::int64_t now_ns);
 
  private:

@@ -35,7 +35,7 @@ void ModbusSerialListener::serve(modbus_t* context, const LinkThread& thread) {
     if (serve_request(context) == Line::kBroken) return;
 }
 
-/// False: the line is broken, or the thread is to stop.
+/// Waits for a request. Returns false if the line is broken or the thread shall stop.
 bool ModbusSerialListener::await_request(int line, const LinkThread& thread) {
   std::array<pollfd, 2> events{pollfd{.fd = line, .events = POLLIN, .revents = 0},
                                pollfd{.fd = thread.stop_event(), .events = POLLIN, .revents = 0}};
@@ -53,7 +53,7 @@ ModbusSerialListener::Line ModbusSerialListener::serve_request(modbus_t* context
   std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame;
   const int size = ::modbus_receive(context, frame.data());
   if (size > 0) return answer(context, std::span(frame).first(static_cast<std::size_t>(size)));
-  if (size == 0) return Line::kGood;  // for another unit
+  if (size == 0) return Line::kGood;  // the request was for another unit
   if (errno == ETIMEDOUT) {
     ++exchange_->counters.timeouts;
   } else if (errno > MODBUS_ENOBASE) {

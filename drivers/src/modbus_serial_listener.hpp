@@ -8,14 +8,15 @@
 
 namespace plumb::drivers {
 
-/// The serial side of a server: libmodbus frames requests and checks their check sums.
+/// The serial side of a server. libmodbus delimits the requests and verifies their check sums.
 class ModbusSerialListener {
  public:
   ModbusSerialListener(const ModbusServerSettings& settings, ModbusService& service,
                        ModbusExchange& exchange)
       : settings_(settings), service_(&service), exchange_(&exchange) {}
 
-  /// Opens the line, and again when it breaks.
+  /// Serves requests until the thread shall stop. Opens the line, and opens it again after it
+  /// broke.
   void run(const LinkThread& thread);
 
  private:

@@ -24,7 +24,7 @@ struct ModbusServer::Work {
   ModbusService service;
   ModbusTcpListener tcp;
   ModbusSerialListener serial;
-  LinkThread thread;  // last: it ends before what it works on
+  LinkThread thread;  // the last member, so that the thread ends before its data are destroyed
 };
 
 std::optional<LinkFault> ModbusServer::Work::start() {

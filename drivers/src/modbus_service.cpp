@@ -11,7 +11,8 @@ constexpr std::size_t kWriteSingleSize = 5;    // function, address, value
 constexpr std::size_t kWriteMultipleHead = 6;  // function, first, count, bytes
 constexpr std::size_t kReadWriteHead = 10;     // function, twice first and count, bytes
 
-/// The values that follow a head whose last byte counts them; and there is nothing else.
+/// True if the request consists of its head, whose last byte is the number of bytes that follow,
+/// and `count` registers (at most `most`).
 bool holds_words(std::span<const std::uint8_t> pdu, std::size_t head, std::uint16_t count,
                  std::uint16_t most) {
   return count >= 1 && count <= most && pdu.size() == head + 2 * std::size_t{count} &&

@@ -15,7 +15,7 @@ namespace {
 
 using Fault = std::optional<LinkFault>;
 
-// libmodbus takes any other rate for 9600.
+// libmodbus would silently replace any other rate by 9600.
 constexpr std::array kBauds{1200,  2400,   4800,   9600,   19200,  38400,
                             57600, 115200, 230400, 460800, 921600, 1000000};
 

@@ -8,11 +8,11 @@
 
 namespace plumb::drivers {
 
-/// What no link can be started with.
+/// The fault of settings with which no link can be started.
 std::optional<LinkFault> find_fault(const ModbusClientSettings& settings);
 std::optional<LinkFault> find_fault(const ModbusServerSettings& settings);
 
-/// The system gives no thread.
+/// The fault that the system cannot create a thread.
 LinkFault cannot_run(int error);
 
 }  // namespace plumb::drivers

@@ -17,7 +17,7 @@ struct ModbusBlock {
   double period_s = 0;
 };
 
-/// Blocks that one request reads, and the registers between them.
+/// Blocks that are read with one request, including the registers between them.
 struct ModbusSpan {
   std::uint16_t first = 0;
   std::uint16_t count = 0;
@@ -28,10 +28,11 @@ struct ModbusSpan {
 /// The blocks of one side, in the order of their registers.
 std::vector<ModbusBlock> blocks_of(const BusLayout& layout, const ModbusCodec& codec, Sender side);
 
-/// As few spans as there can be, of `most` registers or fewer, with gaps of `widest_gap` or less.
+/// The smallest number of spans that hold these blocks, each with at most `most` registers and gaps
+/// of at most `widest_gap`.
 std::vector<ModbusSpan> join(const std::vector<ModbusBlock>& blocks, int most, int widest_gap);
 
-/// Each block by itself.
+/// One span for each block.
 std::vector<ModbusSpan> split(const ModbusSpan& span);
 
 }  // namespace plumb::drivers

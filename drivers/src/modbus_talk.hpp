@@ -10,15 +10,15 @@
 
 namespace plumb::drivers {
 
-/// A client's connection with everything counted that it comes to. One thread.
+/// The connection of a client, which counts all that happens to it. To be used by one thread.
 class ModbusTalk {
  public:
   using Result = ModbusConnection::Result;
 
   explicit ModbusTalk(ModbusCounters& counters) noexcept : counters_(counters) {}
 
-  /// Already answered: by a peer that took the connection. A serial device opens whether or not
-  /// anyone is at its other end.
+  /// Whether the peer has shown that it is there. A TCP peer has, by accepting the connection; a
+  /// serial device can be opened even if nobody is at its other end.
   enum class Met : std::uint8_t { kYes, kNotYet };
   void begin(std::unique_ptr<ModbusConnection> connection, Met met) noexcept;
   void end() noexcept;
@@ -27,12 +27,13 @@ class ModbusTalk {
   Result write(std::uint16_t first, std::span<const std::uint16_t> registers);
   ModbusException exception() const noexcept { return connection_->exception(); }
 
-  /// False: the connection is no good any more.
+  /// Returns false if the connection can no longer be used.
   static bool goes_on(Result result) noexcept {
     return result == Result::kDone || result == Result::kRefused;
   }
 
-  /// Nothing was refused, corrupt or another's since begin_round().
+  /// True if since begin_round() no request was refused and no answer was corrupt or meant for
+  /// another request.
   bool clean() const noexcept { return clean_; }
   void begin_round() noexcept { clean_ = true; }
   void note_unclean() noexcept { clean_ = false; }

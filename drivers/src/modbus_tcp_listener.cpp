@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBeforePeers = 2;  // events of the thread and of new connections
 constexpr std::int64_t kPauseWithoutDescriptors_ns = 100'000'000;
-constexpr std::uint8_t kAnyUnit[] = {0, 255};  // what controllers without units send
+constexpr std::uint8_t kAnyUnit[] = {0, 255};  // sent by controllers that do not address units
 
 }  // namespace
 
@@ -148,7 +148,7 @@ void ModbusTcpListener::serve_requests(Peer& peer, std::int64_t now_ns) {
   }
 }
 
-/// False: the peer does not take its answers.
+/// Sends an answer. Returns false if the peer does not take it.
 bool ModbusTcpListener::answer(Peer& peer, std::int64_t now_ns) {
   const MbapHeader& request = peer.framer.header();
   const bool known = request.unit == settings_.unit ||

@@ -14,7 +14,8 @@
 
 namespace plumb::drivers {
 
-/// The TCP side of a server: connections, their bounds, and bytes to requests.
+/// The TCP side of a server. It accepts connections, limits their number and idle time, and
+/// assembles requests from bytes.
 class ModbusTcpListener {
  public:
   ModbusTcpListener(const ModbusServerSettings& settings, ModbusService& service,
@@ -27,10 +28,10 @@ class ModbusTcpListener {
  private:
   struct Peer {
     Descriptor socket;
-    std::uint64_t number = 0;  // of the connection, from 1
+    std::uint64_t number = 0;  // the connections are numbered from 1
     ModbusFramer framer;
-    std::int64_t part_since_ns = 0;  // when the request under way began
-    std::int64_t request_ns = 0;     // the last whole one, or the connection
+    std::int64_t part_since_ns = 0;  // when the first byte of the incomplete request came
+    std::int64_t request_ns = 0;     // when the last complete request came, or the connection
     bool served = false;
     bool over = false;
   };
@@ -52,9 +53,9 @@ class ModbusTcpListener {
   std::vector<SocketAddress> allowed_;
   ModbusTcpSocket socket_;
   std::uint64_t connections_ = 0;
-  std::int64_t accept_again_ns_ = 0;  // no descriptors were left
+  std::int64_t accept_again_ns_ = 0;  // when to go on after running out of descriptors
   std::vector<Peer> peers_;
-  std::vector<pollfd> events_;  // stop, new connections, peers
+  std::vector<pollfd> events_;  // in this order: stop, new connections, peers
 };
 
 }  // namespace plumb::drivers

@@ -47,7 +47,8 @@ std::optional<LinkFault> open_tcp_socket(const ModbusServerSettings& settings,
   const int on = 1;
   ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   const std::string& host = std::get<TcpAddress>(settings.at).host;
-  // An address alone does not keep out what comes to it through another interface.
+  // Binding to an address alone does not exclude connections to it that arrive through another
+  // interface.
   if (!socket_address(host, 0) &&
       ::setsockopt(socket.get(), SOL_SOCKET, SO_BINDTODEVICE, host.c_str(),
                    static_cast<socklen_t>(host.size())) != 0)

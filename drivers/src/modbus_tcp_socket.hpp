@@ -12,11 +12,11 @@ namespace plumb::drivers {
 /// The socket on which a server waits for connections.
 struct ModbusTcpSocket {
   Descriptor descriptor;
-  std::uint16_t port = 0;  // also if 0 was asked for
+  std::uint16_t port = 0;  // the actual port, also if 0 was requested
 };
 
 /// Binds and listens where the settings say, on an address or on all that comes through an
-/// interface. A fault: the system's reason and what to do.
+/// interface. On failure, the fault holds the system's reason and what to do.
 std::optional<LinkFault> open_tcp_socket(const ModbusServerSettings& settings,
                                          ModbusTcpSocket& out);
 

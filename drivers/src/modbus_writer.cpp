@@ -9,7 +9,7 @@
 namespace plumb::drivers {
 namespace {
 
-/// The poses the other side moves by.
+/// True for messages that decide where the other side moves.
 bool matters(MessageKind kind) {
   return kind == MessageKind::kCorrected || kind == MessageKind::kOffset ||
          kind == MessageKind::kTarget;

@@ -10,17 +10,18 @@
 
 namespace plumb::drivers {
 
-/// The half of a client that writes: the newest message of each kind, adjacent blocks in one
-/// request, and now and then reads back those that the other side moves by. One thread.
+/// The writing half of a client. It writes the newest message of each kind, adjacent blocks with
+/// one request. From time to time it reads back the messages that decide where the other side
+/// moves. To be used by one thread.
 class ModbusWriter {
  public:
   ModbusWriter(const BusLayout& layout, const ModbusCodec& codec,
                const ModbusClientSettings& settings, ModbusTalk& talk, ModbusExchange& exchange);
 
-  /// Of a new connection: what is written next is read back.
+  /// Starts with a new connection: the next write is read back.
   void begin() noexcept { read_back_due_ns_ = 0; }
 
-  /// What is new. False: the connection is no good any more.
+  /// Writes the new messages. Returns false if the connection can no longer be used.
   bool round(std::int64_t now_ns);
 
  private:
@@ -28,7 +29,7 @@ class ModbusWriter {
   bool write_run(std::int64_t now_ns);
   bool read_back();
 
-  /// Adjacent blocks to write in one request.
+  /// Adjacent blocks that are written with one request.
   struct Run {
     std::array<std::uint16_t, kMostWrite> registers{};
     std::uint16_t first = 0;

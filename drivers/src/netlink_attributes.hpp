@@ -14,7 +14,7 @@ namespace plumb::drivers {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// A plain struct at the beginning of `bytes`; none if they are too few.
+/// The plain struct at the beginning of `bytes`; nothing if there are too few bytes.
 template <class T>
 std::optional<T> head(Bytes bytes) {
   if (bytes.size() < sizeof(T)) return {};
@@ -25,7 +25,8 @@ std::optional<T> head(Bytes bytes) {
 
 inline Bytes behind(Bytes bytes, std::size_t n) { return bytes.subspan(std::min(n, bytes.size())); }
 
-/// The content of the first attribute of this type in a row of them; empty: there is none.
+/// The content of the first attribute of this type in a sequence of attributes; empty if there is
+/// none.
 inline Bytes attribute(Bytes row, std::uint16_t type) {
   while (const auto header = head<nlattr>(row)) {
     if (header->nla_len < sizeof(nlattr) || header->nla_len > row.size()) return {};
@@ -36,7 +37,7 @@ inline Bytes attribute(Bytes row, std::uint16_t type) {
   return {};
 }
 
-/// Text up to its 0.
+/// The text up to the terminating 0.
 inline std::string text(Bytes bytes) {
   return {bytes.begin(), std::find(bytes.begin(), bytes.end(), 0)};
 }

@@ -18,8 +18,8 @@
 namespace plumb::drivers {
 namespace {
 
-constexpr std::size_t kPage = 4096;  // the smallest there is: on larger ones some are touched twice
-constexpr std::size_t kStackLeft = 64 << 10;  // for those who are called while it is touched
+constexpr std::size_t kPage = 4096;  // the smallest; larger pages are touched several times
+constexpr std::size_t kStackLeft = 64 << 10;  // for functions that are called meanwhile
 
 std::int64_t limit_of(auto resource) noexcept {
   rlimit limit{};
@@ -59,13 +59,15 @@ RtStep touch_heap(const RtRequest& request) noexcept {
                     .asked = static_cast<std::int64_t>(request.heap_bytes),
                     .limit = limit_of(RLIMIT_DATA)};
   if (request.heap_bytes == 0) return step;
+  // NOLINTBEGIN(cppcoreguidelines-no-malloc): the allocator itself is to keep these pages.
   void* const heap = std::malloc(request.heap_bytes);
   if (heap != nullptr) touch(static_cast<char*>(heap), request.heap_bytes);
   std::free(heap);
+  // NOLINTEND(cppcoreguidelines-no-malloc)
   return granted_if(step, heap != nullptr, ENOMEM);
 }
 
-/// What the calling thread may still use of its stack.
+/// The number of bytes that the calling thread can still use of its stack.
 std::size_t stack_left() noexcept {
   pthread_attr_t attributes;
   void* begin = nullptr;
@@ -109,7 +111,8 @@ RtStep stay(const RtRequest& request) noexcept {
   return granted_if(step, ::sched_setaffinity(0, sizeof(set), &set) == 0);
 }
 
-/// The request holds while `file` stays open.
+/// Limits the wake-up latency of the processor's idle states. The limit holds as long as `file`
+/// stays open.
 RtStep hold_idle_states(const RtRequest& request, int& file) noexcept {
   const RtStep step{.kind = RtStepKind::kIdleStates, .asked = request.idle_latency_us};
   if (request.idle_latency_us < 0 || request.idle_latency_file == nullptr) return step;

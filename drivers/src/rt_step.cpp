@@ -9,7 +9,8 @@ namespace {
 
 constexpr char kLimitsFile[] = "/etc/security/limits.d/plumb.conf";
 
-/// A line of limits.conf for the present user, valid from the next login on.
+/// The command that adds a line for the present user to the limits of the system. It takes effect
+/// at the next login.
 std::string raise_limit(const char* item) {
   return std::string("echo \"$USER - ") + item + "\" | sudo tee -a " + kLimitsFile;
 }
@@ -40,7 +41,7 @@ std::string kilobytes(std::int64_t bytes) {
   return bytes < 0 ? "unlimited" : std::to_string(bytes / 1024) + " kB";
 }
 
-/// What was asked for, with the call that asks.
+/// The requested setting, named by the system call that requests it.
 std::string asked(const RtStep& step) {
   switch (step.kind) {
     case RtStepKind::kHeapKept:

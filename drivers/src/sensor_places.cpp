@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::drivers {
 std::vector<std::string> temperature_names(const BusLayout& layout) {
@@ -48,6 +48,7 @@ std::vector<std::string> sensors_missing(const BusLayout& layout, const format::
   for (int k = 0; k < format::kMaxTemperatures; ++k) {
     const std::string* const sensor = temperature_name(model, k);
     if (sensor == nullptr) break;
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number, no character
     const int place = places[static_cast<std::size_t>(k)];
     if (place < 0 || place >= brought) out.push_back(*sensor);
   }

@@ -38,7 +38,7 @@ bool is_finite(const BusMessage& message) noexcept {
   return true;
 }
 
-/// True when `due_s` has run out; it then begins anew.
+/// Counts `due_s` down. Returns true when it has run out, and then restarts it with the period.
 bool is_due(double& due_s, double ageing_s, double period_s) noexcept {
   due_s -= ageing_s;
   if (due_s > 0.0) return false;
@@ -84,14 +84,15 @@ void Session::hear_target(const BusMessage& message) noexcept {
   inbox_.hear(message);
 }
 
-/// An acknowledgement counts when it goes on under our eyes: a button that hangs is none.
+/// An acknowledgement counts only if it is seen to change from off to on, so that a stuck button
+/// acknowledges nothing.
 void Session::hear_controller(const BusMessage& message) noexcept {
   const bool on = controller_in(message).acknowledge;
   if (on && !acknowledge_was_on_) acknowledged_ = true;
   acknowledge_was_on_ = on;
 }
 
-/// A target that waited too long is as if it had not come.
+/// Takes the target of this cycle. A target that is too old is ignored and counted.
 void Session::take_target() noexcept {
   target_came_ = inbox_.came(MessageKind::kTarget);
   if (target_came_ && !inbox_.within(MessageKind::kTarget, settings_.answer_s)) {
@@ -128,7 +129,7 @@ void Session::note_permission(double ageing_s) noexcept {
   lost_ =
       find_lost(inbox_, settings_.inputs) | (target_misbehaved_ ? Lost::kMotion : Lost::kNothing);
   permitted_s_ = lost_ == Lost::kNothing ? permitted_s_ + ageing_s : 0.0;
-  // An acknowledgement that goes on unseen, while the controller is silent, is none.
+  // An acknowledgement that was switched on while the controller was silent does not count.
   if (has(lost_, Lost::kController)) acknowledge_was_on_ = true;
 }
 
@@ -189,7 +190,7 @@ bool Session::answering() const noexcept {
 
 GuardOutput Session::correct(std::int64_t now_ns, double dt_s) noexcept {
   cycle_.enable(computes(state_) ? Guard::Enable::kOn : Guard::Enable::kOff);
-  const GuardOutput guarded = cycle_.step(cycle_input(now_ns)).output;
+  GuardOutput guarded = cycle_.step(cycle_input(now_ns)).output;
   const format::GuardLimits& limits = cycle_.model().limits();
   if (answering()) {
     const double most_s = 2.0 * limits.cycle_s;

@@ -7,9 +7,9 @@
 namespace plumb::drivers {
 namespace {
 
-constexpr std::size_t kFirstTemperature = 5;  // of kContext: payload, com x y z, time before it
+constexpr std::size_t kFirstTemperature = 5;  // after payload, centre of mass and time
 
-/// A value of a message, and nothing if it is not known.
+/// The reading of a value, or an empty reading if the value is not known.
 Reading reading(double value, double age_s) noexcept {
   return std::isfinite(value) ? Reading{.value = value, .age_s = age_s} : Reading{};
 }

@@ -6,14 +6,14 @@
 namespace plumb::drivers {
 namespace {
 
-/// Below these nothing is left: less than a count of any layout.
+/// Smaller corrections count as zero; they are less than one count of any layout.
 constexpr double kZero_m = 1e-9, kZero_rad = 1e-9;
 
 double towards(double from, double to, double step) noexcept {
   return to > from ? std::min(to, from + step) : std::max(to, from - step);
 }
 
-/// `from` moved to `to`, by `most` at most; arriving gives `to` itself.
+/// `from` moved towards `to` by at most `most`. On arrival the result is exactly `to`.
 Vector3 slewed(const Vector3& from, const Vector3& to, double most) noexcept {
   const Vector3 way = to - from;
   const double length = way.norm();

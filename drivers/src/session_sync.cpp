@@ -10,7 +10,7 @@
 namespace plumb::drivers {
 namespace {
 
-constexpr double kMostJoint = 1e4;  // [rad] or [m]: beyond it there is no arm
+constexpr double kMostJoint = 1e4;  // [rad] or [m]: larger than any joint position of an arm
 
 bool is_joint_state(std::span<const double> q) noexcept {
   return std::all_of(q.begin(), q.end(), [](double x) { return std::abs(x) <= kMostJoint; });

@@ -9,7 +9,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// How far a counter may lie behind and still have been overtaken; farther, its sender began anew.
+/// A target whose counter is behind by at most this many was overtaken by a later one. If it is
+/// behind by more, its sender has restarted.
 constexpr int kOvertaken = 16;
 
 /// No arm reaches farther [m], and no rotation vector is longer [rad].
@@ -21,7 +22,7 @@ bool is_reachable(const BusMessage& target) noexcept {
   return true;
 }
 
-/// From one counter to another, by the 8 bits that every bus carries: -128 .. 127.
+/// The difference of two counters in -128 .. 127, from the 8 bits that every bus transmits.
 int advance(std::uint16_t from, std::uint16_t to) noexcept {
   return static_cast<std::int8_t>(static_cast<std::uint8_t>(to - from));
 }

@@ -10,12 +10,14 @@
 
 namespace plumb::drivers {
 
-/// The most negative number of `bytes` bytes: stands for "not a number".
+/// The most negative integer of 1 to 4 bytes, which stands for "not a number".
 constexpr std::int32_t not_a_number(int bytes) noexcept {
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): 1 to 4 bytes
   return static_cast<std::int32_t>(-(std::int64_t{1} << (8 * bytes - 1)));
 }
 
-/// Counts of `value`, rounded; beyond the range the nearest end of it, the same on both sides.
+/// `value` in counts, rounded to the nearest integer and clamped to a range that is symmetric about
+/// 0.
 inline std::int32_t to_counts(double value, double scale, int bytes) noexcept {
   if (std::isnan(value)) return not_a_number(bytes);
   const double most = -(static_cast<double>(not_a_number(bytes)) + 1.0);
@@ -27,7 +29,7 @@ inline double from_counts(std::int32_t counts, double scale, int bytes) noexcept
   return counts * scale;
 }
 
-/// The lower `bytes` bytes of a number, 1 to 4 of them.
+/// Writes the lower `bytes` bytes of a number, 1 to 4 of them, in this byte order.
 inline void put(std::uint8_t* at, std::uint32_t bits, int bytes, ByteOrder order) noexcept {
   for (int i = 0; i < bytes; ++i)
     at[order == ByteOrder::kLittle ? i : bytes - 1 - i] = static_cast<std::uint8_t>(bits >> 8 * i);
@@ -40,9 +42,10 @@ inline std::uint32_t get(const std::uint8_t* at, int bytes, ByteOrder order) noe
   return bits;
 }
 
-/// The same with its sign.
+/// Reads a signed number of 1 to 4 bytes.
 inline std::int32_t get_signed(const std::uint8_t* at, int bytes, ByteOrder order) noexcept {
   const int unused = 32 - 8 * bytes;
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): unused is 0 to 24
   return static_cast<std::int32_t>(get(at, bytes, order) << unused) >> unused;
 }
 

@@ -46,7 +46,9 @@ Finding check_figures(const Provenance& p) {
 
 Finding check_covariance(const Provenance& p) {
   const std::size_t k = p.parameter_names.size();
-  if (k > kMaxParameters) return "there are too many fitted parameters: " + std::to_string(k);
+  if (k > kMaxParameters)
+    return "there are too many fitted parameters: " + std::to_string(k) + ", at most " +
+           std::to_string(kMaxParameters);
   for (const auto& name : p.parameter_names)
     if (auto f = unprintable(name, "the name of a fitted parameter")) return f;
   if (p.covariance.empty()) return std::nullopt;

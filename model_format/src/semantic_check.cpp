@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formula_check.hpp"
+#include "plumb/format/context_ranges.hpp"
 #include "provenance_check.hpp"
 #include "text_check.hpp"
 #include "tree_check.hpp"
@@ -18,6 +19,7 @@ constexpr double kMaxAngle_rad = 4.0 * 3.14159265358979323846;
 constexpr double kMaxMass_kg = 1e5;
 constexpr double kMaxTwist = 1.0;          // [m] or [rad]
 constexpr double kMaxJointPosition = 1e4;  // [rad] or [m]: many turns
+constexpr double kMaxContext = 1e6;        // [kg], [m], [N], [N m], [degC]
 constexpr double kMinSpan = 1e-9;          // of the trained domain, [rad] or [m]: it divides
 constexpr double kMinFade = 1e-6;          // as a share of that span: it divides
 constexpr double kUnitSlack = 1e-9;        // of a quaternion's length
@@ -109,7 +111,9 @@ Finding check_effect(const Effect& effect, std::size_t joints) {
   for (auto joint : effect.joints)
     if (joint >= joints)
       return what + " names joint " + std::to_string(joint + 1) + " of " + std::to_string(joints);
-  if (effect.parameters.size() > kMaxEffectParameters) return what + " has too many parameters";
+  if (effect.parameters.size() > kMaxEffectParameters)
+    return what + " has too many parameters: " + std::to_string(effect.parameters.size()) +
+           ", at most " + std::to_string(kMaxEffectParameters);
   for (double x : effect.parameters)
     if (!std::isfinite(x)) return what + " has a parameter that is not finite";
   if (effect.constants.size() > kMaxEffectConstants) return what + " has too many constants";
@@ -138,12 +142,35 @@ Finding check_mechanics(const Mechanics& m, std::size_t joints) {
   return std::nullopt;
 }
 
+bool is_named(const ContextRange& r) {
+  if (r.input == ContextInput::kTemperature) return !r.name.empty();
+  return r.input == ContextInput::kPayload &&
+         std::find(kLoadNames.begin(), kLoadNames.end(), r.name) != kLoadNames.end();
+}
+
+Finding check_ranges(const std::vector<ContextRange>& ranges) {
+  if (ranges.size() > kMaxContextRanges)
+    return "the trained domain has " + std::to_string(ranges.size()) + " ranges of context";
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const ContextRange& r = ranges[i];
+    if (auto f = unprintable(r.name, "the trained domain's range of an input")) return f;
+    if (!is_named(r)) return "the trained domain has a range of an unknown input '" + r.name + "'";
+    if (!within(r.low, kMaxContext) || !within(r.high, kMaxContext) || !(r.low <= r.high))
+      return "the trained domain of input '" + r.name + "' is no range";
+    for (std::size_t b = 0; b < i; ++b)
+      if (ranges[b].input == r.input && ranges[b].name == r.name)
+        return "the trained domain has two ranges of input '" + r.name + "'";
+  }
+  return std::nullopt;
+}
+
 Finding check_domain(const Model& m) {
   const auto& d = m.domain;
   const bool trees =
       std::any_of(m.trees.begin(), m.trees.end(), [](const Tree& t) { return !t.bounds.empty(); });
   if (!(d.fade > kMinFade && d.fade <= 1.0))
     return "the fade of the trained domain is " + number(d.fade) + ", not in 0 … 1";
+  if (auto f = check_ranges(d.context)) return f;
   if (d.q_min.size() != d.q_max.size()) return "the trained domain has limits of different count";
   if (d.q_min.empty())
     return trees ? Finding("the model has a tree but no trained domain") : std::nullopt;

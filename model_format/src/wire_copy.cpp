@@ -200,7 +200,11 @@ class Copier {
 
   Domain domain(const wire::Domain* w) {
     if (w == nullptr) return {};
-    return {numbers(w->q_min()), numbers(w->q_max()), w->fade()};
+    return {numbers(w->q_min()), numbers(w->q_max()), w->fade(),
+            each(w->context(), [this](const auto& x) {
+              return ContextRange{static_cast<ContextInput>(x.input()), text(x.name()), x.low(),
+                                  x.high()};
+            })};
   }
 
   Provenance provenance(const wire::Provenance* w) {

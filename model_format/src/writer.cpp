@@ -115,6 +115,19 @@ Offset<wire::Tree> add(Builder& b, const Tree& tree) {
   return out.Finish();
 }
 
+Offset<wire::Domain> add(Builder& b, const Domain& d) {
+  const auto q_min = b.CreateVector(d.q_min), q_max = b.CreateVector(d.q_max);
+  Offset<flatbuffers::Vector<Offset<wire::ContextRange>>> context;
+  if (!d.context.empty()) {
+    std::vector<Offset<wire::ContextRange>> ranges;
+    for (const auto& r : d.context)
+      ranges.push_back(wire::CreateContextRange(b, static_cast<wire::ContextInput>(r.input),
+                                                b.CreateString(r.name), r.low, r.high));
+    context = b.CreateVector(ranges);
+  }
+  return wire::CreateDomain(b, q_min, q_max, d.fade, context);
+}
+
 Offset<wire::Guard> add(Builder& b, const GuardLimits& g) {
   return wire::CreateGuard(b, static_cast<wire::Corrects>(g.corrects), g.max_correction_m,
                            g.max_rotation_rad, g.slew_m_per_s, g.slew_rad_per_s, g.ramp_s,
@@ -146,8 +159,7 @@ Offset<wire::Model> add(Builder& b, const Model& m) {
   for (const auto& effect : m.effects) effects.push_back(add(b, effect));
   std::vector<Offset<wire::Tree>> trees;
   for (const auto& tree : m.trees) trees.push_back(add(b, tree));
-  const auto q_min = b.CreateVector(m.domain.q_min), q_max = b.CreateVector(m.domain.q_max);
-  const auto domain = wire::CreateDomain(b, q_min, q_max, m.domain.fade);
+  const auto domain = add(b, m.domain);
   const auto guard = add(b, m.guard);
   const auto provenance = add(b, m.provenance);
   const auto mechanics = add(b, m.mechanics);

@@ -27,19 +27,33 @@ constexpr Explanation kCodes[] = {
      "The run was made from other measurement files than the cell has now, so its predictions "
      "belong to other poses. Fit again, or put the old files back."},
     {"E-RUN-DAMAGED",
-     "run.json or predictions.csv of a run cannot be read. Runs are never changed by plumb: delete "
-     "the damaged folder and fit again."},
+     "run.json or predictions.csv of a run cannot be read, or its check sum says that it was "
+     "edited "
+     "or cut off after it was written. Runs are never changed by plumb: fit again, or delete the "
+     "damaged folder."},
+    {"N-RUN-NOSUM",
+     "The run was made by an earlier version, which wrote no check sums: an edited file would go "
+     "unnoticed. plumb fit makes a run with them."},
+    {"E-CELL-BUSY",
+     "Only one plumb at a time changes a cell; add, drop, diagnose --apply, check --fix and "
+     "whatever "
+     "keeps a run wait up to 10 minutes for the other one. Nothing was written."},
+    {"E-CELL-CHANGED",
+     "cell.toml was edited, by hand perhaps, after this plumb had read it. What was written there "
+     "would have been lost, so nothing was changed. Give the command again."},
     {"E-RUN-MISSING", "There is no run of that number under runs/. plumb runs lists them."},
     {"N-RUN-NEW",
      "compare, compile and predict fit first if no run belongs to the present cell file and data."},
+    {"W-RUN-DAMAGED",
+     "A run under runs/ cannot be read: a file of it lacks, was cut short or was edited. The other "
+     "runs are listed. plumb fit makes a new one; the damaged folder may be deleted."},
     {"W-RUN-NODATA",
      "The history was read, but not the cell's measurements; so it is not known which run is the "
      "current one."},
     {"E-ADD-TWICE",
      "The model already has that effect at these joints, with the same settings; nothing was "
      "changed. [effects] in cell.toml lists what it has. An effect may stand there a second time "
-     "at "
-     "other joints or with other settings."},
+     "at other joints or with other settings."},
     {"E-DROP-NONE",
      "The model does not have that effect, or not at these joints or with these settings; nothing "
      "was changed. Geometry cannot be dropped: hold its parameters with [fit] fixed instead."},
@@ -52,28 +66,48 @@ constexpr Explanation kCodes[] = {
      "and its numbers: gear_ripple:J2@cycles_per_turn=20,gear_harmonics:J2."},
     {"N-PLAN-NOMINAL",
      "There are no measurements yet, or too few for a fit, so the poses were chosen for the "
-     "nominal "
-     "arm. That makes little difference: derivatives hardly depend on errors of a millimetre."},
+     "nominal arm. That makes little difference: derivatives hardly depend on errors of a "
+     "millimetre."},
+    {"N-PLAN-SETUP",
+     "New poses are chosen for one set-up, the first of the cell; what was measured in the others "
+     "counts as known. The choice hardly depends on the set-up: what matters is the arm."},
+    {"N-SIMULATE-SETUP",
+     "plumb simulate measures in one set-up at a time, the first of the cell. The others have no "
+     "rows until they are measured, or simulated from a cell of their own."},
     {"E-CHECK-CONVENTION",
      "The files are not meant as they are labelled: another DH convention, unit, joint direction "
-     "or "
-     "handedness explains the points far better. plumb check lists every reading with what it "
+     "or handedness explains the points far better. plumb check lists every reading with what it "
      "leaves; --fix writes the best one."},
+    {"E-CHECK-FIX-SETUPS",
+     "The convention was told from one of several set-ups, and each may have files of its own; "
+     "--fix "
+     "changes none of them. plumb check says what is wrong: correct cell.toml and the headings of "
+     "the files by hand."},
     {"E-CHECK-NOFIT",
      "Neither the labels nor any other reading of units, conventions and directions explains the "
      "points. Look for joints in another order, joints coupled by a linkage, rows that belong to "
      "another arm, or a wrong DH table."},
-    {"E-CHECK-LIMITS",
+    {"W-CHECK-LIMITS",
      "Joint readings lie outside the limits in cell.toml, which a real arm cannot do. Either the "
-     "limits are too narrow, or the readings are in another unit, direction or turn."},
+     "limits are too narrow, or the readings are in another unit, direction or turn. The fit uses "
+     "no limits, and a whole turn of a joint moves nothing; but coverage, plans and the range "
+     "in which corrections are trusted depend on them."},
+    {"N-CHECK-LIMITS",
+     "The cell file does not say how far this joint may turn, so that limits were "
+     "assumed, and the readings go farther. That is no error. State the limits with q = [min, max] "
+     "so that coverage and plans are right."},
     {"E-CHECK-EQUAL",
      "Every row has the same joint positions, so nothing about the arm can be learnt. Repeats of "
-     "one pose give the noise only."},
-    {"E-CHECK-NOTHING",
-     "Not one number of the arm can be told from these poses better than it is known already."},
+     "one pose give the noise only. If the points are far apart all the same, the arm moved and "
+     "the joint columns were not recorded with them."},
+    {"W-CHECK-NOTHING",
+     "Not one number of the arm can be told from these poses: another place of the tracker or of "
+     "the reflector would show the same points. That is so for an arm of one joint, and for poses "
+     "that move one joint only. The fit then calibrates frame and target and leaves the arm "
+     "nominal."},
     {"E-CHECK-FEW",
-     "The distinct poses give no more coordinates than there are numbers to find. Repeats do not "
-     "count: they tell of the noise only."},
+     "The distinct poses give no more coordinates than there are numbers to find, or those that "
+     "are left when some are held out do not. Repeats do not count: they tell of the noise only."},
     {"W-CHECK-FEW",
      "The distinct poses give hardly more coordinates than there are numbers to find, so that the "
      "fit can follow the noise."},
@@ -82,9 +116,8 @@ constexpr Explanation kCodes[] = {
      "They make the noise look smaller than it is."},
     {"W-CHECK-OUTLIER",
      "Readings lie farther from where all others put them than noise or an unknown effect "
-     "explains: "
-     "a wrong row, a broken beam, a reflector that slipped. The fit leaves them out and lists "
-     "them."},
+     "explains: a wrong row, a broken beam, a reflector that slipped. The fit leaves them out and "
+     "lists them."},
     {"W-CHECK-STILL",
      "A joint that never moves shows nothing of itself, and what is behind it looks like one "
      "link."},
@@ -97,6 +130,56 @@ constexpr Explanation kCodes[] = {
     {"W-CHECK-ROUNDED",
      "The digits of the joint columns tell that they were rounded, by so much that it shows beside "
      "the noise. Commanded values that the controller meets exactly may be round; readings not."},
+    {"W-CHECK-COARSE",
+     "All measured coordinates are multiples of one step, which is coarse beside the noise: a "
+     "report or a screen has rounded them. An error of up to half a step has a standard deviation "
+     "of step / sqrt(12), which no model removes. Export the points with all their digits."},
+    {"W-CHECK-PATTERN",
+     "The errors of the readings repeat from row to row: every second or every n-th one is off by "
+     "one vector. An instrument read in two faces that are not adjusted, or two stations in turn, "
+     "do so in the tracker's axes; two reflectors measured in turn do so in the tool's. A fit of "
+     "all rows lies between the two and is wrong for both. Nothing is said where joint positions, "
+     "directions, payload or temperature follow the same pattern, because they may be the cause."},
+    {"W-CHECK-SCALE",
+     "One factor on all points would make them fit the lengths of the DH table. A large factor is "
+     "a unit; a small one is the scale of the tracker or its correction for temperature, because "
+     "arms are hardly built longer everywhere by one factor. Of steel 12 ppm and of aluminium 24 "
+     "ppm belong to a kelvin, so a warm arm does it too. If it is the tracker's scale, the "
+     "calibrated lengths carry its error."},
+    {"W-CHECK-ROWS",
+     "Rows, one after another, fit the arm like all others once one slip is put right in them: a "
+     "joint that counts the other way, joint angles or points in another unit than the heading "
+     "says, or points that stand one or two rows away from their joint positions. Each of these "
+     "was tried on every row, and the repaired rows were fitted with the others. Correct these "
+     "lines of the file; plumb changes nothing by itself."},
+    {"W-CHECK-CONTRADICT",
+     "An arm fits most readings well and misses the others by far, with nothing between: these "
+     "belong to another arm, another target or another set of joint positions. They are too many "
+     "to be outliers that are simply left out, so they are used, and spoil the fit, until they are "
+     "marked with set = ignore."},
+    {"W-CHECK-SAME",
+     "A set-up is said to stand where another one stands, or to carry its reflector: frame or "
+     "target = { same_as = \"day 1\" }. With a frame or reflector of its own the points fit far "
+     "better, so it was moved between the two, or it was another one. Left as it is, the error "
+     "looks like one of the arm."},
+    {"W-CHECK-REPEATS",
+     "Rows of one pose name are taken for repeats, and what they differ by is taken for noise. "
+     "They differ by far more than the stated standard deviation of one reading: they were not "
+     "the same pose, something changed between them, or the stated number is too small. Or they "
+     "differ by far less, so that the stated number is too large and hides what is missing."},
+    {"W-CHECK-EFFECT",
+     "A number of an effect is far beyond what arms have: a reference temperature in kelvin, a "
+     "reversal that takes half a turn, or an effect that moves the measured point by more than 2 % "
+     "of the arm's length. Either it is in another unit, or the effect imitates wrong readings."},
+    {"W-CHECK-GRAVITY",
+     "What the geometry leaves looks like joints that yield under gravity, but under another "
+     "direction of it than the vector 'gravity' of [robot] says. That vector is in the base frame "
+     "of the DH table: [0, 0, -9.81] for an arm that stands upright on the floor, [0, 0, 9.81] for "
+     "one that hangs from a ceiling. With a wrong direction every effect of gravity is wrong."},
+    {"N-CHECK-GRAVITY",
+     "Gravity is switched off, so that nothing of weight can be judged; or it does not point along "
+     "-z of the base, so the arm hangs, leans or is mounted on a "
+     "wall. That is right for many arms; the note says it because a slip of sign looks the same."},
     {"W-CHECK-SEPARATE",
      "Two or more numbers of the arm move the measured point in the same way at all these poses, "
      "though not at others. One is held at nominal. Poses that move the named joint separate "
@@ -120,26 +203,33 @@ constexpr Explanation kCodes[] = {
      "--tip."},
     {"E-URDF-JOINT",
      "plumb calibrates serial arms of 1 to 9 revolute or sliding joints. Mimicking, floating and "
-     "planar "
-     "joints on the way to the tip are not of that kind."},
+     "planar joints on the way to the tip are not of that kind."},
+    {"E-URDF-SIZE",
+     "The file has elements nested more than 100 deep, or more than 2000 links. No robot has: it "
+     "is "
+     "damaged, or was made to break programs that read it."},
+    {"N-NEW-JOINT",
+     "Parameters are called JOINT.PARAMETER, J2.d for example, so names of joints are different "
+     "words without dots and blanks. The names of the file were changed where they are not."},
     {"N-NEW-CONVENTION",
      "The same arm can be written in both DH conventions. From a URDF either is computed; choose "
-     "the "
-     "one your controller's documents use."},
+     "the one your controller's documents use."},
     {"W-EXPORT-LOST",
      "URDF says where joints and links are, and nothing about elasticity, gear errors or trees. "
-     "The "
-     "model file of plumb compile holds them all."},
+     "The model file of plumb compile holds them all."},
     {"E-IMPORT-BINARY",
      "import reads text. Export the measurements as text (CSV) from the program they come from."},
+    {"E-IMPORT-ENCODING",
+     "The letters of the file are coded in a way that import does not read: Shift-JIS, or one for "
+     "Chinese, Korean or Cyrillic text. Read as Latin-1 its headings would be nonsense. Save the "
+     "file as UTF-8 where it comes from, or convert it with iconv."},
     {"E-IMPORT-EMPTY", "There is nothing in the file."},
     {"E-IMPORT-HEADER",
      "No line names the columns, or none of the names is known. Name them yourself: --header "
      "\"pose,q1_deg,...,x_mm,y_mm,z_mm\"."},
     {"E-IMPORT-RAGGED",
      "A row has more or fewer cells than the header. Often the last line was cut off while "
-     "copying, "
-     "or the separator was not recognised: --separator."},
+     "copying, or the separator was not recognised: --separator."},
     {"E-IMPORT-ROWS", "The file has a header, and nothing below it."},
     {"E-IMPORT-DECIMAL",
      "Every comma of the file has three digits behind it: it may divide thousands or decimals. Say "
@@ -148,14 +238,54 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-UNIT",
      "A recognised column does not say its unit. Name it: --map \"X=x_mm\". A wrong unit is the "
      "commonest cause of a wrong calibration, so none is assumed. Units that plumb does not know, "
-     "cm "
-     "for example, are not converted: do that where the file comes from."},
+     "cm for example, are not converted: do that where the file comes from."},
     {"W-IMPORT-UNIT",
      "The same of a preview, which shows the rest of the file all the same. Without --preview it "
-     "is "
-     "an error."},
+     "is an error."},
     {"E-IMPORT-MAP",
      "--map names a column that the file has not, a new name without a unit, or one column twice."},
+    {"E-IMPORT-MISSING",
+     "A calibration needs the positions of all joints and at least one measured coordinate, and no "
+     "column of the file holds them, or none that plumb recognises. Nothing was written. Columns "
+     "of "
+     "numbers that were not used are named; say with --map which of them are meant. If joints and "
+     "points are in two files, import both at once with --join."},
+    {"W-IMPORT-MISSING",
+     "The same of a preview, which shows the rest of the file all the same. Without --preview it "
+     "is an error."},
+    {"E-IMPORT-DATE",
+     "In dates such as 03/04/2022 the day stands first in some countries and the month in others. "
+     "plumb decides by numbers beyond 12 in the whole column; where there are none, and the two "
+     "readings differ by more than a constant, say which with --date."},
+    {"N-IMPORT-TIME",
+     "How the time stamps were read. They become seconds from the first row, in the column t_s."},
+    {"N-IMPORT-ZERO",
+     "The file counts the joints from 0, plumb from 1: each number was raised by one."},
+    {"N-IMPORT-QUAT",
+     "Four numbered columns whose squares add up to 1 in every row are a unit quaternion and no "
+     "joints. With numbers from 0 the first is the scalar part, as is usual."},
+    {"W-IMPORT-QUAT",
+     "These numbered columns are a quaternion and no joints, but which of them is the scalar part "
+     "cannot be told from the numbers: some programs put it first, some last. Say it with --map, "
+     "for example \"Q1=qw,Q2=qx,Q3=qy,Q4=qz\"."},
+    {"N-IMPORT-EXPANDED",
+     "An expanded uncertainty, U(95) or with a coverage factor k = 2, is two standard deviations. "
+     "plumb weighs measurements by one, so the numbers were divided by the factor."},
+    {"W-IMPORT-RADIANS",
+     "The headings of the joint columns say degrees, but the numbers are as small as radians, and "
+     "the measured points are farther apart than so few degrees can move a tool. Nothing was "
+     "changed: if the numbers are radians, say so with --map."},
+    {"N-IMPORT-SLIDE",
+     "Positions of a joint that turns are angles, of one that slides lengths. The file alone "
+     "cannot "
+     "tell which it is; plumb check compares with the cell."},
+    {"W-IMPORT-UNCERTAINTY",
+     "A column of uncertainties that says neither 1 sigma nor 95 % may be either; taking the wrong "
+     "one would double or halve the weight of the readings. Map it to sx_um (one standard "
+     "deviation) or u95x_um (two, which are halved), with the unit of the file, and so for y and "
+     "z."},
+    {"N-IMPORT-EMPTY",
+     "Every line ends with separators behind which nothing stands, as some programs write them."},
     {"E-IMPORT-TWICE", "Two columns would become the same one. Leave one out with --map OLD=-."},
     {"E-IMPORT-ROT",
      "The order of three turns: xyz-fixed is R = Rz Ry Rx, xyz-moving is R = Rx Ry Rz, and so on "
@@ -178,14 +308,35 @@ constexpr Explanation kCodes[] = {
      "many."},
     {"W-IMPORT-PARTNERS", "Rows that have no partner in the other file were dropped."},
     {"E-FIT-CONVERGE",
-     "The calibration did not settle. Most often a unit, the sign or zero of a joint, or the DH "
-     "convention is wrong, so that no small change of the arm explains the measurements."},
+     "The calibration did not settle: the predicted points still moved by more than a share of the "
+     "noise. Most often a unit, the sign or zero of a joint, or the DH convention is wrong, so "
+     "that "
+     "no small change of the arm explains the measurements; plumb check finds that. If it finds "
+     "nothing, an effect was added that these poses do not show: drop it, or measure poses all "
+     "over the joint limits."},
+    {"N-FIT-PRIOR",
+     "Some combinations of the arm's numbers hardly move the measured points in these poses: the "
+     "poses lie along a path or on a surface, or the wrist turns little. Arms are built to some "
+     "tenths of a millimetre and milliradian, so these combinations are held near their nominal "
+     "values by [fit] prior_mm and prior_mrad (1 sigma, 0.5 each unless stated, 0 to switch it "
+     "off). What the poses show clearly is not touched. Where such poses are, the model is as good "
+     "as its held-out error says; elsewhere it is a guess that stays near nominal."},
+    {"N-FIT-MARKED",
+     "[measurement] held_out is \"auto\" or not stated, and the files mark rows as held in column "
+     "'set': those are the held-out poses. Delete the marks, or state another rule, to have the "
+     "program choose."},
+    {"W-DIAGNOSE-UNJUDGED",
+     "The model with this effect could not be refitted, so that nothing is known for or against "
+     "it: the verdict is about the others. Put it in by hand with plumb add, which says what the "
+     "fit ran into, or measure poses that show more."},
     {"E-FIT-FEW",
      "There are fewer measured coordinates than parameters. Measure more poses, or "
      "hold parameters with [fit] fixed."},
     {"E-FIT-ONE-POSE",
-     "The arm hardly moves between the poses, so nothing tells its numbers apart. Units are not to "
-     "blame: measure poses all over the workspace; plumb plan chooses them."},
+     "The joint positions hardly change between the poses, so nothing tells the numbers of the arm "
+     "apart. If the points hardly change either, measure poses all over the workspace; plumb plan "
+     "chooses them. If the points are far apart, the joint columns are in another unit than their "
+     "headings say, or were not recorded with these points."},
     {"E-FIT-FORMULA",
      "A formula divides by zero, takes the root or logarithm of a negative number or is otherwise "
      "no number at one of the poses, or its value is beyond 1 m or 1 rad or its slope infinite, so "
@@ -213,10 +364,9 @@ constexpr Explanation kCodes[] = {
      "A fitted number of the arm ended far from its nominal value, farther than arms are built "
      "wrong. Often the nominal value is mistyped, or belongs to another variant of the robot."},
     {"W-FIT-IMPOSSIBLE",
-     "A number of an effect ended where its law cannot be, by more than three sigma: a spring that "
-     "pushes the wrong way, say. The effect imitates another one that the model lacks, or masses "
-     "or "
-     "signs are wrong."},
+     "A number of an effect ended where its law cannot be, by more than three sigma: a spring "
+     "that pushes the wrong way, say. The effect imitates another one that the model lacks, or "
+     "masses or signs are wrong."},
     {"W-FIT-OUTLIERS",
      "Some poses lie farther from what all others predict than six times their usual scatter: a "
      "bumped reflector, a broken beam, a mistyped number. They were not fitted. Held-out poses are "
@@ -224,8 +374,7 @@ constexpr Explanation kCodes[] = {
     {"W-FIT-HELD-OUTLIERS",
      "Some held-out poses lie farther off than six times the usual scatter of the others: bad "
      "readings, or places where the model fails. Held-out figures are never trimmed, so they "
-     "count; "
-     "a second line shows the rest."},
+     "count; a second line shows the rest."},
     {"W-FIT-HELD-TWICE",
      "Rows of the fit repeat poses that are held out: the same joints or the same name. Held-out "
      "poses must have no say, so these rows were not fitted."},
@@ -236,6 +385,9 @@ constexpr Explanation kCodes[] = {
     {"W-CSV-AXES",
      "One or two of x, y, z are missing although the arm moves in space. The fit goes on with what "
      "there is, and every error is of the given axes only: smaller than that of the point."},
+    {"W-FIT-SETUP",
+     "A set-up has so few poses that all of them are needed to find where its tracker and its "
+     "reflector are, so none is held out. The held-out error is that of the other set-ups."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
      "out. State [measurement] sigma_urad to use them."},
@@ -253,18 +405,20 @@ constexpr Explanation kCodes[] = {
     {"W-AUDIT-SIGMA",
      "From the scatter of the fit follows how well the tool's place is known all over the trained "
      "range: there it is known worse than a third of the largest correction. Poses are too few, "
-     "too "
-     "alike, or two numbers of the model imitate each other."},
+     "too alike, or two numbers of the model imitate each other."},
     {"W-AUDIT-STILL",
      "A joint never moved in the fitted poses. Elsewhere the model corrects blindly: measure poses "
      "all over the range that the robot will use."},
+    {"W-COMPILE-SERIAL",
+     "[cell] serial is empty, so the model is bound to no robot: plumb-rt would run it on any arm "
+     "of "
+     "the kind, whose errors are others. Write the robot's serial number into cell.toml."},
     {"W-COMPILE-TOLERANCE",
      "The model was compiled, but its held-out error does not keep [cell] tolerance_mm: at 95 % of "
      "the poses, or three times over at the worst. With --gate nothing would have been written."},
     {"N-COMPILE-LEFT",
      "Effects of the measurement or of the procedure (drift, step, tracker, settling_lag) clean "
-     "the "
-     "other numbers of the fit. They are not the robot's, and are not compiled."},
+     "the other numbers of the fit. They are not the robot's, and are not compiled."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-EMIT-NO-TREE",
@@ -279,15 +433,13 @@ constexpr Explanation kCodes[] = {
     {"E-MODEL-NEWER", "The file was written by a newer plumb with a schema this one cannot read."},
     {"E-MODEL-EFFECT",
      "The file lists a physical effect that this program cannot evaluate: a law it does not know, "
-     "a "
-     "newer version of one, or numbers of another count."},
+     "a newer version of one, or numbers of another count."},
     {"E-EFFECT-MANY",
      "The cycle reserves room for a fixed number of effects, every wave of a gear being one. Keep "
      "the strongest, and let a local tree learn the rest: [effects.local_tree]."},
     {"E-EFFECT-DATA",
      "A listed effect needs something that these measurements do not hold: the direction from "
-     "which "
-     "joints came, a temperature, the row after which something moved."},
+     "which joints came, a temperature, the row after which something moved."},
     {"E-EFFECT-OPTION",
      "add or drop was told something of an effect that it has no option for, or a value or joints "
      "that make no sense. --set takes KEY=VALUE as [effects] in cell.toml does; "
@@ -307,6 +459,34 @@ constexpr Explanation kCodes[] = {
      "which one is meant. Add columns qc1_deg ..."},
     {"N-TARGET-ORIENTATION",
      "Targets without quaternion: the orientation that the nominal arm has at the seed is kept."},
+    {"W-CORRECT-LIMITED",
+     "Some corrections are larger than [deploy] max_correction_mm. They were cut to that size, as "
+     "the guard of plumb-rt would, and are marked 'limited': the arm misses those targets by the "
+     "rest. A limit far under what the arm needs, or a model that does not belong to it."},
+    {"W-PREDICT-LIMITED",
+     "In some rows the arm is farther from its nominal pose than [deploy] max_correction_mm lets a "
+     "correction be. The predicted points are whole; the rows are marked 'limited' because "
+     "correct and plumb-rt would cut the correction there, and the arm would miss by the rest."},
+    {"W-PREDICT-RADIANS",
+     "The joints stand in columns of degrees, but no angle is beyond 2 pi, and read as radians "
+     "they lie within what the model was fitted with. If they are radians, name the columns "
+     "q1_rad ...; if the arm does stay within 6 degrees of zero, nothing is wrong."},
+    {"W-PREDICT-INPUT",
+     "An effect of the model depends on something that the file does not say: the way each joint "
+     "came (dir_jN, travel_jN_deg), a temperature, the payload, or when a row was measured. What "
+     "the message names was assumed, and the rows are marked 'context-fallback'. Rows have a place "
+     "in the cell's own series by their time (t_s, or ISO times, in both files), or else by the "
+     "name of a pose that the cell measured too; others are taken as measured right after the last "
+     "row of the cell: what has moved stays moved, and a drift has come to its end."},
+    {"W-PREDICT-OUTSIDE",
+     "The joints, the payload or a temperature of some rows lie outside what the model was fitted "
+     "with (plumb inspect shows the ranges). They are marked 'outside-domain': a prediction there "
+     "extrapolates, and a correction holds a little beyond and fades to nothing farther out. Often "
+     "it is a unit: kelvin for degC, grams for kilograms."},
+    {"E-CORRECT-NONE",
+     "Every target was refused, so every command in the output is the target itself. When all are "
+     "refused the targets are usually in other units, in another frame or in another order than "
+     "their columns say, or the joint states belong to other targets."},
     {"W-CORRECT-REFUSED",
      "Some targets were refused; column status says why, and the command is the target itself. "
      "plumb explain STATUS tells what each one means."},
@@ -315,16 +495,21 @@ constexpr Explanation kCodes[] = {
      "replaced."},
     {"E-DH-COLUMN", "The DH table needs alpha_deg, a_mm, d_mm and theta_deg (or rad, m, in)."},
     {"E-DH-JOINTS", "The DH table has more joints than a model can have."},
-    {"E-DH-LIMITS", "A joint's lower limit is not below its upper limit."},
+    {"E-DH-LIMITS", "A joint's limits are not two rising numbers in its own unit."},
     {"E-DH-TYPE", "A joint is revolute or prismatic."},
-    {"N-DH-LIMITS", "The DH table does not give all joint limits; wide ones were taken."},
+    {"N-DH-LIMITS", "The DH table does not give all joint limits; wide ones are assumed."},
     {"E-DEMO-NAME", "There is no sample cell of that name. plumb demo --list shows them."},
+    {"W-DIAGNOSE-ROSE",
+     "The fitted readings spoke for these effects, but with them the error on readings that had no "
+     "say rose, so they were not added. Something else is missing that they imitate, or the "
+     "measurement is short and in one place, so that what is learnt there does not hold elsewhere. "
+     "Measure more poses, in an order that is no path."},
     {"E-SIM-PLAN", "The simulation that was asked for makes no sense; the message says why."},
     {"E-SIM-EFFECT", "The simulator does not know that effect. plumb simulate --list shows them."},
     {"E-SIM-SIZE",
      "A hidden effect cannot get the size that was asked for: no noise to measure it by, or "
-     "nothing "
-     "of it is left when geometry has been fitted."},
+     "nothing of it is left when geometry has been fitted. Or the size is one that tears the arm "
+     "apart."},
     {"E-SIM-JOINT", "A joint of a hidden effect does not exist in this cell, or has no size."},
     {"E-CELL-BUS",
      "The bus layout of [deploy.bus], or the default one with this cycle_us, cannot be used: "

@@ -50,11 +50,11 @@ AxisColumns find_companions(const Table& table, const std::string& prefix, const
 void check_sigma(const Table& table, const AxisColumns& sigma, ProblemList& problems) {
   for (const Column* column : sigma)
     for (int row = 0; column != nullptr && row < table.rows() && !problems.full(); ++row)
-      if (column->values[row] <= 0.0)
+      if (column->values[row] < 0.0)
         problems.error(
             "E-CSV-SIGMA",
-            fmt::format("column '{}': a standard deviation must be greater than 0", column->header),
-            place_in_row(table, row, *column, "not greater than 0"),
+            fmt::format("column '{}': a standard deviation cannot be negative", column->header),
+            place_in_row(table, row, *column, "negative"),
             "give the reading's 1 sigma, or delete the three columns");
 }
 

@@ -4,16 +4,20 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "plumb/drivers/bus_layout.hpp"
+#include "effects/effect_entry.hpp"
 #include "plumb/format/model.hpp"
 #include "program/problem.hpp"
+
+namespace plumb::drivers {
+enum class BusUse : std::uint8_t;
+struct BusLayout;
+}  // namespace plumb::drivers
 
 namespace plumb::offline {
 
@@ -43,6 +47,22 @@ struct HeldOutRule {
   Place named_at = {};              // where the cell file says so, if it does
 };
 
+/// One of several arrangements of tracker and reflector in which one arm was measured: another day,
+/// another station, another reflector on the tool. Which rows are its own say `files`, or the text
+/// column `setup` of the files of [measurement], which then holds its name.
+struct Setup {
+  std::string name;
+  std::vector<std::filesystem::path> files;  // absolute
+  std::vector<Place> named_at = {};          // of each file in the cell file
+  bool fit_frame = true;
+  format::Pose X_MB;            // base in the measurement frame, if not fitted
+  std::optional<int> frame_of;  // stands where that earlier set-up stands
+  bool fit_target = true;
+  std::array<double, 3> target_T{};  // reflector in the tool frame [m], if not fitted
+  std::optional<int> target_of;      // has the reflector of that earlier set-up
+  Place place = {};
+};
+
 struct MeasurementSettings {
   std::vector<std::filesystem::path> files;  // absolute
   std::vector<Place> named_at;               // of each file in the cell file, if it was read there
@@ -54,15 +74,7 @@ struct MeasurementSettings {
   std::optional<double> sigma_rad;   // 1 sigma per axis of measured orientations (sigma_urad)
   HeldOutRule held_out;
   std::uint64_t seed = 1;
-};
-
-/// One entry of [effects]; `geometry` comes first unless the file says `geometry = false`.
-struct EffectEntry {
-  using Value = std::variant<bool, double, std::string, std::vector<std::string>>;
-  std::string name;
-  std::vector<int> joints;  // zero-based, empty = all
-  std::map<std::string, Value> options;
-  Place place;
+  std::vector<Setup> setups;  // none: one, as above
 };
 
 /// What is known of a parameter beforehand: its nominal value, give or take.
@@ -74,16 +86,18 @@ struct Prior {
 struct FitSettings {
   std::vector<std::string> fixed;  // parameters held at nominal, "J2.d"
   std::vector<Prior> priors;
+  double prior_m = 0.5e-3;    // 1 sigma of how far arms are built from nominal
+  double prior_rad = 0.5e-3;  // the same of angles
   enum class Model { kDh, kComplete } model = Model::kDh;
 };
 
 struct DeploySettings {
   double cycle_s = 0.004;
   double max_correction_m = 0.003;
-  drivers::BusUse link = drivers::BusUse::kCan;
-  std::string interface = "can0";              // of CAN
-  std::string address = "127.0.0.1";           // of a controller that speaks Modbus TCP
-  std::optional<drivers::BusLayout> bus = {};  // none: the default one
+  drivers::BusUse link{};                         // CAN
+  std::string interface = "can0";                 // of CAN
+  std::string address = "127.0.0.1";              // of a controller that speaks Modbus TCP
+  std::shared_ptr<const drivers::BusLayout> bus;  // none: the default one
 };
 
 /// A cell file, read and checked. SI inside: [m], [rad]; places keep the text for messages.
@@ -97,6 +111,7 @@ struct Cell {
   std::string length_unit = "mm", angle_unit = "deg";  // as written, for display
   format::Chain nominal;
   std::vector<JointMechanics> mechanics;  // one per joint
+  std::vector<bool> assumed_limits;       // joints whose q limits the file does not say
   std::array<double, 3> gravity{0.0, 0.0, -9.81};
   Payload payload;
   MeasurementSettings measurement;

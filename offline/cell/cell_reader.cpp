@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "cell/cell_sections.hpp"
+#include "effects/registry.hpp"
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 
 namespace plumb::offline {
@@ -43,7 +45,8 @@ void read_sections(TomlTable& root, CellDraft& draft) {
     root.missing("robot", "describe the arm in a table [robot]: plumb new --help");
   else if (auto robot = root.table("robot"))
     read_robot(*robot, draft);
-  draft.cell.effects.push_back({.name = "geometry", .joints = {}, .options = {}, .place = {}});
+  draft.cell.effects.push_back(
+      {.name = geometry_effect(), .joints = {}, .options = {}, .place = {}});
   read_section(root, "measurement", draft, read_measurement);
   read_section(root, "effects", draft, read_effects);
   read_section(root, "fit", draft, read_fit);
@@ -88,7 +91,9 @@ Cell parse_cell(std::string text, const fs::path& cell_toml) {
   return std::move(draft.cell);
 }
 
-Cell read_cell(const fs::path& cell_toml) { return parse_cell(read_file(cell_toml), cell_toml); }
+Cell read_cell(const fs::path& cell_toml) {
+  return parse_cell(read_file_up_to(cell_toml, kMostCellBytes), cell_toml);
+}
 
 fs::path find_cell(const fs::path& start) {
   const fs::path first = fs::absolute(start).lexically_normal();

@@ -22,6 +22,7 @@ struct CellDraft {
 
 void read_robot(TomlTable& robot, CellDraft& draft);
 void read_measurement(TomlTable& measurement, CellDraft& draft);
+void read_setups(TomlTable& measurement, CellDraft& draft);  // [[measurement.setup]]
 void read_effects(TomlTable& effects, CellDraft& draft);
 void read_fit(TomlTable& fit, CellDraft& draft);
 void read_deploy(TomlTable& deploy, CellDraft& draft);

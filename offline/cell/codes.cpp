@@ -22,7 +22,8 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "[effects.joint_compliance]."},
     {"E-CELL-HELD",
      "[measurement] held_out says which poses are kept away from the fit. It is one of \"auto\" "
-     "(five folds below 60 poses, else 20 %), \"20%\", \"kfold:5\", \"column:set\" (the column "
+     "(the rows that column 'set' marks as held; without such marks five folds below 60 poses, "
+     "else 20 %), \"20%\", \"kfold:5\", \"column:set\" (the column "
      "'set' holds fit, held or ignore) and \"file:verify.csv\"."},
     {"E-CELL-JOINT",
      "A joint is referred to by the name it has in [robot] joints, \"J2\" for example. Correct the "
@@ -43,6 +44,12 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CELL-SCHEMA",
      "The first line of a cell file names its format: schema = \"cell/1\". Another one was written "
      "for another version of the program."},
+    {"E-CELL-SETUP",
+     "[[measurement.setup]] describes one arrangement of tracker and reflector in which the arm "
+     "was "
+     "measured: a name of its own, the files measured in it (each file in one set-up), and frame "
+     "and target, which may also be those of a set-up further up: frame = { same_as = \"day 1\" "
+     "}."},
     {"E-CELL-TYPE",
      "The value has the wrong type: numbers stand without quotes, texts in quotes, lists in "
      "[brackets], tables in { braces }. The label under the caret says what is expected."},
@@ -73,6 +80,9 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CSV-KIND",
      "The unit does not fit the quantity: a position in deg, or a turning joint in mm. Rename the "
      "column if only the suffix is wrong; correct the joint's type in cell.toml if it slides."},
+    {"E-CSV-LINE",
+     "A line of more than a megabyte is no row of measurements: the file is something else, or its "
+     "line breaks were lost. Nothing beyond that line was read."},
     {"E-CSV-MISSING",
      "A numeric cell, or a pose's name, is empty. Fill it, or delete the row: a reading that was "
      "not taken must not count as zero."},
@@ -111,9 +121,14 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "Columns are separated by commas, or by ';' with decimal commas. plumb import converts other "
      "files."},
     {"E-CSV-SET", "The column 'set' holds fit, held or ignore, or nothing."},
+    {"E-CSV-SETUP",
+     "The cell lists set-ups ([[measurement.setup]]), and every row belongs to one of them: either "
+     "the set-up names its file, or the column 'setup' holds the name. Here rows belong to none or "
+     "to two, or a set-up has no rows."},
     {"E-CSV-SIGMA",
-     "A standard deviation of zero would give its reading all the weight. Give the instrument's "
-     "1 sigma, or delete the columns and set sigma_um in cell.toml."},
+     "A standard deviation cannot be negative. Give the instrument's 1 sigma, or delete the "
+     "columns "
+     "and set sigma_um in cell.toml."},
     {"E-CSV-TIME",
      "The column 'time' holds dates and times of ISO 8601, 2026-03-01T12:30:00 for example, with a "
      "zone or without. Give seconds in a column t_s instead if there is no date."},
@@ -156,6 +171,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-READ",
      "The file cannot be read; the system's reason is given. Check the path and the "
      "permissions."},
+    {"E-READ-SIZE",
+     "A file is read whole, up to 2 GB; cell.toml up to 16 MB, a URDF file up to 64 MB, a pipe or "
+     "a "
+     "device up to 512 MB. What holds more is not what its name says, or never ends."},
     {"E-TOML",
      "cell.toml is not valid TOML at the place shown. Usual causes: a missing quote, a missing "
      "comma in a list, a key given twice."},
@@ -169,10 +188,24 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "The header is separated by ';', so a comma in a number is read as the decimal sign; a point "
      "is "
      "too, and the message says which one the numbers have."},
+    {"N-WRITE-FOLDER",
+     "The file was to stand in a folder that did not exist. The folder was made; if its name was "
+     "mistyped, move the file and remove the folder."},
     {"W-CELL-ANGLE",
      "An angle looks as if it were in another unit: 90 in a file in radians, 1.5708 in a file in "
      "degrees, or joint limits of a few degrees or of many turns. Check angle_unit in [robot]."},
+    {"W-CELL-CENTRE",
+     "The centre of mass of a link lies far beside the line between its joint and the next one. "
+     "com_mm is in the frame that turns with the joint, with its origin ahead of d; data sheets "
+     "give it in the Denavit-Hartenberg frame of the link: for those, write com_frame = "
+     "\"dh\"."},
+    {"W-CELL-GRAVITY",
+     "The vector 'gravity' of [robot] is in m/s^2, in the base frame, so its length is 9.81 on "
+     "Earth. One of 9810 is in mm/s^2, and every effect of weight would come out a thousand times "
+     "too soft. [0, 0, 0] switches gravity off."},
     {"W-CELL-LENGTH", "A link is longer than 20 m. Check length_unit in [robot]."},
+    {"W-CELL-MASS",
+     "A link or payload of more than 5 tonnes is most often a mass in grams. Masses are in kg."},
     {"W-CSV-COLUMN",
      "A column of that name is not known, so nothing reads it; but it differs by a slip from one "
      "that "
@@ -189,6 +222,19 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"W-CSV-POSE",
      "Rows of one pose name are repeats of one pose, but these differ by more than 0.02 rad or m. "
      "The noise floor would be far too large: give every pose its own name."},
+    {"W-CSV-SETUP",
+     "The column 'setup' holds more than one name, but the cell lists no set-ups, so that one "
+     "tracker "
+     "frame and one target are fitted to all rows. List them: [[measurement.setup]] with the "
+     "name."},
+    {"W-CSV-SIGMA",
+     "No reading is exact: a standard deviation of zero, which some trackers write where they have "
+     "none, would give its reading all the weight. The smallest one above zero of the same axis is "
+     "taken instead; where all are zero the columns are not used."},
+    {"W-CSV-VALUE",
+     "The numbers of a column cannot be meant in the unit of its name: a load of tonnes (grams), a "
+     "temperature of 290 degC (kelvin) or of 70 degC in the air (Fahrenheit), a move of many "
+     "turns. Rename the column to the unit that is meant, or convert the numbers."},
 });
 
 }  // namespace

@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "cell/iso_time.hpp"
+#include "cell/last_moves.hpp"
 #include "cell/measurements.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kNoMove = 1e-5;  // rad or m: encoders at rest
 
 int row_count(std::span<const Table> tables) {
   int rows = 0;
@@ -71,16 +70,6 @@ Eigen::VectorXd times_of(std::span<const Table> tables) {
   return out.hasNaN() ? Eigen::VectorXd() : out;
 }
 
-ContextRows::RowsN steps_of(const ContextRows::RowsN& q) {
-  ContextRows::RowsN out = ContextRows::RowsN::Zero(q.rows(), q.cols());
-  for (Eigen::Index i = 1; i < q.rows(); ++i) {
-    const double largest = (q.row(i) - q.row(i - 1)).cwiseAbs().maxCoeff();
-    // A pose read again is still the stop of the move before.
-    out.row(i) = largest > kNoMove ? ((q.row(i) - q.row(i - 1)) / largest).eval() : out.row(i - 1);
-  }
-  return out;
-}
-
 ContextRows::RowsN picked(const ContextRows::RowsN& all, const std::vector<int>& rows) {
   if (all.rows() == 0) return {};
   return all(rows, Eigen::all);
@@ -104,7 +93,7 @@ ContextRows read_contexts(std::span<const Table> tables, const ContextRows::Rows
   ContextRows out;
   out.direction = gathered(tables, numbered("dir_j", q.cols()));
   out.travel = gathered(tables, numbered("travel_j", q.cols()));
-  out.step = steps_of(q);
+  out.step = last_moves(tables, q, Neighbours::kTheRowBefore);
   out.payload = gathered(tables, {"payload", "payload_cx", "payload_cy", "payload_cz"});
   out.wrench = gathered(tables, {"fx", "fy", "fz", "mx", "my", "mz"});
   out.sensors = sensors_of(tables);

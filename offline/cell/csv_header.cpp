@@ -112,8 +112,14 @@ class HeaderReader {
   ProblemList& problems_;
 };
 
-bool same_meaning(const Column& a, const Column& b) {
-  return a.name == b.name || a.header == b.header;
+/// Joint limits of arms that turn and slide stand in two pairs of columns: q_min_deg, q_min_mm.
+bool of_two_kinds(const Column& a, const Column& b, TableOf of) {
+  return of == TableOf::kRobot && (a.name == "q_min" || a.name == "q_max") &&
+         a.quantity != b.quantity;
+}
+
+bool same_meaning(const Column& a, const Column& b, TableOf of) {
+  return (a.name == b.name && !of_two_kinds(a, b, of)) || a.header == b.header;
 }
 
 }  // namespace
@@ -145,7 +151,7 @@ std::vector<Column> read_header(const std::vector<CsvCell>& cells, const CsvPlac
   for (const auto& cell : cells) {
     Column column = HeaderReader(place, of, problems).read(cell);
     const auto twin = std::find_if(out.begin(), out.end(),
-                                   [&](const Column& c) { return same_meaning(c, column); });
+                                   [&](const Column& c) { return same_meaning(c, column, of); });
     if (twin != out.end() && !column.header.empty())
       problems.error("E-CSV-DUPLICATE",
                      twin->header == column.header

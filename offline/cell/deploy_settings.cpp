@@ -31,8 +31,8 @@ void read_bus_table(TomlTable& t, Cell& cell) {
   auto bus = t.table("bus");
   if (!bus || cell.nominal.joints.empty()) return;
   const std::size_t before = t.source().problems().errors().size();
-  cell.deploy.bus = drivers::read_bus(*bus, drivers::bus_arm(cell.nominal, cell.deploy.cycle_s),
-                                      cell.deploy.link);
+  cell.deploy.bus = std::make_shared<const drivers::BusLayout>(drivers::read_bus(
+      *bus, drivers::bus_arm(cell.nominal, cell.deploy.cycle_s), cell.deploy.link));
   if (cell.deploy.link != drivers::BusUse::kCan || t.source().problems().errors().size() != before)
     return;
   for (const auto& fault : drivers::find_short_reach(*cell.deploy.bus, cell.nominal,

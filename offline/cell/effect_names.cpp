@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/cell.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 
 const std::vector<std::string>& known_effects() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> out{"geometry", "local_tree"};
-    for (int law = 0; law < kEffectLaws; ++law) out.emplace_back(effect_info(law).name);
+    std::vector<std::string> out;
+    for (const EffectDescriptor* effect : effect_descriptors()) out.emplace_back(effect->name);
     return out;
   }();
   return names;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cell/toml_text.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -67,14 +68,14 @@ class Editor {
       return a.first->place.line > b.first->place.line;
     });
     for (const auto& [old, index] : found) {
-      if (old->name == "geometry") continue;
+      if (is_geometry(old->name)) continue;
       if (!index)
         remove(*old);
       else if (wanted_[*index].joints != old->joints)
         set_joints(*old, wanted_[*index]);
     }
     for (std::size_t i = 0; i < wanted_.size(); ++i)
-      if (!taken_[i] && wanted_[i].name != "geometry") append(wanted_[i]);
+      if (!taken_[i] && !is_geometry(wanted_[i].name)) append(wanted_[i]);
     return fmt::format("{}", fmt::join(lines_, ""));
   }
 

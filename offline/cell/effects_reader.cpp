@@ -6,6 +6,7 @@
 #include "cell/cell_sections.hpp"
 #include "cell/effect_option.hpp"
 #include "cell/formula_reader.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -27,8 +28,7 @@ bool is_known(TomlTable& t, const std::string& name) {
 }
 
 void read_option(const EffectOption& option, TomlTable& t, EffectEntry& entry) {
-  using Takes = EffectOption::Takes;
-  const std::string key(option.key);
+  const std::string key = option.name();
   const toml::node* node = t.node(key);
   if (node == nullptr) {
     if (option.required)
@@ -41,9 +41,9 @@ void read_option(const EffectOption& option, TomlTable& t, EffectEntry& entry) {
     else
       t.out_of_range(key, option.rule);
   };
-  if (option.takes == Takes::kText || option.takes == Takes::kWord) {
+  if (option.takes == EffectOption::Takes::kText || option.takes == EffectOption::Takes::kWord) {
     if (const auto text = t.text(key)) keep(*text, makes_sense(option, *text));
-  } else if (option.takes == Takes::kShare && node->is_string()) {
+  } else if (option.takes == EffectOption::Takes::kShare && node->is_string()) {
     const auto share = parse_percent(*node->value<std::string>());
     keep(share.value_or(0.0), share && makes_sense(option, *share));
   } else if (const auto number = t.number(key)) {
@@ -75,13 +75,13 @@ void read_joints(TomlTable& t, CellDraft& draft, EffectEntry& entry) {
 
 void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
   EffectEntry entry{.name = name, .joints = {}, .options = {}, .place = t.place("")};
-  if (name == "formula") {
+  if (is_formula(name)) {
     read_formula(t, draft, entry);
     t.done();
     draft.cell.effects.push_back(std::move(entry));
     return;
   }
-  for (const EffectOption* option : options_of(name)) read_option(*option, t, entry);
+  for (const EffectOption& option : options_of(name)) read_option(option, t, entry);
   fill_in_usual(entry);
   read_joints(t, draft, entry);
   t.done();
@@ -92,11 +92,11 @@ void read_effect(const std::string& name, TomlTable& t, CellDraft& draft) {
 void read_plain(const std::string& name, const toml::node& node, TomlTable& t, CellDraft& draft) {
   EffectEntry entry{
       .name = name, .joints = {}, .options = {}, .place = t.source().place(node.source(), "")};
-  for (const EffectOption* option : options_of(name))
-    if (option->required)
-      return t.error("E-CELL-MISSING", fmt::format("effect '{}' needs '{}'", name, option->key),
+  for (const EffectOption& option : options_of(name))
+    if (option.required)
+      return t.error("E-CELL-MISSING", fmt::format("effect '{}' needs '{}'", name, option.name()),
                      node, "a table is needed",
-                     fmt::format("{} = {{ {} = {} }}", name, option->key, option->example));
+                     fmt::format("{} = {{ {} = {} }}", name, option.name(), option.example));
   if (const std::string fault = joints_fault(entry); !fault.empty())
     return t.error("E-CELL-JOINT", fmt::format("effect '{}' {}", name, fault), node,
                    "a table is needed", fmt::format("{} = {{ joints = [\"J2\", \"J3\"] }}", name));
@@ -107,7 +107,7 @@ void read_entries(const std::string& name, TomlTable& t, CellDraft& draft) {
   const toml::node& node = *t.node(name);
   if (node.is_array()) {
     for (auto& entry : t.tables(name)) read_effect(name, entry, draft);
-  } else if (node.is_boolean() && name != "formula") {
+  } else if (node.is_boolean() && !is_formula(name)) {
     if (*node.value<bool>()) read_plain(name, node, t, draft);
   } else if (auto entry = t.table(name)) {
     read_effect(name, *entry, draft);
@@ -119,7 +119,7 @@ void read_entries(const std::string& name, TomlTable& t, CellDraft& draft) {
 void read_effects(TomlTable& t, CellDraft& draft) {
   if (!t.boolean("geometry").value_or(true)) draft.cell.effects.clear();
   for (const auto& name : t.keys())
-    if (name != "geometry" && is_known(t, name)) read_entries(name, t, draft);
+    if (!is_geometry(name) && is_known(t, name)) read_entries(name, t, draft);
 }
 
 }  // namespace plumb::offline

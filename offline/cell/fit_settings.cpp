@@ -77,6 +77,9 @@ void read_fit(TomlTable& t, CellDraft& draft) {
                              ? FitSettings::Model::kComplete
                              : FitSettings::Model::kDh;
   read_priors(t, draft);
+  if (const auto length_mm = t.not_negative("prior_mm")) draft.cell.fit.prior_m = *length_mm * 1e-3;
+  if (const auto angle_mrad = t.not_negative("prior_mrad"))
+    draft.cell.fit.prior_rad = *angle_mrad * 1e-3;
   t.done();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "effects/registry.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb::offline {
@@ -115,7 +116,7 @@ void check_name(TomlTable& table, const FormulaEntry& entry, const CellDraft& dr
     table.error("E-FORMULA-NAME", fmt::format("'{}' is no name for a formula", label),
                 *entry.name(), "letters, digits and _", "name = \"motor_heat\"");
   for (const auto& other : draft.cell.effects)
-    if (other.name == "formula" && formula_label(formula_text(other)) == label)
+    if (is_formula(other.name) && formula_label(formula_text(other)) == label)
       table.error("E-FORMULA-NAME", fmt::format("two formulas are called '{}'", label),
                   *entry.name(), "the second one", fmt::format("name = \"{}_2\"", label));
 }

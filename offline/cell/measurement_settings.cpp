@@ -22,7 +22,12 @@ bool says_fit(TomlTable& t, const std::string& key, const std::string& otherwise
 
 void read_files(TomlTable& t, CellDraft& draft) {
   auto& files = draft.cell.measurement.files;
-  if (t.node("files") == nullptr) files.push_back(draft.cell.directory / "measurements.csv");
+  const auto& setups = draft.cell.measurement.setups;
+  const bool named =
+      !setups.empty() &&
+      std::all_of(setups.begin(), setups.end(), [](const Setup& s) { return !s.files.empty(); });
+  if (t.node("files") == nullptr && !named)
+    files.push_back(draft.cell.directory / "measurements.csv");
   for (const auto& [text, node] : t.texts("files")) {
     const auto file = (draft.cell.directory / text).lexically_normal();
     if (text.empty())
@@ -62,7 +67,6 @@ void read_seed(TomlTable& t, MeasurementSettings& m) {
 
 void read_measurement(TomlTable& t, CellDraft& draft) {
   MeasurementSettings& m = draft.cell.measurement;
-  read_files(t, draft);
   m.fit_frame = says_fit(t, "frame", "{ xyz, rpy }");
   if (!m.fit_frame)
     if (auto frame = t.table("frame")) m.X_MB = read_pose(*frame, draft);
@@ -74,6 +78,8 @@ void read_measurement(TomlTable& t, CellDraft& draft) {
   if (const auto sigma = t.positive("sigma_urad")) m.sigma_rad = unit_of("urad")->to_si(*sigma);
   read_held_out(t, draft);
   read_seed(t, m);
+  read_setups(t, draft);
+  read_files(t, draft);
   t.done();
 }
 

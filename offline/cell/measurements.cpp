@@ -5,7 +5,9 @@
 
 #include "cell/arm_columns.hpp"
 #include "cell/arm_reach.hpp"
+#include "cell/last_moves.hpp"
 #include "cell/measurement_warnings.hpp"
+#include "cell/plain_rows.hpp"
 #include "cell/replicates.hpp"
 #include "cell/table_place.hpp"
 
@@ -25,7 +27,40 @@ class Assembler {
     }
   }
 
+  void take(Table table) { tables_.push_back(std::move(table)); }
+
   Measurements finish() {
+    join();
+    m_.replicate_group = replicate_groups(names_, file_, m_.q);
+    m_.context = read_contexts(tables_, m_.q);
+    if (needs_ == Needs::kJoints) forget_order(tables_, m_.q, m_.context);
+    for (auto& table : tables_) {
+      warn_of_misspelt(table);
+      warn_of_values(table);
+      warn_of_doubles(table);
+    }
+    m_.tables = std::move(tables_);
+    warn_of_names(m_);
+    replace_zero_sigmas(m_);
+    return std::move(m_);
+  }
+
+  /// For rows that are only computed with.
+  Measurements finish_plainly() {
+    join();
+    m_.context = read_contexts(tables_, m_.q);
+    forget_order(tables_, m_.q, m_.context);
+    for (auto& table : tables_) {
+      warn_of_misspelt(table);
+      warn_of_values(table);
+    }
+    m_.tables = std::move(tables_);
+    return std::move(m_);
+  }
+
+ private:
+  /// All that the tables say, or a Failure with all that is wrong.
+  void join() {
     for (const auto& table : tables_)
       columns_.push_back(find_arm_columns(table, is_angle_, needs_, problems_));
     for (std::size_t i = 0; i < tables_.size(); ++i)
@@ -33,18 +68,8 @@ class Assembler {
     check_agreement();
     fill_if_sound();
     problems_.stop_on_errors();
-    m_.replicate_group = replicate_groups(names_, file_, m_.q);
-    m_.context = read_contexts(tables_, m_.q);
-    for (auto& table : tables_) {
-      warn_of_misspelt(table);
-      warn_of_doubles(table);
-    }
-    m_.tables = std::move(tables_);
-    warn_of_names(m_);
-    return std::move(m_);
   }
 
- private:
   /// A joined column with holes would be a lie: axes must agree; the rest is dropped.
   void check_agreement() {
     for (std::size_t i = 1; i < tables_.size(); ++i) {
@@ -170,6 +195,12 @@ Measurements read_measurements(const std::vector<std::filesystem::path>& files,
   Assembler assembler(joint_is_angle, needs);
   for (const auto& file : files) assembler.read(file);
   return assembler.finish();
+}
+
+Measurements plain_rows(Table table, const std::vector<bool>& joint_is_angle) {
+  Assembler assembler(joint_is_angle, Needs::kJoints);
+  assembler.take(std::move(table));
+  return assembler.finish_plainly();
 }
 
 }  // namespace plumb::offline

@@ -73,8 +73,9 @@ struct Measurements {
   std::vector<std::string> pose;     // id; "1", "2", … if the file has no such column
   std::vector<int> replicate_group;  // equal for repeats of one pose, 0 … groups - 1
   std::vector<SetMark> set;
-  RowsN q;    // (n, joints) [rad] or [m]
-  Rows3 p_M;  // measured point, measurement frame [m]; 0 if axis missing
+  std::vector<int> setup;  // per row: which set-up of the cell it was measured in; empty: the only
+  RowsN q;                 // (n, joints) [rad] or [m]
+  Rows3 p_M;               // measured point, measurement frame [m]; 0 if axis missing
   std::array<bool, 3> has_axis{true, true, true};
   Rows4 quat_M;               // measured orientation (w, x, y, z), or 0 rows
   Rows3 sigma_m;              // 1 sigma per axis from columns, or 0 rows

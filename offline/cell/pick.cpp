@@ -62,6 +62,7 @@ Measurements pick(const Measurements& all, const std::vector<int>& rows) {
   out.pose = picked(all.pose, rows);
   out.replicate_group = picked(all.replicate_group, rows);
   out.set = picked(all.set, rows);
+  out.setup = picked(all.setup, rows);
   out.q = picked(all.q, rows);
   out.p_M = picked(all.p_M, rows);
   out.has_axis = all.has_axis;

@@ -105,4 +105,9 @@ std::vector<int> replicate_groups(const std::vector<std::string>& names,
   return out;
 }
 
+std::vector<int> pose_groups(const Measurements& measured) {
+  if (measured.setup.empty()) return measured.replicate_group;
+  return replicate_groups(measured.pose, measured.replicate_group, measured.q);
+}
+
 }  // namespace plumb::offline

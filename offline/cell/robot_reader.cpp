@@ -5,15 +5,14 @@
 #include <cmath>
 #include <string>
 
+#include "cell/assumed_limits.hpp"
 #include "cell/cell_sections.hpp"
+#include "cell/link_frame.hpp"
 #include "cell/rotation.hpp"
 #include "cell/unit_sense.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kDefaultTurn = 2.0 * M_PI;  // joint limits where none are given [rad]
-constexpr double kDefaultTravel_m = 10.0;    // and of a sliding joint
 
 class RobotReader {
  public:
@@ -25,6 +24,7 @@ class RobotReader {
     convention();
     joints();
     if (const auto g = t_.vector3("gravity")) cell_.gravity = *g;
+    warn_of_gravity(t_, cell_);
     if (auto base = t_.table("base")) cell_.nominal.base = read_pose(*base, draft_);
     if (auto tool = t_.table("tool")) cell_.nominal.tool = read_pose(*tool, draft_);
     payload();
@@ -112,8 +112,9 @@ class RobotReader {
 
   void limits(TomlTable& t, const Unit& own, format::JointRow& row) {
     const bool slides = row.type == format::JointType::kPrismatic;
-    row.q_max = slides ? kDefaultTravel_m : kDefaultTurn;
+    row.q_max = slides ? kAssumedTravel_m : kAssumedTurn;
     row.q_min = -row.q_max;
+    cell_.assumed_limits.push_back(t.node("q") == nullptr);
     if (const auto q = t.pair("q")) {
       row.q_min = own.to_si((*q)[0]);
       row.q_max = own.to_si((*q)[1]);
@@ -135,6 +136,7 @@ class RobotReader {
     auto t = t_.table("payload");
     if (!t) return;
     cell_.payload.mass_kg = t->not_negative("mass_kg").value_or(0.0);
+    warn_of_mass(*t, cell_.payload.mass_kg);
     if (const auto com = t->vector3("com_mm")) cell_.payload.com_m = in_mm(*com);
     t->done();
   }
@@ -142,7 +144,10 @@ class RobotReader {
   void read_link(TomlTable& t) {
     JointMechanics m;
     m.link_mass_kg = t.not_negative("mass_kg");
-    if (const auto com = t.vector3("com_mm")) m.link_com_m = in_mm(*com);
+    warn_of_mass(t, m.link_mass_kg);
+    const auto com = t.vector3("com_mm");
+    const toml::node* com_node = t.node("com_mm");
+    const bool of_dh = t.choice("com_frame", {"joint", "dh"}) == "dh";
     if (const auto length = t.positive("length_mm")) m.length_m = unit_of("mm")->to_si(*length);
     m.EI_Nm2 = t.positive("EI_Nm2");
     m.GJ_Nm2 = t.positive("GJ_Nm2");
@@ -157,10 +162,37 @@ class RobotReader {
     if (index < 0) return unknown_joint(t, *name, *node, draft_);
     if (!linked_.insert(index).second)
       return t.out_of_range("joint", fmt::format("another: '{}' has a link already", *name));
+    if (com) {
+      m.link_com_m = of_dh ? ahead_of_dh(index, in_mm(*com)) : in_mm(*com);
+      warn_of_centre(t, *com_node, of_dh, index, *m.link_com_m);
+    }
     m.parallel_next = cell_.mechanics[index].parallel_next;
     m.gear_ratio = cell_.mechanics[index].gear_ratio;
     m.stiffness_Nm_per_rad = cell_.mechanics[index].stiffness_Nm_per_rad;
     cell_.mechanics[index] = m;
+  }
+
+  /// A point of the link's Denavit-Hartenberg frame, in the frame that moves with the joint [m].
+  std::array<double, 3> ahead_of_dh(int joint, const std::array<double, 3>& point) const {
+    const Vector3 out = link_frame(cell_.nominal, joint) * Vector3(point[0], point[1], point[2]);
+    return {out(0), out(1), out(2)};
+  }
+
+  /// A centre of mass far beside its link is most often given in the other of the two frames. Where
+  /// the link of the last joint ends is not known: a tool follows.
+  void warn_of_centre(TomlTable& t, const toml::node& node, bool of_dh, int joint,
+                      const std::array<double, 3>& com) {
+    if (joint + 1 == cell_.joints()) return;
+    const Vector3 point(com[0], com[1], com[2]);
+    const double away = distance_from_link(cell_.nominal, joint, point);
+    if (!(away > widest_link(cell_.nominal, joint))) return;
+    t.warning("W-CELL-CENTRE",
+              fmt::format("'{}' is {:.0f} mm beside the line from {} to the next joint",
+                          t.name("com_mm"), away * 1e3, cell_.nominal.joints[joint].name),
+              node, "outside of its link",
+              of_dh ? "in the frame that moves with the joint, ahead of d: com_frame = \"joint\""
+                    : "in the Denavit-Hartenberg frame of the link, as data sheets have it: "
+                      "com_frame = \"dh\"");
   }
 
   static std::array<double, 3> in_mm(std::array<double, 3> v) {

@@ -1,213 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
-#include "cell/csv_bytes.hpp"
-#include "cell/csv_header.hpp"
-#include "cell/csv_number.hpp"
-#include "cell/units.hpp"
+#include "cell/line_source.hpp"
+#include "cell/table_reader.hpp"
 #include "program/file.hpp"
-#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+/// What is read on after an error, to find the others, of a pipe or device that may never end.
+constexpr std::size_t kMostAfterError = 64 << 20;
 
-class TableReader {
- public:
-  TableReader(std::string_view text, const std::string& file, TableOf of) : text_(text), of_(of) {
-    table_.file = file;
-  }
+std::size_t lines_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+}
 
-  Table read() {
-    check_bytes(text_, table_.file);
-    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
-    for (std::size_t at = 0; at < text_.size() && !problems_.full();) {
-      const auto end = std::min(text_.find('\n', at), text_.size());
-      read_line(text_.substr(at, end - at));
-      at = end + 1;
-    }
-    check_content();
-    problems_.stop_on_errors();
-    if (separator_ == ';')
-      problems_.note("N-CSV-SEMICOLON",
-                     fmt::format("read with ';' between columns and decimal {}",
-                                 commas_ ? "commas" : "points"),
-                     semicolon_, "");
-    table_.raw_rows = KeptRows(std::move(kept_), std::move(begins_), std::move(sizes_));
-    table_.remarks = std::move(problems_.remarks());
-    return std::move(table_);
-  }
+/// As many lines as the first block has, over the whole file, and some more.
+std::size_t expected_lines(const std::string& first_block, std::uintmax_t size) {
+  const double blocks =
+      std::max(1.0, static_cast<double>(size) / static_cast<double>(first_block.size()));
+  return static_cast<std::size_t>(1.02 * blocks * static_cast<double>(lines_of(first_block)));
+}
 
- private:
-  void read_line(std::string_view line) {
-    ++line_number_;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    const auto content = trimmed(line);
-    if (content.empty()) return;
-    if (content.starts_with('#') || content.starts_with("//")) return read_comment(content);
-    if (!table_.columns.empty()) return read_row(line);
-    read_header_line(line);
-  }
-
-  void read_comment(std::string_view line) {
-    line.remove_prefix(line.starts_with('#') ? 1 : 2);
-    const auto colon = line.find(':');
-    if (colon == std::string_view::npos) return;
-    table_.comments.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
-  }
-
-  void read_header_line(std::string_view line) {
-    table_.header_line = line_number_;
-    separator_ = find_separator(line);
-    if (separator_ == '\t') {
-      problems_.error("E-CSV-SEPARATOR", "the columns are separated by tabs",
-                      here(line).of(line, ""), fmt::format("plumb import {}", table_.file));
-      problems_.stop_on_errors();
-    }
-    if (separator_ == ';') semicolon_ = here(line).of(line.substr(line.find(';'), 1), "separator");
-    if (!cut(line)) return;
-    const CsvPlace place = here(line);
-    table_.columns = read_header(cells_, place, of_, problems_);
-    for (const auto& column : table_.columns)
-      units_.push_back(unit_of(column.unit).value_or(Unit{}));
-    reserve();
-    append_canonical(line);
-    table_.raw_header = kept_;
-    kept_.clear();
-  }
-
-  void reserve() {
-    const auto lines = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
-    for (auto& column : table_.columns)
-      if (column.quantity == Quantity::kText)
-        column.text.reserve(lines);
-      else
-        column.values.reserve(lines);
-    table_.lines.reserve(lines);
-    begins_.reserve(lines);
-    sizes_.reserve(lines);
-    kept_.reserve(text_.size());
-  }
-
-  /// False if the line's quotes are wrong.
-  bool cut(std::string_view line) {
-    const CsvFault fault = cut_line(line, separator_, cells_);
-    if (fault == CsvFault::kNone) return true;
-    const bool open = fault == CsvFault::kQuoteNotClosed;
-    problems_.error("E-CSV-QUOTE",
-                    open ? "a quote is not closed on its line" : "text behind a closing quote",
-                    here(line).of(cells_.back().text, open ? "opened here" : "not expected"),
-                    "a quote inside a quoted text is written twice: \"\"");
-    return false;
-  }
-
-  void read_row(std::string_view line) {
-    if (!cut(line)) return;
-    const std::size_t wanted = table_.columns.size();
-    if (cells_.size() != wanted) return ragged(line);
-    for (std::size_t i = 0; i < wanted; ++i) read_cell(i, line);
-    table_.lines.push_back(line_number_);
-    begins_.push_back(kept_.size());
-    append_canonical(line);
-    sizes_.push_back(kept_.size() - begins_.back());
-  }
-
-  void ragged(std::string_view line) {
-    const std::size_t wanted = table_.columns.size();
-    const bool few = cells_.size() < wanted;
-    problems_.error(
-        "E-CSV-RAGGED", fmt::format("{} cells where the header has {}", cells_.size(), wanted),
-        here(line).of(few ? line.substr(line.size()) : cells_[wanted].text,
-                      few ? fmt::format("'{}' is missing", table_.columns[cells_.size()].header)
-                          : "one too many"),
-        "complete or delete this row");
-  }
-
-  void read_cell(std::size_t i, std::string_view line) {
-    Column& column = table_.columns[i];
-    if (column.quantity == Quantity::kText) {
-      column.text.push_back(text_of(cells_[i]));
-      if (column.name == "pose" && column.text.back().empty())
-        bad_cell(i, line, NumberFault::kEmpty);
-      return;
-    }
-    double value = 0.0;
-    commas_ = commas_ || cells_[i].text.find(',') != std::string_view::npos;
-    NumberFault fault = read_number(cells_[i].text, separator_, value);
-    value = units_[i].to_si(value);
-    if (fault == NumberFault::kNone && !std::isfinite(value)) fault = NumberFault::kOutOfRange;
-    if (fault != NumberFault::kNone) bad_cell(i, line, fault);
-    column.values.push_back(value);
-  }
-
-  void bad_cell(std::size_t i, std::string_view line, NumberFault fault) {
-    const auto& header = table_.columns[i].header;
-    const auto cell = cells_[i].text;
-    const auto report = [&](const char* code, std::string message, const char* label) {
-      problems_.error(code, std::move(message), here(line).of(cell, label),
-                      "correct it, or delete the row");
-    };
-    if (fault == NumberFault::kEmpty)
-      report("E-CSV-MISSING", fmt::format("column '{}' has an empty cell", header), "no value");
-    else if (fault == NumberFault::kOutOfRange)
-      report("E-CSV-RANGE", fmt::format("column '{}': '{}' does not fit a number", header, cell),
-             "too large or too small");
-    else if (fault == NumberFault::kNotFinite)
-      report("E-CSV-NAN", fmt::format("column '{}' holds '{}'", header, cell),
-             "not a finite number");
-    else
-      report("E-CSV-NUMBER", fmt::format("column '{}': '{}' is not a number", header, cell),
-             "not a number");
-  }
-
-  void check_content() {
-    const Place whole{.file = table_.file};
-    if (!problems_.errors().empty()) return;
-    if (table_.columns.empty())
-      problems_.error("E-CSV-EMPTY", "the file has no header", whole,
-                      "export the measurements again");
-    else if (table_.lines.empty())
-      problems_.error("E-CSV-ROWS", "the file has a header but no rows", whole,
-                      "export the measurements again");
-  }
-
-  /// Appends the line to what is kept, with commas between columns and decimal points.
-  void append_canonical(std::string_view line) {
-    if (separator_ == ',') {
-      kept_ += line;
-      return;
-    }
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (i > 0) kept_ += ',';
-      const std::size_t begin = kept_.size();
-      const bool is_text = table_.columns[i].quantity == Quantity::kText;
-      if (is_text || table_.header_line == line_number_)
-        kept_ += quoted_if_needed(text_of(cells_[i]));
-      else
-        kept_ += cells_[i].text;
-      if (!is_text) std::replace(kept_.begin() + static_cast<long>(begin), kept_.end(), ',', '.');
-    }
-  }
-
-  CsvPlace here(std::string_view line) const { return {table_.file, line_number_, line}; }
-
-  std::string_view text_;
-  TableOf of_;
-  Table table_;
-  ProblemList problems_;
-  std::vector<CsvCell> cells_;
-  std::vector<Unit> units_;
-  std::string kept_;
-  std::vector<std::size_t> begins_, sizes_;
-  char separator_ = ',';
-  Place semicolon_;      // the first one of the header
-  bool commas_ = false;  // in a number
-  int line_number_ = 0;
-};
+Table finished(TableReader& reader) {
+  reader.check_content();
+  reader.problems().stop_on_errors();
+  const auto note = reader.separator_note(reader.has_decimal_comma());
+  Table table = reader.take();
+  if (note) table.remarks.push_back(*note);
+  return table;
+}
 
 }  // namespace
 
@@ -218,13 +40,30 @@ const Column* Table::find(std::string_view name) const {
 }
 
 Table parse_table(std::string_view text, const std::string& file_name, TableOf of) {
-  Table table = TableReader(text, file_name, of).read();
+  TableReader reader(file_name, of);
+  reader.expect(lines_of(text), text.size());
+  reader.read(text);
+  Table table = finished(reader);
   table.sha256 = sha256(text);
   return table;
 }
 
 Table read_table(const std::filesystem::path& file, TableOf of) {
-  return parse_table(read_file(file), display_name(file), of);
+  LineSource source(file);
+  TableReader reader(display_name(file), of);
+  std::string block;
+  std::size_t after_error = 0;
+  bool more = source.next(block);
+  reader.expect(expected_lines(block, source.size()), source.size());
+  do {
+    reader.read(block);
+    if (!reader.problems().errors().empty()) after_error += block.size();
+    const bool endless = source.size() == 0 && after_error > kMostAfterError;
+    more = !endless && !reader.problems().full() && source.next(block);
+  } while (more);
+  Table table = finished(reader);
+  table.sha256 = source.sha256();
+  return table;
 }
 
 }  // namespace plumb::offline

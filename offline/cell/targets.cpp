@@ -8,6 +8,7 @@
 #include "cell/arm_columns.hpp"
 #include "cell/column_names.hpp"
 #include "cell/context_columns.hpp"
+#include "cell/last_moves.hpp"
 #include "cell/measurement_warnings.hpp"
 #include "cell/table_place.hpp"
 
@@ -16,9 +17,8 @@ namespace {
 
 class TargetReader {
  public:
-  TargetReader(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle)
-      : is_angle_(joint_is_angle) {
-    out_.table = read_table(file);
+  TargetReader(Table table, const std::vector<bool>& joint_is_angle) : is_angle_(joint_is_angle) {
+    out_.table = std::move(table);
   }
 
   Targets read() {
@@ -29,8 +29,11 @@ class TargetReader {
     check_context_columns(out_.table, is_angle_, problems_);
     problems_.stop_on_errors();
     warn_of_misspelt(out_.table);
+    warn_of_values(out_.table);
     const auto joints = static_cast<Eigen::Index>(is_angle_.size());
-    out_.context = read_contexts({&out_.table, 1}, RowsN::Zero(out_.table.rows(), joints));
+    const RowsN unseen = RowsN::Zero(out_.table.rows(), joints);
+    out_.context = read_contexts({&out_.table, 1}, unseen);
+    forget_order({&out_.table, 1}, unseen, out_.context);
     return std::move(out_);
   }
 
@@ -83,8 +86,12 @@ class TargetReader {
 
 }  // namespace
 
+Targets targets_of(Table table, const std::vector<bool>& joint_is_angle) {
+  return TargetReader(std::move(table), joint_is_angle).read();
+}
+
 Targets read_targets(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle) {
-  return TargetReader(file, joint_is_angle).read();
+  return targets_of(read_table(file), joint_is_angle);
 }
 
 }  // namespace plumb::offline

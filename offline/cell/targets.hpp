@@ -18,4 +18,7 @@ struct Targets {
 /// Columns x_mm, y_mm, z_mm, qw, qx, qy, qz and q1_deg … or qc1_deg …; throws Failure (kInput).
 Targets read_targets(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle);
 
+/// The same of a table that was read already, or of a part of one.
+Targets targets_of(Table table, const std::vector<bool>& joint_is_angle);
+
 }  // namespace plumb::offline

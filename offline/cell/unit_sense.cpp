@@ -49,7 +49,46 @@ void warn_of_limits(TomlTable& joint, const format::JointRow& row) {
                 "in the file's angle_unit?", "check angle_unit in [robot]");
 }
 
+constexpr double kStandard = 9.81;     // [m/s^2]
+constexpr double kNearGravity = 0.05;  // on the Earth's surface it is 9.78 to 9.83
+constexpr double kHeaviestLink_kg = 5000.0;
+
+/// What a length of the vector looks like in another unit.
+const char* unit_of_gravity(double size) {
+  const auto is = [size](double other) { return std::abs(size / other - 1.0) < 0.01; };
+  if (is(kStandard * 1e3)) return "that is mm/s^2";
+  if (is(kStandard * 1e2)) return "that is cm/s^2";
+  if (is(1.0)) return "that is in multiples of the standard gravity";
+  if (is(32.17)) return "that is ft/s^2";
+  if (is(386.1)) return "that is in/s^2";
+  return "the gravity of no place on Earth";
+}
+
 }  // namespace
+
+void warn_of_gravity(TomlTable& robot, const Cell& cell) {
+  const toml::node* node = robot.node("gravity");
+  const auto& g = cell.gravity;
+  const double size = std::hypot(g[0], g[1], g[2]);
+  // A vector of zeros switches gravity off.
+  if (node == nullptr || size == 0.0 || std::abs(size - kStandard) <= kNearGravity) return;
+  const auto on_earth = [&](double x) { return x == 0.0 ? 0.0 : x / size * kStandard; };
+  robot.warning("W-CELL-GRAVITY",
+                fmt::format("'{}' is {:.6g} m/s^2, {:.4g} times 9.81", robot.name("gravity"), size,
+                            size / kStandard),
+                *node, unit_of_gravity(size),
+                fmt::format("gravity = [{:.4g}, {:.4g}, {:.4g}]", on_earth(g[0]), on_earth(g[1]),
+                            on_earth(g[2])));
+}
+
+void warn_of_mass(TomlTable& table, std::optional<double> mass_kg) {
+  const toml::node* node = table.node("mass_kg");
+  if (node == nullptr || !mass_kg || *mass_kg <= kHeaviestLink_kg) return;
+  table.warning("W-CELL-MASS",
+                fmt::format("'{}' is {:.6g} tonnes", table.name("mass_kg"), *mass_kg * 1e-3), *node,
+                "given in grams?",
+                fmt::format("if these are grams: mass_kg = {:.6g}", *mass_kg * 1e-3));
+}
 
 void warn_of_units(TomlTable& joint, const format::JointRow& row, const Cell& cell) {
   warn_of_angle(joint, "alpha", row.alpha, cell);

@@ -4,20 +4,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "cell/setups.hpp"
+#include "check/common_scale.hpp"
+#include "check/contradiction.hpp"
 #include "check/data_findings.hpp"
 #include "check/data_sense.hpp"
+#include "check/effect_sense.hpp"
+#include "check/gravity_sense.hpp"
+#include "check/row_faults.hpp"
+#include "check/row_pattern.hpp"
+#include "check/setup_sharing.hpp"
+#include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/few_poses.hpp"
 #include "fit/parameter_subset.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kFits = 0.01;         // of the cloud's size: no sensible arm leaves more
-constexpr double kSmallShare = 0.5;    // of the joint limits: predictions beyond are guesses
-constexpr double kFineRounding = 0.5;  // of the noise: no more than that goes unseen
-constexpr double kEnough = 1.5;        // coordinates for each number
+constexpr double kFits = 0.01;               // of the cloud's size: no sensible arm leaves more
+constexpr double kSmallShare = 0.5;          // of the joint limits: predictions beyond are guesses
+constexpr double kFineRounding = 0.5;        // of the noise: no more than that goes unseen
+constexpr double kCoarseRounding_m = 50e-6;  // where no noise is known
+constexpr double kManyTimes = 5.0;           // the stated noise
+constexpr double kEnough = 1.5;              // coordinates for each number
 constexpr std::size_t kMostSentences = 4;
 constexpr double kOneChange = 1.05;  // of the labels
 constexpr int kPlacedRows = 300;
@@ -39,6 +52,7 @@ class Checker {
     const Convention& best = out_.detection.best.convention;
     out_.changes = in_words(cell_, labels, best);
     convention_findings();
+    other_setups();
     if (out_.detection.changed) {
       const Cell meant = read_as(cell_, labels, best);
       look(meant, read_as(measured_, cell_, labels, best));
@@ -72,8 +86,7 @@ class Checker {
     if (!d.why_not.empty())
       return find(Severity::kNote, "N-CHECK-CONVENTION",
                   "conventions were not checked: " + d.why_not, "measure more poses");
-    const bool fits = d.best.fitted_m <= kFits * d.best.size_m;
-    if (d.changed || !fits) blame(Exit::kInput);
+    if (d.changed) blame(Exit::kInput);
     if (d.changed)
       return find(Severity::kError, "E-CHECK-CONVENTION",
                   fmt::format("{}: that leaves {:.3g} mm, as labelled it is {:.4g} mm",
@@ -86,13 +99,60 @@ class Checker {
              fmt::format("these points cannot tell whether {}",
                          fmt::join(in_words(cell_, d.present.convention, other.convention), "; ")),
              "mount the reflector further from the axis, or trust the label");
-    if (!fits)
-      find(
-          Severity::kError, "E-CHECK-NOFIT",
-          fmt::format("no reading of these files fits: as labelled {:.4g} mm are left, and none of "
-                      "{} others explains the points",
-                      d.best.fitted_m * 1e3, d.tried),
-          "look for joints in another order, coupled joints, or rows of another arm");
+  }
+
+  /// The convention search holds the arm near nominal, and fit lets it go farther: what fit fits,
+  /// in lengths as they are, is no wrong reading. W-FIT-FAR then says how far from nominal it
+  /// ended.
+  void reading_fits(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
+    Detection& d = out_.detection;
+    const double most = kFits * d.best.size_m;
+    if (!d.why_not.empty() || d.changed || d.best.fitted_m <= most) return;
+    gross_scale_ = gross_scale(cell, measured, rows, d);
+    // A wrong unit is a wrong reading although a fit of all lengths absorbs it; any other factor
+    // explains less than lengths that may each differ.
+    if (out_.parameters && !(gross_scale_ && gross_scale_->is_unit)) {
+      const double left = left_by_fit(measured, rows, out_.parameters->calibration.state);
+      if (left <= most) {
+        gross_scale_.reset();
+        return fits_by(left);
+      }
+    }
+    blame(Exit::kInput);
+    out_.findings.insert(
+        out_.findings.begin(),
+        {Severity::kError, "E-CHECK-NOFIT",
+         fmt::format("no reading of these files fits: as labelled {:.4g} mm are left, and none of "
+                     "{} others explains the points",
+                     d.best.fitted_m * 1e3, d.tried),
+         std::nullopt, "look for joints in another order, coupled joints, or rows of another arm"});
+  }
+
+  /// The labels leave so much, RMS [m], fitted as fit does.
+  void fits_by(double left_m) {
+    Detection& d = out_.detection;
+    for (Reading& reading : d.table)
+      if (reading.convention == d.best.convention) reading.fitted_m = left_m;
+    d.best.fitted_m = d.present.fitted_m = left_m;
+  }
+
+  /// The detection looked at one set-up; the files of the others may be meant otherwise.
+  void other_setups() {
+    if (measured_.setup.empty() || out_.detection.changed) return;
+    const int seen = largest_setup(cell_, measured_);
+    for (int k = 0; k < setup_count(cell_.measurement); ++k) {
+      if (k == seen) continue;
+      const OneSetup one = one_setup(cell_, measured_, k);
+      const Detection found = detect_convention(one.cell, one.measured);
+      if (!found.why_not.empty() || !found.changed) continue;
+      const auto words = in_words(one.cell, found.present.convention, found.best.convention);
+      blame(Exit::kInput);
+      find(Severity::kError, "E-CHECK-CONVENTION",
+           fmt::format("set-up '{}': {}: that leaves {:.3g} mm, as labelled it is {:.4g} mm",
+                       setup_name(cell_.measurement, k), fmt::join(words, "; "),
+                       found.best.fitted_m * 1e3, found.present.fitted_m * 1e3),
+           "the other set-ups fit as labelled: put the files of this one right");
+    }
   }
 
   /// Everything else, on the files as they are meant.
@@ -103,15 +163,18 @@ class Checker {
     add(constant_findings(cell, measured));
     out_.floor = noise_floor(cell, measured);
     if (rows.empty()) return;
-    out_.effects = testable_effects(cell, data_sense(cell, measured, rows));
+    out_.effects = testable_effects(data_sense(cell, measured, rows));
     look_at_parameters(cell, measured, rows);
+    reading_fits(cell, measured, rows);
     const ArmState placed = out_.parameters
                                 ? out_.parameters->calibration.state
                                 : place_nominal(cell, measured, thinned(rows, kPlacedRows));
     out_.coverage = coverage(cell, measured, rows, placed);
     out_.rounding = joint_rounding(cell, measured, rows, placed);
+    add(coarse_points(measured, out_.floor));
     coverage_findings();
-    rounding_findings();
+    rounding_findings(measured, rows, placed);
+    reading_findings(cell, measured, rows, placed);
     if (out_.floor.source == NoiseFloor::Source::kNone)
       find(Severity::kNote, "N-CHECK-NOISE", "nothing says how large the noise is",
            "measure some poses twice, or state [measurement] sigma_um");
@@ -123,8 +186,16 @@ class Checker {
       out_.parameters = identifiability(cell, measured, rows);
     } catch (const Failure& failure) {
       out_.why_no_parameters = failure.problems().front().message;
-      out_.findings.insert(out_.findings.end(), failure.problems().begin(),
-                           failure.problems().end());
+      for (Problem problem : failure.problems()) {
+        // Whoever reads this has just run it.
+        if (problem.help.find("plumb check") != std::string::npos)
+          problem.help =
+              out_.detection.changed || problem.code != "E-FIT-CONVERGE"
+                  ? "look for joints in another order, coupled joints, a wrong DH table, "
+                    "or rows of another arm"
+                  : "measure poses all over the joint limits: plumb plan --n 30";
+        out_.findings.push_back(std::move(problem));
+      }
       blame(failure.exit_code());
       return;
     }
@@ -132,13 +203,17 @@ class Checker {
     add(out_.parameters->calibration.remarks);
     separation_findings();
     poses_enough(measured);
+    split_enough(measured);
     const auto& estimates = out_.parameters->calibration.estimates;
     const bool any =
         std::any_of(estimates.begin(), estimates.end(), [](const auto& e) { return e.of_robot; });
-    if (any || cell.effects.empty() || cell.effects.front().name != "geometry") return;
-    find(Severity::kError, "E-CHECK-NOTHING", "these poses tell nothing about the arm",
-         "measure at least 30 poses all over the joint limits");
-    blame(Exit::kNumbersSayNo);
+    if (any || cell.effects.empty() || !is_geometry(cell.effects.front().name)) return;
+    find(Severity::kWarning, "W-CHECK-NOTHING",
+         "these poses tell no number of the arm: where the tracker's frame and the reflector are "
+         "explains all that they show",
+         cell.joints() == 1
+             ? "a single joint shows no more through one point; the points fit the nominal arm"
+             : "if the arm's own numbers are wanted, move all joints: plumb plan --n 30");
   }
 
   void separation_findings() {
@@ -155,18 +230,46 @@ class Checker {
            "plumb explain W-CHECK-SEPARATE");
   }
 
+  /// What fit will refuse: poses held out are missing in the fit.
+  void split_enough(const Measurements& measured) {
+    if (out_.exit != Exit::kDone) return;
+    try {
+      const Split split = split_poses(measured, cell_.measurement.held_out, cell_.measurement.seed);
+      const std::size_t readings = fewest_fitted(split);
+      const auto numbers = static_cast<std::size_t>(out_.parameters->rank);
+      if (axes_of(measured) * readings > numbers) return;
+      find(Severity::kError, "E-CHECK-FEW",
+           fmt::format("{} readings are too few to hold some of them out: {} of them are left to "
+                       "fit and give {} coordinates for {} numbers of arm, frame and target",
+                       measured.size(), readings, axes_of(measured) * readings, numbers),
+           "measure at least 30 poses all over the joint limits");
+    } catch (const Failure& failure) {
+      for (const Problem& problem : failure.problems()) out_.findings.push_back(problem);
+      return blame(failure.exit_code());
+    }
+    blame(Exit::kNumbersSayNo);
+  }
+
+  /// Numbers that one reading gives.
+  std::size_t axes_of(const Measurements& measured) const {
+    std::size_t out = measured.has_orientation() && cell_.measurement.sigma_rad ? 3 : 0;
+    for (const bool has : measured.has_axis) out += has ? 1 : 0;
+    return out;
+  }
+
   /// Each distinct pose gives its measured axes once; repeats give noise only.
   void poses_enough(const Measurements& measured) {
-    int axes = measured.has_orientation() && cell_.measurement.sigma_rad ? 3 : 0;
-    for (const bool has : measured.has_axis) axes += has ? 1 : 0;
+    const int axes = static_cast<int>(axes_of(measured));
     const std::set<int> groups(measured.replicate_group.begin(), measured.replicate_group.end());
     const int coordinates = axes * static_cast<int>(groups.size());
-    const int needed = out_.parameters->rank_anywhere;
+    int needed = out_.parameters->rank_anywhere;
+    for (const auto& p : out_.parameters->calibration.parameters) needed += p.of_effect() ? 1 : 0;
     if (coordinates > kEnough * needed) return;
     const bool too_few = coordinates <= needed;
     find(too_few ? Severity::kError : Severity::kWarning, too_few ? "E-CHECK-FEW" : "W-CHECK-FEW",
-         fmt::format("{} poses give {} coordinates for {} numbers of arm, frame and target",
-                     groups.size(), coordinates, needed),
+         fmt::format("{} poses give {} coordinates for {} numbers of arm, frame and target{}",
+                     groups.size(), coordinates, needed,
+                     needed > out_.parameters->rank_anywhere ? " and effects" : ""),
          fmt::format("measure at least {} poses all over the joint limits",
                      std::max(30, 2 * needed / std::max(1, axes))));
     if (too_few) blame(Exit::kNumbersSayNo);
@@ -184,16 +287,111 @@ class Checker {
            "measure where the arm will work, or narrow q = [min, max] in cell.toml");
   }
 
-  void rounding_findings() {
-    if (!out_.rounding || out_.floor.source == NoiseFloor::Source::kNone) return;
-    if (out_.rounding->at_tool_m < kFineRounding * out_.floor.rms_m) return;
-    find(
-        Severity::kWarning, "W-CHECK-ROUNDED",
-        fmt::format("the joint readings are rounded to {:g} {}: that is {:.3g} mm at the tool, the "
-                    "noise is {:.3g} mm",
-                    out_.rounding->step_in_unit, out_.rounding->unit,
-                    out_.rounding->at_tool_m * 1e3, out_.floor.rms_m * 1e3),
-        "record more digits; exact commanded values are no harm");
+  /// Rounded readings leave at least about their own error; where less is left, the values were
+  /// round before the arm went there. Where no noise is known, the two must be of one size.
+  void rounding_findings(const Measurements& measured, const std::vector<int>& rows,
+                         const ArmState& placed) {
+    if (!out_.rounding) return;
+    const bool known = out_.floor.source != NoiseFloor::Source::kNone;
+    const double rounded = out_.rounding->at_tool_m, left = left_by_fit(measured, rows, placed);
+    if (known ? rounded < kFineRounding * out_.floor.rms_m : rounded < kCoarseRounding_m) return;
+    if (out_.parameters && left < kFineRounding * rounded) return;
+    if (!known && (!out_.parameters || left > rounded / kFineRounding)) return;
+    find(Severity::kWarning, "W-CHECK-ROUNDED",
+         fmt::format("the joint readings are rounded to {:g} {}: that is {:.3g} mm at the tool, {} "
+                     "{:.3g} mm",
+                     out_.rounding->step_in_unit, out_.rounding->unit, rounded * 1e3,
+                     known ? "the noise is" : "and the fit leaves",
+                     (known ? out_.floor.rms_m : left) * 1e3),
+         "record more digits; exact commanded values are no harm");
+  }
+
+  /// RMS 3-D error [m] of the rows that are no outliers.
+  double left_by_fit(const Measurements& measured, const std::vector<int>& rows,
+                     const ArmState& placed) const {
+    const auto fitted =
+        out_.parameters ? without_outliers(rows, out_.parameters->calibration.outliers) : rows;
+    const Measurements some = pick(measured, thinned(fitted, kPlacedRows));
+    return std::sqrt(residuals(some, predict_points(placed, some)).squaredNorm() /
+                     static_cast<double>(some.size()));
+  }
+
+  /// Doubts about the readings themselves, and about gravity.
+  void reading_findings(const Cell& cell, const Measurements& measured,
+                        const std::vector<int>& rows, const ArmState& placed) {
+    add(sharing_findings(cell, measured, rows));
+    repeat_findings(cell);
+    add(option_findings(cell));
+    std::string cause = row_findings(cell, measured, rows, placed);
+    if (cause.empty()) cause = gross_findings();
+    auto pattern = out_.parameters && cause.empty() ? pattern_findings(measured, rows, placed)
+                                                    : std::vector<Problem>{};
+    // Every third reading off is a third of them wrong too; the pattern says more.
+    if (cause.empty() && pattern.empty())
+      cause = contradiction_findings(cell, measured, rows, placed);
+    add(std::move(pattern));
+    if (!cause.empty())
+      for (Problem& problem : out_.findings) name_cause(problem, cause);
+    if (!out_.parameters) return;
+    if (cause.empty()) add(scale_findings(measured, rows, out_.parameters->calibration));
+    add(gravity_findings(cell, measured, rows, out_.parameters->calibration));
+    add(effect_size_findings(cell, measured, rows, placed));
+  }
+
+  /// Repeats that scatter by far more or far less than one reading is said to.
+  void repeat_findings(const Cell& cell) {
+    const auto& stated = cell.measurement.sigma_m;
+    if (out_.floor.source != NoiseFloor::Source::kRepeats || !stated) return;
+    const bool more = out_.floor.sigma_m >= kManyTimes * *stated;
+    const bool less = out_.floor.sigma_m * kManyTimes <= *stated;
+    if (!more && !less) return;
+    find(Severity::kWarning, "W-CHECK-REPEATS",
+         fmt::format("repeats of a pose scatter by {:.3g} mm an axis (1 sigma), but sigma_um says "
+                     "{:.3g} mm",
+                     out_.floor.sigma_m * 1e3, *stated * 1e3),
+         more ? "are rows of one name the same pose, reached alike? else correct sigma_um"
+              : "correct sigma_um: with one that is too large effects go unseen");
+  }
+
+  /// Rows that one and the same slip explains; a part of the outliers or all of them are these.
+  std::string row_findings(const Cell& cell, const Measurements& measured,
+                           const std::vector<int>& rows, const ArmState& placed) {
+    if (out_.detection.changed) return "";
+    auto found = row_fault_findings(cell, measured, rows, placed);
+    if (found.empty()) return "";
+    std::erase_if(out_.findings, [](const Problem& p) { return p.code == "W-CHECK-OUTLIER"; });
+    add(std::move(found));
+    return "some rows were written otherwise than the rest, see W-CHECK-ROWS";
+  }
+
+  /// What explains why no reading fits; empty if nothing does.
+  std::string gross_findings() {
+    if (!gross_scale_) return "";
+    add({gross_scale_->finding});
+    return "one common factor on all points would, see W-CHECK-SCALE";
+  }
+
+  std::string contradiction_findings(const Cell& cell, const Measurements& measured,
+                                     const std::vector<int>& rows, const ArmState& placed) {
+    auto found = contradiction(
+        cell, measured,
+        out_.parameters ? without_outliers(rows, out_.parameters->calibration.outliers) : rows,
+        placed);
+    if (!found) return "";
+    std::erase_if(out_.findings, [](const Problem& p) { return p.code == "W-CHECK-OUTLIER"; });
+    add({std::move(*found)});
+    return "a part of the readings contradicts the rest, see W-CHECK-CONTRADICT";
+  }
+
+  /// What the errors of the fit come from.
+  void name_cause(Problem& problem, const std::string& cause) const {
+    if (problem.code == "E-CHECK-NOFIT")
+      problem.message =
+          fmt::format("no reading of these files fits: as labelled {:.4g} mm are left; {}",
+                      out_.detection.best.fitted_m * 1e3, cause);
+    else if (problem.code != "E-FIT-MISS" && problem.code != "E-FIT-FAR")
+      return;
+    problem.help = "correct what the warning names, and run plumb check again";
   }
 
   void conclude() {
@@ -203,6 +401,7 @@ class Checker {
 
   const Cell& cell_;
   const Measurements& measured_;
+  std::optional<GrossScale> gross_scale_;
   Check out_;
 };
 
@@ -227,8 +426,15 @@ std::string verdict(const Check& check) {
     return fmt::format("Not usable: {}.", check.findings.front().message);
   const int poses = check.coverage ? check.coverage->poses : 0;
   const int rank = check.parameters ? check.parameters->rank : 0;
-  return fmt::format("Usable: the {} poses fit the labels to {:.3g} mm and tell {} numbers{}.",
-                     poses, check.detection.best.fitted_m * 1e3, rank,
+  const bool has_effects =
+      check.parameters && !check.parameters->calibration.state.arm.effects.empty();
+  const std::string fit =
+      check.detection.why_not.empty()
+          ? fmt::format("fit the labels to {:.3g} mm{} and", check.detection.best.fitted_m * 1e3,
+                        has_effects ? " with geometry alone" : "")
+          : "cannot show whether the labels are right, but";
+  return fmt::format("Usable: the {} poses {} tell {} numbers of arm, frame and target{}.", poses,
+                     fit, rank,
                      warnings == 0   ? ""
                      : warnings == 1 ? ", with one warning"
                                      : fmt::format(", with {} warnings", warnings));

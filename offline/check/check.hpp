@@ -7,8 +7,8 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "check/convention_search.hpp"
 #include "check/coverage.hpp"
-#include "check/detective.hpp"
 #include "check/effect_rules.hpp"
 #include "check/identifiability.hpp"
 #include "check/rounding.hpp"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cell/setups.hpp"
 #include "cell/units.hpp"
 #include "plumb/runtime/transform.hpp"
 
@@ -82,6 +83,12 @@ Cell reread(const Cell& cell, const CellEdit& edit) {
   const auto file = cell.file.empty() ? std::filesystem::path("cell.toml") : cell.file;
   Cell out = parse_cell(edited(text, file.string(), edit), file);
   out.measurement.files = cell.measurement.files;
+  // `cell` may be about one of the set-ups in the text.
+  const auto& of_cell = cell.measurement.setups;
+  const auto& of_text = out.measurement.setups;
+  if (of_cell.size() == 1 && of_text.size() > 1)
+    for (std::size_t k = 0; k < of_text.size(); ++k)
+      if (of_text[k].name == of_cell.front().name) return cell_of_setup(out, static_cast<int>(k));
   return out;
 }
 
@@ -128,7 +135,10 @@ Cell read_as(const Cell& cell, const Convention& present, const Convention& mean
   Cell out = reread(cell, text_edit(present, meant));
   for (int j = 0; j < out.joints(); ++j)
     out.nominal.joints[j].theta += M_PI_2 * meant.quarter_turns[j];
-  if (meant.frame_inverted) out.measurement.X_MB = inverse(out.measurement.X_MB);
+  if (!meant.frame_inverted) return out;
+  out.measurement.X_MB = inverse(out.measurement.X_MB);
+  for (auto& setup : out.measurement.setups)
+    if (!setup.fit_frame && !setup.frame_of) setup.X_MB = inverse(setup.X_MB);
   return out;
 }
 

@@ -15,7 +15,7 @@ const char* words_of(Mirror mirror) {
     case Mirror::kNegateX:
       return "the measured points are left-handed, x has the wrong sign";
     case Mirror::kNegateY:
-      return "the measured points are left-handed (one axis negated, or two swapped)";
+      return "the measured points are left-handed";
     case Mirror::kNegateZ:
       return "the measured points are left-handed, z has the wrong sign";
     case Mirror::kSwapXY:

@@ -14,18 +14,19 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kBeyond = 1e-3;    // [rad] or [m]: less is rounding of the limits
-constexpr std::size_t kListed = 5;  // lines named in one message
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kBeyond = 1e-3;         // [rad] or [m]: less is rounding of the limits
+constexpr std::size_t kLinesListed = 5;  // lines named in one message
+constexpr double kOnePlace = 5e-3;       // [m]: readings of one pose hardly differ by more
+constexpr double kOneDegree = M_PI / 180.0;
 
 std::string lines_of(const Measurements& measured, const std::vector<int>& rows) {
   std::vector<std::string> lines;
-  for (std::size_t k = 0; k < std::min(rows.size(), kListed); ++k) {
+  for (std::size_t k = 0; k < std::min(rows.size(), kLinesListed); ++k) {
     const RowPlace at = row_place(measured, rows[k]);
     lines.push_back(fmt::format("{}", measured.tables[at.table].lines[at.row]));
   }
   return fmt::format("{} {}{}", rows.size() == 1 ? "line" : "lines", fmt::join(lines, ", "),
-                     rows.size() > kListed ? ", ..." : "");
+                     rows.size() > kLinesListed ? ", ..." : "");
 }
 
 std::optional<Place> cell_of(const Measurements& measured, int row, const std::string& column,
@@ -40,7 +41,7 @@ std::optional<Place> cell_of(const Measurements& measured, int row, const std::s
 
 std::string shown(const format::JointRow& row, double q) {
   return row.type == format::JointType::kPrismatic ? fmt::format("{:.1f} mm", q * 1e3)
-                                                   : fmt::format("{:.1f} deg", q / kDegree);
+                                                   : fmt::format("{:.1f} deg", q / kOneDegree);
 }
 
 bool inside(const format::JointRow& row, double q) {
@@ -75,6 +76,28 @@ RowPlace row_place(const Measurements& measured, int row) {
   return out;
 }
 
+namespace {
+
+bool assumed(const Cell& cell, int joint) {
+  const auto at = static_cast<std::size_t>(joint);
+  return at < cell.assumed_limits.size() && cell.assumed_limits[at];
+}
+
+/// Nobody stated these limits: what goes beyond them is no error.
+Problem beyond_assumed(const Cell& cell, const Measurements& measured, int joint) {
+  const auto& row = cell.nominal.joints[static_cast<std::size_t>(joint)];
+  const auto q = measured.q.col(joint);
+  return {Severity::kNote, "N-CHECK-LIMITS",
+          fmt::format("{} goes from {} to {}; the cell file states no limits of it, and {} to {} "
+                      "were assumed",
+                      row.name, shown(row, q.minCoeff()), shown(row, q.maxCoeff()),
+                      shown(row, row.q_min), shown(row, row.q_max)),
+          std::nullopt,
+          fmt::format("state the limits of {} in cell.toml: q = [min, max]", row.name)};
+}
+
+}  // namespace
+
 std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measured) {
   std::vector<Problem> out;
   for (int j = 0; j < cell.joints(); ++j) {
@@ -88,18 +111,45 @@ std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measur
       turn = turn && inside_after_a_turn(row, q);
     }
     if (beyond.empty()) continue;
+    if (assumed(cell, j)) {
+      out.push_back(beyond_assumed(cell, measured, j));
+      continue;
+    }
     const int first = beyond.front();
     out.push_back(
-        {Severity::kError, "E-CHECK-LIMITS",
+        {Severity::kWarning, "W-CHECK-LIMITS",
          fmt::format("{} is beyond its limits {} to {} in {} of {} rows, {}{}", row.name,
                      shown(row, row.q_min), shown(row, row.q_max), beyond.size(), measured.size(),
                      lines_of(measured, beyond),
                      turn ? "; a whole turn less or more would be inside" : ""),
          cell_of(measured, first, fmt::format("q{}", j + 1), shown(row, measured.q(first, j))),
-         fmt::format("correct the rows, or in cell.toml the limits q of {}", row.name)});
+         turn ? fmt::format("if {0} counts turns like this on the controller too, widen its limits "
+                            "q in cell.toml; else take 360 deg off or add them in these rows",
+                            row.name)
+              : fmt::format("correct the rows, or in cell.toml the limits q of {}", row.name)});
   }
   return out;
 }
+
+namespace {
+
+/// One pose again and again, or joint columns that stood still while the arm moved.
+Problem equal_poses(const Measurements& measured) {
+  const double spread =
+      (measured.p_M.colwise().maxCoeff() - measured.p_M.colwise().minCoeff()).norm();
+  const bool arm_moved = spread > kOnePlace;
+  return {Severity::kError, "E-CHECK-EQUAL",
+          arm_moved ? fmt::format(
+                          "every row has the same joint positions, but the points are up to {:.3g} "
+                          "mm apart: these are not the joint positions of these points",
+                          spread * 1e3)
+                    : "every row has the same joint positions",
+          cell_of(measured, 0, "q1", arm_moved ? "the same in every row" : "the only pose"),
+          arm_moved ? "export the joint positions again, each row at its own pose"
+                    : "measure at least 30 poses all over the joint limits"};
+}
+
+}  // namespace
 
 std::vector<Problem> copy_findings(const Measurements& measured) {
   std::vector<Problem> out;
@@ -115,10 +165,7 @@ std::vector<Problem> copy_findings(const Measurements& measured) {
     if (copies.empty()) original = at->second;
     copies.push_back(i);
   }
-  if (!moved)
-    out.push_back({Severity::kError, "E-CHECK-EQUAL", "every row has the same joint positions",
-                   cell_of(measured, 0, "q1", "the only pose"),
-                   "measure at least 30 poses all over the joint limits"});
+  if (!moved && measured.size() > 1) out.push_back(equal_poses(measured));
   if (copies.empty()) return out;
   const bool same_pose = measured.q.row(copies.front()) == measured.q.row(original);
   out.push_back(

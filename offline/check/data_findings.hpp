@@ -16,8 +16,9 @@ struct RowPlace {
 };
 RowPlace row_place(const Measurements& measured, int row);
 
-/// Joint readings beyond their limits (E-CHECK-LIMITS, first rows with their lines), saying so if a
-/// whole turn less would be inside.
+/// Joint readings beyond their limits (W-CHECK-LIMITS, first rows with their lines), saying so if a
+/// whole turn less would be inside. Only a warning, because fit uses no limits. Beyond limits that
+/// were only assumed: N-CHECK-LIMITS.
 std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measured);
 
 /// Rows with the very digits of another row's point (W-CHECK-COPY): a true repeat has its own

@@ -111,9 +111,9 @@ DataSense data_sense(const Cell& cell, const Measurements& measured, const std::
   std::set<int> groups;
   for (const int i : rows) groups.insert(measured.replicate_group[i]);
   out.poses = static_cast<int>(groups.size());
-  const Span time = span_of(measured, "t");
-  out.hours = time.size() / 3600.0;
-  out.ordered = time.known || has_column(measured, "time");
+  const Eigen::VectorXd& time_s = measured.context.time_s;  // of t_s or of a column time
+  if (time_s.size() > 0) out.hours = (time_s.maxCoeff() - time_s.minCoeff()) / 3600.0;
+  out.ordered = time_s.size() > 0;
   out.payload_span_kg = span_of(measured, "payload").size();
   out.has_payload = cell.payload.mass_kg > 0.0 || span_of(measured, "payload").known;
   sense_temperatures(measured, out);
@@ -125,6 +125,7 @@ DataSense data_sense(const Cell& cell, const Measurements& measured, const std::
     for (const auto& [key, value] : table.comments)
       out.tracker_frame = out.tracker_frame || (key == "frame" && value == "tracker");
   for (int j = 0; j < cell.joints(); ++j) {
+    out.names.push_back(cell.nominal.joints[j].name);
     out.turns.push_back(cell.nominal.joints[j].type == format::JointType::kRevolute);
     double low = 1e300, high = -1e300;
     for (const int i : rows) {

@@ -4,21 +4,22 @@
 #include <string>
 #include <vector>
 
-#include "cell/cell.hpp"
-#include "check/data_sense.hpp"
+#include "effects/data_sense.hpp"
+#include "effects/testability.hpp"
 
 namespace plumb::offline {
 
 /// Whether data can show an effect, why, and what to measure if not.
 struct Testable {
-  enum class Answer { kNo, kWeakly, kYes } answer = Answer::kYes;
+  using Answer = Testability::Answer;
+  Answer answer = Answer::kYes;
   std::string effect;
   std::string why;
   std::string measure;  // empty if there is nothing to add
 };
 
-/// One answer for each effect of the library, in its order. "No" means not testable with this
-/// data, never absent.
-std::vector<Testable> testable_effects(const Cell& cell, const DataSense& sense);
+/// One answer for geometry and each effect of the library, in the order of the registry. "No" means
+/// not testable with this data, never absent.
+std::vector<Testable> testable_effects(const DataSense& sense);
 
 }  // namespace plumb::offline

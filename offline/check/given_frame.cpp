@@ -9,8 +9,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kClearly = 10.0;
-constexpr double kRidge = 1e-9;
+constexpr double kFrameClearly = 10.0;
+constexpr double kFrameRidge = 1e-9;
 
 struct InFrame {
   Convention convention;
@@ -40,7 +40,7 @@ double misfit_in_given_frame(const Cell& cell, const Measurements& measured,
   Eigen::Vector3d t(cell.measurement.target_T.data());
   if (cell.measurement.fit_target) {
     Eigen::Matrix3d N = A.transpose() * A;
-    N.diagonal().array() += kRidge * static_cast<double>(rows.size());
+    N.diagonal().array() += kFrameRidge * static_cast<double>(rows.size());
     t = N.ldlt().solve(A.transpose() * b);
   }
   return std::sqrt((b - A * t).squaredNorm() / static_cast<double>(rows.size()));
@@ -65,7 +65,7 @@ Convention with_given_frame(const Cell& cell, const Measurements& measured,
       const double rms = left_by(c);
       if (rms < found.rms_m) found = {c, rms};
     }
-  return kClearly * found.rms_m < as_given ? found.convention : best.convention;
+  return kFrameClearly * found.rms_m < as_given ? found.convention : best.convention;
 }
 
 }  // namespace plumb::offline

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "check/detective.hpp"
+#include "check/convention_search.hpp"
 
 namespace plumb::offline {
 

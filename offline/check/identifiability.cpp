@@ -25,16 +25,20 @@ FitData data_of(const Cell& cell, const Measurements& measured, const std::vecto
   return data;
 }
 
-/// Candidates that were fitted, in covariance order, and the others.
-std::pair<std::vector<Parameter>, std::vector<Parameter>> divided(
-    const std::vector<Parameter>& candidates, const std::vector<Estimate>& estimates) {
-  std::vector<Parameter> kept, held = candidates;
-  for (const auto& e : estimates) {
-    const auto same = [&](const Parameter& p) { return p.name == e.name; };
-    kept.push_back(*std::find_if(candidates.begin(), candidates.end(), same));
-    std::erase_if(held, same);
-  }
-  return {kept, held};
+/// Those of `all` that are not in `some`.
+std::vector<Parameter> others(const std::vector<Parameter>& all,
+                              const std::vector<Parameter>& some) {
+  std::vector<Parameter> out;
+  for (const auto& p : all)
+    if (std::none_of(some.begin(), some.end(),
+                     [&](const Parameter& one) { return one.name == p.name; }))
+      out.push_back(p);
+  return out;
+}
+
+std::vector<Parameter> without_effects(std::vector<Parameter> parameters) {
+  std::erase_if(parameters, [](const Parameter& p) { return p.of_effect(); });
+  return parameters;
 }
 
 Observability typical_observability(FitData data, const ArmState& state,
@@ -56,16 +60,17 @@ IdentifiabilityReport identifiability(const Cell& cell, const Measurements& meas
   IdentifiabilityReport out;
   out.calibration = calibrate(cell, measured, thin);
   const FitData data = data_of(cell, measured, thin);
-  const auto candidates =
-      candidate_parameters(cell, data.sigma_rad > 0.0 ? Orientation::kUsed : Orientation::kIgnored);
-  const auto [kept, held] = divided(candidates, out.calibration.estimates);
   const ArmState& state = out.calibration.state;
+  const auto& kept = out.calibration.parameters;
+  const auto candidates = calibration_candidates(cell, measured, state);
+  const auto geometry = without_effects(candidates);
   out.candidates = static_cast<int>(candidates.size());
   out.rank = spectrum(evaluate(data, state, candidates).jacobian).rank;
-  out.rank_anywhere = spectrum(at_imagined_poses(cell, data, state, candidates)).rank;
+  out.rank_anywhere = spectrum(at_imagined_poses(cell, data, state, geometry)).rank;
   out.scaled_condition = spectrum(evaluate(data, state, kept).jacobian).condition;
-  out.observability = typical_observability(data, state, kept);
-  out.separations = separations(cell, data, state, kept, held, out.calibration.covariance);
+  out.observability = typical_observability(data, state, without_effects(kept));
+  out.separations =
+      separations(cell, data, state, kept, others(candidates, kept), out.calibration.covariance);
   return out;
 }
 

@@ -16,11 +16,11 @@ namespace plumb::offline {
 /// What the poses of a cell can tell about its parameters.
 struct IdentifiabilityReport {
   Calibration calibration;
-  int candidates = 0;
-  int rank = 0;                   // by singular values, frame and target included
-  int rank_anywhere = 0;          // that poses all over the joint limits would give
+  int candidates = 0;             // numbers of arm, frame, target and effects
+  int rank = 0;                   // of all of them, by singular values
+  int rank_anywhere = 0;          // of those without effects, at poses all over the joint limits
   double scaled_condition = 0.0;  // of the parameters that are fitted, columns of unit length
-  Observability observability;    // of these, in mm per 0.5 mm or 0.5 mrad
+  Observability observability;    // of these without effects, in mm per 0.5 mm or 0.5 mrad
   std::vector<Separation> separations;
 };
 

@@ -10,8 +10,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kRidge = 1e-9;       // of the target's information: a reflector nobody sees is 0
-constexpr double kFlat = 1e-6;        // a cloud thinner than this share of its size is flat
+constexpr double kPlacementRidge =
+    1e-9;                             // of the target's information: a reflector nobody sees is 0
+constexpr double kFlatCloud = 1e-6;   // a cloud thinner than this share of its size is flat
 constexpr double kHugeMisfit = 1e12;  // of an arm that does not move
 
 }  // namespace
@@ -32,7 +33,7 @@ LinearPlacer::LinearPlacer(const Rows3& p_M, const std::array<bool, 3>& has_axis
     if (!has_axis[k]) centred.col(k).setZero();
   spread_ = centred.transpose() * centred / static_cast<double>(n);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  qr.setThreshold(kFlat);
+  qr.setThreshold(kFlatCloud);
   const Eigen::Index rank = qr.rank();
   basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(n, rank);
   Eigen::MatrixXd R_inverse = Eigen::MatrixXd::Zero(axes_ + 1, rank);
@@ -68,7 +69,8 @@ LinearPlacement LinearPlacer::place(const std::vector<Transformd>& X_BT) {
     whole += p.squaredNorm() - cp.squaredNorm();
   }
   LinearPlacement out;
-  const Eigen::Matrix3d ridged = N + kRidge * static_cast<double>(n) * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d ridged =
+      N + kPlacementRidge * static_cast<double>(n) * Eigen::Matrix3d::Identity();
   out.target_T = ridged.ldlt().solve(g);
   out.left = std::max(0.0, whole - g.dot(out.target_T));
   for (int k = 0; k < 3; ++k) {

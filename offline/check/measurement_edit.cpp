@@ -36,9 +36,9 @@ std::string renamed(std::string_view header, const MeasurementEdit& edit) {
   return heading.name + "_" + heading.unit;
 }
 
-class Editor {
+class RowEditor {
  public:
-  explicit Editor(const MeasurementEdit& edit) : edit_(edit) {}
+  explicit RowEditor(const MeasurementEdit& edit) : edit_(edit) {}
 
   void header(std::string_view line) {
     separator_ = find_separator(line);
@@ -95,7 +95,7 @@ bool is_comment(std::string_view line) {
 }  // namespace
 
 std::string edited(const std::string& text, int header_line, const MeasurementEdit& edit) {
-  Editor editor(edit);
+  RowEditor editor(edit);
   std::string_view rest = text;
   for (int number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "cell/table_place.hpp"
 #include "cell/units.hpp"
 #include "fit/parameter_subset.hpp"
 #include "plumb/runtime/chain.hpp"
@@ -15,7 +18,11 @@ namespace {
 
 constexpr int kMostDigits = 9;
 constexpr double kWhole = 1e-6;  // of a step: what floating point may add
-constexpr int kMostRows = 500;
+constexpr int kRowsLookedAt = 500;
+constexpr double kSeen = 0.5;              // of the noise: less rounding than that goes unseen
+constexpr double kCoarse_m = 50e-6;        // no tracker is read coarser on purpose
+constexpr std::size_t kFewestValues = 10;  // different ones: fewer are round by chance or choice
+constexpr int kMostTens = 4;               // 10 m in mm, or 1 mm in um
 
 /// The coarsest power of ten of which all values are multiples, in the column's unit; 0 if finer
 /// than 1e-9 or if nothing but zeros is there.
@@ -52,7 +59,73 @@ double file_step(const Measurements& measured, const std::string& name, std::str
   return finest;
 }
 
+bool multiples(const std::vector<double>& values, double step) {
+  return std::all_of(values.begin(), values.end(), [step](double v) {
+    const double multiple = v / step;
+    return std::abs(multiple - std::round(multiple)) < kWhole + 1e-14 * std::abs(multiple);
+  });
+}
+
+/// The coarsest step of 1, 2, 2.5 or 5 times a power of ten, in the column's unit, of which all
+/// values of a measured coordinate are multiples; 0 if there is none, or too few values to tell.
+double step_of_point(const Column& column) {
+  const auto unit = unit_of(column.unit);
+  if (!unit) return 0.0;
+  std::vector<double> values;
+  for (const double v : column.values) values.push_back(unit->from_si(v));
+  if (std::set<double>(values.begin(), values.end()).size() < kFewestValues) return 0.0;
+  for (int tens = kMostTens; tens >= -kMostDigits; --tens)
+    for (const double leading : {5.0, 2.5, 2.0, 1.0}) {
+      // Dividing by a power of ten keeps 0.1 exact to the last place; multiplying by 1e-1 does not.
+      const double step =
+          tens >= 0 ? leading * std::pow(10.0, tens) : leading / std::pow(10.0, -tens);
+      if (multiples(values, step)) return step;
+    }
+  return 0.0;
+}
+
+struct CoarseAxis {
+  const Column* column = nullptr;
+  double step = 0.0;  // in the column's unit
+  double si = 0.0;
+};
+
+/// The coordinate of a file with the coarsest step.
+CoarseAxis coarsest_axis(const Table& table) {
+  CoarseAxis out;
+  for (const char* axis : {"x", "y", "z"}) {
+    const Column* column = table.find(axis);
+    if (column == nullptr) continue;
+    const double step = step_of_point(*column);
+    if (step == 0.0) continue;
+    const double si = unit_of(column->unit)->to_si(step);
+    if (si > out.si) out = {column, step, si};
+  }
+  return out;
+}
+
 }  // namespace
+
+std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloor& floor) {
+  const bool known = floor.source != NoiseFloor::Source::kNone;
+  std::vector<Problem> out;
+  for (const Table& table : measured.tables) {
+    const CoarseAxis axis = coarsest_axis(table);
+    const double sigma = axis.si / std::sqrt(12.0);
+    if (axis.column == nullptr || (known ? sigma < kSeen * floor.sigma_m : axis.si < kCoarse_m))
+      continue;
+    out.push_back(
+        {Severity::kWarning, "W-CHECK-COARSE",
+         fmt::format("the measured points are rounded to {:g} {}: that alone is {:.2g} mm of "
+                     "scatter an axis{}",
+                     axis.step, axis.column->unit, sigma * 1e3,
+                     known ? fmt::format(", the noise is {:.2g} mm", floor.sigma_m * 1e3) : ""),
+         place_in_header(table, *axis.column,
+                         fmt::format("every value is a multiple of {:g}", axis.step)),
+         "export the points again with all their digits"});
+  }
+  return out;
+}
 
 std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& measured,
                                        const std::vector<int>& rows, const ArmState& placed) {
@@ -72,7 +145,7 @@ std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& mea
   if (out.step == 0.0) return std::nullopt;
   const Chain chain(placed.arm.calibrated);
   const Vector3 target(placed.X_TG.p[0], placed.X_TG.p[1], placed.X_TG.p[2]);
-  const auto thin = thinned(rows, kMostRows);
+  const auto thin = thinned(rows, kRowsLookedAt);
   double squares = 0.0;
   ChainFrames frames;
   for (const int i : thin) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/noise_floor.hpp"
 
 namespace plumb::offline {
 
@@ -21,5 +23,10 @@ struct Rounding {
 /// step / sqrt(12); at the tool it is sqrt(sum_j |J_j|^2) of that, RMS over the poses.
 std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& measured,
                                        const std::vector<int>& rows, const ArmState& placed);
+
+/// Measured coordinates that were rounded (W-CHECK-COARSE, once a file): all of an axis are
+/// multiples of 1, 2, 2.5 or 5 times a power of ten of their unit, and a uniform error of +-step/2,
+/// whose sigma is step / sqrt(12), is no longer small beside the noise.
+std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloor& floor);
 
 }  // namespace plumb::offline

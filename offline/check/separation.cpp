@@ -23,7 +23,7 @@ constexpr double kWide = M_PI / 3.0;    // a joint that uses more, and that shar
 constexpr double kWideShare = 0.4;      // is not what is missing
 constexpr std::size_t kMostPairs = 12;
 constexpr std::size_t kMostPartners = 6;
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kOneDegree_rad = M_PI / 180.0;
 
 /// How a column is made of others: which ones, and what is left.
 struct Mixture {
@@ -35,6 +35,10 @@ Mixture mixture(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column) {
   Mixture out;
   const double whole = column.norm();
   if (!(whole > 0.0)) return out;
+  if (kept.cols() == 0) {
+    out.left = 1.0;
+    return out;
+  }
   const Eigen::VectorXd x = kept.colPivHouseholderQr().solve(column);
   out.left = (column - kept * x).norm() / whole;
   std::vector<std::pair<double, int>> shares;
@@ -88,21 +92,26 @@ class Explainer {
 
   std::string parallel(int j) const {
     return fmt::format("{} and {} are parallel to {:.2g} deg", joint(j), joint(j + 1),
-                       std::max(shape_.angle_to_next[j] / kDegree, 1e-3));
+                       std::max(shape_.angle_to_next[j] / kOneDegree_rad, 1e-3));
   }
 
   void explain_held(const std::vector<Parameter>& held) {
     const Eigen::MatrixXd K = evaluate(data_, state_, kept_).jacobian;
     const Eigen::MatrixXd H = evaluate(data_, state_, held).jacobian;
-    const Eigen::MatrixXd K_anywhere = at_imagined_poses(cell_, data_, state_, kept_);
-    const Eigen::MatrixXd H_anywhere = at_imagined_poses(cell_, data_, state_, held);
+    const Eigen::MatrixXd K_anywhere = anywhere_of(kept_);
     for (std::size_t i = 0; i < held.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const Mixture here = mixture(K, H.col(column));
       const bool seen = here.left > kIndependent;
-      const bool anywhere = mixture(K_anywhere, H_anywhere.col(column)).left > kIndependent;
+      const bool anywhere = held[i].of_effect() ||
+                            mixture(K_anywhere, anywhere_of({held[i]}).col(0)).left > kIndependent;
       out_.push_back(sentence(held[i], here, seen, anywhere));
     }
+  }
+
+  Eigen::MatrixXd anywhere_of(std::vector<Parameter> parameters) const {
+    std::erase_if(parameters, [](const Parameter& p) { return p.of_effect(); });
+    return at_imagined_poses(cell_, data_, state_, parameters);
   }
 
   Separation sentence(const Parameter& p, const Mixture& here, bool seen, bool anywhere) const {
@@ -119,8 +128,8 @@ class Explainer {
     const std::string cannot = fmt::format("{} cannot be separated from {}: ", p.name, with);
     if (seen) {
       out.cause = Cause::kWeak;
-      out.text = fmt::format("{} is seen too weakly to be better than nominal: {}", p.name,
-                             reason(p, here));
+      out.text = fmt::format("{} is seen too weakly to be better than {}: {}", p.name,
+                             p.of_effect() ? "none" : "nominal", reason(p, here));
     } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_frame) {
       out.text = cannot + "both move the base; the fitted frame carries it";
     } else if (!anywhere && !here.partners.empty() && p.of_robot() && only_target) {
@@ -139,7 +148,21 @@ class Explainer {
     return out;
   }
 
-  /// First and last joint that take part.
+  bool of_effects(const Parameter& p, const Mixture& here) const {
+    return p.of_effect() || std::any_of(here.partners.begin(), here.partners.end(),
+                                        [&](int i) { return kept_[i].of_effect(); });
+  }
+
+  /// Joints of an effect stand with the effect, and what acts on the whole arm has none.
+  std::string effect_reason(const Parameter& p) const {
+    if (p.of_effect())
+      for (const int j : state_.arm.effects[static_cast<std::size_t>(p.joint)].joints)
+        if (shape_.used[static_cast<std::size_t>(j)] < kStill)
+          return fmt::format("{} never moves in these poses: move it by > 60 deg", joint(j));
+    return "in these poses they move the measured point alike";
+  }
+
+  /// First and last joint that take part; no effect does.
   std::pair<int, int> span(const Parameter& p, const Mixture& here) const {
     int first = cell_.joints() - 1, last = 0;
     const auto take = [&](const Parameter& parameter) {
@@ -157,6 +180,7 @@ class Explainer {
   }
 
   std::string arm_reason(const Parameter& p, const Mixture& here) const {
+    if (of_effects(p, here)) return "";
     const auto [first, last] = span(p, here);
     if (last == cell_.joints() - 1 && shape_.reflector_off_last_axis_m < kOnTheAxis_m)
       return off_axis();
@@ -173,6 +197,7 @@ class Explainer {
   }
 
   std::string reason(const Parameter& p, const Mixture& here) const {
+    if (of_effects(p, here)) return effect_reason(p);
     const auto [first, last] = span(p, here);
     if (still_joint(first, last) >= 0) return poses_reason(p, here);
     const std::string arm = arm_reason(p, here);
@@ -186,6 +211,7 @@ class Explainer {
   }
 
   std::string poses_reason(const Parameter& p, const Mixture& here) const {
+    if (of_effects(p, here)) return effect_reason(p);
     const auto [first, last] = span(p, here);
     if (const int j = still_joint(first, last); j >= 0)
       return fmt::format("{} never moves in these poses: move it by > 60 deg", joint(j));
@@ -210,12 +236,13 @@ class Explainer {
         if (std::abs(rho) < kCorrelated || (!a.of_robot() && !b.of_robot())) continue;
         Mixture both;
         both.partners = {static_cast<int>(k)};
-        pairs.push_back({Separation::Cause::kWeak,
-                         a.name,
-                         {b.name},
-                         rho,
-                         fmt::format("{} and {} hang together (rho {:+.3f}): {}", a.name, b.name,
-                                     rho, reason(a, both))});
+        pairs.push_back(
+            {Separation::Cause::kWeak,
+             a.name,
+             {b.name},
+             rho,
+             fmt::format("{} and {} cannot be told apart by these poses (correlation {:+.2f}): {}",
+                         a.name, b.name, rho, reason(a, both))});
       }
     std::sort(pairs.begin(), pairs.end(), [](const Separation& a, const Separation& b) {
       return std::abs(a.rho) > std::abs(b.rho);

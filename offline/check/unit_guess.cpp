@@ -32,6 +32,13 @@ std::vector<std::string> lengths_with(const std::string& labelled) {
   return out;
 }
 
+/// No table is in micrometres, but a tracker may write points so.
+std::vector<std::string> point_lengths_with(const std::string& labelled) {
+  auto out = lengths_with(labelled);
+  if (labelled != "um") out.emplace_back("um");
+  return out;
+}
+
 bool near(double ratio, double wanted) {
   return std::abs(std::log(ratio / wanted)) < kRatioTolerance;
 }
@@ -72,7 +79,7 @@ LengthUnits explain_ratios(const LengthUnits& labelled, double point_ratio, doub
   double least = 1e300;
   for (const auto& table : lengths_with(labelled.table)) {
     const double f_table = in_metres(table) / in_metres(labelled.table);
-    for (const auto& point : lengths_with(labelled.point)) {
+    for (const auto& point : point_lengths_with(labelled.point)) {
       if (!near(in_metres(point) / in_metres(labelled.point) / f_table, point_ratio)) continue;
       for (const auto& slide : lengths_with(labelled.slide)) {
         const double f_slide = in_metres(slide) / in_metres(labelled.slide);

@@ -5,8 +5,8 @@
 
 namespace plumb::offline::cli {
 
-void BusOutput::add_to(CLI::App& verb) {
-  verb.add_option("-o,--output", file, "Where to write; else to stdout")->type_name("FILE");
+void BusOutput::add_to(VerbOptions& verb) {
+  verb.add_option("-o,--output", file, "Where to write; else to stdout").type_name("FILE");
   write.add_to(verb);
 }
 

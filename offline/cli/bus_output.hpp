@@ -13,7 +13,7 @@ namespace plumb::offline::cli {
 struct BusOutput {
   std::string file;
   WriteOptions write;
-  void add_to(CLI::App& verb);
+  void add_to(VerbOptions& verb);
 };
 
 /// "Drilling cell 4 (F08-1234)"

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/cell_lock.hpp"
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
+#include "fit/fit_steps.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
 #include "show/units.hpp"
@@ -66,13 +68,14 @@ Measurements open_rows(const fs::path& file, const format::Chain& chain, Outcome
 }
 
 Fit fit_with_progress(const Cell& cell, const Measurements& measured, Outcome& outcome) {
-  const Progress progress(fmt::format("calibrating on {} poses", measured.size()));
-  Fit fit = fit_cell(cell, measured);
+  Progress progress(fmt::format("calibrating on {} poses", measured.size()));
+  Fit fit = fit_cell(cell, measured, [&](const std::string& step) { progress.at(step); });
   outcome.remark(fit.remarks);
   return fit;
 }
 
 Run keep(const Cell& cell, const Measurements& measured, Fit fit) {
+  lock_cell(cell.directory);
   const Writing writing;
   return save_run(cell, measured, std::move(fit));
 }
@@ -80,6 +83,11 @@ Run keep(const Cell& cell, const Measurements& measured, Fit fit) {
 Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep_it,
                        Outcome& outcome) {
   if (auto run = current_run(cell, measured)) return std::move(*run);
+  if (keep_it == Keep::kRun) {
+    lock_cell(cell.directory);
+    // Another plumb may have made it while this one waited.
+    if (auto run = current_run(cell, measured)) return std::move(*run);
+  }
   Fit fit = fit_with_progress(cell, measured, outcome);
   if (keep_it == Keep::kNothing) return draft_run(cell, measured, std::move(fit));
   Run run = keep(cell, measured, std::move(fit));
@@ -96,11 +104,8 @@ void stand_on_base_of(const Run& run, const Cell& cell, Measurements& measured) 
   if (run.fit.base == Base::kController) stand_on_controller(cell, measured);
 }
 
-void check_known_to_runtime(const Run& run, const Cell& cell, const Measurements& measured) {
-  if (run.fit.base == Base::kArm) return;
-  Measurements there = measured;
-  stand_on_controller(cell, there);
-  const double most = departure_of(there).max;
+void check_known_to_runtime(const Run& run, const Measurements& measured) {
+  const double most = departure_of(measured).max;
   if (most <= kAsGoodAsTheArm_m) return;
   throw Failure(
       Exit::kInput,

@@ -38,9 +38,9 @@ Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep
 /// controller's own positions.
 void stand_on_base_of(const Run& run, const Cell& cell, Measurements& measured);
 
-/// Refuses (E-RUN-BASE) what stands on positions that only the controller knows: the
-/// controller-side PC computes with the arm of the cell.
-void check_known_to_runtime(const Run& run, const Cell& cell, const Measurements& measured);
+/// Refuses (E-RUN-BASE) measurements, standing on the base of the run, whose positions only the
+/// controller knows: the controller-side PC computes with the arm of the cell.
+void check_known_to_runtime(const Run& run, const Measurements& measured);
 
 /// Whether a run is of the present cell file and data.
 show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured);

@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "compile/compiler.hpp"
 #include "fit/verdict.hpp"
+#include "program/file.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -39,6 +40,17 @@ void warn_of_tolerance(const format::Model& model, double tolerance_m, Outcome& 
                              .help = "see where it fails: plumb compare"});
 }
 
+void warn_of_serial(const Cell& cell, Outcome& outcome) {
+  if (cell.serial.find_first_not_of(" \t") != std::string::npos) return;
+  outcome.remarks.push_back({.severity = Severity::kWarning,
+                             .code = "W-COMPILE-SERIAL",
+                             .message =
+                                 "the cell names no serial number, so the model is not bound "
+                                 "to one robot",
+                             .place = Place{.file = display_name(cell.file)},
+                             .help = "[cell] serial = \"that of the arm\""});
+}
+
 /// What was fitted and is not in the model: it belongs to the measurement.
 void note_what_is_left(const Run& run, const format::Model& model, Outcome& outcome) {
   std::vector<std::string> names;
@@ -58,7 +70,7 @@ void note_what_is_left(const Run& run, const format::Model& model, Outcome& outc
 
 }  // namespace
 
-void CompileOptions::add_to(CLI::App& verb) {
+void CompileOptions::add_to(VerbOptions& verb) {
   verb.add_flag("--refit-all", refit_all,
                 "Use every pose; the model then carries no held-out figure");
   verb.add_flag("--gate", gate,
@@ -66,23 +78,33 @@ void CompileOptions::add_to(CLI::App& verb) {
                 "within tolerance");
 }
 
-format::Model compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
-                       Outcome& outcome) {
+void Compiled::put_run(Json& result) const {
+  if (run > 0)
+    result["run"] = run;
+  else
+    put_null(result, "run", "--dry-run keeps nothing");
+  result["refit_all"] = refit_all;
+}
+
+Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
+                  Outcome& outcome) {
   Measurements measured = open_measurements(cell, outcome);
   Run run =
       current_or_new_run(cell, measured, write.dry_run ? Keep::kNothing : Keep::kRun, outcome);
-  check_known_to_runtime(run, cell, measured);
-  const std::string kept = run.number > 0 ? fmt::format("{:04}", run.number) : "not kept";
+  stand_on_base_of(run, cell, measured);
+  check_known_to_runtime(run, measured);
+  const int number = run.number;
+  const std::string kept = number > 0 ? fmt::format("{:04}", number) : "not kept";
   if (options.refit_all) {
     const Progress progress("calibrating on every pose");
-    stand_on_base_of(run, cell, measured);
     run = draft_run(cell, measured, fit_all(cell, measured));
   }
   format::Model model = compile(cell, run);
   note_what_is_left(run, model, outcome);
+  warn_of_serial(cell, outcome);
   if (!options.gate) warn_of_tolerance(model, cell.tolerance_m, outcome);
   model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
-  return model;
+  return {.model = std::move(model), .run = number, .refit_all = options.refit_all};
 }
 
 void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
@@ -98,14 +120,18 @@ void check_gate(const Audit& audit, const format::Model& model, double tolerance
   if (const std::string why = beyond_tolerance(model, tolerance_m); !why.empty()) fail(why);
 }
 
-std::string compiled_headline(const format::Model& model) {
+std::string compiled_headline(const format::Model& model, double tolerance_m) {
   const auto& held = model.provenance.held_out;
   const std::string error = held.poses == 0
                                 ? "no held-out figure"
                                 : fmt::format("held-out mean {} mm, 95 % {} mm",
                                               show::mm(held.mean_m), show::mm(held.p95_m));
-  return fmt::format("Compiled {} for {} (serial {}): {}.\n\n", model.cell_name, model.robot_name,
-                     model.serial, error);
+  const std::string beyond = beyond_tolerance(model, tolerance_m);
+  return fmt::format("Compiled {} for {} ({}): {}.{}\n\n", model.cell_name, model.robot_name,
+                     model.serial.find_first_not_of(" \t") == std::string::npos
+                         ? "no serial number"
+                         : "serial " + model.serial,
+                     error, beyond.empty() ? "" : " Not good enough: " + beyond + ".");
 }
 
 }  // namespace plumb::offline::cli

@@ -12,14 +12,24 @@ namespace plumb::offline::cli {
 struct CompileOptions {
   bool refit_all = false;
   bool gate = false;
-  void add_to(CLI::App& verb);
+  void add_to(VerbOptions& verb);
+};
+
+/// A model, and the run behind it.
+struct Compiled {
+  format::Model model;
+  int run = 0;  // 0: it was not kept
+  bool refit_all = false;
+
+  /// Adds `run`, or null with its reason, and `refit_all`.
+  void put_run(Json& result) const;
 };
 
 /// The model of the cell's current run, or of a new one that is kept unless nothing is to be
 /// written. With refit_all its numbers come from every pose; the run stays the evidence behind
 /// them.
-format::Model compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
-                       Outcome& outcome);
+Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
+                  Outcome& outcome);
 
 /// What --gate asks: no warning of the audit, and held-out poses that keep the tolerance.
 /// What fails becomes an error of `outcome`, exit kGateFailed.
@@ -27,6 +37,6 @@ void check_gate(const Audit& audit, const format::Model& model, double tolerance
                 Outcome& outcome);
 
 /// "Compiled Line for Arm (serial 1): held-out mean 0.02 mm, 95 % 0.04 mm."
-std::string compiled_headline(const format::Model& model);
+std::string compiled_headline(const format::Model& model, double tolerance_m);
 
 }  // namespace plumb::offline::cli

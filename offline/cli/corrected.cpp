@@ -1,34 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/corrected.hpp"
 
-#include <algorithm>
-
 namespace plumb::offline::cli {
 namespace {
 
-/// The joint state from which each row is solved: its own, else the last solution.
-class Seeds {
- public:
-  Seeds(const Targets& targets, std::vector<double> start)
-      : targets_(targets), last_(std::move(start)) {}
-
-  std::vector<double> at(int row) const {
-    if (targets_.seed.rows() == 0) return last_;
-    const auto q = targets_.seed.row(row);
-    return {q.data(), q.data() + q.size()};
-  }
-  SeedKind kind() const {
-    if (targets_.seed.rows() == 0) return SeedKind::kLastSolution;
-    return targets_.commanded ? SeedKind::kCommanded : SeedKind::kMeasured;
-  }
-  void solved(const Correction& correction) {
-    if (!refused(correction.status)) std::copy_n(correction.q.begin(), last_.size(), last_.begin());
-  }
-
- private:
-  const Targets& targets_;
-  std::vector<double> last_;
-};
+constexpr double kNothing_m = 1e-9, kNothing_rad = 1e-9;  // of a correction
 
 /// Without a quaternion the nominal orientation at the seed is meant.
 Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
@@ -43,26 +19,39 @@ Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
   return X_BD;
 }
 
+/// Whether what is known of the surroundings may be to blame, rather than target and seed: with an
+/// arm under a load that no arm bears the solver finds nothing.
+bool may_be_of_context(Status refusal) {
+  return refusal == Status::kNotConverged || refusal == Status::kNotFinite ||
+         refusal == Status::kFarFromSeed || refusal == Status::kOtherConfiguration;
+}
+
 }  // namespace
 
-Corrected correct_targets(const Corrector& corrector, const Targets& targets,
-                          const std::vector<double>& start,
-                          const std::vector<std::string>& sensors) {
-  Seeds seeds(targets, start);
-  Corrected out;
-  for (int row = 0; row < targets.table.rows(); ++row) {
-    const auto seed = seeds.at(row);
-    const Transformd X_BD = target_pose(targets, row, corrector.nominal(), seed);
-    const Correction correction =
-        corrector.solve(X_BD, seed, seeds.kind(), context_at(targets.context, row, sensors));
-    seeds.solved(correction);
-    out.command.push_back(to_pose(correction.X_BC));
-    out.status.push_back(correction.status);
-    if (refused(correction.status)) continue;
-    const Matrix3 turn = correction.X_BC.R * X_BD.R.transpose();
-    out.largest_m = std::max(out.largest_m, (correction.X_BC.p - X_BD.p).norm());
-    out.largest_rad = std::max(out.largest_rad, rotation_vector(turn).norm());
+CorrectedRow corrected_row(const Corrector& corrector, const Targets& targets, int row,
+                           std::span<const double> seed, SeedKind kind,
+                           const std::vector<std::string>& sensors, KnownInputs& inputs) {
+  CorrectedRow out;
+  out.X_BD = target_pose(targets, row, corrector.nominal(), seed);
+  const Context context = context_at(targets.context, row, sensors);
+  out.correction =
+      guarded(corrector.solve(out.X_BD, seed, kind, context), out.X_BD, corrector.limits());
+  out.command = to_pose(out.correction.X_BC);
+  if (may_be_of_context(out.correction.status) && inputs.beyond_correction(context)) {
+    out.correction.status = inputs.mark(seed, context, true, Status::kOutsideDomain);
+    out.faded = true;
+    return out;
   }
+  const bool solved = !refused(out.correction.status);
+  const auto q = solved ? std::span<const double>(out.correction.q).first(seed.size()) : seed;
+  out.correction.status = inputs.mark(q, context, true, out.correction.status);
+  if (!solved) return out;
+  out.limited = out.correction.status == Status::kLimited;
+  const Matrix3 turn = out.correction.X_BC.R * out.X_BD.R.transpose();
+  out.moved_m = (out.correction.X_BC.p - out.X_BD.p).norm();
+  out.moved_rad = rotation_vector(turn).norm();
+  out.faded = out.correction.status == Status::kOutsideDomain && out.moved_m < kNothing_m &&
+              out.moved_rad < kNothing_rad;
   return out;
 }
 

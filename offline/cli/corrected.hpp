@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "cell/targets.hpp"
+#include "fit/known_inputs.hpp"
 #include "plumb/runtime/corrector.hpp"
 
 namespace plumb::offline::cli {
 
-/// What to command for a list of targets; row i of each.
-struct Corrected {
-  std::vector<format::Pose> command;  // base frame; the target itself where refused
-  std::vector<Status> status;
-  double largest_m = 0.0;  // of the corrections that were not refused
-  double largest_rad = 0.0;
+/// What to command for one target.
+struct CorrectedRow {
+  Transformd X_BD;       // the target; without a quaternion it has the orientation at its seed
+  format::Pose command;  // base frame; the target itself where refused
+  Correction correction;
+  double moved_m = 0.0;  // of a correction that was not refused
+  double moved_rad = 0.0;
+  bool limited = false;  // cut to the largest size that the guard lets through
+  bool faded = false;    // so far outside what was fitted that nothing of the correction is left
 };
 
-/// Each target is solved from its own joint state, or else from the last solution, `start` [rad] or
-/// [m] being the first; `sensors` are the temperatures the model reads. A target without quaternion
-/// has the nominal orientation at its seed.
-Corrected correct_targets(const Corrector& corrector, const Targets& targets,
-                          const std::vector<double>& start,
-                          const std::vector<std::string>& sensors = {});
+/// Corrects target `row` from `seed` [rad] or [m], cut to the guard's size: the one place that
+/// decides on result and status. `sensors` are the temperatures the model reads; `inputs` watches
+/// what is solved. Any thread that has `inputs` for itself.
+CorrectedRow corrected_row(const Corrector& corrector, const Targets& targets, int row,
+                           std::span<const double> seed, SeedKind kind,
+                           const std::vector<std::string>& sensors, KnownInputs& inputs);
 
 }  // namespace plumb::offline::cli

@@ -3,26 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include "program/file.hpp"
 
 namespace plumb::offline::cli {
-namespace {
-
-/// In the order of the numbers, so ok comes before what is wrong.
-std::map<int, std::pair<std::string, int>> counted(const std::vector<Status>& status) {
-  std::map<int, std::pair<std::string, int>> out;
-  for (Status s : status) {
-    auto& [name, count] = out[refused(s) ? 100 - static_cast<int>(s) : static_cast<int>(s)];
-    name = to_string(s);
-    ++count;
-  }
-  return out;
-}
-
-}  // namespace
-
-void CsvOutput::add_to(CLI::App& verb) {
-  verb.add_option("-o,--output", file, "CSV file to write; else stdout")->type_name("FILE");
+void CsvOutput::add_to(VerbOptions& verb) {
+  verb.add_option("-o,--output", file, "CSV file to write; else stdout").type_name("FILE");
   write.add_to(verb);
 }
 
@@ -36,13 +21,25 @@ void check_output(const CsvOutput& output, const Globals& globals) {
                                .help = "add -o out.csv"});
 }
 
+void refuse_existing(const CsvOutput& output) {
+  if (output.write.force || output.file.empty() || !would_replace(output.file)) return;
+  throw Failure(Exit::kUsage, {.code = "E-EXISTS",
+                               .message = fmt::format("{} is already there", output.file),
+                               .help = "to replace it add --force"});
+}
+
+std::vector<Problem> replaced_notes(const std::vector<std::string>& columns) {
+  std::vector<Problem> out;
+  for (const auto& name : columns)
+    out.push_back({.severity = Severity::kNote,
+                   .code = "N-CSV-REPLACED",
+                   .message = fmt::format("column '{}' of the input was replaced", name)});
+  return out;
+}
+
 void deliver(const show::CsvColumns& columns, const CsvOutput& output, const std::string& summary,
              Outcome& outcome) {
-  for (const auto& name : columns.replaced())
-    outcome.remarks.push_back(
-        {.severity = Severity::kNote,
-         .code = "N-CSV-REPLACED",
-         .message = fmt::format("column '{}' of the input was replaced", name)});
+  outcome.remark(replaced_notes(columns.replaced()));
   if (output.file.empty()) {
     outcome.text = columns.text();
     return;
@@ -53,23 +50,47 @@ void deliver(const show::CsvColumns& columns, const CsvOutput& output, const std
   outcome.text = summary + wrote(output.file, output.write) + "\n";
 }
 
-std::vector<std::string> status_texts(const std::vector<Status>& status) {
-  std::vector<std::string> out;
-  out.reserve(status.size());
-  for (Status s : status) out.emplace_back(to_string(s));
-  return out;
+void StatusCounts::add(Status status, std::size_t rows) {
+  const int number = static_cast<int>(status);
+  auto& entry = counts_[refused(status) ? 100 - number : number];
+  entry.first = status;
+  entry.second += rows;
 }
 
-Json status_counts(const std::vector<Status>& status) {
+void StatusCounts::add(const StatusCounts& more) {
+  for (const auto& [order, entry] : more.counts_) add(entry.first, entry.second);
+}
+
+std::size_t StatusCounts::rows() const {
+  std::size_t sum = 0;
+  for (const auto& [order, entry] : counts_) sum += entry.second;
+  return sum;
+}
+
+std::size_t StatusCounts::refused_rows() const {
+  std::size_t sum = 0;
+  for (const auto& [order, entry] : counts_)
+    if (refused(entry.first)) sum += entry.second;
+  return sum;
+}
+
+std::size_t StatusCounts::of(Status status) const {
+  std::size_t sum = 0;
+  for (const auto& [order, entry] : counts_)
+    if (entry.first == status) sum += entry.second;
+  return sum;
+}
+
+Json to_json(const StatusCounts& counts) {
   Json out = Json::object();
-  for (const auto& [order, entry] : counted(status)) out[entry.first] = entry.second;
+  for (const auto& [order, entry] : counts.all()) out[to_string(entry.first)] = entry.second;
   return out;
 }
 
-std::string status_summary(const std::vector<Status>& status) {
+std::string status_summary(const StatusCounts& counts) {
   std::string out;
-  for (const auto& [order, entry] : counted(status))
-    out += fmt::format("  {:<20} {:>6}\n", entry.first, entry.second);
+  for (const auto& [order, entry] : counts.all())
+    out += fmt::format("  {:<20} {:>6}\n", to_string(entry.first), entry.second);
   return out;
 }
 

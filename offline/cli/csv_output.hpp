@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,19 +16,39 @@ namespace plumb::offline::cli {
 struct CsvOutput {
   std::string file;
   WriteOptions write;
-  void add_to(CLI::App& verb);
+  void add_to(VerbOptions& verb);
 };
 
 /// Refuses --json and --dry-run without -o.
 void check_output(const CsvOutput& output, const Globals& globals);
 
+/// Refuses (kUsage, E-EXISTS) to replace a file without --force.
+void refuse_existing(const CsvOutput& output);
+
+/// N-CSV-REPLACED of each of these columns.
+std::vector<Problem> replaced_notes(const std::vector<std::string>& columns);
+
 /// Writes the file, or makes it the text of the outcome. `summary`: for people, after writing.
 void deliver(const show::CsvColumns& columns, const CsvOutput& output, const std::string& summary,
              Outcome& outcome);
 
-/// Status column of a row, and {status: rows} over all.
-std::vector<std::string> status_texts(const std::vector<Status>& status);
-Json status_counts(const std::vector<Status>& status);
-std::string status_summary(const std::vector<Status>& status);
+/// Rows of each status, in the order of the numbers: ok comes before what is wrong.
+class StatusCounts {
+ public:
+  void add(Status status, std::size_t rows = 1);
+  void add(const StatusCounts& more);
+
+  std::size_t rows() const;
+  std::size_t refused_rows() const;
+  std::size_t of(Status status) const;
+  const std::map<int, std::pair<Status, std::size_t>>& all() const { return counts_; }
+
+ private:
+  std::map<int, std::pair<Status, std::size_t>> counts_;
+};
+
+/// {status: rows}, and the same for people.
+Json to_json(const StatusCounts& counts);
+std::string status_summary(const StatusCounts& counts);
 
 }  // namespace plumb::offline::cli

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "cell/assumed_limits.hpp"
 #include "cell/measurements.hpp"
 #include "plumb/format/limits.hpp"
 #include "show/units.hpp"
@@ -12,8 +15,8 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr double kUsualTurn_deg = 180.0;
-constexpr double kUsualTravel_m = 1.0;
+constexpr const char* kHeader =
+    "header: joint,alpha_deg,a_mm,d_mm,theta_deg,q_min_deg,q_max_deg,q_min_mm,q_max_mm,type";
 
 /// The columns of a DH table, checked; problems of the whole file are collected.
 class DhReader {
@@ -30,9 +33,12 @@ class DhReader {
     fill("theta", Quantity::kAngle, &format::JointRow::theta, out);
     for (int i = 0; i < table_.rows(); ++i) limits(i, out[i]);
     if (!problems_.empty()) throw Failure(Exit::kInput, std::move(problems_));
-    if (limits_missing_) note_limits(outcome);
+    if (std::find(assumed_.begin(), assumed_.end(), true) != assumed_.end()) note_limits(outcome);
     return out;
   }
+
+  /// Joints whose limits the table does not give.
+  const std::vector<bool>& assumed() const { return assumed_; }
 
  private:
   void problem(std::string code, std::string message, std::string help, int row = -1) {
@@ -73,27 +79,41 @@ class DhReader {
     const char* unit = quantity == Quantity::kAngle ? "deg" : "mm";
     const Column* column = table_.find(name);
     if (!column || column->quantity != quantity)
-      return problem("E-DH-COLUMN", fmt::format("column '{}_{}' is missing", name, unit),
-                     "header: joint,alpha_deg,a_mm,d_mm,theta_deg,q_min_deg,q_max_deg,type");
+      return problem("E-DH-COLUMN", fmt::format("column '{}_{}' is missing", name, unit), kHeader);
     for (int i = 0; i < table_.rows(); ++i) rows[i].*field = column->values[i];
   }
 
-  const Column* limit(const char* name, Quantity quantity) const {
+  /// What stands in the column of that kind; nothing if there is none, or the cell is empty.
+  std::optional<double> limit(const char* name, Quantity quantity, int row) const {
     const auto found =
         std::find_if(table_.columns.begin(), table_.columns.end(),
                      [&](const Column& c) { return c.name == name && c.quantity == quantity; });
-    return found == table_.columns.end() ? nullptr : &*found;
+    if (found == table_.columns.end() || std::isnan(found->values[row])) return std::nullopt;
+    return found->values[row];
   }
 
   void limits(int i, format::JointRow& row) {
     const bool slide = show::slides(row);
     const auto kind = slide ? Quantity::kLength : Quantity::kAngle;
-    const Column* low = limit("q_min", kind);
-    const Column* high = limit("q_max", kind);
-    limits_missing_ = limits_missing_ || !low || !high;
-    const double turn = show::from_deg(kUsualTurn_deg);
-    row.q_min = low ? low->values[i] : slide ? 0.0 : -turn;
-    row.q_max = high ? high->values[i] : slide ? kUsualTravel_m : turn;
+    const auto other = slide ? Quantity::kAngle : Quantity::kLength;
+    const auto low = limit("q_min", kind, i), high = limit("q_max", kind, i);
+    row.q_max = slide ? kAssumedTravel_m : kAssumedTurn;
+    row.q_min = -row.q_max;
+    assumed_.push_back(!low && !high);
+    if (low.has_value() != high.has_value())
+      return problem("E-DH-LIMITS",
+                     fmt::format("joint {}: only one of q_min and q_max is given", row.name),
+                     "give both, or leave both empty", i);
+    if (!low && (limit("q_min", other, i) || limit("q_max", other, i)))
+      return problem("E-DH-LIMITS",
+                     fmt::format("joint {} {}, but its limits are {}", row.name,
+                                 slide ? "slides" : "turns", slide ? "angles" : "lengths"),
+                     fmt::format("write them into q_min_{0} and q_max_{0}; leave the others empty",
+                                 slide ? "mm" : "deg"),
+                     i);
+    if (!low) return;
+    row.q_min = *low;
+    row.q_max = *high;
     if (!(row.q_min < row.q_max))
       problem("E-DH-LIMITS", fmt::format("joint {}: q_min is not below q_max", row.name),
               "swap or correct the limits", i);
@@ -103,28 +123,30 @@ class DhReader {
     outcome.remarks.push_back(
         {.severity = Severity::kNote,
          .code = "N-DH-LIMITS",
-         .message = fmt::format("joint limits are not all given: took -{0:.0f} .. {0:.0f} deg and "
-                                "0 .. {1:.0f} mm",
-                                kUsualTurn_deg, show::to_mm(kUsualTravel_m)),
-         .help = "correct q = [min, max] in cell.toml"});
+         .message = fmt::format("joint limits are not all given: up to ±{:.0f} deg and ±{:.0f} mm "
+                                "are assumed",
+                                show::to_deg(kAssumedTurn), show::to_mm(kAssumedTravel_m)),
+         .help = "add q = [min, max] of the data sheet in cell.toml"});
   }
 
   const Table& table_;
   std::vector<Problem> problems_;
-  bool limits_missing_ = false;
+  std::vector<bool> assumed_;
 };
 
 }  // namespace
 
-format::Chain read_dh(const std::filesystem::path& file, format::Convention convention,
-                      Outcome& outcome) {
+DhTable read_dh(const std::filesystem::path& file, format::Convention convention,
+                Outcome& outcome) {
   const Table table = read_table(file, TableOf::kRobot);
   outcome.inputs.push_back({table.file, table.sha256});
   outcome.remark(table.remarks);
-  format::Chain chain;
-  chain.convention = convention;
-  chain.joints = DhReader(table).rows(outcome);
-  return chain;
+  DhReader reader(table);
+  DhTable out;
+  out.chain.convention = convention;
+  out.chain.joints = reader.rows(outcome);
+  out.assumed_limits = reader.assumed();
+  return out;
 }
 
 }  // namespace plumb::offline::cli

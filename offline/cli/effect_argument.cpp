@@ -6,6 +6,8 @@
 #include "cell/effect_option.hpp"
 #include "cell/effects_edit.hpp"
 #include "cli/effect_naming.hpp"
+#include "cli/parts.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -15,16 +17,6 @@ constexpr const char* kExample = "plumb plan --separate reversal:J2,settling_lag
 
 [[noreturn]] void refuse(const std::string& message, const std::string& help = kExample) {
   throw Failure(Exit::kUsage, {.code = kCode, .message = message, .help = help});
-}
-
-std::vector<std::string> parts(const std::string& text, char separator) {
-  std::vector<std::string> out(1);
-  for (const char c : text)
-    if (c == separator)
-      out.emplace_back();
-    else
-      out.back() += c;
-  return out;
 }
 
 void read_number(const std::string& text, EffectEntry& out) {
@@ -57,7 +49,12 @@ EffectEntry one_effect(const Cell& cell, const std::string& text) {
       break;
     }
   for (std::size_t k = 1; k < numbers.size(); ++k) read_number(numbers[k], out);
-  if (out.name == "gear_ripple" && !out.options.contains("cycles_per_turn"))
+  if (out.name == "geometry" || out.name == "local_tree")
+    refuse(fmt::format("{} is no single effect, so nothing can be separated from it", out.name));
+  if (const std::string fault = joints_fault(out); !fault.empty())
+    refuse(fmt::format("{} {}", out.name, fault),
+           "plumb plan --separate cross_compliance:J3+J2,joint_compliance:J2");
+  if (is_wave(out.name) && !has_option(out, OptionKey::kCyclesPerTurn))
     refuse("gear_ripple needs its cycles a turn",
            "plumb plan --separate gear_ripple:J2@cycles_per_turn=20,gear_harmonics:J2");
   return out;

@@ -7,6 +7,8 @@
 
 #include "cell/effect_option.hpp"
 #include "cli/effect_naming.hpp"
+#include "cli/parts.hpp"
+#include "effects/registry.hpp"
 #include "program/shell_word.hpp"
 
 namespace plumb::offline::cli {
@@ -32,13 +34,10 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-std::vector<std::string> parts(const std::string& text) {
-  std::vector<std::string> out;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    out.push_back(trimmed(text.substr(at, end - at)));
-    at = end + 1;
-  }
+/// "7.91, 17.49"
+std::vector<std::string> list(const std::string& text) {
+  std::vector<std::string> out = parts(text, ',');
+  for (auto& part : out) part = trimmed(part);
   return out;
 }
 
@@ -46,7 +45,7 @@ const EffectOption& option_named(const std::string& effect, const std::string& k
                                  const std::string& given) {
   if (const auto* option = find_option(effect, key)) return *option;
   std::vector<std::string> known;
-  for (const auto* option : options_of(effect)) known.emplace_back(option->key);
+  for (const auto& option : options_of(effect)) known.emplace_back(option.name());
   const auto guess = did_you_mean(key, known);
   refuse_option(fmt::format("{} has no option '{}'", effect, key), given,
                 guess           ? fmt::format("did you mean '{}'?", *guess)
@@ -65,7 +64,7 @@ std::vector<EffectEntry> with_option(const std::vector<EffectEntry>& entries,
   const std::string key = text.substr(0, equals), values = text.substr(equals + 1);
   const EffectOption& option = option_named(effect, key, given);
   std::vector<EffectEntry> out;
-  for (const auto& part : option.lists ? parts(values) : std::vector<std::string>{values}) {
+  for (const auto& part : option.lists ? list(values) : std::vector<std::string>{values}) {
     const auto value = option_value(option, part);
     if (!value)
       refuse_option(fmt::format("'{}' of {} must be {}{}", key, effect, option.rule,
@@ -85,10 +84,10 @@ std::vector<EffectEntry> with_option(const std::vector<EffectEntry>& entries,
 
 /// What a whole effect cannot do without.
 void check_whole(const EffectEntry& entry, const std::string& joints) {
-  for (const auto* option : options_of(entry.name))
-    if (option->required && !entry.options.contains(std::string(option->key)))
-      refuse_option(fmt::format("{} needs '{}': {}", entry.name, option->key, option->rule), "",
-                    fmt::format("--set {}={}", option->key, option->example));
+  for (const auto& option : options_of(entry.name))
+    if (option.required && !has_option(entry, option.key))
+      refuse_option(fmt::format("{} needs '{}': {}", entry.name, option.name(), option.rule), "",
+                    fmt::format("--set {}={}", option.name(), option.example));
   if (const std::string fault = joints_fault(entry); !fault.empty())
     refuse_option(fmt::format("{} {}", entry.name, fault),
                   joints.empty() ? "" : "--joints " + joints,
@@ -106,29 +105,29 @@ void set_law(const std::string& formula, EffectEntry& out) {
 
 }  // namespace
 
-void EffectOptions::add_to(CLI::App& verb, bool law_too) {
-  verb.add_option("EFFECT", name, "Name in the catalogue: plumb explain lists them")->required();
-  verb.add_option("--joints", joints, "Only these joints: J2,J3")->delimiter(',');
+void EffectOptions::add_to(VerbOptions& verb, bool law_too) {
+  verb.add_option("EFFECT", name, "Name in the catalogue: plumb explain lists them").required();
+  verb.add_option("--joints", joints, "Only these joints: J2,J3").delimiter(',');
   verb.add_option("--set", set, "An option of the effect, such as cycles_per_turn=20")
-      ->type_name("KEY=VALUE");
-  verb.add_option("--name", formula_name, "Which formula, if there are several")->type_name("NAME");
+      .type_name("KEY=VALUE");
+  verb.add_option("--name", formula_name, "Which formula, if there are several").type_name("NAME");
   if (!law_too) return;
-  verb.add_option("--formula", formula, "A law of your own: \"dq2 = k * tau2\"")->type_name("LAW");
+  verb.add_option("--formula", formula, "A law of your own: \"dq2 = k * tau2\"").type_name("LAW");
   verb.add_option("--parameter", parameters,
                   "One of its parameters: name, unit, typical size: \"k [rad/(N m)] ~ 1e-6\"")
-      ->type_name("TEXT");
+      .type_name("TEXT");
   verb.add_option("--domain", domain, "What it belongs to: robot (default), environment, ...")
-      ->type_name("WORD");
+      .type_name("WORD");
 }
 
 std::vector<EffectEntry> EffectOptions::to_drop(const Cell& cell) const {
   require_effect(name, kUsageCode);
   const bool lawful = !formula.empty() || !parameters.empty() || !domain.empty();
-  if (name != "formula" && (lawful || !formula_name.empty()))
+  if (!is_formula(name) && (lawful || !formula_name.empty()))
     refuse(fmt::format("--formula, --parameter, --name and --domain belong to 'formula', not to {}",
                        name),
            kFormulaExample);
-  if (name == "formula" && !joints.empty())
+  if (is_formula(name) && !joints.empty())
     refuse("a formula says itself which joints it reads and moves", kFormulaExample);
   EffectEntry one{.name = name, .joints = {}, .options = {}, .place = {}};
   for (const auto& joint : joints) one.joints.push_back(joint_named(cell, joint, kUsageCode));
@@ -147,7 +146,7 @@ std::vector<EffectEntry> EffectOptions::to_add(const Cell& cell) const {
     fill_in_usual(entry);
     check_whole(entry, fmt::format("{}", fmt::join(joints, ",")));
   }
-  if (name == "formula" && formula.empty()) refuse("formula needs a law", kFormulaExample);
+  if (is_formula(name) && formula.empty()) refuse("formula needs a law", kFormulaExample);
   return out;
 }
 
@@ -158,7 +157,7 @@ std::string EffectOptions::option_at(const Place& place) const {
                        shell_word(fmt::format("{}", fmt::join(parameters, ", "))));
   if (line.starts_with("name")) return "--name " + shell_word(formula_name);
   if (line.starts_with("domain")) return "--domain " + shell_word(domain);
-  if (name == "formula") return "--formula " + shell_word(formula);
+  if (is_formula(name)) return "--formula " + shell_word(formula);
   return set.empty() ? name : "--set " + shell_word(fmt::format("{}", fmt::join(set, " --set ")));
 }
 

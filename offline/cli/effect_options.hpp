@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "cell/cell.hpp"
+#include "program/verb_options.hpp"
 
 namespace plumb::offline::cli {
 
@@ -25,7 +25,7 @@ struct EffectOptions {
   std::string domain;
 
   /// The options that name an effect; `law_too` adds those that define a formula.
-  void add_to(CLI::App& verb, bool law_too);
+  void add_to(VerbOptions& verb, bool law_too);
 
   /// As they would stand in the cell file, whole. Throws Failure (kUsage) with "did you mean".
   std::vector<EffectEntry> to_add(const Cell& cell) const;

@@ -10,7 +10,14 @@ int main(int argc, char** argv) {
        .examples =
            "  plumb demo compliance mycell      # a sample cell with simulated measurements\n"
            "  plumb -C mycell fit               # calibrate it",
-       .first = "plumb demo"},
+       .first = "plumb demo",
+       .manual = {.files = {{"cell.toml",
+                             "the arm, its measurements and its effects; a folder with "
+                             "this file is a cell, in which the verbs work"},
+                            {"measurements.csv", "what was measured"},
+                            {"runs/", "one folder for every fit, never changed again"},
+                            {"robot.plumb", "the model file that compile writes"}},
+                  .see_also = {"plumb-rt", "plumb-twin"}}},
       plumb::WorksIn::kCell);
   for (const auto add :
        {add_demo,    add_new,      add_simulate, add_import, add_check, add_fit,

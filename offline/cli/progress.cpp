@@ -6,12 +6,24 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include "program/interrupt.hpp"
 
 namespace plumb::offline::cli {
 
 using namespace std::chrono_literals;
+
+namespace {
+
+/// Whether a line can be written over again.
+bool is_terminal() {
+  const char* const term = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+}  // namespace
 
 Progress::Progress(std::string what) : what_(std::move(what)) {
   const Writing no_signals;  // a thread inherits the mask
@@ -23,25 +35,45 @@ Progress::~Progress() {
     const std::lock_guard lock(mutex_);
     done_ = true;
   }
-  ended_.notify_one();
+  changed_.notify_one();
   thread_.join();
 }
 
+void Progress::at(const std::string& step) {
+  {
+    const std::lock_guard lock(mutex_);
+    step_ = step;
+  }
+  changed_.notify_one();
+}
+
+std::string Progress::now() const { return step_.empty() ? what_ : what_ + ": " + step_; }
+
 void Progress::run() {
   std::unique_lock lock(mutex_);
-  const auto done = [this] { return done_; };
-  if (ended_.wait_for(lock, 1s, done)) return;
-  if (::isatty(STDERR_FILENO) == 0) {
-    fmt::print(stderr, "{} ...\n", what_);
-    return;
-  }
-  for (int seconds = 1;; ++seconds) {
-    fmt::print(stderr, "\r{} ... {} s", what_, seconds);
+  if (changed_.wait_for(lock, 1s, [this] { return done_; })) return;
+  if (is_terminal())
+    run_clock(lock);
+  else
+    run_lines(lock);
+}
+
+void Progress::run_clock(std::unique_lock<std::mutex>& lock) {
+  for (int seconds = 1; !done_; ++seconds) {
+    fmt::print(stderr, "\r\x1b[K{} ... {} s", now(), seconds);
     std::fflush(stderr);
-    if (ended_.wait_for(lock, 1s, done)) break;
+    changed_.wait_for(lock, 1s, [this] { return done_; });
   }
   fmt::print(stderr, "\r\x1b[K");
   std::fflush(stderr);
+}
+
+void Progress::run_lines(std::unique_lock<std::mutex>& lock) {
+  while (!done_) {
+    const std::string said = now();
+    fmt::print(stderr, "{} ...\n", said);
+    changed_.wait(lock, [&] { return done_ || now() != said; });
+  }
 }
 
 }  // namespace plumb::offline::cli

@@ -8,8 +8,9 @@
 
 namespace plumb::offline::cli {
 
-/// Says on stderr what takes so long, once it has taken more than a second: a running clock on a
-/// terminal, one line elsewhere. Ends with the scope. Its thread takes no signals.
+/// Says on stderr what takes so long, and how far it is, once it has taken more than a second: a
+/// running clock on a terminal, elsewhere a line for every step and no control characters. Ends
+/// with the scope. Its thread takes no signals.
 class Progress {
  public:
   explicit Progress(std::string what);
@@ -17,12 +18,19 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// What it is at: "step 2 of 4, trying every effect". From any thread.
+  void at(const std::string& step);
+
  private:
   void run();
+  void run_clock(std::unique_lock<std::mutex>& lock);
+  void run_lines(std::unique_lock<std::mutex>& lock);
+  std::string now() const;
 
   std::string what_;
   std::mutex mutex_;
-  std::condition_variable ended_;
+  std::condition_variable changed_;
+  std::string step_;
   bool done_ = false;
   std::thread thread_;
 };

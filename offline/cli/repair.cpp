@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/cell_writing.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
 
@@ -43,6 +44,12 @@ void add_measurements(const Cell& cell, const Measurements& measured, const Meas
 
 std::string repair(const Cell& cell, const Measurements& measured, const Check& check,
                    const WriteOptions& options, Outcome& outcome) {
+  if (cell.measurement.setups.size() > 1)
+    throw Failure(Exit::kInput,
+                  {.code = "E-CHECK-FIX-SETUPS",
+                   .message = "check --fix does not rewrite the files of several set-ups",
+                   .place = Place{.file = cell.file.string()},
+                   .help = "see what is wrong, and put it right by hand: plumb check"});
   const Convention& labels = check.detection.present.convention;
   const Convention& meant = check.detection.best.convention;
   CellEdit in_cell = cell_edit(cell, labels, meant);
@@ -52,6 +59,7 @@ std::string repair(const Cell& cell, const Measurements& measured, const Check& 
   if (!in_files.empty()) add_measurements(cell, measured, in_files, in_cell, files, said, options);
   const std::string text = edited(cell.text, cell.file.string(), in_cell);
   (void)parse_cell(text, cell.file);  // never leave a cell that cannot be read
+  if (!options.dry_run) check_unchanged(cell);
   files.commit(options, outcome);
   outcome.result["files"].push_back(cell.file.string());
   if (!options.dry_run) {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "cli/number_rules.hpp"
-
 namespace plumb::offline::cli {
 namespace {
 
@@ -14,92 +12,92 @@ double share(const std::string& option, const std::string& text) {
                                std::nullopt, "write " + option + " 2%"});
 }
 
-void add_arm_options(CLI::App& verb, SimulateOptions& options) {
+void add_arm_options(VerbOptions& verb, SimulateOptions& options) {
   verb.add_option("--geometry-mm", options.geometry_mm, "1 sigma of every length error")
-      ->type_name("MM")
-      ->capture_default_str();
+      .type_name("MM")
+      .shows_default();
   verb.add_option("--geometry-mrad", options.geometry_mrad, "1 sigma of every angle error")
-      ->type_name("MRAD")
-      ->capture_default_str();
+      .type_name("MRAD")
+      .shows_default();
   verb.add_option("--effect,--hidden", options.hidden,
                   "Effect the nominal model lacks: gear_ripple:J2:5 (5 sigma) or "
                   "joint_compliance:J2=150urad; may be repeated")
-      ->type_name("EFFECT")
-      ->take_all()
-      ->allow_extra_args(false);
+      .type_name("EFFECT")
+      .take_all()
+      .one_value_each();
   verb.add_option("--mass-error", options.mass_error, "1 sigma of every mass of the cell")
-      ->type_name("SHARE")
-      ->capture_default_str();
+      .type_name("SHARE")
+      .shows_default();
   verb.add_option("--richness", options.richness,
-                  "What is of second order in the hidden laws, times this; 0: plain laws")
-      ->type_name("X")
-      ->capture_default_str();
+                  "Factor on the second-order terms of the hidden laws; 0: without them")
+      .type_name("X")
+      .shows_default();
   verb.add_flag("--list", options.list, "List the effects that --effect takes");
 }
 
-void add_measuring_options(CLI::App& verb, SimulateOptions& options) {
+void add_measuring_options(VerbOptions& verb, SimulateOptions& options) {
   verb.add_option("--poses", options.poses, "Distinct poses, uniform inside the joint limits")
-      ->type_name("N")
-      ->capture_default_str();
-  verb.add_option("--repeats", options.repeats, "Measure every tenth pose so often")
-      ->type_name("N")
-      ->capture_default_str();
+      .type_name("N")
+      .shows_default();
+  verb.add_option("--repeats", options.repeats, "Measure every tenth pose this many times")
+      .type_name("N")
+      .shows_default();
   verb.add_option("--noise-um,--sigma-um", options.noise_um, "Noise of each axis, 1 sigma")
-      ->type_name("UM")
-      ->capture_default_str();
+      .type_name("UM")
+      .shows_default();
   verb.add_option("--noise-urad", options.noise_urad, "Measure orientation too, with this noise")
-      ->type_name("URAD");
+      .type_name("URAD");
   verb.add_flag("--directions", options.directions, "Record how each joint arrived");
   verb.add_option("--outliers", options.outliers, "Share of rows that are far off")
-      ->type_name("SHARE")
-      ->capture_default_str();
+      .type_name("SHARE")
+      .shows_default();
   verb.add_option("--held", options.held, "Share of poses that column set holds out")
-      ->type_name("SHARE")
-      ->capture_default_str();
+      .type_name("SHARE")
+      .shows_default();
   verb.add_option("--seed", options.seed, "Seed of arm, poses and noise")
-      ->type_name("N")
-      ->check(seed_number())
-      ->capture_default_str();
+      .type_name("N")
+      .check(seed_number())
+      .shows_default();
 }
 
-void add_session_options(CLI::App& verb, SimulateOptions& options) {
+void add_session_options(VerbOptions& verb, SimulateOptions& options) {
   verb.add_option("--payloads", options.payloads_kg, "Each pose carries one of these, in kg")
-      ->type_name("KG,KG,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      .type_name("KG,KG,...")
+      .delimiter(',')
+      .one_value_each();
   verb.add_flag("--temperatures", options.temperatures, "Record temperatures");
   verb.add_flag("--constant-temperature", options.constant_temperature, "All at 20 degC");
   verb.add_option("--order", options.order, "Order of the poses")
-      ->check(CLI::IsMember({"drawn", "nearest"}))
-      ->capture_default_str();
-  verb.add_option("--grid", options.grid, "Joints only on so many places each; 0: anywhere")
-      ->type_name("N")
-      ->capture_default_str();
+      .check(one_of({"drawn", "nearest"}))
+      .shows_default();
+  verb.add_option("--grid", options.grid, "Each joint takes only so many different angles; 0: any")
+      .type_name("N")
+      .shows_default();
   verb.add_option("--range", options.range, "Share of each joint's range, around its middle")
-      ->type_name("SHARE")
-      ->capture_default_str();
+      .type_name("SHARE")
+      .shows_default();
   verb.add_option("--seconds", options.seconds, "Time from row to row")
-      ->type_name("S")
-      ->check(greater_than_zero())
-      ->capture_default_str();
+      .type_name("S")
+      .check(greater_than_zero())
+      .shows_default();
   verb.add_option("--fresh", options.fresh, "Also fresh poses of the same session, noise-free")
-      ->type_name("FILE");
-  verb.add_option("--fresh-poses", options.fresh_poses, "How many")
-      ->type_name("N")
-      ->capture_default_str();
+      .type_name("FILE");
+  verb.add_option("--fresh-poses", options.fresh_poses, "How many fresh poses")
+      .type_name("N")
+      .shows_default();
 }
 
-void add_file_options(CLI::App& verb, SimulateOptions& options) {
+void add_file_options(VerbOptions& verb, SimulateOptions& options) {
   verb.add_option("-o,--output", options.output, "Measurements; else the cell's own file")
-      ->type_name("FILE");
+      .type_name("FILE");
   verb.add_option("--truth", options.truth, "The truth; else truth.json beside cell.toml")
-      ->type_name("FILE");
+      .type_name("FILE");
   options.write.add_to(verb);
 }
 
 }  // namespace
 
-void SimulateOptions::add_to(CLI::App& verb) {
+void SimulateOptions::add_to(VerbOptions& verb) {
   add_measuring_options(verb, *this);
   add_session_options(verb, *this);
   add_arm_options(verb, *this);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,7 +35,7 @@ struct SimulateOptions {
   std::string output, truth, fresh;
   WriteOptions write;
 
-  void add_to(CLI::App& verb);
+  void add_to(VerbOptions& verb);
 
   /// Throws Failure (kUsage) for a share that is none.
   SimulationPlan plan(const Cell& cell) const;

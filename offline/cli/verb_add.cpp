@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
 
 #include "cli/cell_writing.hpp"
 #include "cli/effect_options.hpp"
+#include "cli/model_limits.hpp"
+#include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
+#include "compile/compiler.hpp"
+#include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
-#include "diagnose/verdict.hpp"
+#include "effects/effect_option.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/effect_binding.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/effect_arguments.hpp"
+#include "show/error_table.hpp"
+#include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -26,13 +34,17 @@ struct Options {
   bool dry_run = false;
 };
 
-std::string before_and_after(const Fit& before, const Fit& after) {
-  show::TextTable table({"held-out error [mm]", "mean", "RMS", "95 %", "max"});
-  const auto add = [&](const char* name, const ErrorStats& e) {
-    table.add({name, show::mm(e.mean), show::mm(e.rms), show::mm(e.p95), show::mm(e.max)});
+std::string before_and_after(const Measurements& measured, const Fit& before, const Fit& after) {
+  namespace head = show::head;
+  show::TextTable table(
+      {head::kHeldOutError, head::kMean, head::kInterval, head::kRms, head::kP95, head::kMax});
+  const auto add = [&](const char* name, const Fit& fit) {
+    const ErrorStats& e = fit.held;
+    table.add({name, show::mm(e.mean), show::text_of(held_out_interval(measured, fit)),
+               show::mm(e.rms), show::mm(e.p95), show::mm(e.max)});
   };
-  add("before", before.held);
-  add("after", after.held);
+  add("before", before);
+  add("after", after);
   return table.text();
 }
 
@@ -41,6 +53,15 @@ std::string judged(const std::string& what, const Fit& before, const Fit& after)
   const char* word = change < -0.01 ? "fell" : change > 0.01 ? "ROSE" : "hardly changed";
   return fmt::format("{}: the held-out error {}: {} -> {} mm ({:+.0f} %).", what, word,
                      show::mm(before.held.mean), show::mm(after.held.mean), 100.0 * change);
+}
+
+/// Nothing where a tree has leaves, or none was asked for.
+std::string empty_tree_words(const Fit& fit) {
+  if (!fit.tree || std::any_of(fit.tree->leaves.begin(), fit.tree->leaves.end(),
+                               [](int leaves) { return leaves > 0; }))
+    return "";
+  return "The tree is empty: no leaf lowers the error on folds of the fit poses, so it corrects "
+         "nothing.\n";
 }
 
 /// An effect of the command line stands in no file yet: what is wrong with it is said of the option
@@ -52,6 +73,11 @@ void checked(const EffectOptions& options, const Cell& cell, const std::function
     std::vector<Problem> problems = failure.problems();
     bool ours = false;
     for (auto& problem : problems) {
+      if (problem.code == "E-FIT-CONVERGE") {
+        problem.message += "; cell.toml was not changed";
+        problem.help =
+            "these poses may not show it beside the rest: plumb diagnose ranks what they show";
+      }
       if (!problem.place || problem.place->line <= 0 ||
           problem.place->file != display_name(cell.file))
         continue;
@@ -66,44 +92,55 @@ void checked(const EffectOptions& options, const Cell& cell, const std::function
 struct Change {
   std::string what, undo;
   std::vector<EffectEntry> effects;
+  bool adds = false;  // as against taking out
 };
 
 /// Refits with other effects, shows before and after, and only then touches the cell file.
-void make(const Change& change, const Options& options, const Cell& cell, Outcome& outcome) {
+void make(const Change& change, const Options& options, const Globals& globals, const Cell& cell,
+          Outcome& outcome) {
   std::optional<Cell> read_back;
   checked(options.effect, cell, [&] { read_back = with_effects(cell, change.effects); });
   const Cell& edited = *read_back;
   Measurements measured = open_measurements(cell, outcome);
-  checked(options.effect, cell, [&] { check_rows(edited, measured); });
+  checked(options.effect, cell, [&] {
+    check_rows(edited, measured);
+    if (change.adds) check_effect_sizes(bind_effects(edited, measured));
+  });
   const Keep keep_it = options.dry_run ? Keep::kNothing : Keep::kRun;
   const Run before = current_or_new_run(cell, measured, keep_it, outcome);
   stand_on_base_of(before, cell, measured);
   Fit fitted;
   checked(options.effect, cell, [&] { fitted = fit_with_progress(edited, measured, outcome); });
+  if (change.adds) check_parameter_count(compile(edited, draft_run(edited, measured, Fit(fitted))));
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);
   outcome.result["run_before"] = before.number;
   outcome.result["verdict"] = verdict(fitted, cell.tolerance_m);
-  outcome.text = judged(change.what, before.fit, fitted) + "\n\n" +
-                 before_and_after(before.fit, fitted) + "\n" + verdict(fitted, cell.tolerance_m) +
-                 "\n";
-  replace_cell(edited, options.dry_run, outcome);
+  outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
+                 before_and_after(measured, before.fit, fitted) + "\n" +
+                 verdict(fitted, cell.tolerance_m) + "\n";
+  const std::string next = next_step(fitted, cell.tolerance_m);
   if (options.dry_run) {
+    replace_cell(cell, edited, options.dry_run, outcome);
     show::put_null(outcome.result, "run", "--dry-run keeps nothing");
-    return;
+    return say_next(globals, next, outcome);
   }
+  // The cell file last: if the run cannot be written, nothing has changed.
   const Run after = keep(edited, measured, std::move(fitted));
+  replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = after.number;
-  outcome.text +=
-      fmt::format("kept as run {}; to take it back: plumb {}\n", after.number, change.undo);
+  const bool rose = after.fit.held.mean > before.fit.held.mean;
+  outcome.text += fmt::format("kept as run {}{}\n", after.number,
+                              rose ? "" : "; to take it back: " + to_type(globals, change.undo));
+  say_next(globals, rose ? change.undo + "   # takes it back" : next, outcome);
 }
 
 /// "gear ripple of J2, 7.91 and 17.49 cycles a turn"
 std::string together(const Cell& cell, const std::vector<EffectEntry>& entries) {
   std::vector<double> cycles;
   for (const auto& entry : entries)
-    if (const auto it = entry.options.find("cycles_per_turn"); it != entry.options.end())
-      cycles.push_back(std::get<double>(it->second));
+    if (has_option(entry, OptionKey::kCyclesPerTurn))
+      cycles.push_back(number_option(entry, OptionKey::kCyclesPerTurn, 0.0));
   if (cycles.size() == entries.size()) return in_words(cell, entries.front(), cycles);
   std::vector<std::string> out;
   for (const auto& entry : entries) out.push_back(in_words(cell, entry));
@@ -116,12 +153,14 @@ void say_which(const Cell& cell, const std::vector<EffectEntry>& entries, Outcom
 }
 
 void add(const Options& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  const Cell cell =
+      options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
   const auto entries = options.effect.to_add(cell);
   say_which(cell, entries, outcome);
   Change change{.what = "Added " + together(cell, entries),
                 .undo = "drop " + show::dropping_arguments(cell, entries),
-                .effects = cell.effects};
+                .effects = cell.effects,
+                .adds = true};
   for (const auto& entry : entries) {
     if (has_effect(cell.effects, entry))
       throw Failure(Exit::kInput, Problem{.code = "E-ADD-TWICE",
@@ -131,24 +170,28 @@ void add(const Options& options, const Globals& globals, Outcome& outcome) {
                                           .help = "see what is in it: plumb compare"});
     change.effects = with_effect(change.effects, entry);
   }
-  make(change, options, cell, outcome);
+  make(change, options, globals, cell, outcome);
 }
 
 [[noreturn]] void nothing_to_drop(const Cell& cell, const EffectEntry& entry) {
-  std::vector<std::string> there;
+  std::vector<EffectEntry> there;
   for (const auto& e : cell.effects)
-    if (e.name != "geometry") there.push_back(in_words(cell, e));
+    if (e.name != "geometry") there.push_back(e);
   throw Failure(Exit::kInput,
                 {.code = "E-DROP-NONE",
-                 .message = fmt::format("the model has no {}{}", in_words(cell, entry),
-                                        entry.name == "geometry" ? " that could be dropped" : ""),
+                 .message = entry.name == "geometry"
+                                ? "geometry cannot be dropped: every model has it"
+                                : fmt::format("the model has no {}", in_words(cell, entry)),
                  .place = Place{.file = cell.file.string()},
                  .help = there.empty() ? "it contains geometry alone"
-                                       : fmt::format("it contains: {}", fmt::join(there, "; "))});
+                                       : fmt::format("plumb drop {}",
+                                                     fmt::join(show::adding_arguments(cell, there),
+                                                               ", or: plumb drop "))});
 }
 
 void drop(const Options& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  const Cell cell =
+      options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
   const auto entries = options.effect.to_drop(cell);
   say_which(cell, entries, outcome);
   auto effects = cell.effects;
@@ -163,14 +206,14 @@ void drop(const Options& options, const Globals& globals, Outcome& outcome) {
   make({.what = "Dropped " + together(cell, entries),
         .undo = fmt::format("{}", fmt::join(undo, " && plumb ")),
         .effects = effects},
-       options, cell, outcome);
+       options, globals, cell, outcome);
 }
 
 using Verb = void (*)(const Options&, const Globals&, Outcome&);
 
 void add_verb(Program& program, const VerbText& text, bool law_too, Verb run) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb(text, [options, run](const Globals& g, Outcome& o) { run(*options, g, o); });
   options->effect.add_to(verb, law_too);
   verb.add_flag("--dry-run", options->dry_run, "Refit and show, but write nothing");

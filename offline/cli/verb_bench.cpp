@@ -6,7 +6,6 @@
 
 #include "bench/benchmark.hpp"
 #include "cli/model_file.hpp"
-#include "cli/number_rules.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "program/output_files.hpp"
@@ -81,29 +80,31 @@ void bench_model(const Options& options, Outcome& outcome) {
 
 void add_bench(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "bench",
                     .summary = "How long a cycle takes, and what each effect of the model costs",
                     .examples = "  plumb bench robot.plumb\n"
-                                "  plumb bench robot.plumb --max-us 10 -o latency.svg --json"},
+                                "  plumb bench robot.plumb --max-us 10 -o latency.svg --json",
+                    .in_cell = false},
                    [options](const Globals&, Outcome& o) { bench_model(*options, o); });
-  verb.add_option("MODEL", options->model, "Model file of plumb compile")->required();
-  verb.add_option("--calls", options->request.calls,
-                  "Of each part of the cycle; a hundredth of it, at most 1000, cold")
-      ->check(CLI::Range(1L, bench::TimingRequest::kMostCalls))
-      ->capture_default_str();
-  verb.add_option("--seed", options->seed, "Of the random poses")
-      ->check(seed_number())
-      ->capture_default_str();
+  verb.add_option("MODEL", options->model, "Model file of plumb compile").required();
+  verb.add_option(
+          "--calls", options->request.calls,
+          "Calls of each part of the cycle; a hundredth of them, at most 1000, with cold caches")
+      .check(whole_number_between(1L, bench::TimingRequest::kMostCalls))
+      .shows_default();
+  verb.add_option("--seed", options->seed, "Seed of the random poses")
+      .check(seed_number())
+      .shows_default();
   verb.add_option("--max-us", options->max_us,
                   "Gate: exit 1 if a whole step takes longer than this in the median")
-      ->type_name("US")
-      ->check(greater_than_zero());
-  CLI::Option* const figure =
+      .type_name("US")
+      .check(greater_than_zero());
+  const Option figure =
       verb.add_option("-o,--output", options->figure, "SVG file: histogram of the latency")
-          ->type_name("FILE");
+          .type_name("FILE");
   options->write.add_to(verb);
-  for (const char* flag : {"--force", "--dry-run"}) verb.get_option(flag)->needs(figure);
+  for (const char* flag : {"--force", "--dry-run"}) verb.get_option(flag).needs(figure);
 }
 
 }  // namespace plumb::offline::cli

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
+#include "cli/cell_writing.hpp"
+#include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/repair.hpp"
 #include "cli/verbs.hpp"
@@ -48,7 +50,8 @@ void fix(const Options& options, const Cell& cell, const Measurements& measured,
 }
 
 void check(const Options& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  const Cell cell = options.fix && !options.write.dry_run ? open_cell_to_change(globals, outcome)
+                                                          : open_cell(globals, outcome);
   const Measurements measured = open_measurements(cell, outcome);
   const Progress progress(fmt::format("checking {} rows", measured.size()));
   const Check found = check_cell(cell, measured);
@@ -56,13 +59,18 @@ void check(const Options& options, const Globals& globals, Outcome& outcome) {
   outcome.text = show::check_text(cell, found);
   hand_over(found, outcome);
   if (options.fix) fix(options, cell, measured, found, outcome);
+  const bool to_fix = found.detection.changed && !options.fix;
+  if (to_fix)
+    say_next(globals, "check --fix   # writes the files as they are meant", outcome);
+  else if (outcome.exit == Exit::kDone)
+    say_next(globals, "fit", outcome);
 }
 
 }  // namespace
 
 void add_check(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "check",
        .summary = "Units, conventions, duplicates, limits, coverage, and what the data can show",
        .examples = "  plumb check                       # is the cell meant as it is labelled?\n"

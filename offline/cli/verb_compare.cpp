@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
+#include "cli/next_line.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "compare/comparison.hpp"
@@ -37,17 +38,19 @@ void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   const auto comparison = compare::comparison(cell, measured, last.fit);
   outcome.result = show::compare_json(cell, measured, comparison, last);
   outcome.text = show::compare_text(cell, measured, comparison, last);
-  if (runs.size() == 1) return;
-  outcome.result.update(show::runs_json(runs));
-  outcome.text =
-      show::runs_text(runs) + "\nRun " + std::to_string(last.number) + ": " + outcome.text;
+  if (runs.size() > 1) {
+    outcome.result.update(show::runs_json(runs));
+    outcome.text =
+        show::runs_text(runs) + "\nRun " + std::to_string(last.number) + ": " + outcome.text;
+  }
+  say_next(globals, show::after_comparison(cell, comparison, last), outcome);
 }
 
 }  // namespace
 
 void add_compare(Program& program) {
   const auto runs = std::make_shared<Runs>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "compare",
        .summary = "Model against measurements: error table, worst poses, where it fails",
        .examples = "  plumb compare                     # the run of the present cell and data\n"

@@ -7,10 +7,12 @@
 #include "cli/cell_data.hpp"
 #include "cli/compiled.hpp"
 #include "cli/model_file.hpp"
+#include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
 #include "compile/audit.hpp"
 #include "compile/emit_c.hpp"
 #include "program/output_files.hpp"
+#include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
 
 namespace plumb::offline::cli {
@@ -25,16 +27,17 @@ struct Options {
   WriteOptions write;
 };
 
-Json result_of(const format::Model& model, const Audit& audit, const std::string& file) {
-  const auto& held = model.provenance.held_out;
-  return {{"model", file},
-          {"run", model.provenance.run},
-          {"held_out", show::stats_json({.n = static_cast<int>(held.poses),
-                                         .mean = held.mean_m,
-                                         .rms = held.rms_m,
-                                         .p95 = held.p95_m,
-                                         .max = held.max_m})},
-          {"audit", show::audit_json(audit, model)}};
+Json result_of(const Compiled& made, const Audit& audit, const std::string& file) {
+  const auto& held = made.model.provenance.held_out;
+  Json out{{"model", file}};
+  made.put_run(out);
+  out["held_out"] = show::stats_json({.n = static_cast<int>(held.poses),
+                                      .mean = held.mean_m,
+                                      .rms = held.rms_m,
+                                      .p95 = held.p95_m,
+                                      .max = held.max_m});
+  out["audit"] = show::audit_json(audit, made.model);
+  return out;
 }
 
 /// The model file; never the one that the C is meant for.
@@ -67,38 +70,43 @@ std::string wrote_text(const Options& options, const fs::path& file) {
 void compile_cell(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const fs::path file = model_file(options, cell);
-  const format::Model model = compiled(cell, options.compile, options.write, outcome);
+  const Compiled made = compiled(cell, options.compile, options.write, outcome);
+  const format::Model& model = made.model;
   const OutputFiles files = files_of(options, file, model);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
-  outcome.result = result_of(model, found, file.string());
+  outcome.result = result_of(made, found, file.string());
   if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
-  const std::string text = compiled_headline(model) + show::audit_text(found, model);
+  const std::string text =
+      compiled_headline(model, cell.tolerance_m) + show::audit_text(found, model);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;
-    return;
+    return say_next(globals, "compare   # where does the model fail?", outcome);
   }
   files.commit(options.write, outcome);
   outcome.text = text + "\n" + wrote_text(options, file);
+  say_next({},
+           fmt::format("inspect {}   # what the controller will get", shell_word(file.string())),
+           outcome);
 }
 
 }  // namespace
 
 void add_compile(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "compile",
        .summary = "Make the model file for the controller, and audit it",
        .examples = "  plumb compile\n  plumb -C mycell compile -o robot.plumb --gate --force"},
       [options](const Globals& g, Outcome& o) { compile_cell(*options, g, o); });
   verb.add_option("-o,--output", options->output, "Model file; else robot.plumb beside cell.toml")
-      ->type_name("FILE");
+      .type_name("FILE");
   verb.add_option(
           "--emit-c", options->c_output,
           "Also write the tree as one C99 header that needs nothing else; its symbols begin "
           "with the file's name")
-      ->type_name("FILE");
+      .type_name("FILE");
   options->compile.add_to(verb);
   options->write.add_to(verb);
 }

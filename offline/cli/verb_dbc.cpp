@@ -31,7 +31,7 @@ void run_dbc(const BusOutput& output, const Globals& globals, Outcome& outcome) 
 
 void add_dbc(Program& program) {
   const auto output = std::make_shared<BusOutput>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "dbc",
                     .summary = "The CAN layout as a DBC file, for controllers and bus tools",
                     .examples = "  plumb dbc -o bus.dbc\n  plumb -C mycell dbc | less"},

@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kTargets = 20;
+constexpr double kLargestCorrection_m = 5e-3;  // of the heavy arm 3.7 mm
 
 struct Options {
   std::string name, directory;
@@ -48,9 +49,10 @@ void make_cell(const Options& options, Outcome& outcome) {
   const std::string name = options.name.empty() ? demo_cells().front().first : options.name;
   const fs::path folder = options.directory.empty() ? "demo-" + name : options.directory;
   demo.cell.directory = fs::absolute(folder);
+  demo.cell.deploy.max_correction_m = kLargestCorrection_m;
   demo.cell.measurement.files = {demo.cell.directory / "measurements.csv"};
   const Simulation simulation = simulate(demo.cell, demo.plan);
-  OutputFiles files;
+  OutputFiles files(folder);
   files.add(folder / "cell.toml", write_cell(demo.cell));
   files.add(folder / "measurements.csv", simulated_csv(demo.cell, simulation));
   files.add(folder / "truth.json", simulation.truth_json);
@@ -77,10 +79,11 @@ void demo(const Options& options, const Globals&, Outcome& outcome) {
 
 void add_demo(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "demo",
                     .summary = "Write a sample cell with simulated measurements, to try everything",
-                    .examples = "  plumb demo\n  plumb demo gear mycell"},
+                    .examples = "  plumb demo\n  plumb demo gear mycell",
+                    .in_cell = false},
                    [options](const Globals& g, Outcome& o) { demo(*options, g, o); });
   verb.add_option("NAME", options->name, "Which one; see --list");
   verb.add_option("DIR", options->directory, "Folder to write into; else demo-NAME");

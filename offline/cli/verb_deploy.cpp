@@ -16,7 +16,7 @@
 #include "deploy/rt_toml.hpp"
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/sensor_places.hpp"
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
@@ -94,18 +94,22 @@ void deploy(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   refuse_existing(options);
   const drivers::BusLayout layout = bus_of(cell, cell.deploy.link);
-  const format::Model model = compiled(cell, options.compile, options.write, outcome);
+  const Compiled made = compiled(cell, options.compile, options.write, outcome);
+  const format::Model& model = made.model;
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   warn_of_temperatures(model, layout, outcome);
-  outcome.result = {{"run", model.provenance.run}, {"audit", show::audit_json(found, model)}};
-  outcome.text = compiled_headline(model) + show::audit_text(found, model);
+  made.put_run(outcome.result);
+  outcome.result["audit"] = show::audit_json(found, model);
+  outcome.text = compiled_headline(model, cell.tolerance_m) + show::audit_text(found, model);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
   const auto files = files_of(cell, layout, bytes);
   put_result(options, cell, layout, files, bytes, outcome);
+  const auto note = folder_note(options.folder, options.write);
   if (!options.write.dry_run) write_deploy_folder(options.folder, files);
+  if (note) outcome.remark({*note});
   outcome.text += "\n" + next_steps(options, cell);
 }
 
@@ -113,12 +117,12 @@ void deploy(const Options& options, const Globals& globals, Outcome& outcome) {
 
 void add_deploy(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "deploy",
        .summary = "Everything plumb-rt needs in one folder: model, rt.toml, DBC, Modbus map, sums",
        .examples = "  plumb deploy -o deploy\n  plumb -C mycell deploy -o deploy --gate --force"},
       [options](const Globals& g, Outcome& o) { deploy(*options, g, o); });
-  verb.add_option("-o,--output", options->folder, "Folder to write")->type_name("DIR")->required();
+  verb.add_option("-o,--output", options->folder, "Folder to write").type_name("DIR").required();
   options->compile.add_to(verb);
   options->write.add_to(verb);
 }

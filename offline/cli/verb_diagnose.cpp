@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 
 #include "cli/cell_writing.hpp"
+#include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "show/diagnose_view.hpp"
+#include "show/units.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
 struct Options {
   bool apply = false;
+  bool all = false;
   bool dry_run = false;
 };
 
@@ -24,44 +28,82 @@ std::vector<EffectEntry> with_tree_of(const Cell& cell, std::vector<EffectEntry>
   return effects;
 }
 
-void keep(const Options& options, const Cell& cell, const Measurements& measured,
-          const Diagnosis& found, Outcome& outcome) {
+constexpr double kRose = 1.05;  // times the error before
+
+/// All effects together, fitted from the start, may come to another solution than one by one.
+void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
+  show::put_null(outcome.result, "run", "fitted together, the effects raise the held-out error");
+  outcome.text += fmt::format(
+      "\nNot kept: fitted together from the start, these effects raise the error on unseen "
+      "readings "
+      "from {} to {} mm. cell.toml was not changed.\n",
+      show::mm(before_m), show::mm(fitted.held.mean));
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-DIAGNOSE-ROSE",
+       .message = fmt::format("the effects were not added: fitted together they raise the error on "
+                              "unseen readings from {} to {} mm",
+                              show::mm(before_m), show::mm(fitted.held.mean)),
+       .help = "plumb explain W-DIAGNOSE-ROSE"});
+}
+
+/// False if the effects were refused.
+bool keep(const Options& options, const Cell& cell, const Measurements& measured,
+          const Diagnosis& found, double before_m, Outcome& outcome) {
   if (found.added.empty()) {
     show::put_null(outcome.result, "run", "nothing was added");
-    return;
+    return true;
   }
   const Cell edited = with_effects(cell, with_tree_of(cell, found.effects));
-  replace_cell(edited, options.dry_run, outcome);
   if (options.dry_run) {
+    replace_cell(cell, edited, options.dry_run, outcome);
     show::put_null(outcome.result, "run", "--dry-run keeps nothing");
-    return;
+    return true;
   }
-  const Run run = current_or_new_run(edited, measured, Keep::kRun, outcome);
+  Fit fitted = fit_with_progress(edited, measured, outcome);
+  if (fitted.held.n > 0 && fitted.held.mean > kRose * before_m) {
+    refuse(fitted, before_m, outcome);
+    return false;
+  }
+  // The cell file last: if the run cannot be written, nothing has changed.
+  const Run run = cli::keep(edited, measured, std::move(fitted));
+  replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
+  return true;
 }
 
 void diagnose_cell(const Options& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  const Cell cell = options.apply && !options.dry_run ? open_cell_to_change(globals, outcome)
+                                                      : open_cell(globals, outcome);
   Measurements measured = open_measurements(cell, outcome);
+  double before_m = std::numeric_limits<double>::infinity();
   if (options.dry_run) {
     if (const auto run = current_run(cell, measured)) stand_on_base_of(*run, cell, measured);
   } else {
-    stand_on_base_of(current_or_new_run(cell, measured, Keep::kRun, outcome), cell, measured);
+    const Run before = current_or_new_run(cell, measured, Keep::kRun, outcome);
+    if (before.fit.held.n > 0) before_m = before.fit.held.mean;
+    stand_on_base_of(before, cell, measured);
   }
   const auto found = [&] {
-    const Progress progress(fmt::format("diagnosing {} poses", measured.size()));
-    return diagnose(cell, measured, {.apply = options.apply, .tell = {}});
+    Progress progress(fmt::format("diagnosing {} poses", measured.size()));
+    return diagnose(cell, measured, {.apply = options.apply, .tell = [&](const std::string& step) {
+                                       progress.at(step);
+                                     }});
   }();
+  outcome.remark(found.remarks);
   outcome.result = show::diagnose_json(cell, found);
-  outcome.text = show::diagnose_text(cell, found);
-  if (options.apply) keep(options, cell, measured, found, outcome);
+  outcome.text = show::diagnose_text(
+      cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);
+  if (options.apply && !keep(options, cell, measured, found, before_m, outcome))
+    return say_next(globals, "compare   # where does the model fail?", outcome);
+  say_next(globals, show::after_diagnosis(cell, found), outcome);
 }
 
 }  // namespace
 
 void add_diagnose(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "diagnose",
        .summary = "Which physical effect is missing: ranked, with evidence",
        .examples = "  plumb diagnose                    # what is missing, and how sure is that?\n"
@@ -69,6 +111,7 @@ void add_diagnose(Program& program) {
       [options](const Globals& g, Outcome& o) { diagnose_cell(*options, g, o); });
   verb.add_flag("--apply", options->apply,
                 "Add the supported effects one by one to cell.toml, and refit");
+  verb.add_flag("--all", options->all, "Show every candidate with all that is known of it");
   verb.add_flag("--dry-run", options->dry_run, "Show what --apply would do, but write nothing");
 }
 

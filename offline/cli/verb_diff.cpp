@@ -25,13 +25,13 @@ void diff(const Options& options, const Globals& globals, Outcome& outcome) {
 
 void add_diff(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "diff",
                     .summary = "What changed between two runs, and what it did to the error",
                     .examples = "  plumb diff 1 2\n  plumb -C mycell diff 0001 0002 --json"},
                    [options](const Globals& g, Outcome& o) { diff(*options, g, o); });
-  verb.add_option("A", options->a, "The earlier run")->required();
-  verb.add_option("B", options->b, "The later run")->required();
+  verb.add_option("A", options->a, "The earlier run").required();
+  verb.add_option("B", options->b, "The later run").required();
 }
 
 }  // namespace plumb::offline::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,11 +10,14 @@
 #include "cell/cell.hpp"
 #include "cell/codes.hpp"
 #include "cli/verbs.hpp"
+#include "program/screen.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
-constexpr std::size_t kLineWidth = 88;
+constexpr std::size_t kWidest = 88;
+
+std::size_t line_width() { return std::min(kWidest, screen_of(STDOUT_FILENO).columns - 2); }
 
 struct Chapter {
   std::string kind;
@@ -35,22 +39,24 @@ std::vector<Chapter> chapters() {
           {"code", std::move(codes)}};
 }
 
-/// "Held out" and "held-out" are one word.
+/// "Held out" and "held-out" are one word, and a column's head is found with its unit: "alone
+/// [mm]".
 std::string plain(std::string_view word) {
   std::string out;
-  for (char c : word)
+  for (char c : word.substr(0, word.find('[')))
     if (c != '-' && c != '_' && c != ' ')
       out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return out;
 }
 
 std::string wrapped(const std::string& text) {
+  const std::size_t width = line_width();
   std::string out, line;
   std::size_t at = 0;
   while (at < text.size()) {
     const auto end = std::min(text.find(' ', at), text.size());
     const std::string word = text.substr(at, end - at);
-    if (!line.empty() && line.size() + 1 + word.size() > kLineWidth) {
+    if (!line.empty() && line.size() + 1 + word.size() > width) {
       out += "  " + line + "\n";
       line.clear();
     }
@@ -119,12 +125,13 @@ void explain(const std::vector<std::string>& words, Outcome& outcome) {
 
 void add_explain(Program& program) {
   const auto words = std::make_shared<std::vector<std::string>>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "explain",
        .summary = "Offline help: a message's code, an effect, a status, or a word of the field",
-       .examples = "  plumb explain E-FIT-CONVERGE\n  plumb explain held-out"},
+       .examples = "  plumb explain E-FIT-CONVERGE\n  plumb explain held-out",
+       .in_cell = false},
       [words](const Globals&, Outcome& o) { explain(*words, o); });
-  verb.add_option("WORD", *words, "Code, effect, status or term; nothing lists them all");
+  verb.add_option("WORD", *words, "Code, effect, status or term; without it all are listed");
 }
 
 }  // namespace plumb::offline::cli

@@ -46,13 +46,14 @@ void run_export(const Options& options, const Globals& globals, Outcome& outcome
   if (options.nominal) {
     arm.calibrated = cell.nominal;
   } else {
-    const Measurements measured = open_measurements(cell, outcome);
+    Measurements measured = open_measurements(cell, outcome);
     const Run run =
         options.run.empty()
             ? current_or_new_run(cell, measured,
                                  options.write.dry_run ? Keep::kNothing : Keep::kRun, outcome)
             : load_run(cell, run_number(options.run));
-    check_known_to_runtime(run, cell, measured);
+    stand_on_base_of(run, cell, measured);
+    check_known_to_runtime(run, measured);
     arm = run.fit.calibration.state.arm;
     what = fmt::format("calibrated arm of run {}", run.number);
     outcome.result["run"] = run.number;
@@ -70,17 +71,17 @@ void run_export(const Options& options, const Globals& globals, Outcome& outcome
 
 void add_export(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "export",
        .summary = "The calibrated arm as URDF, for planners and simulators",
        .examples =
            "  plumb export -o robot.urdf\n  plumb -C mycell export --run 3 -o arm.urdf --force"},
       [options](const Globals& g, Outcome& o) { run_export(*options, g, o); });
-  verb.add_option("-o,--output", options->output, "Where to write")->type_name("FILE");
-  verb.add_option("--run", options->run, "Which run; the latest of the present cell and data")
-      ->type_name("N");
+  verb.add_option("-o,--output", options->output, "Where to write").type_name("FILE");
+  verb.add_option("--run", options->run, "Which run; else the latest of the present cell and data")
+      .type_name("N");
   verb.add_flag("--nominal", options->nominal, "The nominal arm instead of the calibrated one");
-  verb.add_flag("--urdf", options->urdf, "As URDF: the only form there is");
+  verb.add_flag("--urdf", options->urdf, "As URDF, which is the only format so far");
   options->write.add_to(verb);
 }
 

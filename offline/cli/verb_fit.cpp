@@ -5,11 +5,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "cli/cell_data.hpp"
-#include "cli/number_rules.hpp"
+#include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
+#include "fit/verdict.hpp"
 #include "show/fit_view.hpp"
 #include "show/units.hpp"
 
@@ -20,18 +22,18 @@ struct Options {
   bool dry_run = false;
   std::optional<double> max_rms_mm;
   std::optional<std::uint64_t> seed;
-  std::string held_out;
-  Base base = Base::kArm;
+  std::optional<std::string> held_out;
+  std::string base = name_of(Base::kArm);
 };
 
 void override_split(const Options& options, Cell& cell) {
   if (options.seed) cell.measurement.seed = *options.seed;
-  if (options.held_out.empty()) return;
-  const auto rule = parse_held_out(options.held_out, std::filesystem::current_path());
+  if (!options.held_out) return;
+  const auto rule = parse_held_out(*options.held_out, std::filesystem::current_path());
   if (!rule)
     throw Failure(Exit::kUsage,
                   {.code = "E-USAGE",
-                   .message = fmt::format("--held-out: '{}' is not a rule", options.held_out),
+                   .message = fmt::format("--held-out: '{}' is not a rule", *options.held_out),
                    .help = "auto, 20%, kfold:5, column:set or file:verify.csv"});
   cell.measurement.held_out = *rule;
 }
@@ -70,18 +72,20 @@ void fit(const Options& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
   Measurements measured = open_measurements(cell, outcome);
-  if (options.base == Base::kController) stand_on_controller(cell, measured);
+  if (options.base == name_of(Base::kController)) stand_on_controller(cell, measured);
   Fit fitted = fit_with_progress(cell, measured, outcome);
   outcome.result = show::fit_json(cell, measured, fitted);
-  outcome.text = show::fit_text(cell, fitted);
+  outcome.text = show::fit_text(cell, measured, fitted);
+  const std::string next = next_step(fitted, cell.tolerance_m);
   keep_run(options, cell, measured, std::move(fitted), outcome);
+  say_next(globals, next, outcome);
 }
 
 }  // namespace
 
 void add_fit(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "fit",
        .summary = "Calibrate the arm; keep an immutable run under runs/",
        .examples = "  plumb fit\n  plumb -C mycell fit --held-out kfold:5 --max-rms 0.1 --json"},
@@ -89,21 +93,19 @@ void add_fit(Program& program) {
   verb.add_flag("--dry-run", options->dry_run, "Fit and show, but keep no run");
   verb.add_option("--max-rms", options->max_rms_mm,
                   "Gate: exit 1 and keep nothing if the held-out RMS exceeds this [mm]")
-      ->type_name("MM")
-      ->check(greater_than_zero());
+      .type_name("MM")
+      .check(greater_than_zero());
   verb.add_option("--seed", options->seed, "Seed of the split, instead of the cell's")
-      ->type_name("N")
-      ->check(seed_number());
+      .type_name("N")
+      .check(seed_number());
   verb.add_option("--held-out", options->held_out,
                   "Which poses are held out: auto, 20%, kfold:5, column:set, file:F.csv")
-      ->type_name("RULE");
-  const std::map<std::string, Base> bases{{name_of(Base::kArm), Base::kArm},
-                                          {name_of(Base::kController), Base::kController}};
+      .type_name("RULE");
   verb.add_option("--base", options->base,
                   "What is calibrated: the arm of the cell, or the controller's own positions "
                   "(columns nx_mm, ny_mm, nz_mm)")
-      ->type_name("arm|controller")
-      ->transform(CLI::CheckedTransformer(bases));
+      .type_name("arm|controller")
+      .check(one_of({name_of(Base::kArm), name_of(Base::kController)}, InHelp::kHidden));
 }
 
 }  // namespace plumb::offline::cli

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
+#include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
+#include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
+#include "import/completeness.hpp"
+#include "import/euler.hpp"
 #include "import/importer.hpp"
 #include "import/joining.hpp"
 #include "program/file.hpp"
@@ -17,10 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kUsualGap_s = 1.0;
+
 struct Options {
   std::vector<std::string> files, map, header;
-  std::string output, separator, decimal, rotation, join, direction;
-  double max_gap_s = 1.0;
+  std::string output, separator, decimal, rotation, join, direction, date;
+  std::optional<double> max_gap_s;
   bool preview = false;
   WriteOptions write;
 };
@@ -36,7 +44,7 @@ std::optional<char> separator_of(const std::string& word) {
       {"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"bar", '|'}, {"blanks", ' '}};
   if (const auto at = kWords.find(word); at != kWords.end()) return at->second;
   if (word.size() == 1) return word.front();
-  usage(fmt::format("--separator: '{}' is none", word),
+  usage(fmt::format("--separator: '{}' is not a separator", word),
         "comma, semicolon, tab, bar, blanks, or one character");
 }
 
@@ -45,6 +53,13 @@ std::optional<char> decimal_of(const std::string& word) {
   if (word == "comma" || word == ",") return ',';
   if (word == "point" || word == ".") return '.';
   usage(fmt::format("--decimal: '{}' is neither comma nor point", word), "--decimal comma");
+}
+
+DateOrder date_of(const std::string& word) {
+  if (word.empty()) return DateOrder::kUnknown;
+  if (word == "day-first") return DateOrder::kDayFirst;
+  if (word == "month-first") return DateOrder::kMonthFirst;
+  usage(fmt::format("--date: '{}' is neither day-first nor month-first", word), "--date day-first");
 }
 
 JoinBy join_of(const std::string& word) {
@@ -68,20 +83,37 @@ std::optional<Cell> nearest_cell(const Globals& globals) {
 Imported import_all(const Options& options, const std::optional<Cell>& cell) {
   if (options.files.size() > 2)
     usage("import takes one file, or two that belong together", "import them one after the other");
-  const ImportWishes wishes{.dialect = {.separator = separator_of(options.separator),
-                                        .decimal = decimal_of(options.decimal),
-                                        .header = options.header},
-                            .map = options.map,
-                            .rotation = options.rotation,
-                            .preview = options.preview};
+  if (!options.rotation.empty()) (void)euler_convention(options.rotation);
+  const JoinBy by = join_of(options.join);
+  if (options.files.size() == 1 && !options.join.empty())
+    usage("--join lays two files side by side, and one is given",
+          "plumb import controller.csv tracker.csv --join " + options.join);
+  if (by != JoinBy::kTime && options.max_gap_s)
+    usage("--max-gap is the time between partners of --join time", "add --join time");
+  ImportWishes wishes{.dialect = {.separator = separator_of(options.separator),
+                                  .decimal = decimal_of(options.decimal),
+                                  .header = options.header},
+                      .map = options.map,
+                      .rotation = options.rotation,
+                      .date_order = date_of(options.date),
+                      .preview = options.preview,
+                      .elsewhere = {}};
+  const auto other = [&](std::size_t file) {
+    return options.files.size() == 2 && !options.map.empty()
+               ? column_names(options.files[1 - file], wishes.dialect)
+               : std::vector<std::string>{};
+  };
   if (!options.direction.empty() && options.direction != "from-order")
     usage(fmt::format("--dir: '{}' is not known", options.direction), "--dir from-order");
+  wishes.elsewhere = other(0);
   Imported data = import_file(options.files[0], wishes);
-  if (options.files.size() == 2)
+  if (options.files.size() == 2) {
+    wishes.elsewhere = other(1);
     data = join(data, import_file(options.files[1], wishes),
-                {.by = join_of(options.join),
-                 .max_gap_s = options.max_gap_s,
+                {.by = by,
+                 .max_gap_s = options.max_gap_s.value_or(kUsualGap_s),
                  .cell = cell ? &*cell : nullptr});
+  }
   if (options.direction == "from-order") add_directions(data);
   return data;
 }
@@ -110,6 +142,36 @@ fs::path target_of(const Options& options, const std::optional<Cell>& cell) {
   return "measurements.csv";
 }
 
+bool reads(const Cell& cell, const fs::path& target) {
+  const auto files = measurement_files(cell.measurement);
+  return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
+    return fs::weakly_canonical(file) == fs::weakly_canonical(target);
+  });
+}
+
+/// Measurements cost a day: nobody is told to replace them without being told what he would lose.
+void keep_what_is_measured(const Options& options, const std::optional<Cell>& cell,
+                           const fs::path& target) {
+  if (options.write.force || !cell || !fs::exists(target) || !reads(*cell, target)) return;
+  throw Failure(
+      Exit::kUsage,
+      {.code = "E-EXISTS",
+       .message = fmt::format("{} is already there: it holds the measurements of this cell",
+                              target.string()),
+       .help = "to keep them, write to another file with -o, and name both in files of "
+               "[measurement]; --force replaces them"});
+}
+
+/// A file that the cell does not read is of no use before cell.toml names it.
+void say_after(const fs::path& target, const std::optional<Cell>& cell, const Globals& globals,
+               Outcome& outcome) {
+  if (cell && !reads(*cell, target))
+    outcome.text +=
+        fmt::format("{} does not read this file yet: add \"{}\" to files in [measurement].\n",
+                    display_name(cell->file), fs::proximate(target, cell->directory).string());
+  say_next(globals, "check", outcome);
+}
+
 void import(const Options& options, const Globals& globals, Outcome& outcome) {
   const Progress progress("importing");
   const std::optional<Cell> cell = nearest_cell(globals);
@@ -117,6 +179,13 @@ void import(const Options& options, const Globals& globals, Outcome& outcome) {
   for (const auto& file : options.files)
     outcome.inputs.push_back({display_name(file), sha256(read_file(file))});
   outcome.remark(data.remarks);
+  std::optional<Problem> missing = missing_for_calibration(data, cell ? cell->joints() : 0);
+  if (missing && !options.preview) throw Failure(Exit::kInput, *missing);
+  if (missing) {
+    missing->severity = Severity::kWarning;
+    missing->code = "W-IMPORT-MISSING";
+    outcome.remark({*missing});
+  }
   const fs::path target = target_of(options, cell);
   outcome.result = {{"rows", data.rows()},
                     {"separator", data.separator},
@@ -127,55 +196,61 @@ void import(const Options& options, const Globals& globals, Outcome& outcome) {
                              data.separator, data.decimal, column_table(data));
   if (options.preview) {
     outcome.result["files"] = Json::array();
+    outcome.result["dry_run"] = true;
     outcome.text += "\npreview: nothing was written\n";
     return;
   }
   const std::string csv = imported_csv(data);
   (void)parse_table(csv, "imported");  // what we write, we read
+  keep_what_is_measured(options, cell, target);
   OutputFiles files;
   files.add(target, csv);
   files.commit(options.write, outcome);
-  outcome.text += fmt::format("\n{}\nNext: plumb check\n", wrote(target, options.write));
+  outcome.text += "\n" + wrote(target, options.write) + "\n";
+  say_after(target, cell, globals, outcome);
 }
 
 }  // namespace
 
 void add_import(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "import",
        .summary = "Turn a tracker's or controller's text file into measurements.csv",
        .examples = "  plumb import tracker.txt --preview\n"
                    "  plumb import log.csv --map \"Goal x=nx_m\" --map x=x_mm -o measurements.csv"},
       [options](const Globals& g, Outcome& o) { import(*options, g, o); });
   verb.add_option("files", options->files, "One file, or two that belong together")
-      ->required()
-      ->type_name("FILE");
+      .required()
+      .type_name("FILE");
   verb.add_option("-o,--output", options->output,
-                  "Where to write; measurements.csv of the nearest cell")
-      ->type_name("FILE");
+                  "Where to write; else measurements.csv of the nearest cell")
+      .type_name("FILE");
   verb.add_option("--map", options->map, "What a column is: OLD=NEW_UNIT, or OLD=- to leave it out")
-      ->type_name("OLD=NEW,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      .type_name("OLD=NEW,...")
+      .one_value_each();
   verb.add_option("--header", options->header, "Names of the columns, if the file has none")
-      ->type_name("A,B,...")
-      ->delimiter(',');
+      .type_name("A,B,...")
+      .delimiter(',');
   verb.add_option("--separator", options->separator,
                   "comma, semicolon, tab, bar, blanks; else detected")
-      ->type_name("WORD");
-  verb.add_option("--decimal", options->decimal, "comma or point; else detected")
-      ->type_name("WORD");
+      .type_name("WORD");
+  verb.add_option("--decimal", options->decimal, "comma or point; else detected").type_name("WORD");
   verb.add_option("--rot", options->rotation,
                   "What rx, ry, rz mean: xyz-fixed (R = Rz Ry Rx), xyz-moving (R = Rx Ry Rz), ...")
-      ->type_name("ORDER");
+      .type_name("ORDER");
+  verb.add_option("--date", options->date,
+                  "What 03/04/2022 begins with: day-first, month-first; else the file tells")
+      .type_name("ORDER");
   verb.add_option("--join", options->join, "How two files belong together: pose, time, order")
-      ->type_name("BY");
-  verb.add_option("--max-gap", options->max_gap_s, "--join time: farther apart is no partner [s]")
-      ->type_name("S");
+      .type_name("BY");
+  verb.add_option("--max-gap", options->max_gap_s,
+                  "With --join time: rows that are farther apart are not joined [s]")
+      .type_name("S")
+      .check(greater_than_zero());
   verb.add_option("--dir", options->direction,
                   "from-order: the rows are consecutive moves; adds dir_jN and travel_jN")
-      ->type_name("HOW");
+      .type_name("HOW");
   verb.add_flag("--preview", options->preview, "Show what was understood and write nothing");
   options->write.add_to(verb);
 }

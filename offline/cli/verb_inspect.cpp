@@ -4,9 +4,11 @@
 #include <memory>
 
 #include "cli/model_file.hpp"
+#include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
 #include "compile/audit.hpp"
 #include "plumb/format/version.hpp"
+#include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
 #include "show/model_view.hpp"
 
@@ -23,18 +25,20 @@ void inspect(const std::string& file, Outcome& outcome) {
   outcome.text =
       fmt::format("{} is sound: checksum, structure and every number are in order.\n\n", file) +
       show::model_text(model) + "\n" + show::audit_text(found, model);
+  say_next({}, fmt::format("bench {}   # what a cycle costs with it", shell_word(file)), outcome);
 }
 
 }  // namespace
 
 void add_inspect(Program& program) {
   const auto file = std::make_shared<std::string>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "inspect",
                     .summary = "What is in a model file, and whether it is sound",
-                    .examples = "  plumb inspect robot.plumb\n  plumb inspect robot.plumb --json"},
+                    .examples = "  plumb inspect robot.plumb\n  plumb inspect robot.plumb --json",
+                    .in_cell = false},
                    [file](const Globals&, Outcome& o) { inspect(*file, o); });
-  verb.add_option("FILE", *file, "Model file")->required();
+  verb.add_option("FILE", *file, "Model file").required();
 }
 
 }  // namespace plumb::offline::cli

@@ -35,7 +35,7 @@ void run_map(const Options& options, const Globals& globals, Outcome& outcome) {
 
 void add_modbus_map(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "modbus-map",
        .summary = "The Modbus registers as Markdown or CSV",
        .examples = "  plumb modbus-map -o modbus-map.md\n  plumb -C mycell modbus-map --csv"},

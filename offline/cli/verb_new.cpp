@@ -3,12 +3,16 @@
 
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "cell/cell.hpp"
 #include "cli/dh_file.hpp"
+#include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
+#include "program/printable.hpp"
 #include "urdf/urdf_reader.hpp"
 
 namespace plumb::offline::cli {
@@ -53,13 +57,42 @@ std::vector<JointMechanics> mechanics_of(const format::Chain& chain) {
 
 /// DH rows are computed, so the convention is a matter of taste.
 Cell urdf_cell(const Options& options, format::Convention convention, Outcome& outcome) {
-  outcome.inputs.push_back({display_name(options.urdf), sha256(read_file(options.urdf))});
+  outcome.inputs.push_back(
+      {display_name(options.urdf), sha256(read_file_up_to(options.urdf, kMostUrdfBytes))});
   if (options.convention.empty())
     outcome.remarks.push_back({.severity = Severity::kNote,
                                .code = "N-NEW-CONVENTION",
                                .message = "the DH rows are written in the standard convention",
                                .help = "--convention modified for the other one"});
   return read_urdf(options.urdf, options.tip, convention);
+}
+
+/// As the cell file wants it: a word without dots and blanks, which other places refer to.
+std::string joint_name(const std::string& given) {
+  std::string out = valid_utf8(given);
+  for (char& c : out)
+    if (c == '.' || static_cast<unsigned char>(c) <= ' ' || c == 0x7F) c = '_';
+  return out.empty() ? "J" : out;
+}
+
+/// Names that the reader of cell files takes; whatever is changed is said.
+void make_readable(Cell& cell, Outcome& outcome) {
+  cell.name = valid_utf8(cell.name);
+  cell.serial = valid_utf8(cell.serial);
+  cell.robot_name = valid_utf8(cell.robot_name);
+  std::set<std::string> taken;
+  for (auto& row : cell.nominal.joints) {
+    const std::string name = joint_name(row.name);
+    std::string free = name;
+    for (int k = 2; !taken.insert(free).second; ++k) free = fmt::format("{}_{}", name, k);
+    if (free != row.name)
+      outcome.remarks.push_back(
+          {.severity = Severity::kNote,
+           .code = "N-NEW-JOINT",
+           .message = fmt::format("joint '{}' is called '{}' in cell.toml", row.name, free),
+           .help = "names of joints are different words without dots and blanks"});
+    row.name = free;
+  }
 }
 
 Cell new_cell(const Options& options, const fs::path& folder, Outcome& outcome) {
@@ -72,9 +105,12 @@ Cell new_cell(const Options& options, const fs::path& folder, Outcome& outcome) 
   cell.serial = options.serial;
   if (options.urdf.empty()) {
     cell.robot_name = cell.name;
-    cell.nominal = read_dh(options.dh, convention, outcome);
+    DhTable table = read_dh(options.dh, convention, outcome);
+    cell.nominal = std::move(table.chain);
+    cell.assumed_limits = std::move(table.assumed_limits);
     cell.mechanics = mechanics_of(cell.nominal);
   }
+  make_readable(cell, outcome);
   cell.measurement.files = {folder / "measurements.csv"};
   cell.effects = {{.name = "geometry", .joints = {}, .options = {}, .place = {}}};
   return cell;
@@ -86,43 +122,47 @@ void make(const Options& options, const Globals&, Outcome& outcome) {
   const fs::path named = folder.has_filename() ? folder : folder.parent_path();
   const Cell cell = new_cell(options, named, outcome);
   const fs::path file = fs::path(options.directory) / "cell.toml";
-  OutputFiles files;
-  files.add(file, write_cell(cell));
+  OutputFiles files(options.directory);
+  const std::string text = write_cell(cell);
+  (void)parse_cell(text, fs::absolute(file));  // what we write, we read
+  files.add(file, text);
   outcome.result = {{"cell", cell.name}, {"joints", cell.joints()}};
   files.commit(options.write, outcome);
   outcome.text = fmt::format(
-      "A cell for an arm of {} joints, {} DH.\n\n  {}\n\nNext: put the measurements into {}, then\n"
-      "  plumb -C {} fit\n",
+      "A cell for an arm of {} joints, {} DH.\n\n  {}\n\nThe measurements belong into {}.\n",
       cell.joints(), options.convention.empty() ? "standard" : options.convention,
-      wrote(file, options.write), (fs::path(options.directory) / "measurements.csv").string(),
-      options.directory);
+      wrote(file, options.write), (fs::path(options.directory) / "measurements.csv").string());
+  say_next({.directory = options.directory}, "import tracker.txt   # or: fit, if it is there",
+           outcome);
 }
 
 }  // namespace
 
 void add_new(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "new",
                     .summary = "Write a commented cell.toml from a DH table or a URDF file",
                     .examples = "  plumb new mycell --dh dh.csv --convention modified\n"
-                                "  plumb new mycell --urdf arm.urdf --tip tool0 --name \"Cell 4\""},
+                                "  plumb new mycell --urdf arm.urdf --tip tool0 --name \"Cell 4\"",
+                    .in_cell = false},
                    [options](const Globals& g, Outcome& o) { make(*options, g, o); });
-  verb.add_option("DIR", options->directory, "Folder of the new cell")->required();
-  verb.add_option("--dh", options->dh,
-                  "CSV file: joint,alpha_deg,a_mm,d_mm,theta_deg[,q_min_deg,q_max_deg,type]")
-      ->type_name("FILE");
-  verb.add_option("--urdf", options->urdf, "URDF file: its DH rows are computed")
-      ->type_name("FILE");
+  verb.add_option("DIR", options->directory, "Folder of the new cell").required();
+  verb.add_option(
+          "--dh", options->dh,
+          "CSV file with the columns joint, alpha_deg, a_mm, d_mm, theta_deg; and, if known, "
+          "q_min_deg, q_max_deg, q_min_mm, q_max_mm, type")
+      .type_name("FILE");
+  verb.add_option("--urdf", options->urdf, "URDF file: its DH rows are computed").type_name("FILE");
   verb.add_option("--tip", options->tip, "Link of the URDF where the arm ends; else its only tip")
-      ->type_name("LINK");
+      .type_name("LINK");
   verb.add_option("--convention", options->convention, "standard (distal) or modified (Craig)")
-      ->check(CLI::IsMember({"standard", "modified"}))
-      ->type_name("NAME");
+      .check(one_of({"standard", "modified"}))
+      .type_name("NAME");
   verb.add_option("--name", options->name, "Name of the cell; else that of the folder")
-      ->type_name("TEXT");
+      .type_name("TEXT");
   verb.add_option("--serial", options->serial, "Serial number, bound into compiled models")
-      ->type_name("TEXT");
+      .type_name("TEXT");
   options->write.add_to(verb);
 }
 

@@ -2,15 +2,18 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 
+#include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/effect_argument.hpp"
-#include "cli/number_rules.hpp"
+#include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "plan/pose_plan.hpp"
 #include "program/output_files.hpp"
+#include "program/shell_word.hpp"
 #include "show/plan_view.hpp"
 
 namespace plumb::offline::cli {
@@ -40,7 +43,9 @@ PoseRules::Box box_of(const std::string& text) {
     good = error == std::errc{} && (k == 5 ? stop == end : stop != end && *stop == ',');
     at = stop + 1;
   }
-  for (std::size_t k = 0; k < 3; ++k) good = good && mm[2 * k] < mm[2 * k + 1];
+  for (std::size_t k = 0; k < 3; ++k)
+    good = good && std::isfinite(mm[2 * k]) && mm[2 * k] < mm[2 * k + 1] &&
+           std::isfinite(mm[2 * k + 1]);
   if (!good)
     usage(fmt::format("'{}' is no box", text),
           "--box xmin,xmax,ymin,ymax,zmin,zmax in mm: --box -1000,1000,-1000,1000,0,1500");
@@ -73,9 +78,19 @@ PlanRequest request_of(const Options& options, const Cell& cell) {
 }
 
 bool measured_already(const Cell& cell) {
-  for (const auto& file : cell.measurement.files)
+  MeasurementSettings settings = cell.measurement;
+  settings.held_out = {};
+  for (const auto& file : measurement_files(settings))
     if (fs::exists(file)) return true;
   return false;
+}
+
+/// A file beside the cell that does not exist yet: the measurements made so far are kept.
+fs::path new_measurements(const Cell& cell) {
+  for (int day = 2;; ++day)
+    if (const fs::path file = cell.directory / fmt::format("measurements_{}.csv", day);
+        !fs::exists(file))
+      return file;
 }
 
 void plan(const Options& options, const Globals& globals, Outcome& outcome) {
@@ -90,35 +105,39 @@ void plan(const Options& options, const Globals& globals, Outcome& outcome) {
   OutputFiles files;
   files.add(options.output, show::plan_csv(cell, request, found));
   files.commit(options.write, outcome);
-  outcome.text =
-      show::plan_text(request, found) + "\n" + wrote(options.output, options.write) + "\n";
+  outcome.text = show::plan_text(request, found) + "\n" + wrote(options.output, options.write) +
+                 "\nMeasure these poses in this order. Then join what the tracker wrote with the "
+                 "joint angles of this plan, and name the new file in cell.toml.\n";
+  say_next(globals,
+           fmt::format("import tracker.txt {} --join order -o {}", shell_word(options.output),
+                       shell_word(new_measurements(cell).string())),
+           outcome);
 }
 
 }  // namespace
 
 void add_plan(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "plan",
        .summary = "The next poses to measure: for the arm, or to tell two effects apart",
        .examples = "  plumb plan --n 30 -o plan.csv     # what these poses leave uncertain\n"
                    "  plumb plan --separate reversal:J2,settling_lag:J2 --n 40"},
       [options](const Globals& g, Outcome& o) { plan(*options, g, o); });
-  verb.add_option("--n", options->n, "Measurements (30)")->check(CLI::Range(1, 1000));
+  verb.add_option("--n", options->n, "Measurements (30)").check(whole_number_between(1, 1000));
   verb.add_option("--separate", options->separate,
                   "Two effects, as NAME[:JOINT+JOINT...][@KEY=NUMBER],NAME...")
-      ->type_name("A,B");
+      .type_name("A,B");
   verb.add_option("--box", options->boxes,
                   "Where the reflector may go, base frame [mm]; may be given again")
-      ->type_name("XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX");
+      .type_name("XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX");
   verb.add_option("--joint-limits", options->limits,
                   "Share of each joint's range to use, around its middle (100%)")
-      ->type_name("SHARE");
+      .type_name("SHARE");
   verb.add_option("--pool", options->pool, "Random poses to choose from (5000)")
-      ->check(CLI::Range(10, 100000));
-  verb.add_option("--seed", options->seed, "Of the random poses (1)")->check(seed_number());
-  verb.add_option("-o,--output", options->output, "CSV file to write (plan.csv)")
-      ->type_name("FILE");
+      .check(whole_number_between(10, 100000));
+  verb.add_option("--seed", options->seed, "Seed of the random poses (1)").check(seed_number());
+  verb.add_option("-o,--output", options->output, "CSV file to write (plan.csv)").type_name("FILE");
   options->write.add_to(verb);
 }
 

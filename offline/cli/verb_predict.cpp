@@ -2,14 +2,21 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
+#include "cell/plain_rows.hpp"
+#include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/csv_output.hpp"
+#include "cli/joint_units.hpp"
 #include "cli/model_file.hpp"
+#include "cli/row_stream.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/known_inputs.hpp"
+#include "fit/series_place.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "show/units.hpp"
 
@@ -51,46 +58,128 @@ void set_points(const Rows3& p, show::CsvColumns& columns) {
   }
 }
 
-void set_quaternions(const Rows4& q, show::CsvColumns& columns) {
-  const char* const names[] = {"pqw", "pqx", "pqy", "pqz"};
-  for (int k = 0; k < 4; ++k) {
-    std::vector<double> values;
-    for (Eigen::Index i = 0; i < q.rows(); ++i) values.push_back(q(i, k));
-    columns.set(names[k], values);
-  }
+/// What a row comes to, and with which status: the one place for both ways of predicting. `placed`:
+/// whether it has a place in the cell's own series.
+Prediction predicted_row(const ForwardModel& arm, const Measurements& rows, int i,
+                         const std::vector<std::string>& sensors, bool placed,
+                         KnownInputs& inputs) {
+  const Context context = context_at(rows.context, i, sensors);
+  Prediction out = arm.predict(joints(rows, i), context);
+  out.status = inputs.mark(joints(rows, i), context, placed, out.status);
+  return out;
 }
 
-void finish(const Options& options, const std::vector<Status>& status, const std::string& verdict,
-            show::CsvColumns& columns, Outcome& outcome) {
-  columns.set("status", status_texts(status));
-  outcome.result["rows"] = status.size();
-  outcome.result["status"] = status_counts(status);
-  deliver(columns, options.output, verdict + "\n" + status_summary(status), outcome);
-}
+/// The tool centre point of rows, through the runtime.
+class ModelRows {
+ public:
+  explicit ModelRows(const format::Model& model)
+      : arm_(model),
+        nominal_(model.nominal),
+        guard_(model.guard),
+        unused_(model),
+        inputs_(model),
+        unread_(model),
+        units_(model),
+        sensors_(temperature_names(model)) {
+    for (const auto& row : model.nominal.joints)
+      is_angle_.push_back(row.type == format::JointType::kRevolute);
+  }
+
+  static std::vector<std::string> columns() {
+    return {"px_mm", "py_mm", "pz_mm", "pqw", "pqx", "pqy", "pqz", "status"};
+  }
+
+  RowStream::Computed compute(Table table, const show::PassThrough& columns) {
+    Measurements rows = plain_rows(std::move(table), is_angle_);
+    StatusCounts counts;
+    KnownInputs inputs = unused_;
+    JointUnits units = unread_;
+    units.name_column(rows.tables.front());
+    std::string text;
+    for (int i = 0; i < rows.size(); ++i) {
+      units.add(joints(rows, i));
+      append(rows, i, columns, counts, inputs, text);
+    }
+    return {.remarks = std::move(rows.tables.front().remarks),
+            .append = [this, counts, inputs, units, text = std::move(text)](std::string& out) {
+              counts_.add(counts);
+              inputs_.add(inputs);
+              units_.add(units);
+              out += text;
+            }};
+  }
+
+  const StatusCounts& counts() const { return counts_; }
+
+  /// What was found out about all rows.
+  std::vector<Problem> remarks() const {
+    std::vector<Problem> out = inputs_.remarks();
+    if (auto limited = of_limited()) out.push_back(std::move(*limited));
+    if (auto radians = units_.remark()) out.push_back(std::move(*radians));
+    return out;
+  }
+
+ private:
+  std::optional<Problem> of_limited() const {
+    const std::size_t limited = counts_.of(Status::kLimited);
+    if (limited == 0) return std::nullopt;
+    return Problem{
+        .severity = Severity::kWarning,
+        .code = "W-PREDICT-LIMITED",
+        .message = fmt::format("in {} of {} rows the arm is farther from its nominal pose than "
+                               "the guard lets a correction be ({} mm): the prediction is whole, "
+                               "but correct and plumb-rt would cut the correction there",
+                               limited, counts_.rows(), show::mm(guard_.max_correction_m)),
+        .help = "raise max_correction_mm under [deploy] in cell.toml, then: plumb compile"};
+  }
+
+  void append(const Measurements& rows, int i, const show::PassThrough& columns,
+              StatusCounts& counts, KnownInputs& inputs, std::string& text) const {
+    Prediction predicted = predicted_row(arm_, rows, i, sensors_, true, inputs);
+    if ((predicted.status == Status::kOk || predicted.status == Status::kContextFallback) &&
+        beyond_guard(nominal_.forward(joints(rows, i)), predicted.X_BT, guard_))
+      predicted.status = Status::kLimited;
+    const format::Pose pose = to_pose(predicted.X_BT);
+    RowCells cells;
+    for (const double p : pose.p) cells.add(show::to_mm(p));
+    for (const double q : pose.q) cells.add(q);
+    cells.add(to_string(predicted.status));
+    counts.add(predicted.status);
+    columns.append(rows.tables.front().raw_rows.view(static_cast<std::size_t>(i)), cells.cells(),
+                   text);
+  }
+
+  ForwardModel arm_;
+  Chain nominal_;
+  format::GuardLimits guard_;
+  KnownInputs unused_;  // that have seen no row
+  KnownInputs inputs_;
+  JointUnits unread_;  // that have seen no row
+  JointUnits units_;
+  std::vector<std::string> sensors_;
+  std::vector<bool> is_angle_;
+  StatusCounts counts_;
+};
 
 /// The tool centre point in the base frame, through the runtime.
 void predict_model(const Options& options, Outcome& outcome) {
   const format::Model model = open_model(options.model, outcome);
-  const Measurements rows = open_rows(options.data, model.nominal, outcome);
-  const ForwardModel arm(model);
-  const auto sensors = temperature_names(model);
-  Rows3 p(rows.size(), 3);
-  Rows4 q(rows.size(), 4);
-  std::vector<Status> status;
-  for (int i = 0; i < rows.size(); ++i) {
-    const Prediction predicted = arm.predict(joints(rows, i), context_at(rows.context, i, sensors));
-    const format::Pose pose = to_pose(predicted.X_BT);
-    p.row(i) << pose.p[0], pose.p[1], pose.p[2];
-    q.row(i) << pose.q[0], pose.q[1], pose.q[2], pose.q[3];
-    status.push_back(predicted.status);
-  }
-  show::CsvColumns columns(rows.tables);
-  set_points(p, columns);
-  set_quaternions(q, columns);
+  ModelRows rows(model);
+  RowStream stream(options.data, ModelRows::columns(), options.output);
+  stream.run(
+      [&](Table table, const show::PassThrough& columns) {
+        return rows.compute(std::move(table), columns);
+      },
+      outcome);
+  outcome.remark(rows.remarks());
+  const StatusCounts& counts = rows.counts();
   outcome.result = {{"frame", "base"}, {"point", "tool centre point"}};
-  finish(options, status,
-         fmt::format("Predicted the tool centre point of {} rows in the base frame.", rows.size()),
-         columns, outcome);
+  outcome.result["rows"] = counts.rows();
+  outcome.result["status"] = to_json(counts);
+  stream.deliver(
+      fmt::format("Predicted the tool centre point (px, py, pz) of {} rows in the base frame.\n{}",
+                  counts.rows(), status_summary(counts)),
+      outcome);
 }
 
 std::string set_name(const Split& split, int i) {
@@ -117,13 +206,38 @@ Run chosen_run(const Options& options, const Cell& cell, const Measurements& mea
   return run;
 }
 
-std::vector<Status> domain_status(const Run& run, const Measurements& rows) {
-  const ForwardModel arm(run.fit.calibration.state.arm);
-  const auto sensors = temperature_names(run.fit.calibration.state.arm);
+/// `placed`: which rows have a place in the cell's own series.
+std::vector<Status> domain_status(const Run& run, const Measurements& rows,
+                                  const std::vector<bool>& placed, Outcome& outcome) {
+  const format::Model& model = run.fit.calibration.state.arm;
+  const ForwardModel arm(model);
+  const auto sensors = temperature_names(model);
+  KnownInputs inputs(model);
+  JointUnits units(model);
+  if (!rows.tables.empty()) units.name_column(rows.tables.front());
   std::vector<Status> out;
-  for (int i = 0; i < rows.size(); ++i)
-    out.push_back(arm.predict(joints(rows, i), context_at(rows.context, i, sensors)).status);
+  for (int i = 0; i < rows.size(); ++i) {
+    units.add(joints(rows, i));
+    out.push_back(
+        predicted_row(arm, rows, i, sensors, placed[static_cast<std::size_t>(i)], inputs).status);
+  }
+  outcome.remark(inputs.remarks());
+  if (auto radians = units.remark()) outcome.remark({std::move(*radians)});
   return out;
+}
+
+void finish(const Options& options, const std::vector<Status>& status, const std::string& verdict,
+            show::CsvColumns& columns, Outcome& outcome) {
+  StatusCounts counts;
+  std::vector<std::string> texts;
+  for (const Status s : status) {
+    counts.add(s);
+    texts.emplace_back(to_string(s));
+  }
+  columns.set("status", std::move(texts));
+  outcome.result["rows"] = status.size();
+  outcome.result["status"] = to_json(counts);
+  deliver(columns, options.output, verdict + "\n" + status_summary(counts), outcome);
 }
 
 /// The measured point in the measurement frame: held-out poses by models that never saw them.
@@ -133,15 +247,19 @@ void predict_as_measured(const Options& options, const Globals& globals, Outcome
   const Run run = chosen_run(options, cell, measured, outcome);
   const bool own = options.data.empty();
   Measurements rows = own ? measured : open_rows(options.data, cell.nominal, outcome);
+  if (!own) assign_setups_to_predict(cell, options.data, rows);
   if (!own && run.fit.base == Base::kController) {
     check_same_data(run, measured);
     stand_on_controller(cell, measured, rows);
   }
+  const std::vector<bool> placed =
+      own ? std::vector<bool>(static_cast<std::size_t>(rows.size()), true)
+          : SeriesPlace(measured).place(rows);
   show::CsvColumns columns(rows.tables);
   set_points(own ? run.fit.predicted_M : predict_points(run.fit.calibration.state, rows), columns);
   if (own) set_split(run.fit.split, columns);
   outcome.result = {{"frame", "measurement"}, {"point", "target"}, {"run", run.number}};
-  finish(options, domain_status(run, rows),
+  finish(options, domain_status(run, rows, placed, outcome),
          fmt::format("Predicted the measured point of {} rows in the measurement frame, run {}.",
                      rows.size(), run.number),
          columns, outcome);
@@ -159,18 +277,18 @@ void predict(const Options& options, const Globals& globals, Outcome& outcome) {
 
 void add_predict(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "predict",
        .summary = "Where the arm truly is: forward model through the runtime's own code",
-       .examples =
-           "  plumb predict robot.plumb --data poses.csv -o predicted.csv\n"
-           "  plumb predict --as-measured -o predicted.csv   # as the tracker would see it"},
+       .examples = "  plumb predict robot.plumb --data poses.csv -o predicted.csv\n"
+                   "  plumb predict --as-measured -o predicted.csv   # as the tracker would see it",
+       .in_cell = false},
       [options](const Globals& g, Outcome& o) { predict(*options, g, o); });
   verb.add_option("MODEL", options->model, "Model file of plumb compile");
-  verb.add_option("--data", options->data, "CSV file with columns q1_deg ...")->type_name("FILE");
+  verb.add_option("--data", options->data, "CSV file with columns q1_deg ...").type_name("FILE");
   verb.add_flag("--as-measured", options->as_measured,
                 "No model file: a run predicts the measured point in the measurement's frame");
-  verb.add_option("--run", options->run, "Run for --as-measured; else the latest")->type_name("N");
+  verb.add_option("--run", options->run, "Run for --as-measured; else the latest").type_name("N");
   options->output.add_to(verb);
 }
 

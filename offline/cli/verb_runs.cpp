@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "cli/cell_data.hpp"
+#include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
+#include "fit/run_checksum.hpp"
 #include "show/runs_view.hpp"
 
 namespace plumb::offline::cli {
@@ -23,24 +27,47 @@ std::optional<Measurements> present_measurements(const Cell& cell, Outcome& outc
   }
 }
 
+void note_no_sums(int number, Outcome& outcome) {
+  outcome.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-RUN-NOSUM",
+       .message = fmt::format("run {} has no check sums: an earlier version made it", number),
+       .help = "plumb explain N-RUN-NOSUM"});
+}
+
 void runs(const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const auto measured = present_measurements(cell, outcome);
   std::vector<show::ListedRun> list;
+  Json damaged_runs = Json::array();
   for (int number : list_runs(cell)) {
     try {
       Run run = load_run(cell, number);
       const auto state = measured ? state_of(run, cell, *measured) : show::ListedRun::State::kOther;
+      if (!has_checksums(run.directory)) note_no_sums(number, outcome);
       list.push_back({std::move(run), state});
     } catch (const Failure& damaged) {
+      damaged_runs.push_back(number);
       for (Problem problem : damaged.problems()) {
         problem.severity = Severity::kWarning;
+        problem.code = "W-RUN-DAMAGED";
         outcome.remarks.push_back(std::move(problem));
       }
     }
   }
   outcome.result = show::runs_json(list);
-  outcome.text = show::runs_text(list);
+  outcome.result["damaged"] = damaged_runs;
+  outcome.text =
+      list.empty() && !damaged_runs.empty() ? "No run can be read.\n" : show::runs_text(list);
+  for (const auto& number : damaged_runs)
+    outcome.text += fmt::format("{:04}: damaged, not shown\n", number.get<int>());
+  if (list.size() > 1)
+    say_next(globals,
+             fmt::format("diff {} {}   # what changed between the last two",
+                         list[list.size() - 2].run.number, list.back().run.number),
+             outcome);
+  else
+    say_next(globals, list.empty() ? "fit" : "compare   # where does it fail?", outcome);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/progress.hpp"
 #include "cli/simulate_options.hpp"
@@ -47,15 +48,46 @@ void list_effects(Outcome& outcome) {
   }
 }
 
+/// Of the first set-up, if there are several.
+fs::path usual_file(const Cell& cell) {
+  const MeasurementSettings& m = cell.measurement;
+  if (!m.setups.empty() && !m.setups.front().files.empty()) return m.setups.front().files.front();
+  return m.files.empty() ? cell.directory / "measurements.csv" : m.files.front();
+}
+
+void note_setup(const Cell& cell, Outcome& outcome) {
+  outcome.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-SIMULATE-SETUP",
+       .message = fmt::format("simulated as measured in the first set-up, '{}'; the others have no "
+                              "rows of this",
+                              cell.measurement.setups.front().name),
+       .help = "for each other set-up: a cell of its own with another --seed, and --output FILE"});
+}
+
+/// Sizes that no arm has end in numbers that are none.
+void require_finite(const Simulation& simulation) {
+  constexpr double kFarthest_m = 1e3;
+  const auto& points = simulation.measured.p_M;
+  if (points.allFinite() && (points.size() == 0 || points.cwiseAbs().maxCoeff() < kFarthest_m))
+    return;
+  throw Failure(Exit::kUsage,
+                {.code = "E-SIM-SIZE",
+                 .message = "with errors of these sizes a measured point lies more than a "
+                            "kilometre away, or is not a number",
+                 .help = "give smaller sizes, as in --effect gear_ripple:J2=50urad --noise-um 10"});
+}
+
 void simulate_cell(const SimulateOptions& options, const Globals& globals, Outcome& outcome) {
   if (options.list) return list_effects(outcome);
-  const Cell cell = open_cell(globals, outcome);
+  const Cell whole = open_cell(globals, outcome);
+  if (whole.measurement.setups.size() > 1) note_setup(whole, outcome);
+  const Cell cell = cell_of_setup(whole, 0);
   const Progress progress(fmt::format("simulating {} poses", options.poses));
   const SimulationPlan plan = options.plan(cell);
   const Simulation simulation = simulate(cell, plan);
-  const fs::path usual = cell.measurement.files.empty() ? cell.directory / "measurements.csv"
-                                                        : cell.measurement.files.front();
-  const fs::path data = options.output.empty() ? usual : fs::path(options.output);
+  require_finite(simulation);
+  const fs::path data = options.output.empty() ? usual_file(cell) : fs::path(options.output);
   const fs::path truth =
       options.truth.empty() ? cell.directory / "truth.json" : fs::path(options.truth);
   OutputFiles files;
@@ -63,6 +95,7 @@ void simulate_cell(const SimulateOptions& options, const Globals& globals, Outco
   files.add(truth, simulation.truth_json);
   if (!options.fresh.empty()) {
     const Simulation fresh = simulate(cell, options.fresh_plan(plan, simulation));
+    require_finite(fresh);
     files.add(options.fresh, simulated_csv(cell, fresh));
   }
   outcome.result = {{"rows", simulation.measured.size()},
@@ -87,12 +120,12 @@ void simulate_cell(const SimulateOptions& options, const Globals& globals, Outco
 
 void add_simulate(Program& program) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "simulate",
        .summary = "Measurements of a simulated arm with chosen errors, hidden effects and noise",
-       .examples =
-           "  plumb -C mycell simulate --poses 150 --noise-um 10 --seed 7\n"
-           "  plumb -C mycell simulate --effect gear_ripple:J2:5 --outliers 2% --repeats 3"},
+       .examples = "  plumb -C mycell simulate --poses 150 --noise-um 10 --seed 7\n"
+                   "  plumb -C mycell simulate --effect gear_ripple:J2:5 --outliers 2% --repeats 3",
+       .in_cell = false},
       [options](const Globals& g, Outcome& o) { simulate_cell(*options, g, o); });
   options->add_to(verb);
 }

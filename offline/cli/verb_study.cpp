@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "cli/number_rules.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "program/output_files.hpp"
@@ -54,7 +53,7 @@ void add_cell_files(const Options& options, OutputFiles& files) {
 }
 
 void planar(const Options& options, Outcome& outcome) {
-  OutputFiles files;
+  OutputFiles files(options.cell.empty() ? options.figures : options.cell);
   if (!options.cell.empty()) {
     add_cell_files(options, files);
     outcome.result = {{"study", "planar"}, {"variant", options.variant}, {"cell", options.cell}};
@@ -103,28 +102,30 @@ void run_study(const Options& options, Outcome& outcome) {
 
 void add_study(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb =
+  VerbOptions verb =
       program.verb({.name = "study",
                     .summary = "Reproduce the published study, and see how far it can be beaten",
-                    .examples = "  plumb study planar --figures figures\n  plumb study six-axis"},
+                    .examples = "  plumb study planar --figures figures\n  plumb study six-axis",
+                    .in_cell = false},
                    [options](const Globals&, Outcome& o) { run_study(*options, o); });
   verb.add_option("NAME", options->name, "planar or six-axis")
-      ->required()
-      ->check(CLI::IsMember({"planar", "six-axis"}));
+      .required()
+      .check(one_of({"planar", "six-axis"}));
   verb.add_option("--variant", options->variant,
                   "planar: the arm behind the published figures, or the one in print")
-      ->check(CLI::IsMember({"published", "printed"}));
+      .check(one_of({"published", "printed"}));
   verb.add_option("--noise-um", options->noise_um, "planar: noise per axis on what is learnt from")
-      ->check(CLI::Range(0.0, 1e4));
+      .check(number_between(0.0, 1e4));
   verb.add_option("--write-cell", options->cell,
                   "planar: write the arm and its 1536 measurements as a cell instead")
-      ->type_name("DIR");
+      .type_name("DIR");
   verb.add_option("--figures", options->figures, "planar: write the figures of the paper as SVG")
-      ->type_name("DIR");
+      .type_name("DIR");
   verb.add_flag("--without-finest", options->without_finest,
                 "planar: leave out the 148,680 positions, which take most of the time");
-  verb.add_option("--draws", options->draws, "six-axis: how many arms")->check(CLI::Range(1, 1000));
-  verb.add_option("--seed", options->seed, "Of noise, poses and arms")->check(seed_number());
+  verb.add_option("--draws", options->draws, "six-axis: how many arms")
+      .check(whole_number_between(1, 1000));
+  verb.add_option("--seed", options->seed, "Seed of noise, poses and arms").check(seed_number());
   options->write.add_to(verb);
 }
 

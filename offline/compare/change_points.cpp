@@ -19,14 +19,14 @@ class Scanner {
  public:
   explicit Scanner(const StepMotions& motions) : motions_(motions), error_(3, motions.size()) {
     for (int i = 0; i < motions.size(); ++i) error_.col(i) = motions.error(i);
-    take(Mover::kTool, -1);
-    take(Mover::kBase, -1);
-    for (int j = 0; j < motions.joints(); ++j) take(Mover::kJoint, j);
+    take(MotionSource::kTool, -1);
+    take(MotionSource::kBase, -1);
+    for (int j = 0; j < motions.joints(); ++j) take(MotionSource::kJoint, j);
   }
 
   Changes scan() {
     Changes out;
-    if (motions_.size() < kFewestVisits || movers_.empty()) return out;
+    if (motions_.size() < kFewestVisits || sources_.empty()) return out;
     out.visits = motions_.size();
     without_steps_ = error_;
     look(Segment{0, motions_.size()}, out);
@@ -40,19 +40,19 @@ class Scanner {
 
  private:
   struct Jumped {
-    std::size_t mover;
+    std::size_t source;
     int cut;
-    MoverSums::Numbers jump;
+    MotionSums::Numbers jump;
     StepFound step;
   };
 
-  void take(Mover mover, int joint) {
-    MoverSums sums(motions_, mover, joint);
-    if (sums.rank() > 0) movers_.push_back(std::move(sums));
+  void take(MotionSource source, int joint) {
+    MotionSums sums(motions_, source, joint);
+    if (sums.rank() > 0) sources_.push_back(std::move(sums));
   }
 
   Unexplained task() const {
-    return {error_, motions_.axes(), static_cast<double>(movers_.size())};
+    return {error_, motions_.axes(), static_cast<double>(sources_.size())};
   }
 
   void look(const Segment& s, Changes& out) {
@@ -61,12 +61,12 @@ class Scanner {
     const auto better = [](const std::optional<Explained>& a, std::optional<Explained>& b) {
       if (a && (!b || a->ln_p < b->ln_p)) b = a;
     };
-    for (auto& sums : movers_) {
+    for (auto& sums : sources_) {
       sums.sum(error_);
       better(jump_of(sums, s, task()), best);
     }
     if (!best || best->ln_p > std::log(kChance)) return;
-    for (const auto& sums : movers_) better(drift_of(sums, s, task()), smooth);
+    for (const auto& sums : sources_) better(drift_of(sums, s, task()), smooth);
     const bool drifts = smooth && smooth->ln_p < best->ln_p;
     error_.middleCols(s.first, s.size()) -= drifts ? smooth->fitted : best->fitted;
     if (drifts) {
@@ -81,7 +81,7 @@ class Scanner {
   }
 
   Jumped jumped(const Explained& e, const Segment& s) const {
-    return {static_cast<std::size_t>(e.sums - movers_.data()), e.cut,
+    return {static_cast<std::size_t>(e.sums - sources_.data()), e.cut,
             e.sums->solve(e.cut, s.last) - e.sums->solve(s.first, e.cut), step(e, s)};
   }
 
@@ -93,11 +93,11 @@ class Scanner {
     for (const auto& other : found_) {
       if (&other == &one) continue;
       for (int i = other.cut; i < motions_.size(); ++i)
-        error_.col(i) -= movers_[other.mover].at(i) * other.jump;
+        error_.col(i) -= sources_[other.source].at(i) * other.jump;
       (other.cut < one.cut ? first : last) =
           other.cut < one.cut ? std::max(first, other.cut) : std::min(last, other.cut);
     }
-    MoverSums& sums = movers_[one.mover];
+    MotionSums& sums = sources_[one.source];
     sums.sum(error_);
     const auto again = jump_of(sums, {0, motions_.size()}, task());
     if (!again || again->cut <= first || again->cut >= last) return;
@@ -109,23 +109,23 @@ class Scanner {
   DriftFound described(const Explained& e, const Segment& s) const {
     const auto n = e.fitted.cols();
     const Eigen::Index tenth = std::max<Eigen::Index>(1, n / 10);
-    DriftFound out{.mover = e.sums->mover(), .joint = e.sums->joint(), .ln_p = e.ln_p};
+    DriftFound out{.source = e.sums->source(), .joint = e.sums->joint(), .ln_p = e.ln_p};
     out.from = motions_.rows()[static_cast<std::size_t>(s.first)];
     out.to = motions_.rows()[static_cast<std::size_t>(s.last - 1)];
     // The pose changes the direction in which a drift shows, so its numbers are compared, not it.
     Segment head{s.first, s.first + static_cast<int>(tenth)};
     Segment tail{s.last - static_cast<int>(tenth), s.last};
-    MoverSums again = *e.sums;
+    MotionSums again = *e.sums;
     Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, motions_.size());
     all.middleCols(s.first, s.size()) = e.fitted;
     again.sum(all);
-    const MoverSums::Numbers moved =
+    const MotionSums::Numbers moved =
         again.solve(tail.first, tail.last) - again.solve(head.first, head.last);
     out.size_m = rms(*e.sums, s, moved);
     return out;
   }
 
-  static double rms(const MoverSums& sums, const Segment& s, const MoverSums::Numbers& numbers) {
+  static double rms(const MotionSums& sums, const Segment& s, const MotionSums::Numbers& numbers) {
     double squares = 0.0;
     for (int i = s.first; i < s.last; ++i) squares += (sums.at(i) * numbers).squaredNorm();
     return std::sqrt(squares / s.size());
@@ -133,10 +133,10 @@ class Scanner {
 
   /// Must be called with the sums of the residual in which it was found.
   StepFound step(const Explained& e, const Segment& s) const {
-    const MoverSums& sums = *e.sums;
-    const MoverSums::Numbers moved = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
+    const MotionSums& sums = *e.sums;
+    const MotionSums::Numbers moved = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
     StepFound out;
-    out.mover = sums.mover();
+    out.source = sums.source();
     out.joint = sums.joint();
     out.ln_p = e.ln_p;
     out.shift = sums.physical(moved);
@@ -159,7 +159,7 @@ class Scanner {
   const StepMotions& motions_;
   Eigen::Matrix3Xd error_;          // less what was found so far
   Eigen::Matrix3Xd without_steps_;  // the residuals less drifts
-  std::vector<MoverSums> movers_;
+  std::vector<MotionSums> sources_;
   std::vector<Jumped> found_;
 };
 

@@ -10,7 +10,7 @@ namespace plumb::offline::compare {
 
 /// A moment at which the mean residual jumps. SI; rows of the measurements.
 struct StepFound {
-  Mover mover = Mover::kTool;  // what would have to have moved
+  MotionSource source = MotionSource::kTool;  // what would have to have moved
   int joint = -1;
   int before = 0, after = 0;     // last row before it, first one behind
   int earliest = 0, latest = 0;  // the last row before it lies between these with 95 %
@@ -21,7 +21,7 @@ struct StepFound {
 
 /// A smooth change in the order of measuring that explains more than a jump.
 struct DriftFound {
-  Mover mover = Mover::kTool;
+  MotionSource source = MotionSource::kTool;
   int joint = -1;
   int from = 0, to = 0;  // rows
   double size_m = 0.0;   // RMS motion of the measured point from the start to the end
@@ -35,10 +35,10 @@ struct Changes {
 };
 
 /// Binary segmentation [Scott & Knott 1974]: the cut that explains most, if the chance of so much
-/// is below 1 % over all cuts and movers (Bonferroni), then each side again. Every segment has its
-/// own shift of tool, base or a joint; F counts their numbers and is divided by
-/// what uneven residuals and their memory add to the variance of a jump. A line and
-/// parabola in order is tried first: a smooth drift is not a row of jumps.
+/// is below 1 % over all cuts and motion sources (Bonferroni), then each side again. Every segment
+/// has its own shift of tool, base or a joint; F counts their numbers and is divided by what uneven
+/// residuals and their memory add to the variance of a jump. A line and parabola in order is tried
+/// first: a smooth drift is not a row of jumps.
 Changes change_points(const StepMotions& motions);
 
 }  // namespace plumb::offline::compare

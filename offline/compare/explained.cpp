@@ -10,7 +10,7 @@
 namespace plumb::offline::compare {
 namespace {
 
-constexpr int kFewestVisits = 5;
+constexpr int kFewestInBin = 5;
 
 /// What the memory of a series adds to the variance of its mean: the sum of its autocorrelations
 /// with Bartlett weights, or as if it were autoregressive; at least 1.
@@ -34,7 +34,7 @@ double memory(const Eigen::MatrixXd& series) {
 /// the scores of each visit, X_i^T r_i on their average or along the jump found, and their
 /// autocorrelation; at least 1. [White 1980; Newey & West 1987]
 double inflation(const Segment& s, const Explained& e, const Eigen::Matrix3Xd& rest) {
-  const MoverSums& sums = *e.sums;
+  const MotionSums& sums = *e.sums;
   Eigen::MatrixXd scores(sums.rank(), s.size());
   double motion = 0.0;
   for (int i = 0; i < s.size(); ++i) {
@@ -45,7 +45,7 @@ double inflation(const Segment& s, const Explained& e, const Eigen::Matrix3Xd& r
   if (!(variance > 0.0) || !(motion > 0.0)) return 1.0;
   double out = scores.squaredNorm() / (variance * motion) * memory(scores);
   if (e.cut == 0) return std::max(out, memory(rest));
-  const MoverSums::Numbers jump = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
+  const MotionSums::Numbers jump = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
   const Eigen::RowVectorXd along = jump.transpose() * scores;
   const int left = e.cut - s.first, right = s.last - e.cut;
   double weighted = 0.0, weights = 0.0, whole = 0.0;
@@ -71,16 +71,17 @@ void judge(const Segment& s, int numbers, double tries, const Unexplained& what,
   out.ln_p = std::min(0.0, ln_f_tail(f, numbers, out.free) + std::log(tries));
 }
 
-void fill(const MoverSums& sums, const Segment& part, int offset, Eigen::Matrix3Xd& out) {
+void fill(const MotionSums& sums, const Segment& part, int offset, Eigen::Matrix3Xd& out) {
   const auto numbers = sums.solve(part.first, part.last);
   for (int i = part.first; i < part.last; ++i) out.col(i - offset) = sums.at(i) * numbers;
 }
 
 }  // namespace
 
-int fewest_visits(const MoverSums& sums) { return std::max(kFewestVisits, sums.rank() + 2); }
+int fewest_visits(const MotionSums& sums) { return std::max(kFewestInBin, sums.rank() + 2); }
 
-std::optional<Explained> jump_of(const MoverSums& sums, const Segment& s, const Unexplained& what) {
+std::optional<Explained> jump_of(const MotionSums& sums, const Segment& s,
+                                 const Unexplained& what) {
   const int edge = fewest_visits(sums);
   if (s.size() < 2 * edge) return std::nullopt;
   const double whole = sums.explained(s.first, s.last);
@@ -95,11 +96,11 @@ std::optional<Explained> jump_of(const MoverSums& sums, const Segment& s, const 
   fill(sums, {s.first, out.cut}, s.first, out.fitted);
   fill(sums, {out.cut, s.last}, s.first, out.fitted);
   out.free = what.axes * s.size() - 2.0 * sums.rank();
-  judge(s, sums.rank(), (s.size() - 2.0 * edge + 1.0) * what.movers, what, out);
+  judge(s, sums.rank(), (s.size() - 2.0 * edge + 1.0) * what.sources, what, out);
   return out;
 }
 
-std::optional<Explained> drift_of(const MoverSums& sums, const Segment& s,
+std::optional<Explained> drift_of(const MotionSums& sums, const Segment& s,
                                   const Unexplained& what) {
   const int k = sums.rank();
   if (what.axes * s.size() < 6 * k) return std::nullopt;
@@ -124,7 +125,7 @@ std::optional<Explained> drift_of(const MoverSums& sums, const Segment& s,
   out.fitted.resize(3, s.size());
   for (int i = s.first; i < s.last; ++i) out.fitted.col(i - s.first) = wide(i) * numbers;
   out.free = what.axes * s.size() - 3.0 * k;
-  judge(s, 2 * k, what.movers, what, out);
+  judge(s, 2 * k, what.sources, what, out);
   return out;
 }
 

@@ -9,15 +9,15 @@
 namespace plumb::offline::compare {
 namespace {
 
-constexpr int kMostBins = 12, kPosesPerBin = 15;
-constexpr double kChance = 0.01;
+constexpr int kMostJointBins = 12, kPosesPerJointBin = 15;
+constexpr double kJointChance = 0.01;
 
 JointShare share_of(const StepMotions& motions, int joint, const Eigen::VectorXd& angle) {
   JointShare out;
   out.joint = joint;
   const auto n = static_cast<int>(angle.size());
   const double low = angle.minCoeff(), span = angle.maxCoeff() - low;
-  out.bins = std::clamp(n / kPosesPerBin, 1, kMostBins);
+  out.bins = std::clamp(n / kPosesPerJointBin, 1, kMostJointBins);
   Eigen::VectorXd along = Eigen::VectorXd::Zero(out.bins), square = along, count = along;
   for (int i = 0; i < n; ++i) {
     const int k = std::clamp(static_cast<int>((angle(i) - low) / span * out.bins), 0, out.bins - 1);
@@ -51,7 +51,7 @@ std::vector<JointShare> joint_shares(const StepMotions& motions, const RowsN& q)
     if (!motions.turns(j) || !(angle.maxCoeff() - angle.minCoeff() > 1e-6)) continue;
     out.push_back(share_of(motions, j, angle));
   }
-  for (auto& s : out) s.matters = s.ln_p < std::log(kChance / static_cast<double>(out.size()));
+  for (auto& s : out) s.matters = s.ln_p < std::log(kJointChance / static_cast<double>(out.size()));
   return out;
 }
 

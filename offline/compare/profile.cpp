@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostBins = 6;
 constexpr int kPosesPerBin = 8;  // fewer poses make wider bins
-constexpr double kChance = 0.01;
+constexpr double kProfileChance = 0.01;
 
 struct Range {
   double low = std::numeric_limits<double>::max(), high = -std::numeric_limits<double>::max();
@@ -128,7 +128,7 @@ ErrorProfile profile(ErrorProfile out, const std::vector<Sample>& samples,
 
 void judge(std::vector<ErrorProfile>& profiles) {
   const double limit =
-      std::log(kChance / static_cast<double>(std::max<std::size_t>(1, profiles.size())));
+      std::log(kProfileChance / static_cast<double>(std::max<std::size_t>(1, profiles.size())));
   for (auto& p : profiles) p.matters = p.ln_p < limit;
 }
 

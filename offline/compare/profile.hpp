@@ -18,7 +18,7 @@ struct ErrorBin {
 
 /// How the error depends on one quantity.
 struct ErrorProfile {
-  enum class Kind { kJoint, kRegion, kLoad, kContext, kOrder } kind = Kind::kJoint;
+  enum class Kind { kJoint, kRegion, kLoad, kContext, kOrder, kSetup } kind = Kind::kJoint;
   std::string name;  // "J2", "reach", "payload", "J2 torque", "J2 direction", "temp", "order"
   enum class Unit {
     kLength,
@@ -28,9 +28,11 @@ struct ErrorProfile {
     kTemperature,
     kTime,
     kSign,
-    kRow
+    kRow,
+    kName
   } unit = Unit::kAngle;
   std::vector<ErrorBin> bins;
+  std::vector<std::string> names = {};  // kName: of the values 0, 1, 2 ...
   double explained = 0.0;  // share of the variance of the error's size that the bins explain
   double ln_p = 0.0;       // ln of the chance of so much if the quantity did not matter
   bool matters = false;    // beyond chance, all profiles counted

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/setups.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/chain.hpp"
-#include "plumb/runtime/loads.hpp"
+#include "plumb/runtime/detail/loads.hpp"
 
 namespace plumb::offline::compare {
 namespace {
@@ -30,6 +31,7 @@ class Profiler {
     directions();
     temperatures();
     order();
+    setups();
     return std::move(out_);
   }
 
@@ -61,9 +63,11 @@ class Profiler {
   }
 
   void regions() {
-    const Transformd X_BM = from_pose(state_.X_MB).inverse();
+    std::vector<Transformd> X_BM;
+    for (int k = 0; k < state_.setups(); ++k) X_BM.push_back(from_pose(state_.frame(k)).inverse());
     const auto point = [&](int row) -> Vector3 {
-      return X_BM * Vector3(measured_.p_M.row(row).transpose());
+      return X_BM[static_cast<std::size_t>(setup_of(measured_, row))] *
+             Vector3(measured_.p_M.row(row).transpose());
     };
     add(Kind::kRegion, "reach", Unit::kLength, [&](int row) {
       const Vector3 p = point(row);
@@ -137,6 +141,22 @@ class Profiler {
     if (time.size() > 0)
       add_if_it_varies(Kind::kContext, "time", Unit::kTime, (time.array() - time(0)).matrix());
     add(Kind::kOrder, "order", Unit::kRow, [](int row) { return row + 1.0; });
+  }
+
+  /// A day on which something went wrong stands out.
+  void setups() {
+    const MeasurementSettings& m = cell_.measurement;
+    if (measured_.setup.empty() || setup_count(m) < 2) return;
+    std::vector<double> labels;
+    std::vector<std::string> names;
+    for (int k = 0; k < setup_count(m); ++k) {
+      labels.push_back(k);
+      names.push_back(setup_name(m, k));
+    }
+    add(
+        Kind::kSetup, "set-up", Unit::kName,
+        [&](int row) { return static_cast<double>(setup_of(measured_, row)); }, labels);
+    out_.back().names = std::move(names);
   }
 
   const Cell& cell_;

@@ -8,8 +8,6 @@ namespace plumb::offline::compare {
 StepMotions::StepMotions(const ArmState& state, const Measurements& measured, const Series& series)
     : rows_(series.first_row), last_rows_(series.last_row), axes_(series.axes()) {
   const Chain chain(state.arm.calibrated);
-  const Transformd X_MB = from_pose(state.X_MB);
-  const Vector3 target_T(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
   const Eigen::Index n = series.size();
   for (int k = 0; k < 3; ++k) mask_(k) = series.has_axis[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
   for (int j = 0; j < chain.joints(); ++j) turns_.push_back(chain.revolute(j));
@@ -21,7 +19,10 @@ StepMotions::StepMotions(const ArmState& state, const Measurements& measured, co
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto q = measured.q.row(rows_[static_cast<std::size_t>(i)]);
     chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
-    const Vector3 p_B = frames.tip * target_T;
+    const int setup = setup_of(measured, rows_[static_cast<std::size_t>(i)]);
+    const Transformd X_MB = from_pose(state.frame(setup));
+    const auto& target = state.target(setup).p;
+    const Vector3 p_B = frames.tip * Vector3(target[0], target[1], target[2]);
     from_middle_.col(i) = X_MB * p_B;
     R_MT_[static_cast<std::size_t>(i)] = X_MB.R * frames.tip.R;
     for (int j = 0; j < joints(); ++j) {
@@ -33,9 +34,10 @@ StepMotions::StepMotions(const ArmState& state, const Measurements& measured, co
   from_middle_.colwise() -= Eigen::Vector3d(from_middle_.rowwise().mean());
 }
 
-Eigen::MatrixXd StepMotions::columns(int visit, Mover mover, int j) const {
-  if (mover == Mover::kJoint) return joint(visit, j);
-  if (mover == Mover::kTool) return mask_.asDiagonal() * R_MT_[static_cast<std::size_t>(visit)];
+Eigen::MatrixXd StepMotions::columns(int visit, MotionSource source, int j) const {
+  if (source == MotionSource::kJoint) return joint(visit, j);
+  if (source == MotionSource::kTool)
+    return mask_.asDiagonal() * R_MT_[static_cast<std::size_t>(visit)];
   const Eigen::Vector3d r = from_middle_.col(visit);
   Eigen::Matrix<double, 3, 6> out;
   out.leftCols<3>().setIdentity();

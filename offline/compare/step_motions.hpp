@@ -10,7 +10,7 @@
 namespace plumb::offline::compare {
 
 /// What may shift once while measuring.
-enum class Mover { kTool, kBase, kJoint };
+enum class MotionSource { kTool, kBase, kJoint };
 
 /// How the measured point of each visit moves when something of the cell moves by a unit, in the
 /// measurement frame, missing axes 0; and the residual beside it.
@@ -34,10 +34,10 @@ class StepMotions {
 
   /// 3 columns: shift of the reflector along the tool's axes. 6: shift of the base along the axes
   /// of the measurement frame, turn about its axes through the middle of the points. 1: joint.
-  Eigen::MatrixXd columns(int visit, Mover mover, int j) const;
+  Eigen::MatrixXd columns(int visit, MotionSource source, int j) const;
 
-  static int count(Mover mover) {
-    return mover == Mover::kBase ? 6 : mover == Mover::kTool ? 3 : 1;
+  static int count(MotionSource source) {
+    return source == MotionSource::kBase ? 6 : source == MotionSource::kTool ? 3 : 1;
   }
 
  private:

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compile/c_text.hpp"
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 
 namespace plumb::offline {
 namespace {

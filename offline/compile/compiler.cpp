@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "fit/context_needs.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/parameter.hpp"
 #include "plumb/format/version.hpp"
@@ -23,12 +24,6 @@ format::HeldOut held_out(const ErrorStats& s) {
           .rms_m = s.rms,
           .p95_m = s.p95,
           .max_m = s.max};
-}
-
-/// Of the robot, or of its surroundings with a sensor to read in the cycle.
-bool runs_online(const format::Effect& effect) {
-  const EffectDomain domain = domain_of(effect);
-  return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
 }
 
 /// Names of the parameters of effects that only clean the fit.
@@ -85,6 +80,12 @@ format::GuardLimits guard(const Cell& cell, const Run& run) {
 
 }  // namespace
 
+/// Of the robot, or of its surroundings with a sensor to read in the cycle.
+bool runs_online(const format::Effect& effect) {
+  const EffectDomain domain = domain_of(effect);
+  return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
+}
+
 format::Model compile(const Cell& cell, const Run& run) {
   format::Model out;
   out.cell_name = cell.name;
@@ -99,6 +100,7 @@ format::Model compile(const Cell& cell, const Run& run) {
   out.mechanics = fitted.mechanics;
   out.trees = fitted.trees;
   out.domain = fitted.domain;
+  out.domain.context = ranges_read(out, fitted.domain.context);
   out.guard = guard(cell, run);
   out.provenance = provenance(run);
   return out;

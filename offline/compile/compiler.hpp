@@ -12,4 +12,7 @@ namespace plumb::offline {
 /// measured and fitted.
 format::Model compile(const Cell& cell, const Run& run);
 
+/// Whether an effect is in the model; others belong to the measurement and only clean the fit.
+bool runs_online(const format::Effect& effect);
+
 }  // namespace plumb::offline

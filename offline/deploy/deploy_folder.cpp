@@ -2,10 +2,10 @@
 #include "deploy/deploy_folder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
+#include "program/process_number.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -22,7 +22,8 @@ void write_into(const fs::path& folder, const std::vector<DeployFile>& files) {
 void write_new_folder(const fs::path& folder, const std::vector<DeployFile>& files) {
   if (folder.has_parent_path()) fs::create_directories(folder.parent_path());
   const fs::path draft =
-      folder.parent_path() / fmt::format(".{}.{}.tmp", folder.filename().string(), ::getpid());
+      folder.parent_path() /
+      fmt::format(".{}.{}.tmp", folder.filename().string(), own_process_number());
   try {
     fs::create_directory(draft);
     write_into(draft, files);

@@ -6,18 +6,16 @@
 #include <cmath>
 
 #include "diagnose/confounding.hpp"
+#include "diagnose/constants.hpp"
 #include "diagnose/extension.hpp"
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
+#include "effects/effect_option.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr std::size_t kListed = 12;
-constexpr std::size_t kCompared = 8;  // for confounding
-constexpr double kConfounded = 0.8;   // mutual reproduction
 
 const char* word(EffectDomain domain) {
   switch (domain) {
@@ -32,59 +30,70 @@ const char* word(EffectDomain domain) {
   }
 }
 
-std::vector<CandidateNumber> numbers_of(const Stage& s, const Judge& judge, const Block& block,
-                                        const Trial& trial, const std::vector<double>& cycles) {
+std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scorer,
+                                        const Regressor& regressor, const RegressorScore& scored,
+                                        const std::vector<double>& cycles) {
   format::Model model;
   model.calibrated = s.cell->nominal;
-  model.effects = {bind_effect(*s.cell, *s.measured, block.entry)};
-  Eigen::MatrixXd gram = trial.folds.front().XX;
-  Eigen::MatrixXd UX = trial.folds.front().UX;
-  for (std::size_t f = 1; f < trial.folds.size(); ++f) {
-    gram += trial.folds[f].XX;
-    UX += trial.folds[f].UX;
+  model.effects = {bind_effect(*s.cell, *s.measured, regressor.entry)};
+  Eigen::MatrixXd gram = scored.folds.front().XX;
+  Eigen::MatrixXd UX = scored.folds.front().UX;
+  for (std::size_t f = 1; f < scored.folds.size(); ++f) {
+    gram += scored.folds[f].XX;
+    UX += scored.folds[f].UX;
   }
   gram -= UX.transpose() * UX;
   const double left =
-      std::max(judge.scale().variance, s.Q * (1.0 - trial.explained) / judge.scale().lines);
-  gram.diagonal().array() += left / std::pow(trial.evidence.width, 2);
+      std::max(scorer.scale().variance, s.Q * (1.0 - scored.explained) / scorer.scale().lines);
+  gram.diagonal().array() += left / std::pow(scored.evidence.width, 2);
   const Eigen::MatrixXd C =
       left * gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
   std::vector<CandidateNumber> out;
-  for (Eigen::Index c = 0; c < trial.theta.size(); ++c) {
-    const int member = block.members[c];
+  for (Eigen::Index c = 0; c < scored.theta.size(); ++c) {
+    const int member = regressor.members[c];
     if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
     const EffectParameter& info = effect_parameter(model, 0, member);
-    const double value = trial.theta(c) * block.typical(c);
-    const double std = std::sqrt(std::max(0.0, C(c, c))) * block.typical(c);
+    const double value = scored.theta(c) * regressor.typical(c);
+    const double std = std::sqrt(std::max(0.0, C(c, c))) * regressor.typical(c);
     out.push_back({effect_parameter_name(model, 0, member), info.unit, value, std, info.typical,
                    plausible(value, std, info)});
   }
   return out;
 }
 
-Candidate candidate(const Stage& s, const Judge& judge, const Found& found) {
+/// Largest motion of the measured point at the fit poses, cleared of what the model can imitate
+/// [m].
+double largest_motion(const WhitenedFit& s, const Regressor& regressor,
+                      const RegressorScore& scored) {
+  Eigen::VectorXd motion = motions(s, regressor).topRows(s.fit_lines) * scored.theta;
+  const auto U = s.U.topRows(s.fit_lines);
+  motion -= U * (U.transpose() * motion).eval();
+  for (Eigen::Index i = 0; i < s.fit_lines; ++i) motion(i) *= s.sigma[static_cast<std::size_t>(i)];
+  return motion.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
+}
+
+Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
   const EffectInfo& info = effect_info(find_effect_law(found.entry.name));
-  const Block block = block_of(s, found);
+  const Regressor regressor = regressor_of(s, found);
   Candidate out;
   out.entry = found.entry;
   out.title = info.title;
   out.domain = word(info.domain);
   out.ln_bayes = found.ln_bayes();
-  const Gain gain = judge.gain(found.trial);
+  const Gain gain = scorer.gain(found.scored);
   out.gain = gain.share;
   out.gain_se = gain.share_se;
   out.cycles = found.cycles;
-  if (out.cycles.empty())
-    if (const auto it = found.entry.options.find("cycles_per_turn");
-        it != found.entry.options.end())
-      out.cycles = {std::get<double>(it->second)};
+  if (out.cycles.empty() && has_option(found.entry, OptionKey::kCyclesPerTurn))
+    out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
   out.supported = found.score > kSupported && gain.clear;
-  out.numbers = numbers_of(s, judge, block, found.trial, found.cycles);
+  out.numbers = numbers_of(s, scorer, regressor, found.scored, found.cycles);
   out.plausible = std::all_of(out.numbers.begin(), out.numbers.end(),
                               [](const CandidateNumber& n) { return n.plausible; });
-  out.explained = found.trial.explained;
-  out.absorbed = found.trial.absorbed;
-  out.alone = held_out_error(judge, block, found.trial);
+  out.explained = found.scored.explained;
+  out.absorbed = found.scored.absorbed;
+  out.largest_m = largest_motion(s, regressor, found.scored);
+  out.alone = held_out_error(scorer, regressor, found.scored);
   return out;
 }
 
@@ -95,7 +104,7 @@ bool overlap(const EffectEntry& a, const EffectEntry& b) {
   });
 }
 
-void name_confounded(const Stage& s, const std::vector<const Found*>& found,
+void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& found,
                      std::vector<Candidate>& out) {
   const std::vector<const Found*> some(found.begin(),
                                        found.begin() + std::min(found.size(), kCompared));
@@ -116,20 +125,20 @@ void name_confounded(const Stage& s, const std::vector<const Found*>& found,
 }
 
 /// Held-out error of each with the best one already in.
-void add_after(const Stage& s, const std::vector<const Found*>& found,
+void add_after(const WhitenedFit& s, const std::vector<const Found*>& found,
                std::vector<Candidate>& out) {
-  const Stage next = extended(s, block_of(s, *found.front()));
-  const Judge judge(next);
+  const WhitenedFit next = extended(s, regressor_of(s, *found.front()));
+  const Scorer scorer(next);
   out.front().after = out.front().alone;
   for (std::size_t i = 1; i < found.size(); ++i) {
-    const Block block = block_of(next, *found[i]);
-    out[i].after = held_out_error(judge, block, judge.judge(block));
+    const Regressor regressor = regressor_of(next, *found[i]);
+    out[i].after = held_out_error(scorer, regressor, scorer.score(regressor));
   }
 }
 
 }  // namespace
 
-std::vector<Candidate> candidates_of(const Stage& stage, const Scan& scan) {
+std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& scan) {
   std::vector<const Found*> found;
   const Found* best = scan.supported();
   if (best != nullptr) found.push_back(best);
@@ -140,19 +149,19 @@ std::vector<Candidate> candidates_of(const Stage& stage, const Scan& scan) {
   }
   std::vector<Candidate> out;
   if (found.empty()) return out;
-  const Judge judge(stage);
-  for (const Found* f : found) out.push_back(candidate(stage, judge, *f));
-  name_confounded(stage, found, out);
-  add_after(stage, found, out);
+  const Scorer scorer(whitened);
+  for (const Found* f : found) out.push_back(candidate(whitened, scorer, *f));
+  name_confounded(whitened, found, out);
+  add_after(whitened, found, out);
   return out;
 }
 
-UnknownStructure unknown_structure(const Stage& s, const Found& found) {
+UnknownStructure unknown_structure(const WhitenedFit& s, const Found& found) {
   UnknownStructure out;
   out.pattern = found.pattern;
-  out.share = found.trial.explained;
+  out.share = found.scored.explained;
   const double lines = static_cast<double>(std::max<Eigen::Index>(1, s.fit_poses()));
-  out.rms_m = std::sqrt(std::max(0.0, found.trial.explained) * s.Q / lines) * s.sigma_m;
+  out.rms_m = std::sqrt(std::max(0.0, found.scored.explained) * s.Q / lines) * s.sigma_m;
   out.rms_rad = found.rms_joint;
   return out;
 }

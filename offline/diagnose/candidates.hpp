@@ -10,9 +10,9 @@ namespace plumb::offline {
 
 /// What the first scan found, for the reader: best first, with held-out errors alone and after the
 /// best one, parameters, and what each cannot be told from.
-std::vector<Candidate> candidates_of(const Stage& stage, const Scan& scan);
+std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& scan);
 
-/// What the best pattern of a scan amounts to at that stage.
-UnknownStructure unknown_structure(const Stage& stage, const Found& pattern);
+/// What the best pattern of a scan amounts to at that whitened fit.
+UnknownStructure unknown_structure(const WhitenedFit& whitened, const Found& pattern);
 
 }  // namespace plumb::offline

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnose/block.hpp"
+#include "diagnose/regressor.hpp"
 
 namespace plumb::offline {
 
@@ -14,8 +14,12 @@ struct ChangePoint {
   double ln_bayes = 0.0;
 };
 
-/// The best cut of each kind at the stage; `tried` counts them all. Cost: one pass over the poses
-/// in their order, with running sums.
-std::vector<ChangePoint> change_points(const Stage& stage, int& tried);
+/// The best cut of each kind at the whitened fit; `tried` counts them all. Cost: one pass over the
+/// poses in their order, with running sums.
+std::vector<ChangePoint> change_points(const WhitenedFit& whitened, int& tried);
+
+/// Moves a step that was found on some of the poses to the best cut of all of them, at most `poses`
+/// earlier or later.
+void sharpen(const WhitenedFit& whitened, Eigen::Index poses, EffectEntry& step);
 
 }  // namespace plumb::offline

@@ -3,17 +3,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
-#include "plumb/runtime/effect_library.hpp"
+#include "diagnose/constants.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kSameEvidence = 0.5;   // nats
-constexpr double kSameMotion = 0.9999;  // share, either way
 
 struct Seen {
   Eigen::MatrixXd X;  // columns cleared of the model, over the fit lines
@@ -21,12 +18,12 @@ struct Seen {
   Eigen::LDLT<Eigen::MatrixXd> gram;
 };
 
-Seen seen_of(const Stage& s, const Found& found) {
+Seen seen_of(const WhitenedFit& s, const Found& found) {
   Seen out;
-  out.X = motions(s, block_of(s, found)).topRows(s.fit_lines);
+  out.X = motions(s, regressor_of(s, found)).topRows(s.fit_lines);
   const auto U = s.U.topRows(s.fit_lines);
   out.X -= U * (U.transpose() * out.X).eval();
-  out.motion = out.X * found.trial.theta;
+  out.motion = out.X * found.scored.theta;
   Eigen::MatrixXd gram = out.X.transpose() * out.X;
   // Columns that repeat each other are common; a trace of the largest keeps this solvable.
   gram.diagonal().array() += 1e-10 * gram.diagonal().maxCoeff();
@@ -34,15 +31,12 @@ Seen seen_of(const Stage& s, const Found& found) {
   return out;
 }
 
-bool depends_on_torque(const EffectInfo& info) {
-  return (info.needs & (kNeedsMasses | kNeedsPayload)) != 0 || info.name == "gravity_free";
-}
-
 }  // namespace
 
-Eigen::MatrixXd reproduction(const Stage& stage, const std::vector<const Found*>& candidates) {
+Eigen::MatrixXd reproduction(const WhitenedFit& whitened,
+                             const std::vector<const Found*>& candidates) {
   std::vector<Seen> seen;
-  for (const Found* found : candidates) seen.push_back(seen_of(stage, *found));
+  for (const Found* found : candidates) seen.push_back(seen_of(whitened, *found));
   const auto n = static_cast<Eigen::Index>(seen.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -56,35 +50,31 @@ Eigen::MatrixXd reproduction(const Stage& stage, const std::vector<const Found*>
 }
 
 std::vector<std::string> disguises(const EffectEntry& entry) {
-  std::vector<std::string> out;
-  if (entry.name == "gear_harmonics") {
-    out = {"encoder_eccentricity"};
-  }
-  return out;
+  const auto same = descriptor_of(entry.name).same_motion;
+  return std::vector<std::string>(same.begin(), same.end());
 }
 
-const Found* tied_with_first(const Stage& stage, const Scan& scan) {
+const Found* tied_with_first(const WhitenedFit& whitened, const Scan& scan) {
   const Found* first = scan.supported();
   if (first == nullptr) return nullptr;
   for (const auto& other : scan.library) {
     if (other.entry.name == first->entry.name ||
         std::abs(other.ln_bayes() - first->ln_bayes()) > kSameEvidence)
       continue;
-    const Eigen::MatrixXd share = reproduction(stage, {first, &other});
+    const Eigen::MatrixXd share = reproduction(whitened, {first, &other});
     if (std::min(share(0, 1), share(1, 0)) > kSameMotion) return &other;
   }
   return nullptr;
 }
 
 std::string separating_measurement(const EffectEntry& a, const EffectEntry& b) {
-  const EffectInfo& first = effect_info(find_effect_law(a.name));
-  const EffectInfo& second = effect_info(find_effect_law(b.name));
-  const unsigned only = first.needs ^ second.needs;
+  const EffectDescriptor &first = descriptor_of(a.name), &second = descriptor_of(b.name);
+  const unsigned only = first.law->needs ^ second.law->needs;
   if ((only & kNeedsDirection) != 0) return "the same poses approached from + and from -";
   if ((only & kNeedsSteps) != 0) return "the same poses again after a longer wait";
   if ((only & kNeedsTemperature) != 0) return "the same poses cold and warm";
   if ((only & (kNeedsTime | kNeedsOrder)) != 0) return "the first poses again at the end";
-  if (depends_on_torque(first) || depends_on_torque(second))
+  if (grows_with_load(first) || grows_with_load(second))
     return "the same poses with and without payload";
   if (a.joints != b.joints) return "one of the joints swept alone, the others at rest";
   return "more poses over the whole range of the joint";

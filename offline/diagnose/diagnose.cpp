@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "check/data_sense.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/confounding.hpp"
+#include "diagnose/constants.hpp"
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/forward.hpp"
+#include "diagnose/diagnosis_text.hpp"
+#include "diagnose/forward_selection.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/refit.hpp"
-#include "diagnose/verdict.hpp"
+#include "effects/registry.hpp"
+#include "fit/few_poses.hpp"
+#include "fit/quantile.hpp"
 #include "fit/split.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kFewestFreeLines = 20.0;
-constexpr double kGross = 6.0;  // times the median error: no reading of this tracker
-
 /// The cell without what is learnt: the tree comes after the physics.
 Cell physics_of(Cell cell) {
-  std::erase_if(cell.effects, [](const EffectEntry& e) { return e.name == "local_tree"; });
+  std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
   return cell;
 }
 
@@ -46,9 +49,7 @@ class HeldOut {
   double usual_mean() const {
     std::vector<double> all = norms();
     if (all.empty()) return 0.0;
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), middle, all.end());
-    const double limit = kGross * *middle;
+    const double limit = kGross * median(all);
     std::erase_if(all, [limit](double norm) { return norm > limit; });
     return summarise(std::move(all)).mean;
   }
@@ -70,8 +71,10 @@ struct Work {
   const DiagnosisRequest& request;
 
   ForwardStart start(const std::vector<int>& rows, bool quiet) const {
-    return {cell, measured, rows, not_testable,
-            quiet ? std::function<void(const std::string&)>() : request.tell};
+    std::function<void(const std::string&)> tell;
+    if (!quiet && request.tell)
+      tell = [this](const std::string& key) { request.tell("step 4 of 4, adding " + key); };
+    return {cell, measured, rows, not_testable, std::move(tell)};
   }
 };
 
@@ -90,69 +93,137 @@ HeldOut held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
 HeldOut nested_held_out(const Work& w) {
   HeldOut out(w.measured, w.split);
   for (int k = 0; k < w.split.folds; ++k) {
+    if (w.request.tell)
+      w.request.tell(fmt::format("step 4 of 4, fold {} of {}", k + 1, w.split.folds));
     const auto inside = fit_rows(w.split, k);
     const Calibration base = calibrate(w.cell, w.measured, inside);
-    const Stage stage =
-        make_stage(w.cell, w.measured, base, without_outliers(inside, base.outliers), {});
-    const Forward found =
-        forward(w.start(inside, true), base, stage, scan(stage, w.not_testable, {}));
+    const WhitenedFit whitened =
+        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {});
+    const ForwardSelection found = forward_selection(w.start(inside, true), base, whitened,
+                                                     scan(whitened, w.not_testable, {}));
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
   }
   return out;
 }
 
 /// Against what a model with these many parameters cannot avoid.
-std::optional<LeftOver> left_over_of(const Work& w, const HeldOut& held, const Calibration& fitted,
-                                     const NoiseFloor& floor) {
-  const double inside = w.split.folds > 0 ? 1.0 - 1.0 / w.split.folds : 1.0;
-  const auto axes =
-      static_cast<double>(std::count(w.measured.has_axis.begin(), w.measured.has_axis.end(), true));
-  return left_over(held.usual_mean(), floor, inside * axes * static_cast<double>(w.fit.size()),
-                   static_cast<double>(fitted.parameters.size()));
+std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
+                                                const Calibration& fitted,
+                                                const NoiseFloor& floor) {
+  return held_out_excess(held.usual_mean(), floor,
+                         unavoidable_ratio(fitted_coordinates(w.measured, w.split),
+                                           static_cast<double>(fitted.parameters.size())));
 }
 
-bool judgeable(const Stage& stage) {
-  return static_cast<double>(stage.fit_lines - stage.rank) >= kFewestFreeLines;
+/// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.
+constexpr const char* kSteps[] = {"calibrating", "trying every effect", "held-out errors",
+                                  "adding effects"};
+
+void tell_step(const DiagnosisRequest& request, std::size_t step) {
+  if (request.tell)
+    request.tell(fmt::format("step {} of {}, {}", step + 1, request.apply ? 4 : 3, kSteps[step]));
 }
 
-Finding finding_of(const Scan& look, const Stage& stage, const Calibration& calibration) {
-  if (!judgeable(stage)) return Finding::kUndecidable;
+bool judgeable(const WhitenedFit& whitened) {
+  return static_cast<double>(whitened.fit_lines - whitened.rank) >= kFewestFreeLines;
+}
+
+Finding finding_of(const Scan& look, const WhitenedFit& whitened, const Calibration& calibration) {
+  if (!judgeable(whitened)) return Finding::kUndecidable;
   const auto is_one = [&](const Found& f) {
-    return !is_remainder(*stage.cell, stage, calibration, f);
+    return !is_remainder(*whitened.cell, whitened, calibration, f);
   };
   if (look.unknown() && is_one(*look.pattern)) return Finding::kUnknown;
   if (look.supported(is_one) != nullptr) return Finding::kMissing;
-  return stage.noise.known ? Finding::kComplete : Finding::kUndecidable;
+  return whitened.noise.known ? Finding::kComplete : Finding::kUndecidable;
 }
 
-void go_all_the_way(const Work& w, const Calibration& base, const Stage& stage, const Scan& first,
-                    Diagnosis& out) {
-  const Forward found = forward(w.start(w.fit, false), base, stage, first);
-  std::optional<HeldOut> held;
-  for (const auto& step : found.steps) {
-    held = held_out_of(w, step.effects, step.calibration);
-    out.added.push_back({step.entry, step.cycles, step.ln_bayes, held->stats()});
+void say_what_was_not_judged(const ForwardSelection& found, Diagnosis& out) {
+  if (found.not_judged.empty()) return;
+  out.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-DIAGNOSE-UNJUDGED",
+       .message = fmt::format("{} could not be refitted, so that nothing is known of {}: the model "
+                              "{}",
+                              found.not_judged.size() == 1 ? "one model" : "some models",
+                              found.not_judged.size() == 1 ? "it" : "them",
+                              fmt::join(found.not_judged, "; the model ")),
+       .help = "plumb explain W-DIAGNOSE-UNJUDGED"});
+}
+
+/// How many of the steps are kept. The readings of the fit chose them; the readings that had no say
+/// can only refuse: where the error on them leaps, or ends clearly above its smallest value, the
+/// steps behind that value are not taken.
+std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
+  double least = before_m;
+  std::size_t kept = 0, seen = 0;
+  while (seen < added.size() && added[seen].held.mean <= kLeap * least) {
+    if (added[seen].held.mean < least) {
+      least = added[seen].held.mean;
+      kept = seen + 1;
+    }
+    ++seen;
   }
+  const bool sound =
+      seen == added.size() && (added.empty() || added.back().held.mean <= kMostRise * least);
+  return sound ? added.size() : kept;
+}
+
+void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, std::size_t kept,
+                          double before_m, Diagnosis& out) {
+  std::vector<std::string> names;
+  for (std::size_t i = kept; i < added.size(); ++i) names.push_back(key_of(cell, added[i].entry));
+  const double least_m = kept == 0 ? before_m : added[kept - 1].held.mean;
+  out.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-DIAGNOSE-ROSE",
+       .message = fmt::format("not added, though the fitted readings speak for it: {}; the error "
+                              "on unseen poses rose from {:.3f} to {:.3f} mm",
+                              fmt::join(names, ", "), least_m * 1e3, added[kept].held.mean * 1e3),
+       .help = "plumb explain W-DIAGNOSE-ROSE"});
+}
+
+void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
+                    const Scan& first, Diagnosis& out) {
+  ForwardSelection found = forward_selection(w.start(w.fit, false), base, whitened, first);
+  std::vector<HeldOut> held_by_step;
+  for (const auto& step : found.steps) {
+    held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
+    out.added.push_back({step.entry, step.cycles, step.ln_bayes, held_by_step.back().stats()});
+  }
+  const std::size_t kept = steps_kept(out.before.mean, out.added);
+  const bool refused = kept < out.added.size();
+  if (refused) {
+    say_what_was_refused(w.cell, out.added, kept, out.before.mean, out);
+    out.added.erase(out.added.begin() + static_cast<std::ptrdiff_t>(kept), out.added.end());
+    found.steps.erase(found.steps.begin() + static_cast<std::ptrdiff_t>(kept), found.steps.end());
+    held_by_step.erase(held_by_step.begin() + static_cast<std::ptrdiff_t>(kept),
+                       held_by_step.end());
+    found.unlikely.clear();
+  }
+  std::optional<HeldOut> held;
+  if (!held_by_step.empty()) held = std::move(held_by_step.back());
   out.full = found.full;
   out.unlikely = found.unlikely;
+  say_what_was_not_judged(found, out);
   if (!found.steps.empty()) {
     out.effects = found.steps.back().effects;
     out.floor = noise_floor(w.cell, w.measured, found.steps.back().calibration.state);
   }
-  if (w.split.folds > 0) {
+  if (w.split.folds > 0 && !(refused && kept == 0)) {
     out.nested = true;
     held = nested_held_out(w);
   }
   if (held) {
     out.after = held->stats();
-    out.left_over = left_over_of(
+    out.held_out_excess = held_out_excess_of(
         w, *held, found.steps.empty() ? base : found.steps.back().calibration, out.floor);
   }
   out.finding_after = Finding::kComplete;
   if (found.unknown) {
     out.finding_after = Finding::kUnknown;
     out.unknown_after = found.unknown;
-  } else if (!stage.noise.known || !judgeable(stage) || out.tied) {
+  } else if (!whitened.noise.known || !judgeable(whitened) || out.tied) {
     out.finding_after = Finding::kUndecidable;
   }
 }
@@ -171,35 +242,39 @@ Diagnosis diagnose(const Cell& cell, const Measurements& measured,
          request};
   w.fit = fit_rows(w.split);
   if (w.split.folds == 0) w.held = held_rows(w.split);
-  w.testable = testable_effects(w.cell, data_sense(w.cell, measured, w.fit));
+  w.testable = testable_effects(data_sense(w.cell, measured, w.fit));
   Diagnosis out;
   for (const auto& answer : w.testable)
     if (answer.answer == Testable::Answer::kNo) {
       out.not_testable.push_back(answer);
       w.not_testable.push_back(answer.effect);
     }
+  tell_step(request, 0);
   const Calibration base = calibrate(w.cell, measured, w.fit);
+  tell_step(request, 1);
   const auto rows = without_outliers(w.fit, base.outliers);
-  const Stage stage = make_stage(w.cell, measured, base, rows, w.held);
-  const Scan first = scan(stage, w.not_testable, {});
+  const WhitenedFit whitened = make_whitened_fit(w.cell, measured, base, rows, w.held);
+  const Scan first = scan(whitened, w.not_testable, {});
   out.floor = noise_floor(w.cell, measured, base.state);
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());
-  out.blocks = first.blocks;
+  out.regressors = first.regressors;
   for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
-  out.finding = finding_of(first, stage, base);
-  out.candidates = candidates_of(stage, first);
+  out.finding = finding_of(first, whitened, base);
+  out.candidates = candidates_of(whitened, first);
   if (const Found* other =
-          out.finding == Finding::kMissing ? tied_with_first(stage, first) : nullptr) {
+          out.finding == Finding::kMissing ? tied_with_first(whitened, first) : nullptr) {
     out.finding = Finding::kUndecidable;
     out.tied = other->entry;
   }
-  if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(stage, *first.pattern);
+  if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(whitened, *first.pattern);
+  tell_step(request, 2);
   const HeldOut held = held_out_of(w, w.cell.effects, base);
   out.before = out.after = held.stats();
-  out.left_over = left_over_of(w, held, base, out.floor);
+  out.held_out_excess = held_out_excess_of(w, held, base, out.floor);
   out.effects = w.cell.effects;
-  if (request.apply) go_all_the_way(w, base, stage, first, out);
+  if (request.apply) tell_step(request, 3);
+  if (request.apply) go_all_the_way(w, base, whitened, first, out);
   out.text = verdict_text(w.cell, out);
   out.text_after = verdict_after_text(w.cell, out);
   return out;

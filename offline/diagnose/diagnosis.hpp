@@ -9,9 +9,9 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "check/effect_rules.hpp"
-#include "diagnose/block.hpp"
-#include "diagnose/left_over.hpp"
+#include "diagnose/regressor.hpp"
 #include "fit/error_stats.hpp"
+#include "fit/held_out_excess.hpp"
 #include "fit/noise_floor.hpp"
 
 namespace plumb::offline {
@@ -47,6 +47,7 @@ struct Candidate {
   std::vector<CandidateNumber> numbers;
   double explained = 0.0;                    // share of what the model leaves
   double absorbed = 0.0;                     // share of its motion that the geometry imitates
+  double largest_m = 0.0;                    // it moves the measured point so far beyond that
   std::vector<std::string> confounded_with;  // "gear_harmonics:J2"
   std::string separate;                      // the measurement that tells them apart
   std::optional<EffectEntry> rival;          // the first of them
@@ -91,10 +92,11 @@ struct Diagnosis {
   std::optional<UnknownStructure> unknown;        // at the start
   std::optional<UnknownStructure> unknown_after;  // at the end
   std::vector<Oversized> unlikely;                // added and well founded, but large
-  std::optional<LeftOver> left_over;              // at the end; none without a noise floor
+  std::optional<HeldOutExcess> held_out_excess;   // at the end; none without a noise floor
   std::vector<EffectEntry> effects;               // the list at the end
   std::vector<std::string> outliers;              // poses left out
-  double blocks = 0.0;                            // tried in one look
+  std::vector<Problem> remarks;                   // what could not be judged
+  double regressors = 0.0;                        // tried in one look
 };
 
 struct DiagnosisRequest {

@@ -4,19 +4,21 @@
 #include <algorithm>
 
 #include "cell/formula_reader.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 namespace {
 
 /// Effects whose joints are a set; of the others they mean something together.
 bool joints_add_up(const EffectEntry& entry) {
-  return !entry.joints.empty() && entry.name != "cross_compliance" && entry.name != "step" &&
-         entry.name != "formula";
+  const JointList list = descriptor_of(entry.name).joints;
+  return !entry.joints.empty() && list != JointList::kOrderedPair &&
+         list != JointList::kOneIfEncoder && list != JointList::kInFormula;
 }
 
 bool like(const EffectEntry& a, const EffectEntry& b) {
   if (a.name != b.name) return false;
-  if (const auto name = b.options.find("name"); b.name == "formula" && name != b.options.end())
+  if (const auto name = b.options.find("name"); is_formula(b.name) && name != b.options.end())
     return name->second == EffectEntry::Value(formula_label(formula_text(a)));
   return std::all_of(b.options.begin(), b.options.end(), [&](const auto& option) {
     const auto it = a.options.find(option.first);

@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "diagnose/constants.hpp"
+
 namespace plumb::offline {
 namespace {
 
-constexpr std::array kWidths = {0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
 constexpr double kNothingLeft = 1e-12;  // share of Q: rounding
 
 double ln_bayes_at(double tau, const Eigen::ArrayXd& w, const Eigen::ArrayXd& v, double Q,
@@ -38,15 +39,15 @@ Evidence evidence(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double 
     u = (eigen.eigenvectors().transpose() * v).array();
   }
   w = w.max(0.0);
-  std::array<double, kWidths.size()> ln{};
+  std::array<double, kPriorWidths.size()> ln{};
   std::size_t best = 0;
-  for (std::size_t i = 0; i < kWidths.size(); ++i) {
-    ln[i] = ln_bayes_at(kWidths[i], w, u, Q, scale);
+  for (std::size_t i = 0; i < kPriorWidths.size(); ++i) {
+    ln[i] = ln_bayes_at(kPriorWidths[i], w, u, Q, scale);
     if (ln[i] > ln[best]) best = i;
   }
   double sum = 0.0;
   for (double l : ln) sum += std::exp(l - ln[best]);
-  return {ln[best] + std::log(sum / static_cast<double>(kWidths.size())), kWidths[best]};
+  return {ln[best] + std::log(sum / static_cast<double>(kPriorWidths.size())), kPriorWidths[best]};
 }
 
 }  // namespace plumb::offline

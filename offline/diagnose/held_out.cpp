@@ -7,7 +7,7 @@ namespace plumb::offline {
 namespace {
 
 /// 3-D error of each pose of whitened lines.
-void add_norms(const Stage& s, const Segment& at, const Eigen::VectorXd& lines,
+void add_norms(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines,
                std::vector<double>& out) {
   for (Eigen::Index i = 0; i < at.size(); ++i) {
     double sum = 0.0;
@@ -19,14 +19,14 @@ void add_norms(const Stage& s, const Segment& at, const Eigen::VectorXd& lines,
   }
 }
 
-auto lines_of(const Stage& s, const Segment& at) {
+auto lines_of(const WhitenedFit& s, const Segment& at) {
   return Eigen::seqN(at.begin * s.axes, at.size() * s.axes);
 }
 
 }  // namespace
 
-ErrorStats held_out_error(const Judge& judge) {
-  const Stage& s = judge.stage();
+ErrorStats held_out_error(const Scorer& scorer) {
+  const WhitenedFit& s = scorer.whitened();
   std::vector<double> norms;
   if (s.held.size() > 0) {
     add_norms(s, s.held, s.y(lines_of(s, s.held)), norms);
@@ -34,28 +34,29 @@ ErrorStats held_out_error(const Judge& judge) {
   }
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
     const auto at = lines_of(s, s.folds[f]);
-    add_norms(s, s.folds[f], s.y(at) - s.U(at, Eigen::all) * judge.without(f).model, norms);
+    add_norms(s, s.folds[f], s.y(at) - s.U(at, Eigen::all) * scorer.without(f).model, norms);
   }
   return summarise(std::move(norms));
 }
 
-ErrorStats held_out_error(const Judge& judge, const Block& block, const Trial& trial) {
-  const Stage& s = judge.stage();
-  const Eigen::MatrixXd X = motions(s, block);
+ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
+                          const RegressorScore& scored) {
+  const WhitenedFit& s = scorer.whitened();
+  const Eigen::MatrixXd X = motions(s, regressor);
   std::vector<double> norms;
   if (s.held.size() > 0) {
     const auto at = lines_of(s, s.held);
     const Eigen::VectorXd a =
-        -(s.U.topRows(s.fit_lines).transpose() * (X.topRows(s.fit_lines) * trial.theta));
-    add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - X(at, Eigen::all) * trial.theta,
+        -(s.U.topRows(s.fit_lines).transpose() * (X.topRows(s.fit_lines) * scored.theta));
+    add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - X(at, Eigen::all) * scored.theta,
               norms);
     return summarise(std::move(norms));
   }
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
     const auto at = lines_of(s, s.folds[f]);
-    const auto fitted = judge.without(f, trial);
+    const auto fitted = scorer.without(f, scored);
     add_norms(s, s.folds[f],
-              s.y(at) - s.U(at, Eigen::all) * fitted.model - X(at, Eigen::all) * fitted.block,
+              s.y(at) - s.U(at, Eigen::all) * fitted.model - X(at, Eigen::all) * fitted.regressor,
               norms);
   }
   return summarise(std::move(norms));

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "diagnose/block.hpp"
-#include "diagnose/trial.hpp"
+#include "diagnose/regressor.hpp"
+#include "diagnose/regressor_score.hpp"
 #include "fit/error_stats.hpp"
 
 namespace plumb::offline {
 
-/// 3-D error on poses that had no say, to first order: the stage's held-out poses, or where there
-/// are none, each fold by the others.
-ErrorStats held_out_error(const Judge& judge);
+/// 3-D error on poses that had no say, to first order: the whitened fit's held-out poses, or where
+/// there are none, each fold by the others.
+ErrorStats held_out_error(const Scorer& scorer);
 
-/// The same with a block in the model.
-ErrorStats held_out_error(const Judge& judge, const Block& block, const Trial& trial);
+/// The same with a regressor in the model.
+ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
+                          const RegressorScore& scored);
 
 }  // namespace plumb::offline

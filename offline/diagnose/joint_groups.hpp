@@ -9,7 +9,7 @@ namespace plumb::offline {
 
 /// One cause often acts at several joints at once: gears yield, links bend. Of every such effect,
 /// the best joint with those others that the evidence supports beside it, as one candidate.
-/// `library`: what was found joint by joint, best first. Cost: a few blocks an effect.
-std::vector<Found> joint_groups(const Judge& judge, const std::vector<Found>& library);
+/// `library`: what was found joint by joint, best first. Cost: a few regressors an effect.
+std::vector<Found> joint_groups(const Scorer& scorer, const std::vector<Found>& library);
 
 }  // namespace plumb::offline

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <map>
 
+#include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
+#include "diagnose/evidence_scale.hpp"
 #include "diagnose/plausible.hpp"
+#include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -33,11 +36,10 @@ std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
     const Parameter& p = calibration.parameters[i];
     if (!p.of_effect()) continue;
     const auto& effect = effects[p.joint];
-    const EffectInfo& info = effect_info(find_effect_law(effect.name));
-    const bool apart = info.per_joint && effect.name != "thermal_growth" && !effect.joints.empty();
+    const bool apart = descriptor_of(effect.name).joints_apart && !effect.joints.empty();
     const int each =
         static_cast<int>(effect.parameters.size() / std::max<std::size_t>(1, effect.joints.size()));
-    const int at = apart && effect.name != "gravity_free" ? p.component / std::max(1, each) : -1;
+    const int at = apart ? p.component / std::max(1, each) : -1;
     Part& part = found[{p.joint, at}];
     part.entry = *entries[p.joint];
     if (at >= 0) part.entry.joints = {effect.joints[at]};
@@ -49,7 +51,7 @@ std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
 }
 
 /// Evidence of a part over all else in the model, from the joint fit alone.
-double evidence_of(const Part& part, const Stage& stage, const Calibration& calibration) {
+double evidence_of(const Part& part, const WhitenedFit& whitened, const Calibration& calibration) {
   const auto b = static_cast<Eigen::Index>(part.index.size());
   Eigen::VectorXd theta(b);
   for (Eigen::Index i = 0; i < b; ++i) {
@@ -59,7 +61,7 @@ double evidence_of(const Part& part, const Stage& stage, const Calibration& cali
     if (typical == 0.0) typical = std::max(std::abs(value), 1e-300);
     theta(i) = value / typical;
   }
-  Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
+  Eigen::MatrixXd C = whitened.inverse_information(part.index, part.index);
   for (Eigen::Index i = 0; i < b; ++i) {
     const Parameter& p = calibration.parameters[part.index[i]];
     double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
@@ -69,46 +71,46 @@ double evidence_of(const Part& part, const Stage& stage, const Calibration& cali
   }
   const Eigen::MatrixXd gram = C.ldlt().solve(Eigen::MatrixXd::Identity(b, b));
   const Eigen::VectorXd v = gram * theta;
-  EvidenceScale scale = Judge(stage).scale();
+  EvidenceScale scale = evidence_scale(whitened);
   scale.lines += static_cast<double>(b);
-  return evidence(gram, v, stage.Q + theta.dot(v), scale).ln_bayes;
+  return evidence(gram, v, whitened.Q + theta.dot(v), scale).ln_bayes;
 }
 
 /// RMS motion of a part that nothing else in the model could make, whitened.
-double motion_of(const Part& part, const Stage& stage, const Calibration& calibration) {
+double motion_of(const Part& part, const WhitenedFit& whitened, const Calibration& calibration) {
   Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));
   for (Eigen::Index i = 0; i < theta.size(); ++i)
     theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
-  const Eigen::MatrixXd C = stage.inverse_information(part.index, part.index);
+  const Eigen::MatrixXd C = whitened.inverse_information(part.index, part.index);
   return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
+}
+
+/// A pattern of no law has a cause of its own.
+Cause cause_of(const EffectEntry& entry) {
+  const EffectDescriptor* effect = find_descriptor(entry.name);
+  return effect != nullptr ? effect->cause : Cause::kItsOwn;
 }
 
 /// Whether one effect is a finer law of the same cause: a spring that is not linear, a gear whose
 /// error is not a pure wave.
 bool refines(const EffectEntry& a, const EffectEntry& b) {
-  const auto kind = [](const std::string& name) {
-    if (name == "joint_compliance" || name == "joint_compliance_soft" || name == "gravity_free")
-      return 1;
-    if (name == "gear_ripple" || name == "gear_harmonics" || name == "joint_table") return 2;
-    return 0;
-  };
-  return kind(a.name) != 0 && kind(a.name) == kind(b.name) && a.joints == b.joints;
+  return cause_of(a) != Cause::kItsOwn && cause_of(a) == cause_of(b) && a.joints == b.joints;
 }
 
 }  // namespace
 
-bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
+bool is_remainder(const Cell& cell, const WhitenedFit& whitened, const Calibration& calibration,
                   const Found& found) {
-  if (reaches_noise(stage, found.trial)) return false;
+  if (reaches_noise(whitened, found.scored)) return false;
   double largest = 0.0;
   for (const auto& part : parts_of(cell, calibration))
-    if ((part.entry.name != "gear_ripple" || found.entry.name != "gear_ripple") &&
+    if ((!is_wave(part.entry.name) || !is_wave(found.entry.name)) &&
         !refines(part.entry, found.entry))
-      largest = std::max(largest, motion_of(part, stage, calibration));
-  return std::sqrt(std::max(0.0, found.trial.explained) * stage.Q) < kRemainder * largest;
+      largest = std::max(largest, motion_of(part, whitened, calibration));
+  return std::sqrt(std::max(0.0, found.scored.explained) * whitened.Q) < kRemainder * largest;
 }
 
-std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
+std::optional<EffectEntry> lost(const Cell& cell, const WhitenedFit& whitened,
                                 const Calibration& calibration,
                                 const std::vector<EffectEntry>& given, const EffectEntry& fresh) {
   std::optional<EffectEntry> out;
@@ -116,7 +118,7 @@ std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
   for (const auto& part : parts_of(cell, calibration)) {
     if (has_effect(given, part.entry)) continue;  // the user's own
     if (part.entry.name == fresh.name && part.entry.joints == fresh.joints) continue;
-    const double ln = evidence_of(part, stage, calibration);
+    const double ln = evidence_of(part, whitened, calibration);
     if (ln >= least) continue;
     least = ln;
     out = part.entry;
@@ -124,11 +126,11 @@ std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
   return out;
 }
 
-std::vector<Oversized> oversized(const Cell& cell, const Stage& stage,
+std::vector<Oversized> oversized(const Cell& cell, const WhitenedFit& whitened,
                                  const Calibration& calibration,
                                  const std::vector<EffectEntry>& given) {
   std::vector<Oversized> out;
-  const double s = std::sqrt(stage.noise.variance);
+  const double s = std::sqrt(whitened.noise.variance);
   for (const auto& part : parts_of(cell, calibration)) {
     if (has_effect(given, part.entry)) continue;
     Oversized one{.entry = part.entry};
@@ -137,7 +139,7 @@ std::vector<Oversized> oversized(const Cell& cell, const Stage& stage,
       const Parameter& p = calibration.parameters[static_cast<std::size_t>(i)];
       const auto info = effect_parameter(calibration.state.arm, p.joint, p.component);
       const double value = value_of(calibration.state, p);
-      const double std = s * std::sqrt(std::max(0.0, stage.inverse_information(i, i)));
+      const double std = s * std::sqrt(std::max(0.0, whitened.inverse_information(i, i)));
       fine = fine && plausible(value, std, info);
       one.possible = one.possible && possible(value, std, info);
       one.times = std::max(one.times, times_usual(value, std, info));

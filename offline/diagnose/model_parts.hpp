@@ -10,22 +10,20 @@
 
 namespace plumb::offline {
 
-inline constexpr double kRemainder = 0.15;  // of the motion of the strongest effect
-
 /// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
 /// no law is right to more than some percent. Waves of other lengths are other causes.
-bool is_remainder(const Cell& cell, const Stage& stage, const Calibration& calibration,
+bool is_remainder(const Cell& cell, const WhitenedFit& whitened, const Calibration& calibration,
                   const Found& found);
 
 /// The added effect, at one joint, that lost its evidence to the rest of the model, if one did.
 /// Those in `given` and the one just added (`fresh`) stay.
-std::optional<EffectEntry> lost(const Cell& cell, const Stage& stage,
+std::optional<EffectEntry> lost(const Cell& cell, const WhitenedFit& whitened,
                                 const Calibration& calibration,
                                 const std::vector<EffectEntry>& given, const EffectEntry& fresh);
 
 /// The added effects, at one joint each, whose sizes are not plausible; impossible ones first, then
 /// the largest.
-std::vector<Oversized> oversized(const Cell& cell, const Stage& stage,
+std::vector<Oversized> oversized(const Cell& cell, const WhitenedFit& whitened,
                                  const Calibration& calibration,
                                  const std::vector<EffectEntry>& given);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumb/runtime/effect.hpp"
+#include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::offline {
 

@@ -18,6 +18,10 @@ void keep_values(const ArmState& old, ArmState& fresh) {
       fresh.arm.effects[p.joint].parameters[p.component] = it->second;
 }
 
+bool did_not_converge(const Failure& failure) {
+  return failure.problems().front().code == "E-FIT-CONVERGE";
+}
+
 }  // namespace
 
 Calibration refitted(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
@@ -27,8 +31,14 @@ Calibration refitted(const Cell& cell, const Measurements& measured, const std::
   ArmState start = from.state;
   start.arm.effects = bind_effects(with, measured);
   keep_values(from.state, start);
-  return how == Refit::kFully ? calibrate_from(with, measured, fit, start)
-                              : calibrate_near(with, measured, fit, start, from);
+  if (how == Refit::kNearby) return calibrate_near(with, measured, fit, start, from);
+  try {
+    return calibrate_from(with, measured, fit, start);
+  } catch (const Failure& failure) {
+    if (!did_not_converge(failure)) throw;
+    // The same geometry and poses as before ask less of the solver.
+    return calibrate_near(with, measured, fit, start, from);
+  }
 }
 
 }  // namespace plumb::offline

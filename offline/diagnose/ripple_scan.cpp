@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/constants.hpp"
+
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kMostWaves = 12;
 constexpr std::size_t kTogether = 16;  // waves judged in one pass over the poses
-constexpr double kPays = 3.0;          // nats, after what the search costs
 constexpr int kIterations = 4;
 constexpr double kLeastShare = 0.2;  // of a step
-constexpr double kLeastSteps = 1.6;  // between two waves; 2 is a whole wave more over the range
 
 /// Gram matrix and products of all waves, cleared of the model and of what was picked.
 struct Field {
@@ -53,8 +52,8 @@ bool apart(double wave, const std::vector<double>& others, double step) {
 double rounded(double cycles) { return std::round(100.0 * cycles) / 100.0; }
 
 /// The waves, and behind them how each would change with its frequency.
-Block with_slopes(const Stage& s, const Block& waves, const Eigen::VectorXd& theta) {
-  Block out = waves;
+Regressor with_slopes(const WhitenedFit& s, const Regressor& waves, const Eigen::VectorXd& theta) {
+  Regressor out = waves;
   const Eigen::Index count = waves.columns.cols() / 2;
   out.columns.conservativeResize(Eigen::NoChange, 3 * count);
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
@@ -67,17 +66,17 @@ Block with_slopes(const Stage& s, const Block& waves, const Eigen::VectorXd& the
 }
 
 /// All frequencies at once by Gauss and Newton, from the grid they were found on.
-void refine(const Judge& judge, Ripples& out, double step) {
-  Block waves = ripple_block(judge.stage(), out.joint, out.cycles);
-  Trial now = judge.judge(waves);
+void refine(const Scorer& scorer, Ripples& out, double step) {
+  Regressor waves = ripple_regressor(scorer.whitened(), out.joint, out.cycles);
+  RegressorScore now = scorer.score(waves);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Products all = judge.products(with_slopes(judge.stage(), waves, now.theta));
+    const Products all = scorer.products(with_slopes(scorer.whitened(), waves, now.theta));
     Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
     gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
     // Two waves close together leave open which of them moves: none far, then.
     const auto m = static_cast<Eigen::Index>(out.cycles.size());
-    const double left =
-        judge.stage().Q * (1.0 - now.explained) / judge.scale().lines / std::pow(0.25 * step, 2);
+    const double left = scorer.whitened().Q * (1.0 - now.explained) / scorer.scale().lines /
+                        std::pow(0.25 * step, 2);
     gram.diagonal().tail(m).array() += left;
     const Eigen::VectorXd theta = gram.ldlt().solve(all.Xy);
     const Eigen::VectorXd change = theta.tail(m).cwiseMax(-0.5 * step).cwiseMin(0.5 * step);
@@ -89,8 +88,8 @@ void refine(const Judge& judge, Ripples& out, double step) {
       if (!std::all_of(moved.begin(), moved.end(),
                        [&](double wave) { return apart(wave, moved, step); }))
         continue;
-      const Block tried = ripple_block(judge.stage(), out.joint, moved);
-      Trial then = judge.judge(tried);
+      const Regressor tried = ripple_regressor(scorer.whitened(), out.joint, moved);
+      RegressorScore then = scorer.score(tried);
       if (then.evidence.ln_bayes <= now.evidence.ln_bayes) continue;
       better = true;
       out.cycles = moved;
@@ -103,21 +102,22 @@ void refine(const Judge& judge, Ripples& out, double step) {
 
 }  // namespace
 
-Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried) {
+Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tried) {
   Ripples out{.joint = joint, .cycles = {}, .strongest_ln_bayes = -1e6};
-  const auto grid = ripple_grid(judge.stage(), joint);
+  const auto grid = ripple_grid(scorer.whitened(), joint);
   if (grid.empty()) return out;
   tried += static_cast<int>(grid.size());
-  const Products all = judge.products(ripple_block(judge.stage(), joint, grid));
-  Field field{all.XX - all.UX.transpose() * all.UX, all.Xy, judge.stage().Q};
-  const double price = std::log(std::max(1.0, blocks + static_cast<double>(grid.size()))) + kPays;
+  const Products all = scorer.products(ripple_regressor(scorer.whitened(), joint, grid));
+  Field field{all.XX - all.UX.transpose() * all.UX, all.Xy, scorer.whitened().Q};
+  const double price =
+      std::log(std::max(1.0, regressors + static_cast<double>(grid.size()))) + kWavePays;
   const double step = grid.size() > 1 ? grid[1] - grid[0] : 0.5;
   while (out.cycles.size() < kMostWaves) {
     std::size_t best = 0;
     double most = -1e6;
     for (std::size_t k = 0; k < grid.size(); ++k) {
       if (!apart(grid[k], out.cycles, step)) continue;
-      const double ln = field.of(k, judge.scale()).ln_bayes;
+      const double ln = field.of(k, scorer.scale()).ln_bayes;
       if (ln > most) most = ln, best = k;
     }
     if (out.cycles.empty()) out.strongest_ln_bayes = most;
@@ -126,30 +126,35 @@ Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried) {
     if (most < price) break;
     field.pick(best);
   }
-  if (out.strongest_ln_bayes >= price) refine(judge, out, step);
+  if (out.strongest_ln_bayes >= price) refine(scorer, out, step);
   return out;
 }
 
-Ripples scan_fast_ripples(const Judge& judge, int joint, int& tried) {
+Ripples scan_fast_ripples(const Scorer& some, const Scorer& scorer, int joint, int& tried) {
   Ripples out{.joint = joint, .cycles = {}, .strongest_ln_bayes = kImpossible};
-  const auto grid = fast_ripple_grid(judge.stage(), joint);
+  const auto grid = fast_ripple_grid(some.whitened(), joint);
   tried += static_cast<int>(grid.size());
   for (std::size_t first = 0; first < grid.size(); first += kTogether) {
     const std::vector<double> waves(
         grid.begin() + static_cast<std::ptrdiff_t>(first),
         grid.begin() + static_cast<std::ptrdiff_t>(std::min(first + kTogether, grid.size())));
-    const Products all = judge.products(ripple_block(judge.stage(), joint, waves));
+    const Products all = some.products(ripple_regressor(some.whitened(), joint, waves));
     for (std::size_t k = 0; k < waves.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(2 * k);
       const auto UX = all.UX.middleCols(at, 2);
       const Evidence found = evidence(all.XX.block(at, at, 2, 2) - UX.transpose() * UX,
-                                      all.Xy.segment(at, 2), judge.stage().Q, judge.scale());
+                                      all.Xy.segment(at, 2), some.whitened().Q, some.scale());
       if (found.ln_bayes <= out.strongest_ln_bayes) continue;
       out.strongest_ln_bayes = found.ln_bayes;
       out.cycles = {waves[k]};
     }
   }
-  if (!out.cycles.empty()) refine(judge, out, grid[1] - grid[0]);
+  if (out.cycles.empty()) return out;
+  // What some of the poses say all have to confirm.
+  if (&some.whitened() != &scorer.whitened())
+    out.strongest_ln_bayes =
+        scorer.score(ripple_regressor(scorer.whitened(), joint, out.cycles)).evidence.ln_bayes;
+  refine(scorer, out, grid[1] - grid[0]);
   return out;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnose/trial.hpp"
+#include "diagnose/regressor_score.hpp"
 
 namespace plumb::offline {
 
@@ -15,13 +15,16 @@ struct Ripples {
 };
 
 /// Picks waves of a joint one after the other, each given those before, while each one's own
-/// evidence pays for the search through `blocks` of them; the first is always picked. Frequencies
-/// are then refined. `tried` grows by the waves on the grid. Cost: poses * (waves on the grid)^2.
-Ripples scan_ripples(const Judge& judge, int joint, double blocks, int& tried);
+/// evidence pays for the search through `regressors` of them; the first is always picked.
+/// Frequencies are then refined. `tried` grows by the waves on the grid. Cost: poses * (waves on
+/// the grid)^2.
+Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tried);
 
 /// The best single wave of a joint beyond those of the usual scan, refined. Fast waves are rare,
 /// and trying them costs as much as all the rest of a look: for when nothing else explains what is
-/// left. Cost: poses * waves on the grid * (rank + 32).
-Ripples scan_fast_ripples(const Judge& judge, int joint, int& tried);
+/// left. Looked for by `some`, which may see fewer poses, and refined by `scorer`. Cost: poses of
+/// `some`
+/// * waves on the grid * (rank + 32).
+Ripples scan_fast_ripples(const Scorer& some, const Scorer& scorer, int joint, int& tried);
 
 }  // namespace plumb::offline

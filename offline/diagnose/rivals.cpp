@@ -3,35 +3,32 @@
 
 #include <algorithm>
 
+#include "diagnose/constants.hpp"
 #include "diagnose/extension.hpp"
 #include "diagnose/model_parts.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kLongest = 3;      // effects of an explanation
-constexpr int kRivals = 5;       // besides the chosen one
-constexpr double kNearly = 0.5;  // of what the chosen one explains
-
-Explanation followed(const Stage& from, const Found& first,
+Explanation followed(const WhitenedFit& from, const Found& first,
                      const std::vector<std::string>& not_testable,
                      const std::vector<std::string>& banned) {
   Explanation out{{first}, first.score};
-  Stage stage = extended(from, block_of(from, first));
-  const double strongest = first.trial.explained * from.Q;
+  WhitenedFit whitened = extended(from, regressor_of(from, first));
+  const double strongest = first.scored.explained * from.Q;
   const auto is_one = [&](const Found& f) {
-    return f.trial.explained * stage.Q > kRemainder * kRemainder * strongest ||
-           reaches_noise(stage, f.trial);
+    return f.scored.explained * whitened.Q > kRemainder * kRemainder * strongest ||
+           reaches_noise(whitened, f.scored);
   };
-  while (out.effects.size() < kLongest) {
-    const Scan look = scan(stage, not_testable, banned);
+  while (out.effects.size() < kLongestExplanation) {
+    const Scan look = scan(whitened, not_testable, banned);
     const Found* next = look.supported(is_one);
     if (next == nullptr) break;
     out.effects.push_back(*next);
     out.score += next->score;
-    stage = extended(stage, block_of(stage, *next));
+    whitened = extended(whitened, regressor_of(whitened, *next));
   }
-  out.times_noise = times_noise(stage);
+  out.times_noise = times_noise(whitened);
   return out;
 }
 
@@ -42,23 +39,23 @@ bool names(const Cell& cell, const Explanation& explanation, const std::string& 
 
 }  // namespace
 
-std::optional<Explanation> better_explanation(const Stage& stage, const Scan& look,
+std::optional<Explanation> better_explanation(const WhitenedFit& whitened, const Scan& look,
                                               const std::string& chosen,
                                               const std::vector<std::string>& not_testable,
                                               const std::vector<std::string>& banned) {
-  const Found* own = look.find(*stage.cell, chosen);
+  const Found* own = look.find(*whitened.cell, chosen);
   if (own == nullptr) return std::nullopt;
-  const double to_beat = followed(stage, *own, not_testable, banned).score + kAhead_nats;
+  const double to_beat = followed(whitened, *own, not_testable, banned).score + kAhead_nats;
   std::optional<Explanation> best;
   int tried = 0;
   for (const auto& rival : look.library) {
-    if (tried == kRivals) break;
-    if (key_of(*stage.cell, rival.entry) == chosen || rival.score <= kSupported ||
-        !rival.gain.clear || rival.trial.explained < kNearly * own->trial.explained)
+    if (tried == kRivalsFollowed) break;
+    if (key_of(*whitened.cell, rival.entry) == chosen || rival.score <= kSupported ||
+        !rival.gain.clear || rival.scored.explained < kNearlyAsMuch * own->scored.explained)
       continue;
     ++tried;
-    Explanation explanation = followed(stage, rival, not_testable, banned);
-    if (explanation.times_noise > at_noise(stage) || names(*stage.cell, explanation, chosen))
+    Explanation explanation = followed(whitened, rival, not_testable, banned);
+    if (explanation.times_noise > at_noise(whitened) || names(*whitened.cell, explanation, chosen))
       continue;
     if (explanation.score > (best ? best->score : to_beat)) best = std::move(explanation);
   }

@@ -17,11 +17,10 @@ struct Explanation {
 };
 
 /// The first choice of a forward selection may be one wrong effect in the place of two right ones.
-/// At the stage without `chosen` (a key), effects that explain nearly as much are followed further,
-/// and so is the chosen one; returns the best explanation without it that leaves only noise, if it
-/// is better by a clear margin.
-/// Cost: some ten scans.
-std::optional<Explanation> better_explanation(const Stage& stage, const Scan& look,
+/// At the whitened fit without `chosen` (a key), effects that explain nearly as much are followed
+/// further, and so is the chosen one; returns the best explanation without it that leaves only
+/// noise, if it is better by a clear margin. Cost: some ten scans.
+std::optional<Explanation> better_explanation(const WhitenedFit& whitened, const Scan& look,
                                               const std::string& chosen,
                                               const std::vector<std::string>& not_testable,
                                               const std::vector<std::string>& banned);

@@ -8,21 +8,16 @@
 #include <map>
 
 #include "diagnose/change_points.hpp"
+#include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/few_digits.hpp"
 #include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
+#include "diagnose/thinned_fit.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kAhead_share = 0.05;  // of what is left: a pattern over the library's best
-constexpr int kRefinements = 12;
-constexpr double kLongestTransition_deg = 3.0;  // beyond it is no friction
-constexpr double kWidestTransition = 0.35;      // of the largest torque: beyond it is a spring
-
-const std::vector<std::string> kOnceAJoint = {"joint_compliance_soft", "backlash_load", "reversal",
-                                              "gravity_compensator"};
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
@@ -30,28 +25,29 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 
 /// Whether the model has that law at that joint with another constant. A joint has one spring, one
 /// backlash and one friction; a second one would only bend the first.
-bool has_with_other_constant(const Stage& stage, const EffectEntry& entry) {
-  if (!contains(kOnceAJoint, entry.name)) return false;
+bool has_with_other_constant(const WhitenedFit& whitened, const EffectEntry& entry) {
+  if (!descriptor_of(entry.name).once_a_joint) return false;
   EffectEntry any = entry;
   any.options.clear();
-  return std::any_of(stage.cell->effects.begin(), stage.cell->effects.end(), [&](EffectEntry old) {
-    old.options.clear();
-    return has_effect({old}, any);
-  });
+  return std::any_of(whitened.cell->effects.begin(), whitened.cell->effects.end(),
+                     [&](EffectEntry old) {
+                       old.options.clear();
+                       return has_effect({old}, any);
+                     });
 }
 
 /// Whether an entry is not to be tried: it failed before, or the model has it.
-bool is_out(const Stage& stage, const std::vector<std::string>& banned, const std::string& key,
-            const EffectEntry& entry) {
-  return contains(banned, key) || has_effect(stage.cell->effects, entry) ||
-         has_with_other_constant(stage, entry);
+bool is_out(const WhitenedFit& whitened, const std::vector<std::string>& banned,
+            const std::string& key, const EffectEntry& entry) {
+  return contains(banned, key) || has_effect(whitened.cell->effects, entry) ||
+         has_with_other_constant(whitened, entry);
 }
 
 /// Waves of one joint as one candidate. Each of them was searched for, so each pays.
-std::optional<Found> found_ripples(const Judge& judge, const Ripples& waves, double paid) {
+std::optional<Found> found_ripples(const Scorer& scorer, const Ripples& waves, double paid) {
   if (waves.cycles.empty()) return std::nullopt;
-  const Block block = ripple_block(judge.stage(), waves.joint, waves.cycles);
-  Found out{block.entry, {}, judge.judge(block), {}, 0.0, waves.cycles, 0.0};
+  const Regressor regressor = ripple_regressor(scorer.whitened(), waves.joint, waves.cycles);
+  Found out{regressor.entry, {}, scorer.score(regressor), {}, 0.0, waves.cycles, 0.0};
   const auto count = static_cast<double>(waves.cycles.size());
   out.score =
       waves.cycles.size() == 1 ? waves.strongest_ln_bayes - paid : out.ln_bayes() - count * paid;
@@ -61,151 +57,195 @@ std::optional<Found> found_ripples(const Judge& judge, const Ripples& waves, dou
 /// Collects the best of every effect and joint.
 class Collector {
  public:
-  Collector(const Stage& stage, const Judge& judge, const std::vector<std::string>& banned)
-      : stage_(stage), judge_(judge), banned_(banned) {}
+  Collector(const WhitenedFit& whitened, const Scorer& scorer,
+            const std::vector<std::string>& banned)
+      : whitened_(whitened), scorer_(scorer), banned_(banned) {}
 
-  void take(const Block& block) {
-    ++blocks_;
-    const std::string key = key_of(*stage_.cell, block.entry);
-    if (is_out(stage_, banned_, key, block.entry)) return;
-    Trial trial = judge_.judge(block);
-    keep(best_[key], block, std::move(trial));
+  void take(const Regressor& regressor) {
+    ++regressors_;
+    const std::string key = key_of(*whitened_.cell, regressor.entry);
+    if (is_out(whitened_, banned_, key, regressor.entry)) return;
+    RegressorScore scored = scorer_.score(regressor);
+    keep(best_[key], regressor, std::move(scored));
   }
-  void take_pattern(const Block& block) {
-    ++blocks_;
-    if (!keep(pattern_, block, judge_.judge(block)) || block.joint < 0) return;
-    const Eigen::VectorXd fitted = block.columns * pattern_->trial.theta;
+  void take_pattern(const Regressor& regressor) {
+    ++regressors_;
+    if (!keep(pattern_, regressor, scorer_.score(regressor)) || regressor.joint < 0) return;
+    const Eigen::VectorXd fitted = regressor.columns * pattern_->scored.theta;
     pattern_->rms_joint = std::sqrt(fitted.squaredNorm() / static_cast<double>(fitted.size()));
   }
-  void count(int more) { blocks_ += more; }
+  void count(int more) { regressors_ += more; }
 
   std::map<std::string, std::optional<Found>> best_;
   std::optional<Found> pattern_;
-  double blocks_ = 0.0;
+  double regressors_ = 0.0;
 
  private:
-  static bool keep(std::optional<Found>& best, const Block& block, Trial trial) {
-    if (best && best->ln_bayes() >= trial.evidence.ln_bayes) return false;
-    best = Found{block.entry, block.pattern, std::move(trial), {}, 0.0, {}, 0.0};
+  static bool keep(std::optional<Found>& best, const Regressor& regressor, RegressorScore scored) {
+    if (best && best->ln_bayes() >= scored.evidence.ln_bayes) return false;
+    best = Found{regressor.entry, regressor.pattern, std::move(scored), {}, 0.0, {}, 0.0};
     return true;
   }
-  const Stage& stage_;
-  const Judge& judge_;
+  const WhitenedFit& whitened_;
+  const Scorer& scorer_;
   const std::vector<std::string>& banned_;
 };
 
-/// Non-linear number of an entry and how far its neighbours on the grid are.
-struct Knob {
-  const char* key;
-  double step;  // added, or as a factor
-  bool factor;
-  double most;
-};
-std::optional<Knob> knob_of(const Stage& stage, const EffectEntry& entry) {
-  if (entry.name == "backlash_load" || entry.name == "joint_compliance_soft")
-    return Knob{"torque_Nm", 1.7, true,
-                kWidestTransition * largest_torque(stage, entry.joints.front())};
-  if (entry.name == "reversal") return Knob{"transition_deg", 1.7, true, kLongestTransition_deg};
-  return std::nullopt;
+/// Largest value of the refined option for which the entry is still the law that it is named after.
+double most_of(const WhitenedFit& whitened, const EffectEntry& entry,
+               const Refinement& refinement) {
+  return refinement.kind == Refinement::Most::kOfLargestTorque
+             ? refinement.most * largest_torque(whitened, entry.joints.front())
+             : refinement.most;
 }
 
-/// Climbs from the grid's best number, halving the step.
-void refine(const Stage& stage, const Judge& judge, Found& found) {
-  auto knob = knob_of(stage, found.entry);
-  if (!knob) return;
+/// Climbs from the best value on the grid, by a factor that shrinks where no neighbour is better.
+void refine(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
+  const Refinement* refinement = descriptor_of(found.entry.name).refinement;
+  if (refinement == nullptr) return;
+  const double most = most_of(whitened, found.entry, *refinement);
+  double factor = refinement->factor;
   for (int i = 0; i < kRefinements; ++i) {
     bool better = false;
     for (const double sign : {-1.0, 1.0}) {
       EffectEntry entry = found.entry;
-      double& value = std::get<double>(entry.options[knob->key]);
-      value = knob->factor ? value * std::pow(knob->step, sign) : value + sign * knob->step;
-      if (!(value > 0.0 && value <= knob->most)) continue;
-      Trial trial = judge.judge(library_block(stage, entry));
-      if (trial.evidence.ln_bayes <= found.ln_bayes()) continue;
+      const double value = number_option(entry, refinement->key, 0.0) * std::pow(factor, sign);
+      if (!(value > 0.0 && value <= most)) continue;
+      set_option(entry, refinement->key, value);
+      RegressorScore scored = scorer.score(library_regressor(whitened, entry));
+      if (scored.evidence.ln_bayes <= found.ln_bayes()) continue;
       found.entry = std::move(entry);
-      found.trial = std::move(trial);
+      found.scored = std::move(scored);
       better = true;
       break;
     }
     if (better) continue;
-    knob->step = knob->factor ? std::sqrt(knob->step) : 0.5 * knob->step;
-    if (knob->factor ? knob->step < 1.05 : knob->step < 0.004) break;
+    factor = std::sqrt(factor);
+    if (factor < kFinestFactor) break;
   }
 }
 
 /// Refinement comes to numbers with many digits; nobody wants them in a cell file.
-void round_knob(const Stage& stage, const Judge& judge, Found& found) {
-  const auto knob = knob_of(stage, found.entry);
-  if (!knob) return;
-  double& value = std::get<double>(found.entry.options[knob->key]);
-  value = knob->factor ? three_digits(value) : std::round(100.0 * value) / 100.0;
-  found.trial = judge.judge(library_block(stage, found.entry));
+void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
+  const Refinement* refinement = descriptor_of(found.entry.name).refinement;
+  if (refinement == nullptr) return;
+  const double value = number_option(found.entry, refinement->key, 0.0);
+  set_option(found.entry, refinement->key, three_digits(value));
+  found.scored = scorer.score(library_regressor(whitened, found.entry));
 }
 
 /// The joints where waves faster than the usual ones are worth a look, while what is left is
 /// clearly wrong and would stay so: all of them if nothing was found, or no law; that of slow waves
 /// if they are the best, since fast ones may look like them.
-std::vector<int> joints_for_fast_waves(const Stage& stage, const Scan& look) {
+std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& look) {
   const Found* best = look.unknown() ? &*look.pattern : look.supported();
-  const double left = best == nullptr ? 1.0 : 1.0 - best->trial.explained;
-  if (left * times_noise(stage) < kAboveNoise) return {};
-  if (best != nullptr && best->entry.name == "gear_ripple") return best->entry.joints;
+  const double left = best == nullptr ? 1.0 : 1.0 - best->scored.explained;
+  if (left * times_noise(whitened) < kAboveNoise) return {};
+  if (best != nullptr && is_wave(best->entry.name)) return best->entry.joints;
   if (best != nullptr && best->pattern.empty()) return {};
   std::vector<int> out;
-  for (int j = 0; j < stage.joints(); ++j)
-    if (stage.chain.revolute(j)) out.push_back(j);
+  for (int j = 0; j < whitened.joints(); ++j)
+    if (whitened.chain.revolute(j)) out.push_back(j);
   return out;
 }
 
 /// Fast waves, in place of the slow ones of the same joint where they explain more. They alone pay
 /// for their search: it is made only when all else has failed.
-void add_fast_waves(const Stage& stage, const Judge& judge, const std::vector<std::string>& banned,
-                    Scan& out) {
+void add_fast_waves(const Scorer& some, const Scorer& scorer,
+                    const std::vector<std::string>& banned, Scan& out) {
+  const WhitenedFit& whitened = scorer.whitened();
   int tried = 0;
   std::vector<Ripples> fast;
-  for (const int joint : joints_for_fast_waves(stage, out))
-    fast.push_back(scan_fast_ripples(judge, joint, tried));
+  for (const int joint : joints_for_fast_waves(whitened, out))
+    fast.push_back(scan_fast_ripples(some, scorer, joint, tried));
   if (fast.empty()) return;
-  const double paid = std::log(std::max(1.0, out.blocks + tried));
+  const double paid = std::log(std::max(1.0, out.regressors + tried));
   for (const auto& waves : fast) {
-    auto found = found_ripples(judge, waves, paid);
-    if (!found || is_out(stage, banned, key_of(*stage.cell, found->entry), found->entry)) continue;
+    auto found = found_ripples(scorer, waves, paid);
+    if (!found || is_out(whitened, banned, key_of(*whitened.cell, found->entry), found->entry))
+      continue;
     if (!(found->score > kSupported)) continue;
-    found->gain = judge.gain(found->trial);
+    found->gain = scorer.gain(found->scored);
     const auto slow = std::find_if(out.library.begin(), out.library.end(), [&](const Found& f) {
-      return f.entry.name == "gear_ripple" && f.entry.joints == found->entry.joints;
+      return is_wave(f.entry.name) && f.entry.joints == found->entry.joints;
     });
     if (slow == out.library.end())
       out.library.push_back(std::move(*found));
     else if (found->score > slow->score)
       *slow = std::move(*found);
   }
-  out.blocks += tried;
+  out.regressors += tried;
+}
+
+void score_again(const Scorer& scorer, Found& found, const Regressor& regressor) {
+  const double before = found.ln_bayes();
+  found.scored = scorer.score(regressor);
+  found.score += found.ln_bayes() - before;
+}
+
+/// What some of the poses showed, by the evidence of all of them: the best of the library and all
+/// that is supported, and the best pattern.
+void score_on_all(const Scorer& scorer, Scan& out) {
+  const WhitenedFit& whitened = scorer.whitened();
+  for (std::size_t i = 0; i < out.library.size(); ++i) {
+    Found& found = out.library[i];
+    if (i >= kScoredAgain && !(found.score > kSupported)) continue;
+    if (is_change_point(found.entry.name))
+      sharpen(whitened, 2 * whitened.fit_poses() / kScanPoses, found.entry);
+    score_again(scorer, found, regressor_of(whitened, found));
+  }
+  if (!out.pattern) return;
+  visit_patterns(whitened, [&](const Regressor& regressor) {
+    if (regressor.pattern.subject == out.pattern->pattern.subject &&
+        regressor.pattern.words == out.pattern->pattern.words)
+      score_again(scorer, *out.pattern, regressor);
+  });
+}
+
+/// The whitened fit on fewer poses, or itself if they are not many.
+class Some {
+ public:
+  Some(const WhitenedFit& whitened, Eigen::Index poses) : all_(whitened) {
+    if (static_cast<double>(whitened.fit_poses()) > kWorthThinning * static_cast<double>(poses))
+      few_ = thinned(whitened, poses);
+  }
+  const WhitenedFit& whitened() const { return few_ ? *few_ : all_; }
+
+ private:
+  const WhitenedFit& all_;
+  std::optional<WhitenedFit> few_;
+};
+
+void sort_by_evidence(Scan& out) {
+  std::stable_sort(out.library.begin(), out.library.end(),
+                   [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
 }
 
 }  // namespace
 
 std::vector<EffectEntry> Found::entries() const {
-  if (entry.name != "gear_ripple") return {entry};
+  if (!is_wave(entry.name)) return {entry};
   std::vector<EffectEntry> out;
   for (const double k : cycles) {
     out.push_back(entry);
-    out.back().options["cycles_per_turn"] = k;
+    set_option(out.back(), OptionKey::kCyclesPerTurn, k);
   }
   return out;
 }
 
-Block block_of(const Stage& stage, const Found& found) {
-  return found.entry.name == "gear_ripple"
-             ? ripple_block(stage, found.entry.joints.front(), found.cycles)
-             : library_block(stage, found.entry);
+Regressor regressor_of(const WhitenedFit& whitened, const Found& found) {
+  return is_wave(found.entry.name)
+             ? ripple_regressor(whitened, found.entry.joints.front(), found.cycles)
+             : library_regressor(whitened, found.entry);
 }
 
 std::string key_of(const Cell& cell, const EffectEntry& entry) {
   std::string out = entry.name;
   for (std::size_t i = 0; i < entry.joints.size(); ++i)
     out += (i == 0 ? ":" : ",") + cell.nominal.joints[entry.joints[i]].name;
-  if (entry.name == "step") out += "/" + std::get<std::string>(entry.options.at("of"));
+  if (const EffectDescriptor* effect = find_descriptor(entry.name);
+      effect != nullptr && effect->told_apart_by != nullptr)
+    out += "/" + text_option(entry, *effect->told_apart_by, "");
   return out;
 }
 
@@ -226,66 +266,67 @@ bool Scan::unknown() const {
   if (library.empty()) return true;
   const Found& best = library.front();
   return pattern->ln_bayes() > best.ln_bayes() + kAhead_nats &&
-         pattern->trial.explained > best.trial.explained + kAhead_share;
+         pattern->scored.explained > best.scored.explained + kAhead_share;
 }
 
-Scan scan(const Stage& stage, const std::vector<std::string>& not_testable,
+Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_testable,
           const std::vector<std::string>& banned) {
-  const Judge judge(stage);
-  Collector all(stage, judge, banned);
-  visit_library(stage, not_testable, [&](const Block& b) { all.take(b); });
-  if (!contains(not_testable, "step")) {
+  const Scorer scorer_of_all(all_poses);
+  const Some some(all_poses, kScanPoses), more(all_poses, kWavePoses);
+  const WhitenedFit& whitened = some.whitened();
+  const Scorer scorer(whitened);
+  Collector all(whitened, scorer, banned);
+  visit_library(whitened, not_testable, [&](const Regressor& b) { all.take(b); });
+  if (!contains(not_testable, change_point_effect())) {
     int cuts = 0;
-    for (const auto& point : change_points(stage, cuts)) {
-      const Block block = library_block(stage, point.entry);
-      if (block.columns.cols() > 0) all.take(block);
+    for (const auto& point : change_points(whitened, cuts)) {
+      const Regressor regressor = library_regressor(whitened, point.entry);
+      if (regressor.columns.cols() > 0) all.take(regressor);
     }
     all.count(cuts);
   }
-  visit_patterns(stage, [&](const Block& b) { all.take_pattern(b); });
+  visit_patterns(whitened, [&](const Regressor& b) { all.take_pattern(b); });
+  const Scorer wave_scorer(more.whitened());
   std::vector<Ripples> ripples;
-  for (int j = 0; j < stage.joints(); ++j) {
-    if (!stage.chain.revolute(j) || contains(not_testable, "gear_ripple")) continue;
+  for (int j = 0; j < whitened.joints(); ++j) {
+    if (!whitened.chain.revolute(j) || contains(not_testable, wave_effect())) continue;
     int waves = 0;
-    ripples.push_back(scan_ripples(judge, j, all.blocks_, waves));
+    ripples.push_back(scan_ripples(wave_scorer, j, all.regressors_, waves));
     all.count(waves);
   }
   Scan out;
-  out.blocks = all.blocks_;
-  const double paid = std::log(std::max(1.0, all.blocks_));
+  out.regressors = all.regressors_;
+  const double paid = std::log(std::max(1.0, all.regressors_));
   for (auto& [key, found] : all.best_) {
     // What is gained off the grid was searched for as well: it does not count.
     found->score = found->ln_bayes() - paid;
     if (found->score > 0.0) {
-      refine(stage, judge, *found);
-      round_knob(stage, judge, *found);
+      refine(whitened, scorer, *found);
+      round_refined(whitened, scorer, *found);
     }
     // Refinement may end where the model already stands.
-    if (is_out(stage, banned, key, found->entry)) continue;
+    if (is_out(whitened, banned, key, found->entry)) continue;
     out.library.push_back(std::move(*found));
   }
   for (const auto& waves : ripples)
-    if (auto found = found_ripples(judge, waves, paid);
-        found && !contains(banned, key_of(*stage.cell, found->entry)))
+    if (auto found = found_ripples(wave_scorer, waves, paid);
+        found && !contains(banned, key_of(*whitened.cell, found->entry)))
       out.library.push_back(std::move(*found));
-  const auto by_evidence = [](const Found& a, const Found& b) {
-    return a.ln_bayes() > b.ln_bayes();
-  };
-  std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
-  for (auto& group : joint_groups(judge, out.library))
-    if (!is_out(stage, banned, key_of(*stage.cell, group.entry), group.entry))
+  sort_by_evidence(out);
+  for (auto& group : joint_groups(scorer, out.library))
+    if (!is_out(whitened, banned, key_of(*whitened.cell, group.entry), group.entry))
       out.library.push_back(std::move(group));
-  std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
-  for (auto& found : out.library)
-    if (found.score > kSupported) found.gain = judge.gain(found.trial);
   out.pattern = std::move(all.pattern_);
-  if (out.pattern) {
-    out.pattern->score = out.pattern->ln_bayes() - paid;
-    out.pattern->gain = judge.gain(out.pattern->trial);
-  }
-  if (!contains(not_testable, "gear_ripple")) {
-    add_fast_waves(stage, judge, banned, out);
-    std::stable_sort(out.library.begin(), out.library.end(), by_evidence);
+  if (out.pattern) out.pattern->score = out.pattern->ln_bayes() - paid;
+  sort_by_evidence(out);
+  if (&whitened != &all_poses) score_on_all(scorer_of_all, out);
+  sort_by_evidence(out);
+  for (auto& found : out.library)
+    if (found.score > kSupported) found.gain = scorer_of_all.gain(found.scored);
+  if (out.pattern) out.pattern->gain = scorer_of_all.gain(out.pattern->scored);
+  if (!contains(not_testable, wave_effect())) {
+    add_fast_waves(scorer, scorer_of_all, banned, out);
+    sort_by_evidence(out);
   }
   return out;
 }

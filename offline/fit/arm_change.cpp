@@ -28,11 +28,12 @@ double& twist_value(format::Twist& twist, int component) {
 }  // namespace
 
 Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change, Kind kind,
-                 int first_component) {
+                 int first_component, int setup) {
   Vector3 out = Vector3::Zero();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const int k = parameters[i].component - first_component;
-    if (parameters[i].kind == kind && k >= 0 && k < 3) out(k) = change(i);
+    if (parameters[i].kind == kind && parameters[i].setup == setup && k >= 0 && k < 3)
+      out(k) = change(i);
   }
   return out;
 }
@@ -50,7 +51,7 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
         twist_value(rows[p.joint].post, p.component) += change(i);
         break;
       case Kind::kTarget:
-        out.X_TG.p[p.component] += change(i);
+        out.target(p.setup).p[p.component] += change(i);
         break;
       case Kind::kFrame:
       case Kind::kTargetRotation:
@@ -63,15 +64,15 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].of_effect())
       out.arm.effects[parameters[i].joint].parameters[parameters[i].component] += change(i);
-  const Vector3 shift = gathered(parameters, change, Kind::kFrame, 0);
-  const Vector3 turn = gathered(parameters, change, Kind::kFrame, 3);
-  if (!shift.isZero(0.0) || !turn.isZero(0.0))
-    out.X_MB =
-        to_pose(from_pose(start.X_MB) * translation(shift(0), shift(1), shift(2)) * turned(turn));
-  const Vector3 target_turn = gathered(parameters, change, Kind::kTargetRotation, 0);
-  if (!target_turn.isZero(0.0)) {
-    const auto turned_target = to_pose(from_pose({{}, start.X_TG.q}) * turned(target_turn));
-    out.X_TG.q = turned_target.q;
+  for (int k = 0; k < start.setups(); ++k) {
+    const Vector3 shift = gathered(parameters, change, Kind::kFrame, 0, k);
+    const Vector3 turn = gathered(parameters, change, Kind::kFrame, 3, k);
+    if (!shift.isZero(0.0) || !turn.isZero(0.0))
+      out.frame(k) = to_pose(from_pose(start.frame(k)) * translation(shift(0), shift(1), shift(2)) *
+                             turned(turn));
+    const Vector3 target_turn = gathered(parameters, change, Kind::kTargetRotation, 0, k);
+    if (!target_turn.isZero(0.0))
+      out.target(k).q = to_pose(from_pose({{}, start.target(k).q}) * turned(target_turn)).q;
   }
   return out;
 }
@@ -84,12 +85,12 @@ double value_of(const ArmState& state, const Parameter& parameter) {
     case Kind::kLinkTwist:
       return twist_value(row.post, parameter.component);
     case Kind::kTarget:
-      return state.X_TG.p[parameter.component];
+      return state.target(parameter.setup).p[parameter.component];
     case Kind::kFrame:
-      if (parameter.component < 3) return state.X_MB.p[parameter.component];
-      return rotation_vector(from_pose(state.X_MB).R)(parameter.component - 3);
+      if (parameter.component < 3) return state.frame(parameter.setup).p[parameter.component];
+      return rotation_vector(from_pose(state.frame(parameter.setup)).R)(parameter.component - 3);
     case Kind::kTargetRotation:
-      return rotation_vector(from_pose(state.X_TG).R)(parameter.component);
+      return rotation_vector(from_pose(state.target(parameter.setup)).R)(parameter.component);
     default:
       return dh_value(row, parameter.kind);
   }

@@ -17,9 +17,9 @@ ArmState moved(const ArmState& start, const std::vector<Parameter>& parameters,
 
 double value_of(const ArmState& state, const Parameter& parameter);
 
-/// Three components of one kind out of a change: a shift or turn of frame or target.
+/// Three components of one kind out of a change: a shift or turn of frame or target of a set-up.
 Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change,
-                 Parameter::Kind kind, int first_component);
+                 Parameter::Kind kind, int first_component, int setup = 0);
 
 /// Turned by a rotation vector [rad].
 Transformd turned(const Vector3& e);

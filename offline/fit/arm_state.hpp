@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "cell/measurements.hpp"
 #include "plumb/format/model.hpp"
@@ -11,17 +12,42 @@ namespace plumb::offline {
 
 /// Everything that turns joint positions into a measured point: the arm, and the measurement's own
 /// frame and target, which belong to the measurement and are never compiled.
+///
+/// With several set-ups (cell/setups.hpp), X_MB and X_TG are those of the first and `more` holds
+/// the others. A set-up may stand where an earlier one stands, or carry its reflector.
 struct ArmState {
   format::Model arm;  // calibrated chain, trees, domain; the rest may be empty
   format::Pose X_MB;  // base in the measurement frame
   format::Pose X_TG;  // reflector (gauge) in the tool frame
+
+  struct Placing {
+    int frame_of = 0;   // the set-up whose frame this is: its own, or an earlier one
+    int target_of = 0;  // the same of the reflector
+    format::Pose X_MB;  // used if frame_of is this set-up
+    format::Pose X_TG;  // used if target_of is this set-up
+    bool operator==(const Placing&) const = default;
+  };
+  std::vector<Placing> more = {};  // of the second set-up and those after it
+
+  int setups() const { return 1 + static_cast<int>(more.size()); }
+  int frame_of(int setup) const { return setup == 0 ? 0 : more[setup - 1].frame_of; }
+  int target_of(int setup) const { return setup == 0 ? 0 : more[setup - 1].target_of; }
+  format::Pose& frame(int setup);
+  format::Pose& target(int setup);
+  const format::Pose& frame(int setup) const;
+  const format::Pose& target(int setup) const;
 };
+
+/// The set-up in which row `row` was measured.
+inline int setup_of(const Measurements& at, Eigen::Index row) {
+  return at.setup.empty() ? 0 : at.setup[static_cast<std::size_t>(row)];
+}
 
 /// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code; from
 /// the controller's own positions where `at` has their departures.
 Rows3 predict_points(const ArmState& state, const Measurements& at);
 
-/// The same by the arm alone, where nothing but the joint positions is known.
+/// The same by the arm alone, where nothing but the joint positions is known; first set-up.
 Rows3 predict_points(const ArmState& state, const RowsN& q);
 
 /// What is known of row `row`; the tracker stands at the origin of the measurement frame.
@@ -34,7 +60,7 @@ Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured)
 /// measured - predicted [m]; missing axes are 0.
 Rows3 residuals(const Measurements& measured, const Rows3& predicted);
 
-/// Rotates measurement-frame vectors into the base frame.
-Rows3 to_base(const ArmState& state, const Rows3& v_M);
+/// Rotates measurement-frame vectors into the base frame, row by row of `at`.
+Rows3 to_base(const ArmState& state, const Measurements& at, const Rows3& v_M);
 
 }  // namespace plumb::offline

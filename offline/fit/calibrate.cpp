@@ -10,9 +10,12 @@
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/formula_binding.hpp"
+#include "fit/frame_start.hpp"
+#include "fit/many_rows.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
 
 namespace plumb::offline {
@@ -22,6 +25,7 @@ namespace {
 constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
 constexpr double kRoughly = 1e-8;      // of the cost, in one iteration
+constexpr int kEnoughRows = 4000;      // tell the scatter of a model, and a start
 constexpr double kNearlyAsGood = 1.5;  // times the scatter of the best start
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
@@ -71,8 +75,7 @@ ArmState nominal_state(const Cell& cell, const Measurements& measured) {
   state.arm.mechanics = mechanics_of(cell);
   state.arm.effects = bind_effects(cell, measured);
   state.arm.calibrated = cell.nominal;
-  state.X_MB = cell.measurement.X_MB;
-  state.X_TG.p = cell.measurement.target_T;
+  place_as_given(cell.measurement, state);
   return state;
 }
 
@@ -128,21 +131,20 @@ double excess_of(const FitData& data, const Solution& solution, std::size_t para
 }
 
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
-  const bool turns = data.sigma_rad > 0.0;
-  auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
-  const auto effects = effect_parameters(nominal_state(cell, *data.measured).arm);
-  out.insert(out.end(), effects.begin(), effects.end());
-  return out;
+  return calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
 }
 
 Calibration summary(const FitData& data, const ArmState& nominal, const Solution& solution,
                     const ParameterSubset& subset) {
   const auto count = static_cast<Eigen::Index>(subset.kept.size());
+  const Eigen::Index without_weak = solution.residual.size() - data.weak.weights.rows();
+  // A weak direction uses up none of the measured coordinates: nominal holds it.
   const auto dof = std::max<Eigen::Index>(1, solution.residual.size() - count);
   const double sigma = data.sigma_m(data.rows.front(), 0);
   const Eigen::MatrixXd& J = solution.jacobian;
   Calibration out;
-  out.sigma0 = std::sqrt(solution.residual.squaredNorm() / static_cast<double>(dof));
+  out.sigma0 =
+      std::sqrt(solution.residual.head(without_weak).squaredNorm() / static_cast<double>(dof));
   out.covariance = inverse_information(J) * std::pow(std::max(1.0, out.sigma0), 2);
   out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
   out.state = solution.state;
@@ -160,7 +162,7 @@ struct Coarse {
   std::vector<Outlier> outliers;
 
   double scatter() const {
-    return usual_scatter(deletion_distances(data, solution), data.per_pose());
+    return usual_scatter(deletion_distances(data, solution, subset.kept), data.per_pose());
   }
 };
 
@@ -171,8 +173,10 @@ Coarse coarse_from(const FitData& data, const ArmState& start,
   ArmState placed = nominal;
   placed.X_MB = start.X_MB;
   placed.X_TG = start.X_TG;
+  placed.more = start.more;
   out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse);
-  check_enough(data, out.subset.kept.size());
+  check_enough(data, out.subset.kept.size(), candidates);
+  out.data.weak = weak_directions(data, unhidden(placed), out.subset.kept);
   out.solution.state = with_held_at_nominal(unhidden(start), nominal, candidates, out.subset.held);
   out.outliers = solve_without_outliers(out.data, out.subset.kept, out.solution);
   return out;
@@ -193,26 +197,24 @@ Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
   return std::move(all.front());
 }
 
-/// What can be told apart at that state; but of frame and target only what the arm alone shows. The
-/// small motion of an effect shows them too (a leaning column tells how high the reflector of a
-/// SCARA is), but so weakly that the product of both runs away.
+/// What can be told apart at that state; but of frame, target and arm only what the arm alone
+/// shows. The small motion of an effect shows more (a leaning column tells how high the reflector
+/// of a SCARA is, a bumped tracker where its axes point), but so weakly that the product of both
+/// runs away, and that the corrected tool would inherit the uncertainty of where the base begins.
 ParameterSubset fine_subset(const FitData& data, const ArmState& state,
                             const std::vector<Parameter>& candidates) {
-  const auto all = identifiable_parameters(data, state, candidates, kFine);
-  if (state.arm.effects.empty()) return all;
+  if (state.arm.effects.empty()) return identifiable_parameters(data, state, candidates, kFine);
   ArmState bare = state;
   bare.arm.effects.clear();
   std::vector<Parameter> of_arm;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(of_arm),
                [](const Parameter& p) { return !p.of_effect(); });
   const auto shown = identifiable_parameters(data, bare, of_arm, kFine);
-  ParameterSubset out{.kept = {}, .held = all.held};
-  for (const auto& p : all.kept) {
-    if (p.of_robot() || p.of_effect() || holds(shown.kept, p.name))
-      out.kept.push_back(p);
-    else
-      out.held.push_back(p.name);
-  }
+  std::vector<Parameter> left;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(left),
+               [&](const Parameter& p) { return p.of_effect() || holds(shown.kept, p.name); });
+  ParameterSubset out = identifiable_parameters(data, state, left, kFine);
+  out.held.insert(out.held.end(), shown.held.begin(), shown.held.end());
   return out;
 }
 
@@ -222,17 +224,22 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
   widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
+  if (whole.rows.size() > std::size_t{kManyRows})
+    data.rows = whole.rows;  // they tell more apart than some do
   const auto fine =
       fine_subset(data, coarse.solution.state, led_by(coarse.subset.kept, candidates));
   data.rows = whole.rows;
   Solution solution = std::move(coarse.solution);
   solution.state = with_held_at_nominal(solution.state, nominal, candidates, fine.held);
+  // What poses say is a matter of the instrument, not of what the model still lacks.
+  data.weak = weak_directions(whole, solution.state, fine.kept);
   const int coarse_iterations = solution.iterations;
   const auto outliers = solve_without_outliers(data, fine.kept, solution);
   check_converged(solution);
   check_meets(cell, data, solution);
   Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
+  if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell.fit));
   out.iterations = coarse_iterations + solution.iterations;
   out.rank = static_cast<int>(
       identifiable_parameters(data, solution.state, candidates, kRank).kept.size());
@@ -244,10 +251,12 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   check_poses(measured, rows);
   const FitData data = fit_data(cell, measured, rows);
   const auto candidates = candidates_of(cell, data);
-  check_enough(data, 0);
+  check_enough(data, 0, candidates);
   // Before the model fits, no reading deserves more trust than another.
   FitData even = data;
   even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
+  // Some of many rows tell the noise and a start as well as all do; outliers among them are found.
+  even.rows = thinned(even.rows, kManyRows);
   std::vector<ArmState> starts;
   if (start != nullptr)
     starts.push_back(*start);
@@ -260,7 +269,7 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   check_same_arm(out.estimates);
   warn_of_far_parameters(out.estimates, remarks);
   warn_of_impossible_effects(out, remarks);
-  out.remarks = std::move(remarks);
+  out.remarks.insert(out.remarks.begin(), remarks.begin(), remarks.end());
   return out;
 }
 
@@ -287,8 +296,13 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   FitData data = stated;
   widen(data, excess_of(data, solution, candidates.size()));
   const auto subset = identifiable_parameters(data, solution.state, candidates, kFine);
-  solution = solve(data, solution.state, subset.kept, kRoughly);
+  data.weak = weak_directions(stated, solution.state, subset.kept);
+  // This tells only what the model still lacks, and a start.
+  data.rows = thinned(stated.rows, kEnoughRows);
+  solution = solve(data, ArmState(solution.state), subset.kept, kRoughly);
+  const WeakDirections weak = std::move(data.weak);
   data = stated;
+  data.weak = weak;
   widen(data, excess_of(data, solution, subset.kept.size()));
   auto outliers = solve_without_outliers(data, subset.kept, solution);
   check_converged(solution);
@@ -297,6 +311,15 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   out.outliers.insert(out.outliers.end(), outliers.begin(), outliers.end());
   out.rank = from.rank;
   out.iterations = solution.iterations;
+  return out;
+}
+
+std::vector<Parameter> calibration_candidates(const Cell& cell, const Measurements& measured,
+                                              const ArmState& state) {
+  const bool turns = measured.has_orientation() && cell.measurement.sigma_rad.value_or(0.0) > 0.0;
+  auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
+  const auto effects = effect_parameters(state.arm);
+  out.insert(out.end(), effects.begin(), effects.end());
   return out;
 }
 

@@ -58,6 +58,11 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start,
                            const Calibration& from);
 
+/// Every number that a calibration ending in `state` could have fitted, in order of preference:
+/// geometry, frame and target, and the parameters of the effects that `state` carries.
+std::vector<Parameter> calibration_candidates(const Cell& cell, const Measurements& measured,
+                                              const ArmState& state);
+
 /// The nominal arm with only tracker frame and target fitted: what the controller believes today.
 ArmState place_nominal(const Cell& cell, const Measurements& measured,
                        const std::vector<int>& rows);

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "cell/setups.hpp"
 #include "cell/table_place.hpp"
+#include "effects/effect_option.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/file.hpp"
 
@@ -93,6 +95,11 @@ void check_files(const Cell& cell) {
     if (!fs::exists(m.files[i], ignored))
       problems.push_back(
           no_such_file(cell, m.files[i], i < m.named_at.size() ? m.named_at[i] : Place{}));
+  for (const auto& setup : m.setups)
+    for (std::size_t i = 0; i < setup.files.size(); ++i)
+      if (!fs::exists(setup.files[i], ignored))
+        problems.push_back(no_such_file(cell, setup.files[i],
+                                        i < setup.named_at.size() ? setup.named_at[i] : Place{}));
   if (m.held_out.kind == HeldOutRule::Kind::kFile && !fs::exists(m.held_out.file, ignored))
     problems.push_back(no_such_file(cell, m.held_out.file, m.held_out.named_at));
   if (!problems.empty()) throw Failure(Exit::kInput, std::move(problems));
@@ -109,10 +116,9 @@ std::vector<bool> joint_is_angle(const Cell& cell) {
 
 Measurements read_cell_measurements(const Cell& cell) {
   check_files(cell);
-  auto files = cell.measurement.files;
-  if (cell.measurement.held_out.kind == HeldOutRule::Kind::kFile)
-    files.push_back(cell.measurement.held_out.file);
+  const auto files = measurement_files(cell.measurement);
   Measurements out = read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
+  assign_setups(cell, files, out);
   check_rows(cell, out);
   warn_of_missing_axes(cell, out);
   return out;
@@ -121,14 +127,13 @@ Measurements read_cell_measurements(const Cell& cell) {
 void check_rows(const Cell& cell, const Measurements& measured) {
   std::vector<Problem> problems;
   for (const auto& effect : cell.effects) {
-    const auto it = effect.options.find("after_row");
-    const auto* row = it == effect.options.end() ? nullptr : std::get_if<double>(&it->second);
-    if (row == nullptr || *row < measured.size()) continue;
+    const double row = number_option(effect, OptionKey::kAfterRow, -1.0);
+    if (row < measured.size()) continue;
     problems.push_back(
         {.code = "E-EFFECT-DATA",
          .message = fmt::format("effect '{}' begins behind row {:g}, but the last of "
                                 "the measurements is row {}",
-                                effect.name, *row, measured.size()),
+                                effect.name, row, measured.size()),
          .place = effect.place,
          .help = fmt::format("after_row = {}   # or less", std::max(1, measured.size() - 1))});
   }

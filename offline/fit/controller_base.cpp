@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
 
@@ -32,14 +33,16 @@ Measurements said_by_controller(const Measurements& measured) {
   out.sigma_m.resize(0, 3);
   out.quat_M.resize(0, 4);
   out.departure_B.resize(0, 3);
+  out.setup.clear();  // whatever the tracker did, the controller has one frame and one tool
   return out;
 }
 
 /// The nominal arm with the frame and the tool that the controller uses.
 ArmState placed_by_controller(const Cell& cell, const Measurements& said) {
   Cell alone = cell;
+  alone.measurement.setups.clear();
   alone.measurement.fit_frame = alone.measurement.fit_target = true;
-  std::erase_if(alone.effects, [](const EffectEntry& e) { return e.name != "geometry"; });
+  std::erase_if(alone.effects, [](const EffectEntry& e) { return !is_geometry(e.name); });
   std::vector<int> rows(static_cast<std::size_t>(said.size()));
   std::iota(rows.begin(), rows.end(), 0);
   return place_nominal(alone, said, rows);
@@ -67,7 +70,7 @@ void stand_on_controller(const Cell& cell, Measurements& measured) {
 void stand_on_controller(const Cell& cell, const Measurements& measured, Measurements& rows) {
   const ArmState placed = placed_by_controller(cell, said_by_controller(measured));
   const Measurements said = said_by_controller(rows);
-  rows.departure_B = to_base(placed, residuals(said, predict_points(placed, said)));
+  rows.departure_B = to_base(placed, said, residuals(said, predict_points(placed, said)));
   check_same_arm(cell, rows);
 }
 

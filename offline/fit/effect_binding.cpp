@@ -6,39 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
+#include "effects/registry.hpp"
 #include "fit/formula_binding.hpp"
 #include "plumb/format/limits.hpp"
-#include "plumb/runtime/effect_library.hpp"
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kDefaultTransition_rad = 0.01;
-constexpr double kTorqueShare = 0.5;  // of the largest: where a soft law turns
-
-[[noreturn]] void refuse(const EffectEntry& entry, const std::string& why,
-                         const std::string& help) {
-  throw Failure(Exit::kInput, {.code = "E-EFFECT-DATA",
-                               .message = fmt::format("effect '{}' {}", entry.name, why),
-                               .place = entry.place,
-                               .help = help});
-}
-
-double option_or(const EffectEntry& entry, const char* key, double fallback) {
-  const auto it = entry.options.find(key);
-  if (it == entry.options.end()) return fallback;
-  const double* number = std::get_if<double>(&it->second);
-  return number != nullptr ? *number : fallback;
-}
-
-std::string text_or(const EffectEntry& entry, const char* key, std::string fallback) {
-  const auto it = entry.options.find(key);
-  if (it == entry.options.end()) return fallback;
-  const auto* text = std::get_if<std::string>(&it->second);
-  return text != nullptr ? *text : fallback;
-}
 
 std::vector<std::uint8_t> joints_of(const Cell& cell, const EffectEntry& entry,
                                     const EffectInfo& info) {
@@ -68,101 +45,49 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
   return out;
 }
 
-std::vector<double> torque_constants(const Cell& cell, const Measurements& measured,
-                                     const EffectEntry& entry,
-                                     const std::vector<std::uint8_t>& joints) {
-  if (const double given = option_or(entry, "torque_Nm", 0.0); given > 0.0)
-    return std::vector<double>(joints.size(), given);
-  const auto largest = largest_torques(cell, measured);
-  std::vector<double> out;
-  for (int j : joints) out.push_back(std::max(1e-6, kTorqueShare * largest[j]));
-  return out;
-}
+/// The cell and the measurements as the descriptors of the laws ask for them.
+class DataSource : public ConstantsSource {
+ public:
+  DataSource(const Cell& cell, const Measurements& measured) : cell_(cell), measured_(measured) {}
 
-std::vector<double> drift_constants(const Measurements& measured, const EffectEntry& entry) {
-  const auto& c = measured.context;
-  const Eigen::VectorXd& t = c.time_s.size() > 0 ? c.time_s : c.order;
-  const double settling = option_or(entry, "settling_s", 0.0);
-  if (t.size() == 0) return {0.0, 1.0, settling};
-  return {t.minCoeff(), std::max(1e-9, t.maxCoeff() - t.minCoeff()), settling};
-}
-
-std::vector<double> step_constants(const EffectEntry& entry) {
-  const double row = option_or(entry, "after_row", -1.0);
-  if (row < 1.0) refuse(entry, "does not say when", "after_row = 84   # the last row before it");
-  const std::string of = text_or(entry, "of", "tool");
-  const double code = of == "base" ? 1.0 : of == "joint" ? 2.0 : 0.0;
-  return {row - 0.5, code};
-}
-
-std::string sensor_of(const EffectEntry& entry, const Measurements& measured) {
-  const auto& sensors = measured.context.sensors;
-  if (sensors.empty())
-    refuse(entry, "needs a temperature column", "measure temp_degC, or temp_NAME_degC");
-  const std::string name = text_or(entry, "sensor", sensors.front());
-  if (std::find(sensors.begin(), sensors.end(), name) == sensors.end())
-    refuse(entry, fmt::format("names sensor '{}'", name),
-           fmt::format("sensors of these files: {}", fmt::join(sensors, ", ")));
-  return name;
-}
-
-double mean_temperature(const Measurements& measured, const std::string& sensor) {
-  const auto& c = measured.context;
-  const auto at = std::find(c.sensors.begin(), c.sensors.end(), sensor) - c.sensors.begin();
-  double sum = 0.0, count = 0.0;
-  for (double t : c.temperature.col(at))
-    if (std::isfinite(t)) sum += t, count += 1.0;
-  return count > 0.0 ? sum / count : 20.0;
-}
-
-void bind_constants(const Cell& cell, const Measurements& measured, const EffectEntry& entry,
-                    format::Effect& out) {
-  using format::ContextInput;
-  const auto& name = out.name;
-  if (name == "gear_ripple") {
-    out.constants = {option_or(entry, "cycles_per_turn", 0.0)};
-  } else if (name == "joint_compliance_soft" || name == "backlash_load") {
-    out.constants = torque_constants(cell, measured, entry, out.joints);
-  } else if (name == "reversal") {
-    out.constants = {option_or(entry, "transition_deg", kDefaultTransition_rad * 180 / M_PI) *
-                     M_PI / 180};
-    out.context = {{ContextInput::kDirection, "", 0.0}};
-    if (!measured.context.has_direction())
-      refuse(entry, "needs the direction from which each joint came",
-             "columns dir_j1 …; if the rows are consecutive moves: plumb import --dir from-order");
-  } else if (name == "thermal_growth") {
-    const std::string sensor = sensor_of(entry, measured);
-    const double reference = option_or(entry, "reference_degC", mean_temperature(measured, sensor));
-    out.constants = {reference};
-    out.context = {{ContextInput::kTemperature, sensor, reference}};
-  } else if (name == "drift") {
-    out.constants = drift_constants(measured, entry);
-  } else if (name == "step") {
-    out.constants = step_constants(entry);
-  } else if (name == "gravity_compensator") {
-    out.constants = {option_or(entry, "length_ratio", 0.5), option_or(entry, "anchor_ratio", 0.5)};
+  std::vector<double> largest_torques() const override {
+    return plumb::offline::largest_torques(cell_, measured_);
   }
-}
+  std::optional<Span> time() const override {
+    const auto& c = measured_.context;
+    const Eigen::VectorXd& t = c.time_s.size() > 0 ? c.time_s : c.order;
+    if (t.size() == 0) return std::nullopt;
+    return Span{t.minCoeff(), t.maxCoeff()};
+  }
+  const std::vector<std::string>& sensors() const override { return measured_.context.sensors; }
+  std::optional<double> mean_temperature(const std::string& sensor) const override {
+    const auto& c = measured_.context;
+    const auto at = std::find(c.sensors.begin(), c.sensors.end(), sensor) - c.sensors.begin();
+    double sum = 0.0, count = 0.0;
+    for (double t : c.temperature.col(at))
+      if (std::isfinite(t)) sum += t, count += 1.0;
+    return count > 0.0 ? std::optional(sum / count) : std::nullopt;
+  }
+  bool has_direction() const override { return measured_.context.has_direction(); }
 
-std::string tail(const format::Effect& effect, const EffectInfo& info, int index) {
-  const auto each = static_cast<int>(info.parameters.size());
-  if (effect.name == "gravity_free") return fmt::format("s{}", index + 1);
-  if (effect.name == "joint_table") return fmt::format("t{:03}", index % 120);
-  return info.parameters[static_cast<std::size_t>(index % each)].name;
-}
+ private:
+  const Cell& cell_;
+  const Measurements& measured_;
+};
 
 }  // namespace
 
 format::Effect bind_effect(const Cell& cell, const Measurements& measured,
                            const EffectEntry& entry) {
-  if (entry.name == "formula") return bind_formula(cell, measured, entry);
+  if (is_formula(entry.name)) return bind_formula(cell, measured, entry);
   const int law = find_effect_law(entry.name);
   const EffectInfo& info = effect_info(law);
   format::Effect out;
   out.name = entry.name;
   out.version = info.version;
   out.joints = joints_of(cell, entry, info);
-  bind_constants(cell, measured, entry, out);
+  if (auto* const bind = descriptor_of(entry.name).bind; bind != nullptr)
+    bind(entry, DataSource(cell, measured), out);
   const EffectShape shape{cell.joints(), out.joints, out.constants};
   out.parameters.assign(static_cast<std::size_t>(effect_parameter_count(law, shape)), 0.0);
   return out;
@@ -259,18 +184,56 @@ EffectDomain domain_of(const format::Effect& effect) {
   return effect_info(find_effect_law(effect.name)).domain;
 }
 
+namespace {
+
+/// A parameter of a law: that of a joint, or one behind those of all joints.
+struct ParameterPlace {
+  int joint = -1;  // place among the joints of the effect; -1: it belongs to the arm
+  int place = 0;   // among the parameters of that joint, or of the arm
+};
+
+/// Parameters of one of the joints that the effect lists.
+int parameters_of_joint(const format::Model& model, const format::Effect& effect,
+                        const EffectDescriptor& law, std::size_t joint) {
+  if (law.parameters_of_joint == nullptr) return static_cast<int>(law.law->parameters.size());
+  return law.parameters_of_joint(static_cast<int>(model.calibrated.joints.size()),
+                                 effect.joints[joint]);
+}
+
+ParameterPlace place_of(const format::Model& model, const format::Effect& effect,
+                        const EffectDescriptor& law, int parameter) {
+  if (!law.law->per_joint) return {-1, parameter};
+  int first = 0;
+  for (std::size_t i = 0; i < effect.joints.size(); ++i) {
+    const int count = parameters_of_joint(model, effect, law, i);
+    if (parameter < first + count) return {static_cast<int>(i), parameter - first};
+    first += count;
+  }
+  return {-1, parameter - first};
+}
+
+/// The name of a parameter within its joint.
+std::string own_name(const EffectDescriptor& law, const ParameterPlace& at) {
+  const auto place = static_cast<std::size_t>(at.place);
+  if (law.law->per_joint && at.joint < 0) return law.arm_parameters[place].name;
+  return law.parameter_name != nullptr ? law.parameter_name(at.place)
+                                       : law.law->parameters[place].name;
+}
+
+}  // namespace
+
 EffectParameter effect_parameter(const format::Model& model, int effect, int parameter) {
   const format::Effect& e = model.effects[static_cast<std::size_t>(effect)];
   if (!e.formula.code.empty()) {
     const auto& p = e.formula.parameters[static_cast<std::size_t>(parameter)];
     return {p.name.c_str(), p.unit.c_str(), p.typical, 0.0, 0.0};
   }
-  const EffectInfo& info = effect_info(find_effect_law(e.name));
-  if (e.name == "thermal_growth" && parameter >= static_cast<int>(e.joints.size())) {
-    static constexpr EffectParameter kLean{"lean", "rad/K", 5e-6, -1e-3, 1e-3};
-    return kLean;
-  }
-  return info.parameters[static_cast<std::size_t>(parameter) % info.parameters.size()];
+  const EffectDescriptor& law = descriptor_of(e.name);
+  const auto own = law.law->parameters;
+  const auto place = static_cast<std::size_t>(parameter);
+  if (!law.arm_parameters.empty() && place >= own.size() * e.joints.size())
+    return law.arm_parameters[place - own.size() * e.joints.size()];
+  return own[place % own.size()];
 }
 
 std::string effect_parameter_name(const format::Model& model, int effect, int parameter) {
@@ -278,32 +241,15 @@ std::string effect_parameter_name(const format::Model& model, int effect, int pa
   if (!e.formula.code.empty())
     return fmt::format("formula.{}.{}", e.formula.name,
                        e.formula.parameters[static_cast<std::size_t>(parameter)].name);
-  const EffectInfo& info = effect_info(find_effect_law(e.name));
-  std::string out = e.name;
+  const EffectDescriptor& law = descriptor_of(e.name);
+  const ParameterPlace at = place_of(model, e, law, parameter);
   const auto joint = [&](std::size_t i) { return model.calibrated.joints[e.joints[i]].name; };
-  const auto each = static_cast<int>(info.parameters.size());
-  if (e.name == "thermal_growth") {
-    const int links = static_cast<int>(e.joints.size());
-    if (parameter >= links) return out + (parameter == links ? ".lean_x" : ".lean_y");
-    return out + "." + joint(static_cast<std::size_t>(parameter)) + ".a";
-  }
-  if (e.name == "gravity_free" || e.name == "joint_table") {
-    std::size_t i = 0;
-    int first = 0;
-    const auto count = [&](std::size_t k) {
-      return e.name == "joint_table"
-                 ? 120
-                 : 3 * (static_cast<int>(model.calibrated.joints.size()) - e.joints[k]);
-    };
-    while (parameter >= first + count(i)) first += count(i++);
-    return out + "." + joint(i) + "." + tail(e, info, parameter - first);
-  }
-  if (info.per_joint) out += "." + joint(static_cast<std::size_t>(parameter / each));
-  if (!info.per_joint && !e.joints.empty())
+  std::string out = e.name;
+  if (at.joint >= 0) out += "." + joint(static_cast<std::size_t>(at.joint));
+  if (!law.law->per_joint)
     for (std::size_t i = 0; i < e.joints.size(); ++i) out += "." + joint(i);
-  if (e.name == "gear_ripple") out += fmt::format(".k{:g}", e.constants[0]);
-  if (e.name == "step") out += fmt::format(".row{:g}", e.constants[0] + 0.5);
-  return out + "." + tail(e, info, parameter);
+  if (law.parameter_infix != nullptr) out += law.parameter_infix(e);
+  return out + "." + own_name(law, at);
 }
 
 }  // namespace plumb::offline

@@ -7,7 +7,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "plumb/format/model.hpp"
-#include "plumb/runtime/effect.hpp"
+#include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::offline {
 

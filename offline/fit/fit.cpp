@@ -5,8 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "cell/replicates.hpp"
+#include "cell/setups.hpp"
+#include "effects/registry.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/context_needs.hpp"
+#include "fit/few_poses.hpp"
+#include "fit/fit_steps.hpp"
+#include "fit/pose_sense.hpp"
 #include "tree/domain.hpp"
 
 namespace plumb::offline {
@@ -15,36 +23,48 @@ namespace {
 constexpr double kFarTimes = 6.0;              // the usual scatter: an outlier
 constexpr double kSmallestScatter_m = 0.1e-6;  // of noise-free data
 constexpr std::size_t kListed = 5;
-constexpr double kStill = 1e-3;  // [rad] or [m]
 
-const EffectEntry* find_effect(const Cell& cell, std::string_view name) {
+const EffectEntry* find_local_tree(const Cell& cell) {
   const auto it = std::find_if(cell.effects.begin(), cell.effects.end(),
-                               [&](const EffectEntry& e) { return e.name == name; });
+                               [](const EffectEntry& e) { return is_local_tree(e.name); });
   return it == cell.effects.end() ? nullptr : &*it;
-}
-
-/// "2%" or 0.02.
-double share_of(const EffectEntry::Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* text = std::get_if<std::string>(&value)) return std::stod(*text) / 100.0;
-  return 0.02;
 }
 
 TreeSettings tree_settings(const Cell& cell, const EffectEntry& entry) {
   TreeSettings out;
   out.seed = cell.measurement.seed;
-  if (const auto it = entry.options.find("min_gain"); it != entry.options.end())
-    out.min_gain = share_of(it->second);
-  const auto says = [&](const char* key, const char* word) {
-    const auto it = entry.options.find(key);
-    return it != entry.options.end() && it->second == EffectEntry::Value(std::string(word));
-  };
-  if (says("form", "crisp")) out.form = TreeForm::kCrisp;
-  if (says("form", "blended")) out.form = TreeForm::kBlended;
-  if (says("splits", "own")) out.sharing = Sharing::kOwn;
-  if (const auto it = entry.options.find("degree"); it != entry.options.end())
-    out.max_degree = static_cast<int>(std::get<double>(it->second));
+  // A share that is given as "2%" was made a number when the cell was read.
+  out.min_gain = number_option(entry, OptionKey::kMinGain, out.min_gain);
+  const std::string form = text_option(entry, OptionKey::kForm, "");
+  if (form == "crisp") out.form = TreeForm::kCrisp;
+  if (form == "blended") out.form = TreeForm::kBlended;
+  if (text_option(entry, OptionKey::kSplits, "") == "own") out.sharing = Sharing::kOwn;
+  out.max_degree = static_cast<int>(number_option(entry, OptionKey::kTreeDegree, out.max_degree));
   return out;
+}
+
+/// Held-out poses of a set-up that is not fitted would be judged by a frame that nobody knows.
+void check_placed(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
+                  const std::vector<int>& held) {
+  const MeasurementSettings& m = cell.measurement;
+  std::set<int> frames, targets;
+  for (const int row : fit) {
+    frames.insert(frame_root(m, setup_of(measured, row)));
+    targets.insert(target_root(m, setup_of(measured, row)));
+  }
+  for (const int row : held) {
+    const int k = setup_of(measured, row);
+    const Setup rule = setup_rule(m, k);
+    const bool frame = !rule.fit_frame || frames.contains(frame_root(m, k));
+    if (frame && (!rule.fit_target || targets.contains(target_root(m, k)))) continue;
+    throw Failure(
+        Exit::kInput,
+        {.code = "E-SPLIT",
+         .message = fmt::format("every pose of set-up '{}' is held out: nothing tells its {}",
+                                setup_name(m, k), frame ? "target" : "frame"),
+         .help = "let plumb choose the held-out poses: held_out = \"auto\"; or say what is known: "
+                 "frame = { same_as = \"another set-up\" }"});
+  }
 }
 
 struct Fitted {
@@ -58,14 +78,17 @@ Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<
   out.calibration = calibrate(cell, measured, rows);
   const Measurements some = pick(measured, without_outliers(rows, out.calibration.outliers));
   out.calibration.state.arm.domain = trained_box(some.q);
+  out.calibration.state.arm.domain.context =
+      trained_context(out.calibration.state.arm, some.context);
   out.geometry_only = out.calibration.state;
-  const EffectEntry* entry = find_effect(cell, "local_tree");
+  const EffectEntry* entry = find_local_tree(cell);
   if (entry == nullptr) return out;
   const ArmState& state = out.geometry_only;
-  const Rows3 error_B = to_base(state, residuals(some, predict_points(state, some)));
-  out.tree = choose_trees(some.q, error_B, some.has_axis, some.replicate_group,
-                          tree_settings(cell, *entry));
+  const Rows3 error_B = to_base(state, some, residuals(some, predict_points(state, some)));
+  out.tree =
+      choose_trees(some.q, error_B, some.has_axis, pose_groups(some), tree_settings(cell, *entry));
   out.calibration.state.arm.trees = out.tree->trees;
+  out.tree->domain.context = out.calibration.state.arm.domain.context;
   out.calibration.state.arm.domain = out.tree->domain;
   return out;
 }
@@ -156,6 +179,25 @@ void remark_on_outliers(const Measurements& measured, Fit& out) {
                            .help = kHelp});
 }
 
+/// Set-ups of so few poses that all of them are fitted: their own accuracy is not known.
+void remark_on_setups_without_held(const Cell& cell, const Measurements& measured, Fit& out) {
+  if (measured.setup.empty()) return;
+  std::set<int> judged;
+  for (const int row : held_rows(out.split))
+    judged.insert(measured.setup[static_cast<std::size_t>(row)]);
+  std::vector<std::string> names;
+  for (int k = 0; k < setup_count(cell.measurement); ++k)
+    if (!judged.contains(k)) names.push_back(setup_name(cell.measurement, k));
+  if (names.empty() || judged.empty()) return;
+  out.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-FIT-SETUP",
+       .message = fmt::format("no reading of set-up {} is held out: where its tracker and its "
+                              "reflector are nobody checks",
+                              fmt::join(names, ", ")),
+       .help = "measure at least 10 poses in each set-up"});
+}
+
 void remark_on_repeats_of_held(Fit& out) {
   if (out.split.repeats_of_held == 0) return;
   out.remarks.push_back(
@@ -167,15 +209,14 @@ void remark_on_repeats_of_held(Fit& out) {
        .help = "hold out poses that are not fitted, all repeats of a pose on one side"});
 }
 
-/// Joints that stand where they are in all poses of the fit.
-std::vector<std::string> still_joints(const Cell& cell, const Measurements& measured,
-                                      const std::vector<int>& rows) {
-  std::vector<std::string> out;
-  const RowsN q = measured.q(rows, Eigen::all);
-  for (Eigen::Index j = 0; j < q.cols(); ++j)
-    if (q.col(j).maxCoeff() - q.col(j).minCoeff() < kStill)
-      out.push_back(cell.nominal.joints[static_cast<std::size_t>(j)].name);
-  return out;
+void remark_on_marks(const Cell& cell, Fit& out) {
+  if (!out.split.marked || cell.measurement.held_out.kind != HeldOutRule::Kind::kAuto) return;
+  out.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-FIT-MARKED",
+       .message = fmt::format("the held-out poses are the {} rows that column 'set' marks as held",
+                              held_rows(out.split).size()),
+       .help = "to let plumb choose instead: plumb fit --held-out 20%"});
 }
 
 void remark_on_still_joints(Fit& out) {
@@ -188,18 +229,6 @@ void remark_on_still_joints(Fit& out) {
                          .help = "measure poses all over the joint limits: plumb plan --n 30"});
 }
 
-/// How many times the noise an arm that is right may miss poses it has not seen, its numbers fitted
-/// to so few. With d = n - p - 1 the mean square grows by 1 + p / d, of normal columns [Stein
-/// 1960], and is known to sqrt(2 / d), two of which are allowed.
-double unavoidable_ratio(const Measurements& measured, const Fit& fit) {
-  const auto axes = std::count(measured.has_axis.begin(), measured.has_axis.end(), true);
-  const double share = fit.split.folds > 0 ? 1.0 - 1.0 / static_cast<double>(fit.split.folds) : 1.0;
-  const double n = share * static_cast<double>(axes * fit.fit.n);
-  const auto p = static_cast<double>(fit.calibration.estimates.size());
-  const double d = std::max(1.0, n - p - 1.0);
-  return std::sqrt((1.0 + p / d) * (1.0 + 2.0 * std::sqrt(2.0 / d)));
-}
-
 void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& out) {
   if (!measured.has_orientation() || cell.measurement.sigma_rad) return;
   out.remarks.push_back({.severity = Severity::kNote,
@@ -208,18 +237,25 @@ void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& 
                          .help = "to fit them too: [measurement] sigma_urad = 100"});
 }
 
-Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
+Fit assemble(const Cell& cell, const Measurements& measured, Split split,
+             const std::function<void(const std::string&)>& tell) {
   Fit out;
   out.split = std::move(split);
   if (measured.departure_B.rows() > 0) out.base = Base::kController;
   const std::vector<int> fit = fit_rows(out.split);
+  const bool several = setup_count(cell.measurement) > 1;
+  if (several && out.split.folds == 0) check_placed(cell, measured, fit, held_rows(out.split));
+  if (tell && out.split.folds > 0)
+    tell(fmt::format("step 1 of {}, all poses", out.split.folds + 1));
   Fitted final_model = fit_on(cell, measured, fit);
   const Rows3 final_points = predict_points(final_model.calibration.state, measured);
   Prediction3 predicted{final_points, final_points, final_points, {}};
   if (measured.has_orientation() && cell.measurement.sigma_rad)
     predicted.turn_errors = Eigen::VectorXd::Zero(measured.size());
   for (int k = 0; k < out.split.folds; ++k) {
+    if (tell) tell(fmt::format("step {} of {}, fold {}", k + 2, out.split.folds + 1, k + 1));
     const auto inside = fit_rows(out.split, k);
+    if (several) check_placed(cell, measured, inside, held_rows(out.split, k));
     predict_held(cell, measured, fit_on(cell, measured, inside), inside, held_rows(out.split, k),
                  predicted);
   }
@@ -239,10 +275,13 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
   out.still = still_joints(cell, measured, fit);
-  out.unavoidable_ratio = unavoidable_ratio(measured, out);
+  out.unavoidable_ratio = unavoidable_ratio(fitted_coordinates(measured, out.split),
+                                            static_cast<double>(out.calibration.parameters.size()));
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);
+  remark_on_setups_without_held(cell, measured, out);
+  remark_on_marks(cell, out);
   remark_on_still_joints(out);
   remark_on_orientation(cell, measured, out);
   out.tree = std::move(final_model.tree);
@@ -252,8 +291,13 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split) {
 }  // namespace
 
 Fit fit_cell(const Cell& cell, const Measurements& measured) {
+  return fit_cell(cell, measured, {});
+}
+
+Fit fit_cell(const Cell& cell, const Measurements& measured,
+             const std::function<void(const std::string&)>& tell) {
   return assemble(cell, measured,
-                  split_poses(measured, cell.measurement.held_out, cell.measurement.seed));
+                  split_poses(measured, cell.measurement.held_out, cell.measurement.seed), tell);
 }
 
 Fit fit_all(const Cell& cell, const Measurements& measured) {
@@ -262,7 +306,7 @@ Fit fit_all(const Cell& cell, const Measurements& measured) {
   split.held.assign(measured.size(), false);
   split.used.assign(measured.size(), true);
   for (int i = 0; i < measured.size(); ++i) split.used[i] = measured.set[i] != SetMark::kIgnore;
-  return assemble(cell, measured, std::move(split));
+  return assemble(cell, measured, std::move(split), {});
 }
 
 }  // namespace plumb::offline

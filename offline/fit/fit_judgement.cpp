@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cell/formula_reader.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/placement.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -30,17 +33,41 @@ std::string how_far(const Estimate& e) {
                      e.is_length ? "mm" : "deg");
 }
 
+/// The parameters of effects, and the effect that has most of them.
+std::pair<int, std::string> parameters_of_effects(const std::vector<Parameter>& parameters) {
+  std::map<std::string, int> counts;
+  int all = 0;
+  for (const Parameter& p : parameters)
+    if (p.of_effect()) ++counts[p.name.substr(0, p.name.find('.'))], ++all;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == counts.end()) return {0, ""};
+  return {all, counts.size() > 1 ? "effects, most of them of " + most->first : most->first};
+}
+
 }  // namespace
 
-void check_enough(const FitData& data, std::size_t parameters) {
-  if (data.residual_count() > static_cast<int>(parameters)) return;
-  throw Failure(Exit::kNumbersSayNo,
-                {.code = "E-FIT-FEW",
-                 .message = fmt::format("{} of {} measured poses are fitted and give {} "
-                                        "coordinates, too few for {} parameters",
-                                        data.rows.size(), data.measured->size(),
-                                        data.residual_count(), parameters),
-                 .help = "measure more poses, or hold parameters with [fit] fixed = [\"J6.a\"]"});
+void check_enough(const FitData& data, std::size_t kept, const std::vector<Parameter>& candidates) {
+  const int coordinates = data.residual_count();
+  if (coordinates > static_cast<int>(kept)) return;
+  const auto all = static_cast<int>(candidates.size());
+  const auto [of_effects, effect] = parameters_of_effects(candidates);
+  const std::string given =
+      fmt::format("{} of {} measured poses are fitted and give {} coordinates", data.rows.size(),
+                  data.measured->size(), coordinates);
+  Problem problem{.code = "E-FIT-FEW",
+                  .message = given + ", too few to fit arm, frame and target",
+                  .help = "measure at least 30 poses all over the joint limits: plumb plan --n 30"};
+  if (of_effects > 0 && coordinates > all - of_effects) {
+    problem.message = fmt::format(
+        "{}: enough for arm, frame and target, too few for the {} more "
+        "parameters of {}",
+        given, of_effects, effect);
+    problem.help =
+        fmt::format("name fewer of its joints, or fit more than {} poses", all / data.per_pose());
+  }
+  throw Failure(Exit::kNumbersSayNo, std::move(problem));
 }
 
 void refuse_undefined(const FitData& data, const format::Effect& effect, int row) {
@@ -61,7 +88,8 @@ void check_converged(const Solution& solution) {
   throw Failure(Exit::kNumbersSayNo,
                 {.code = "E-FIT-CONVERGE",
                  .message = "the calibration did not converge: " + solution.reason,
-                 .help = "look for wrong units, joint signs or DH convention: plumb check"});
+                 .help = "if plumb check finds labels and units right, measure poses that differ "
+                         "more: plumb plan --n 30"});
 }
 
 void check_meets(const Cell& cell, const FitData& data, const Solution& solution) {
@@ -79,12 +107,11 @@ void check_meets(const Cell& cell, const FitData& data, const Solution& solution
 }
 
 Problem ambiguous_frame(const ArmState& best, const ArmState& other) {
-  const Matrix3 turn = from_pose(best.X_MB).R.transpose() * from_pose(other.X_MB).R;
   return {.severity = Severity::kWarning,
           .code = "W-FIT-AMBIGUOUS",
           .message = fmt::format("a tracker frame turned by {:.0f} deg fits these poses almost as "
                                  "well: which one is true stays open",
-                                 rotation_vector(turn).norm() * 180.0 / M_PI),
+                                 turn_between(best, other) * 180.0 / M_PI),
           .help = "state the frame: [measurement] frame = { xyz, rpy }, or measure other poses"};
 }
 

@@ -5,15 +5,16 @@
 
 #include "fit/calibrate.hpp"
 #include "fit/solver.hpp"
-#include "plumb/runtime/effect.hpp"
+#include "plumb/runtime/detail/effect.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
 
 /// Whether a calibration can be believed. Each check throws Failure (kNumbersSayNo).
 
-/// E-FIT-FEW: no more coordinates than parameters.
-void check_enough(const FitData& data, std::size_t parameters);
+/// E-FIT-FEW: no more coordinates than parameters that are kept. Where arm, frame and target alone
+/// would be few enough of the candidates, the effect that is too much is named.
+void check_enough(const FitData& data, std::size_t kept, const std::vector<Parameter>& candidates);
 
 /// E-FIT-FORMULA: a formula has no value, or no slope, at a row of the data.
 [[noreturn]] void refuse_undefined(const FitData& data, const format::Effect& effect, int row);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cell/formula_reader.hpp"
+#include "effects/registry.hpp"
 #include "formula/degree.hpp"
 
 namespace plumb::offline {
@@ -25,7 +26,7 @@ class FormulaBinder {
     const FormulaText text = formula_text(entry_);
     compiled_ = compile_formula(text, formula_arm(cell_.nominal), problems);
     if (!problems.empty()) refuse(": " + problems.front().message, "plumb check shows where");
-    out_.name = "formula";
+    out_.name = formula_effect();
     out_.formula = compiled_.formula;
     for (const auto& p : out_.formula.parameters) out_.parameters.push_back(p.start);
     directions();

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
+#include "cell/setups.hpp"
+
 namespace plumb::offline {
 
 format::Pose align(const Rows3& p_B, const Rows3& p_M) {
@@ -18,11 +20,21 @@ format::Pose align(const Rows3& p_B, const Rows3& p_M) {
   return to_pose(X_MB);
 }
 
+void place_as_given(const MeasurementSettings& settings, ArmState& state) {
+  state.more.clear();
+  for (int k = 0; k < setup_count(settings); ++k) {
+    const Setup rule = setup_rule(settings, k);
+    if (k > 0) state.more.push_back({frame_root(settings, k), target_root(settings, k), {}, {}});
+    if (state.frame_of(k) == k) state.frame(k) = rule.X_MB;
+    if (state.target_of(k) == k) state.target(k).p = rule.target_T;
+  }
+}
+
 std::array<double, 4> align_target(const ArmState& state, const Measurements& measured,
                                    const std::vector<int>& rows) {
   // Mean of quaternions as the leading eigenvector of sum q q^T [Markley 2007].
   const ForwardModel arm(state.arm);
-  const Transformd X_MB = from_pose(state.X_MB);
+  const Transformd X_MB = from_pose(state.frame(rows.empty() ? 0 : setup_of(measured, rows[0])));
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (int i : rows) {
     const std::span<const double> q(measured.q.row(i).data(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
 
@@ -11,7 +12,11 @@ namespace plumb::offline {
 /// p_B, p_M: shape (n, 3) [m], n >= 1.
 format::Pose align(const Rows3& p_B, const Rows3& p_M);
 
-/// X_TG's rotation that fits the measured orientations best on average.
+/// Frames and reflectors as the cell gives them, and which set-ups share them; what is to be fitted
+/// stays at the identity.
+void place_as_given(const MeasurementSettings& settings, ArmState& state);
+
+/// X_TG's rotation that fits the measured orientations best on average; `rows` are of one set-up.
 std::array<double, 4> align_target(const ArmState& state, const Measurements& measured,
                                    const std::vector<int>& rows);
 

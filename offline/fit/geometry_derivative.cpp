@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/dual.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -37,30 +38,37 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
                                        const Eigen::VectorXd& change)
     : state_(moved(start, parameters, change)),
       chain_(state_.arm.calibrated),
-      X_MB_(from_pose(state_.X_MB)),
-      X_TG_(from_pose(state_.X_TG)),
       effects_(state_.arm),
+      wave_of_(state_.arm.effects.size(), -1),
       sensors_(temperature_names(state_.arm)) {
   twists_.reserve(parameters.size());
-  const Matrix3 frame_turn = left_jacobian(gathered(parameters, change, Kind::kFrame, 3));
-  const Matrix3 target_turn = left_jacobian(gathered(parameters, change, Kind::kTargetRotation, 0));
-  const Matrix3 R_MB0 = from_pose(start.X_MB).R;
-  const Matrix3 R_TG0 = from_pose({{}, start.X_TG.q}).R;
+  std::vector<Matrix3> frame_turns, target_turns;  // by set-up, from the start on
+  for (int k = 0; k < start.setups(); ++k) {
+    X_MB_.push_back(from_pose(state_.frame(k)));
+    X_TG_.push_back(from_pose(state_.target(k)));
+    frame_turns.push_back(from_pose(start.frame(k)).R *
+                          left_jacobian(gathered(parameters, change, Kind::kFrame, 3, k)));
+    target_turns.push_back(
+        from_pose({{}, start.target(k).q}).R *
+        left_jacobian(gathered(parameters, change, Kind::kTargetRotation, 0, k)));
+  }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& p = parameters[i];
     if (p.kind == Kind::kFrame) {
       // Seen in the measurement frame: the turn acts about the base origin.
       const bool shift = p.component < 3;
+      const Matrix3 R_MB0 = from_pose(start.frame(p.setup)).R;
       twists_.push_back(
           {kSlotFrame, shift ? Vector3(R_MB0 * axis(p.component)) : Vector3::Zero(),
-           shift ? Vector3::Zero() : Vector3(R_MB0 * frame_turn * axis(p.component - 3))});
+           shift ? Vector3::Zero() : Vector3(frame_turns[p.setup] * axis(p.component - 3)),
+           p.setup});
     } else if (p.kind == Kind::kTarget) {
-      twists_.push_back({kSlotTarget, axis(p.component), Vector3::Zero()});
+      twists_.push_back({kSlotTarget, axis(p.component), Vector3::Zero(), p.setup});
     } else if (p.kind == Kind::kTargetRotation) {
-      twists_.push_back(
-          {kSlotTarget, Vector3::Zero(), Vector3(R_TG0 * target_turn * axis(p.component))});
+      twists_.push_back({kSlotTarget, Vector3::Zero(),
+                         Vector3(target_turns[p.setup] * axis(p.component)), p.setup});
     } else if (p.of_effect()) {
-      effect_columns_.push_back({p.joint, p.component, static_cast<Eigen::Index>(i)});
+      add_column(p, static_cast<Eigen::Index>(i));
       twists_.push_back({kSlotEffect, Vector3::Zero(), Vector3::Zero()});
     } else {
       twists_.push_back(slot_twist(p));
@@ -117,15 +125,44 @@ GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p)
   return {slot, X.R * d + cross<double>(X.p, e_slot), e_slot};
 }
 
+void GeometryDerivative::add_column(const Parameter& p, Eigen::Index column) {
+  const format::Effect& effect = state_.arm.effects[static_cast<std::size_t>(p.joint)];
+  if (!is_wave(effect.name) || effect.joints.size() != 1) {
+    effect_columns_.push_back({p.joint, p.component, column});
+    return;
+  }
+  int& place = wave_of_[static_cast<std::size_t>(p.joint)];
+  if (place < 0) {
+    place = static_cast<int>(waves_.size());
+    waves_.push_back({.effect = p.joint, .joint = effect.joints.front()});
+  }
+  waves_[static_cast<std::size_t>(place)].column[static_cast<std::size_t>(p.component)] = column;
+}
+
 /// One pose before and after the effects moved it.
 struct GeometryDerivative::Bent {
   ChainFrames rigid;
   ChainFrames frames;  // with joint effects; the tip without the twists
-  EffectSet::Surroundings around;
+  EffectSet::ContextAndLoads around;
   Motion<double> motion;
   Matrix3 turn = Matrix3::Identity();  // of the tip, by the twists
   int undefined = -1;                  // the first effect without a value
+  std::array<std::array<double, 2>, format::kMaxEffects> wave_slope;  // of the joint, by wave
 };
+
+/// Adds the motion of a wave, and keeps its slopes.
+void GeometryDerivative::apply_wave(std::size_t w, std::span<const double> q, Bent& out) const {
+  using Number = DualOf<2>;
+  const Wave& wave = waves_[w];
+  const auto& values = state_.arm.effects[static_cast<std::size_t>(wave.effect)].parameters;
+  std::array<Number, 2> theta{values[0], values[1]};
+  theta[0].d(0) = theta[1].d(1) = 1.0;
+  Motion<Number> motion;
+  effects_.apply_one<Number>(wave.effect, theta, q, chain_, out.rigid, out.around, motion);
+  const Number& moved = motion.dq[static_cast<std::size_t>(wave.joint)];
+  out.motion.dq[static_cast<std::size_t>(wave.joint)] += moved.v;
+  out.wave_slope[w] = {moved.d(0), moved.d(1)};
+}
 
 void GeometryDerivative::bend(std::span<const double> q, const Context& context, Bent& out) const {
   chain_.frames(q, out.rigid);
@@ -135,6 +172,10 @@ void GeometryDerivative::bend(std::span<const double> q, const Context& context,
   }
   effects_.survey(out.rigid, context, out.around);
   for (int i = 0; i < effects_.size(); ++i) {
+    if (const int wave = wave_of_[static_cast<std::size_t>(i)]; wave >= 0) {
+      apply_wave(static_cast<std::size_t>(wave), q, out);
+      continue;
+    }
     effects_.apply_one<double>(i, state_.arm.effects[i].parameters, q, chain_, out.rigid,
                                out.around, out.motion);
     if (out.motion.undefined && out.undefined < 0) out.undefined = i;
@@ -147,9 +188,26 @@ void GeometryDerivative::bend(std::span<const double> q, const Context& context,
 
 /// arm_B: from the tip to the reflector, before the twists turn it.
 void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& bent,
-                                        const Vector3& arm_B, Point& out) const {
+                                        const Vector3& arm_B, const Matrix3& R_MB,
+                                        Point& out) const {
   const Matrix3 turn_rate = left_jacobian(bent.motion.turn_B);
   const Vector3 turned_arm = bent.turn * arm_B;
+  using Motion6 = Eigen::Matrix<double, 6, 1>;
+  std::array<Motion6, kMaxJoints> by_joint;  // motion of the reflector per unit of a joint
+  for (int j = 0; j < chain_.joints(); ++j) {
+    const Vector3 axis = bent.frames.joint[j].R.col(2) * chain_.scale(j);
+    if (!chain_.revolute(j)) {
+      by_joint[j] << R_MB * axis, Vector3::Zero();
+      continue;
+    }
+    const Vector3 d = cross<double>(axis, bent.frames.tip.p - bent.frames.joint[j].p) +
+                      bent.turn * cross<double>(axis, arm_B);
+    by_joint[j] << R_MB * d, R_MB * (bent.turn * axis);
+  }
+  for (std::size_t w = 0; w < waves_.size(); ++w)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (waves_[w].column[k] >= 0)
+        out.columns.col(waves_[w].column[k]) = by_joint[waves_[w].joint] * bent.wave_slope[w][k];
   std::vector<Dual> theta;
   // Eight parameters at a time, of as many effects as they belong to: motions add up, and so do
   // their derivatives.
@@ -171,44 +229,41 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
       Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
       e = turn_rate * e;
       d += cross<double>(e, turned_arm);
-      for (int j = 0; j < chain_.joints(); ++j) {
-        const double rate = motion.dq[j].d(lane) * chain_.scale(j);
-        if (rate == 0.0) continue;
-        const Vector3 axis = bent.frames.joint[j].R.col(2) * rate;
-        if (!chain_.revolute(j)) {
-          d += axis;
-          continue;
-        }
-        d += cross<double>(axis, bent.frames.tip.p - bent.frames.joint[j].p) +
-             bent.turn * cross<double>(axis, arm_B);
-        e += bent.turn * axis;
-      }
-      out.columns.col(effect_columns_[i].column) << X_MB_.R * d, X_MB_.R * e;
+      Motion6 column;
+      column << R_MB * d, R_MB * e;
+      for (int j = 0; j < chain_.joints(); ++j)
+        if (const double rate = motion.dq[j].d(lane); rate != 0.0) column += by_joint[j] * rate;
+      out.columns.col(effect_columns_[i].column) = column;
     }
     first = last;
   }
 }
 
 void GeometryDerivative::evaluate(std::span<const double> q, const Context& context, Point& out,
-                                  const Vector3& departure_B) const {
+                                  const Vector3& departure_B, int setup) const {
+  const Transformd& X_MB = X_MB_[static_cast<std::size_t>(setup)];
+  const Transformd& X_TG = X_TG_[static_cast<std::size_t>(setup)];
   Bent bent;
   bend(q, context, bent);
   out.undefined = bent.undefined;
   const ChainFrames& frames = bent.frames;
-  const Matrix3& R_MB = X_MB_.R;
-  const Vector3 arm_B = frames.tip.R * X_TG_.p;  // before the twists turn it
+  const Matrix3& R_MB = X_MB.R;
+  const Vector3 arm_B = frames.tip.R * X_TG.p;  // before the twists turn it
   const Vector3 p_B = frames.tip.p + bent.motion.shift_B + bent.turn * arm_B + departure_B;
   const Matrix3 R_BT = bent.turn * frames.tip.R;
-  out.p_M = X_MB_ * p_B;
-  out.R_MG = R_MB * R_BT * X_TG_.R;
+  out.p_M = X_MB * p_B;
+  out.R_MG = R_MB * R_BT * X_TG.R;
   const auto count = static_cast<Eigen::Index>(twists_.size());
   if (out.columns.cols() != count) out.columns.resize(6, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto& t = twists_[k];
     if (t.slot == kSlotEffect) continue;
     Vector3 d_M, e_M;
-    if (t.slot == kSlotFrame) {
-      d_M = t.d + cross<double>(t.e, out.p_M - X_MB_.p);
+    if ((t.slot == kSlotFrame && t.setup != state_.frame_of(setup)) ||
+        (t.slot == kSlotTarget && t.setup != state_.target_of(setup))) {
+      d_M = e_M = Vector3::Zero();  // of another set-up
+    } else if (t.slot == kSlotFrame) {
+      d_M = t.d + cross<double>(t.e, out.p_M - X_MB.p);
       e_M = t.e;
     } else if (t.slot == kSlotTarget) {
       const Matrix3 R_MT = R_MB * R_BT;
@@ -224,7 +279,7 @@ void GeometryDerivative::evaluate(std::span<const double> q, const Context& cont
     }
     out.columns.col(k) << d_M, e_M;
   }
-  if (!effect_columns_.empty()) effect_columns(q, bent, arm_B, out);
+  if (!effect_columns_.empty() || !waves_.empty()) effect_columns(q, bent, arm_B, R_MB, out);
 }
 
 }  // namespace plumb::offline

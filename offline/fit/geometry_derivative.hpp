@@ -2,13 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::offline {
 
@@ -32,9 +33,12 @@ class GeometryDerivative {
   };
   /// q: shape (joints,). `out.columns` is resized once and reused. Columns of geometry leave out
   /// that it changes the loads of the effects a little; those of effects are exact.
-  /// departure_B: moves the point besides [m].
+  /// departure_B: moves the point besides [m]. setup: whose frame and reflector the pose has.
   void evaluate(std::span<const double> q, const Context& context, Point& out,
-                const Vector3& departure_B = Vector3::Zero()) const;
+                const Vector3& departure_B = Vector3::Zero(), int setup = 0) const;
+
+  /// Base in the measurement frame of that set-up.
+  const Transformd& X_MB(int setup) const { return X_MB_[static_cast<std::size_t>(setup)]; }
 
   /// Sensors in the order in which the context must hold them.
   const std::vector<std::string>& sensors() const { return sensors_; }
@@ -43,24 +47,35 @@ class GeometryDerivative {
   struct SlotTwist {
     int slot;  // joint behind which the frame sits, -1 = base; frame and target have their own
     Vector3 d, e;
+    int setup = 0;  // of frame and target
   };
   SlotTwist slot_twist(const Parameter& parameter) const;
   struct Bent;
   void bend(std::span<const double> q, const Context& context, Bent& out) const;
+  void add_column(const Parameter& parameter, Eigen::Index column);
+  void apply_wave(std::size_t wave, std::span<const double> q, Bent& out) const;
   void effect_columns(std::span<const double> q, const Bent& bent, const Vector3& arm_B,
-                      Point& out) const;
+                      const Matrix3& R_MB, Point& out) const;
 
   ArmState state_;
   Chain chain_;
-  Transformd X_MB_;
-  Transformd X_TG_;
+  std::vector<Transformd> X_MB_, X_TG_;  // by set-up
   std::vector<SlotTwist> twists_;
   struct EffectColumn {
     int effect, parameter;
     Eigen::Index column;
   };
-  std::vector<EffectColumn> effect_columns_;  // effect by effect
-  EffectSet effects_;                         // refers to state_
+  std::vector<EffectColumn> effect_columns_;  // effect by effect, without those of waves
+
+  /// A gear ripple at one joint: there may be dozens, and each turns that joint in proportion to
+  /// its two numbers.
+  struct Wave {
+    int effect, joint;
+    std::array<Eigen::Index, 2> column{-1, -1};  // -1: not fitted
+  };
+  std::vector<Wave> waves_;   // those of which a number is fitted
+  EffectSet effects_;         // refers to state_
+  std::vector<int> wave_of_;  // place of every effect among the waves, or -1
   std::vector<std::string> sensors_;
 };
 

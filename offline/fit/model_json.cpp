@@ -90,13 +90,28 @@ void from_json(const Json& j, Tree& tree) {
   j.at("sigma").get_to(tree.sigma);
 }
 
+void to_json(Json& j, const ContextRange& range) {
+  j = {{"input", static_cast<int>(range.input)},
+       {"name", range.name},
+       {"low", range.low},
+       {"high", range.high}};
+}
+void from_json(const Json& j, ContextRange& range) {
+  range.input = static_cast<ContextInput>(j.at("input").get<int>());
+  j.at("name").get_to(range.name);
+  j.at("low").get_to(range.low);
+  j.at("high").get_to(range.high);
+}
+
 void to_json(Json& j, const Domain& domain) {
   j = {{"q_min", domain.q_min}, {"q_max", domain.q_max}, {"fade", domain.fade}};
+  if (!domain.context.empty()) j["context"] = domain.context;
 }
 void from_json(const Json& j, Domain& domain) {
   j.at("q_min").get_to(domain.q_min);
   j.at("q_max").get_to(domain.q_max);
   j.at("fade").get_to(domain.fade);
+  if (j.contains("context")) j.at("context").get_to(domain.context);
 }
 
 void to_json(Json& j, const ContextNeed& need) {

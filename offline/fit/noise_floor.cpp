@@ -6,11 +6,13 @@
 #include <cmath>
 #include <map>
 
+#include "fit/quantile.hpp"
+
 namespace plumb::offline {
 namespace {
 
 constexpr int kEnoughRepeats = 5;         // degrees of freedom per axis
-constexpr double kFarTimes = 6.0;         // the usual scatter: a bad reading
+constexpr double kBadReadingTimes = 6.0;  // the usual scatter: a bad reading
 constexpr double kNormalMedian = 1.4826;  // sigma / median of a normal distance
 
 /// Mean of the chi distribution: E|x| of an isotropic normal vector with unit sigma.
@@ -55,12 +57,6 @@ Eigen::RowVector3d mean_of(const Readings& readings) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (const auto& p : readings) sum += p;
   return sum / static_cast<double>(readings.size());
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Where most of them are; of two or three, where their mean is.
@@ -112,7 +108,7 @@ Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
   std::vector<Readings> poses = repeated(m, left_M);
   if (poses.empty()) return {};
   const double usual = usual_sigma(poses, m.has_axis);
-  if (usual > 0.0) drop_contradicted(poses, kFarTimes * std::sqrt(axes) * usual);
+  if (usual > 0.0) drop_contradicted(poses, kBadReadingTimes * std::sqrt(axes) * usual);
   Pooled out;
   for (const auto& readings : poses) {
     const Eigen::RowVector3d mean = mean_of(readings);

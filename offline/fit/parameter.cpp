@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/setups.hpp"
+#include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
@@ -55,6 +57,27 @@ void add_twist_candidates(const Cell& cell, std::vector<Parameter>& out) {
           {Kind::kLinkTwist, i, k, cell.nominal.joints[i].name + ".post." + kTwistNames[k]});
 }
 
+/// "frame.x", with several set-ups "frame[day 2].x"; what is shared belongs to the first that has
+/// it.
+void add_placing_candidates(const MeasurementSettings& m, Orientation orientation,
+                            std::vector<Parameter>& out) {
+  for (int s = 0; s < setup_count(m); ++s) {
+    const Setup rule = setup_rule(m, s);
+    const std::string name = setup_name(m, s);
+    const std::string of = name.empty() ? "." : "[" + name + "].";
+    const auto add = [&](Kind kind, int component, const char* pose_name) {
+      const char* what = kind == Kind::kFrame ? "frame" : "target";
+      out.push_back({kind, 0, component, what + of + pose_name, s});
+    };
+    if (rule.fit_frame && frame_root(m, s) == s)
+      for (int k = 0; k < 6; ++k) add(Kind::kFrame, k, kPoseNames[k]);
+    if (!rule.fit_target || target_root(m, s) != s) continue;
+    for (int k = 0; k < 3; ++k) add(Kind::kTarget, k, kPoseNames[k]);
+    if (orientation == Orientation::kUsed)
+      for (int k = 0; k < 3; ++k) add(Kind::kTargetRotation, k, kPoseNames[k + 3]);
+  }
+}
+
 }  // namespace
 
 bool Parameter::is_length() const {
@@ -83,17 +106,8 @@ double reach(const format::Chain& chain) {
 
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {
   std::vector<Parameter> out;
-  if (cell.measurement.fit_frame)
-    for (int k = 0; k < 6; ++k)
-      out.push_back({Kind::kFrame, 0, k, std::string("frame.") + kPoseNames[k]});
-  if (cell.measurement.fit_target) {
-    for (int k = 0; k < 3; ++k)
-      out.push_back({Kind::kTarget, 0, k, std::string("target.") + kPoseNames[k]});
-    if (orientation == Orientation::kUsed)
-      for (int k = 0; k < 3; ++k)
-        out.push_back({Kind::kTargetRotation, 0, k, std::string("target.") + kPoseNames[k + 3]});
-  }
-  if (cell.effects.empty() || cell.effects.front().name != "geometry") return out;
+  add_placing_candidates(cell.measurement, orientation, out);
+  if (cell.effects.empty() || !is_geometry(cell.effects.front().name)) return out;
   if (cell.fit.model == FitSettings::Model::kDh)
     add_dh_candidates(cell, out);
   else

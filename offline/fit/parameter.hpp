@@ -28,6 +28,8 @@ struct Parameter {
   int joint = 0;      // row of the chain; effect: its place in the model
   int component = 0;  // twist: dx dy dz ex ey ez; frame the same; target: x y z; effect: parameter
   std::string name;   // "J2.d", "J3.post.ex", "frame.x", "target.z", "reversal.J2.h"
+  int setup = 0;      // frame and target: the set-up they belong to; named with several of them:
+                      // "frame[day 2].x"
 
   bool is_length() const;
   bool of_robot() const;  // of the model rather than of frame and target

@@ -24,6 +24,7 @@ ParameterSubset identifiable_parameters(const FitData& data, const ArmState& sta
                                         const std::vector<Parameter>& candidates,
                                         const Identifiability& limits) {
   FitData thin = data;
+  thin.weak = {};  // what the poses say is asked, not what nominal says
   thin.rows = thinned(data.rows, kRankPoses);
   const double thinning =
       std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(thin.rows.size()));

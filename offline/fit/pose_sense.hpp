@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 
 namespace plumb::offline {
@@ -10,5 +12,9 @@ namespace plumb::offline {
 /// Throws Failure (kNumbersSayNo) before a fit that no solver can save: E-FIT-FEW if every row is
 /// held out, E-FIT-ONE-POSE if the poses of `rows` are nearly all one pose.
 void check_poses(const Measurements& measured, const std::vector<int>& rows);
+
+/// Names of the joints that stand where they are in all of these rows.
+std::vector<std::string> still_joints(const Cell& cell, const Measurements& measured,
+                                      const std::vector<int>& rows);
 
 }  // namespace plumb::offline

@@ -54,6 +54,33 @@ Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
   return m;
 }
 
+/// Frame and target of the second set-up and those after it.
+Json to_json(const std::vector<ArmState::Placing>& more) {
+  Json out = Json::array();
+  for (const auto& p : more)
+    out.push_back({{"frame_of", p.frame_of},
+                   {"target_of", p.target_of},
+                   {"frame", p.X_MB},
+                   {"target", p.X_TG}});
+  return out;
+}
+std::vector<ArmState::Placing> placings_from(const Json& j) {
+  std::vector<ArmState::Placing> out;
+  for (const auto& p : j) {
+    auto& one = out.emplace_back();
+    one.frame_of = p.at("frame_of");
+    one.target_of = p.at("target_of");
+    const int self = static_cast<int>(out.size());
+    if (one.frame_of < 0 || one.frame_of > self || one.target_of < 0 || one.target_of > self)
+      throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
+                                   .message = "run.json holds set-ups that refer to none",
+                                   .help = "delete this run and fit again: plumb fit"});
+    p.at("frame").get_to(one.X_MB);
+    p.at("target").get_to(one.X_TG);
+  }
+  return out;
+}
+
 Json to_json(const Calibration& c) {
   Json estimates = Json::array();
   for (const auto& e : c.estimates) estimates.push_back(to_json(e));
@@ -64,6 +91,7 @@ Json to_json(const Calibration& c) {
           {"gravity", c.state.arm.gravity},
           {"frame", c.state.X_MB},
           {"target", c.state.X_TG},
+          {"more_setups", to_json(c.state.more)},
           {"estimates", estimates},
           {"held", c.held},
           {"covariance", packed(c.covariance)},
@@ -83,6 +111,7 @@ Calibration calibration_from(const Json& j) {
   }
   j.at("frame").get_to(c.state.X_MB);
   j.at("target").get_to(c.state.X_TG);
+  c.state.more = placings_from(j.value("more_setups", Json::array()));
   for (const auto& e : j.at("estimates")) c.estimates.push_back(estimate_from(e));
   j.at("held").get_to(c.held);
   c.covariance = unpacked(j.at("covariance"), static_cast<Eigen::Index>(c.estimates.size()));

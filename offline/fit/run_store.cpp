@@ -3,15 +3,17 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 
 #include "cell/formula_reader.hpp"
+#include "effects/registry.hpp"
+#include "fit/run_checksum.hpp"
 #include "fit/run_json.hpp"
 #include "program/file.hpp"
+#include "program/process_number.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -36,12 +38,37 @@ std::vector<format::InputHash> inputs_of(const Measurements& measured) {
   return out;
 }
 
-[[noreturn]] void damaged(const fs::path& folder, const std::string& why) {
-  throw Failure(Exit::kInput,
-                {.code = "E-RUN-DAMAGED",
-                 .message = fmt::format("{} cannot be read: {}", folder.string(), why),
-                 .help = "delete this run and fit again: plumb fit"});
+[[noreturn]] void damaged(const fs::path& file, const std::string& why) {
+  throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
+                               .message = fmt::format("{} {}", display_name(file), why),
+                               .help = "fit again: plumb fit; or delete this run: rm -r " +
+                                       display_name(file.parent_path())});
 }
+
+/// What is wrong with the text, and in which line, without the words of the parser.
+std::string unreadable(const std::string& text, const nlohmann::json::parse_error& error) {
+  const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return "is empty";
+  return at >= text.size()
+             ? fmt::format("was cut off: it ends in the middle of line {}", line)
+             : fmt::format("was changed after it was written: line {} is no JSON", line);
+}
+
+/// A member that lacks, or holds another kind of value than that of a run.
+std::string unexpected(const nlohmann::json::exception& error) {
+  const std::string what = error.what();
+  const auto open = what.find('\''), close = what.rfind('\'');
+  if (error.id == 403 && open < close)
+    return fmt::format("lacks '{}': it was changed, or written by another version of plumb",
+                       what.substr(open + 1, close - open - 1));
+  return "holds other values than a run does: it was changed, or written by another version of "
+         "plumb";
+}
+
+constexpr const char* kChanged =
+    "was changed or cut off after it was written: its check sum is not the one of this run";
 
 [[noreturn]] void cannot_write(const fs::path& what, const std::string& why,
                                const fs::path& folder) {
@@ -51,17 +78,81 @@ std::vector<format::InputHash> inputs_of(const Measurements& measured) {
                  .help = "check free space and permissions: df -h && ls -ld " + folder.string()});
 }
 
-/// The folder in which a run is made before it gets its number. What denies it is the folder that
-/// is there: runs/, or the cell's own.
-fs::path make_draft(const Cell& cell) {
-  const fs::path runs = runs_folder(cell), draft = runs / fmt::format(".draft-{}", getpid());
+nlohmann::ordered_json parsed(const fs::path& file, const std::string& text) {
+  try {
+    return nlohmann::ordered_json::parse(text);
+  } catch (const nlohmann::json::parse_error& e) {
+    damaged(file, unreadable(text, e));
+  }
+}
+
+constexpr std::string_view kDraft = ".draft-";
+
+/// The process that makes a run in that folder; 0 if it is no draft.
+int maker_of(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  int maker = 0;
+  if (!name.starts_with(kDraft)) return 0;
+  const char* end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + kDraft.size(), end, maker);
+  return read.ec == std::errc{} && read.ptr == end && maker > 0 ? maker : 0;
+}
+
+/// What a crash left behind, or a process of our own number before us.
+void remove_dead_drafts(const fs::path& runs) {
   std::error_code error;
-  fs::create_directories(runs, error);
-  if (error)
-    cannot_write(runs, error.message(), fs::exists(runs) ? runs : fs::path(cell.directory));
-  fs::create_directories(draft, error);
-  if (error) cannot_write(runs, error.message(), runs);
-  return draft;
+  std::vector<fs::path> dead;
+  for (fs::directory_iterator it(runs, error), end; !error && it != end; it.increment(error)) {
+    const int maker = maker_of(it->path());
+    if (maker == own_process_number() || (maker > 0 && !process_exists(maker)))
+      dead.push_back(it->path());
+  }
+  for (const auto& draft : dead) fs::remove_all(draft, error);
+}
+
+/// The folder in which a run is made before it gets its number; gone if it never does. What denies
+/// it is the folder that is there: runs/, or the cell's own.
+class Draft {
+ public:
+  explicit Draft(const Cell& cell) {
+    const fs::path runs = runs_folder(cell);
+    std::error_code error;
+    fs::create_directories(runs, error);
+    if (error)
+      cannot_write(runs, error.message(), fs::exists(runs) ? runs : fs::path(cell.directory));
+    remove_dead_drafts(runs);
+    folder_ = runs / fmt::format("{}{}", kDraft, own_process_number());
+    fs::create_directory(folder_, error);
+    if (error) cannot_write(runs, error.message(), runs);
+  }
+  ~Draft() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+  const fs::path& folder() const { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+/// A full disk is said of the run, not of the folder that it is made in.
+void write_part(const fs::path& draft, const fs::path& run, const char* name,
+                const std::string& bytes) {
+  try {
+    write_file_atomically(draft / name, bytes);
+  } catch (const Failure& failure) {
+    auto problems = failure.problems();
+    const std::string made = display_name(draft), meant = display_name(run);
+    for (auto& problem : problems)
+      for (std::string* text : {&problem.message, &problem.help})
+        for (const auto& from : {made, draft.string()})
+          if (const auto at = text->find(from); at != std::string::npos)
+            text->replace(at, from.size(),
+                          text == &problem.help ? display_name(run.parent_path()) : meant);
+    throw Failure(failure.exit_code(), std::move(problems));
+  }
 }
 
 }  // namespace
@@ -73,26 +164,27 @@ Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
   run.inputs = inputs_of(measured);
   for (const auto& effect : cell.effects)
     run.effects.push_back(
-        effect.name != "formula" ? effect.name : "formula." + formula_label(formula_text(effect)));
+        !is_formula(effect.name) ? effect.name : "formula." + formula_label(formula_text(effect)));
   run.fit = std::move(fit);
   return run;
 }
 
 Run save_run(const Cell& cell, const Measurements& measured, Fit fit) {
   Run run = draft_run(cell, measured, std::move(fit));
-  const fs::path draft = make_draft(cell);
+  const Draft draft(cell);
+  const std::string predictions = predictions_to_csv(measured, run.fit);
   std::error_code error;
   const auto numbers = list_runs(cell);
   // Another fit may take the number between the look and the rename: then the next one is ours.
   for (run.number = numbers.empty() ? 1 : numbers.back() + 1;; ++run.number) {
     run.directory = run_folder(cell, run.number);
-    write_file_atomically(draft / "predictions.csv", predictions_to_csv(measured, run.fit));
-    write_file_atomically(draft / "run.json", run_to_json(run).dump(1) + "\n");
-    fs::rename(draft, run.directory, error);
+    write_part(draft.folder(), run.directory, "predictions.csv", predictions);
+    write_part(draft.folder(), run.directory, "run.json",
+               with_checksums(run_to_json(run), predictions));
+    fs::rename(draft.folder(), run.directory, error);
     if (!error) return run;
     if (!fs::exists(run.directory)) break;
   }
-  fs::remove_all(draft);
   cannot_write(run.directory, error.message(), runs_folder(cell));
 }
 
@@ -103,7 +195,8 @@ std::vector<int> list_runs(const Cell& cell) {
     const std::string name = entry.path().filename().string();
     int number = 0;
     const auto end = std::from_chars(name.data(), name.data() + name.size(), number);
-    if (end.ec == std::errc{} && end.ptr == name.data() + name.size()) out.push_back(number);
+    const bool whole = end.ec == std::errc{} && end.ptr == name.data() + name.size();
+    if (whole && number > 0 && entry.path() == run_folder(cell, number)) out.push_back(number);
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -115,15 +208,22 @@ Run load_run(const Cell& cell, int number) {
     throw Failure(Exit::kInput, {.code = "E-RUN-MISSING",
                                  .message = fmt::format("there is no run {}", number),
                                  .help = "list them: plumb runs"});
+  fs::path file = folder / "run.json";
   try {
-    Run run = run_from_json(nlohmann::ordered_json::parse(read_file(folder / "run.json")));
+    const std::string text = read_file(file);
+    const auto json = parsed(file, text);
+    if (!json_sum_holds(text)) damaged(file, kChanged);
+    Run run = run_from_json(json);
     run.directory = folder;
-    predictions_from_csv(folder / "predictions.csv", run.fit);
+    file = folder / "predictions.csv";
+    if (!predictions_sum_holds(json, read_file(file))) damaged(file, kChanged);
+    predictions_from_csv(file, run.fit);
     return run;
   } catch (const nlohmann::json::exception& e) {
-    damaged(folder, e.what());
+    damaged(file, unexpected(e));
   } catch (const Failure& e) {
-    damaged(folder, e.what());
+    if (e.problems().front().code == "E-RUN-DAMAGED") throw;
+    damaged(file, fmt::format("cannot be read: {}", e.what()));
   }
 }
 
@@ -132,12 +232,8 @@ std::optional<Run> current_run(const Cell& cell, const Measurements& measured) {
   const std::string hash = sha256(cell.text);
   const auto inputs = inputs_of(measured);
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
-    try {
-      Run run = load_run(cell, *it);
-      if (run.cell_sha256 == hash && run.inputs == inputs) return run;
-    } catch (const Failure&) {
-      // A damaged run is not the current one; `plumb runs` reports it.
-    }
+    Run run = load_run(cell, *it);
+    if (run.cell_sha256 == hash && run.inputs == inputs) return run;
   }
   return std::nullopt;
 }

@@ -29,13 +29,13 @@ Run draft_run(const Cell& cell, const Measurements& measured, Fit fit);
 /// Writes the next run; all or nothing.
 Run save_run(const Cell& cell, const Measurements& measured, Fit fit);
 
-/// Every run, oldest first; a damaged one is skipped with a warning in `remarks`.
+/// The number of every run, oldest first, whether it can be read or not.
 std::vector<int> list_runs(const Cell& cell);
 
-/// Throws Failure (kInput) if there is no such run or it is damaged.
+/// Throws Failure (kInput) if there is no such run or a file of it was edited or cut off.
 Run load_run(const Cell& cell, int number);
 
-/// The latest run of the present cell file and data, if there is one.
+/// The latest run of the present cell and data. Throws on a damaged later one: was it that?
 std::optional<Run> current_run(const Cell& cell, const Measurements& measured);
 
 }  // namespace plumb::offline

@@ -5,74 +5,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fit/arm_change.hpp"
-#include "fit/effect_binding.hpp"
+#include "fit/descent.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/geometry_derivative.hpp"
+#include "fit/many_rows.hpp"
+#include "fit/pose_lines.hpp"
+#include "fit/prior_lines.hpp"
+#include "tree/jobs.hpp"
 
 namespace plumb::offline {
 namespace {
 
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+constexpr double kNoChange = 1e-7;      // of the cost in the last iteration
+constexpr double kDenseQrUpTo = 2e5;    // numbers; beyond it the normal equations are much faster
+constexpr int kMostIterations = 300;    // what is hardly seen comes to rest slowly
+constexpr int kPatience = 50;           // iterations before predictions alone are judged
+constexpr int kLookBack = 10;           // iterations over which they are
+constexpr double kAtRest = 3e-3;        // of the noise: predictions that move no more have settled
+constexpr double kNearlyAtRest = 3e-2;  // the same, where the last iteration is reached
+constexpr int kRowsOfOneThread = 256;   // rows evaluated by one thread in one go
+constexpr double kManyNumbers = 1.5e6;  // in a Jacobian: beyond it only sums are kept
 
-constexpr double kNoChange = 1e-7;    // of the cost in the last iteration
-constexpr double kDenseQrUpTo = 2e5;  // numbers; beyond it the normal equations are much faster
-constexpr int kMostIterations = 300;  // what is hardly seen comes to rest slowly
-
-/// A parameter of which something is known beforehand.
-struct KnownParameter {
-  enum class Tail { kNormal, kHeavy };
-  Eigen::Index index;  // among those fitted
-  double mean, sigma;
-  Tail tail;
-};
-using Tail = KnownParameter::Tail;
-
-/// What a distance of u sigma from the mean adds to the residuals, and its slope. Heavy: Huber's,
-///
-///   u^2 / 2 up to one sigma, |u| - 1/2 beyond
-///
-/// so that what is hardly seen stays small, what the poses clearly show may be as large as it is,
-/// and there is one best fit.
-struct Pull {
-  double residual, slope;
-};
-Pull pull_of(double u, Tail tail) {
-  if (tail == Tail::kNormal || std::abs(u) <= 1.0) return {u, 1.0};
-  const double length = std::sqrt(2.0 * std::abs(u) - 1.0);
-  return {std::copysign(length, u), 1.0 / length};
+/// RMS motion of the predictions, in standard deviations of the noise, that goes with a fall of
+/// the cost near its minimum, where cost - least cost = |J dx|^2 / 2.
+double motion_of(double cost_fall, double cost, int residuals) {
+  const double n = std::max(1, residuals);
+  const double scatter = std::max(1.0, std::sqrt(2.0 * cost / n));
+  return std::sqrt(2.0 * std::max(0.0, cost_fall) / n) / scatter;
 }
 
-constexpr double kWidePrior = 5.0;     // typical sizes
-constexpr double kTrackerPrior = 1.0;  // its scale is hardly to be told from the arm's
+/// Ends a solution whose predictions have come to rest.
+class PredictionsAtRest final : public ceres::IterationCallback {
+ public:
+  explicit PredictionsAtRest(int residuals) : residuals_(residuals) {}
 
-/// What the cell says, and of effects: that they are rarely many times their typical size. Without
-/// it, what geometry nearly imitates (the scale of a tracker) would run away.
-std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
-                                  const std::vector<Parameter>& parameters) {
-  std::vector<KnownParameter> out;
-  if (data.cell == nullptr) return out;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].of_effect()) continue;
-    const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
-    const double typical = effect_parameter(start.arm, joint, component).typical;
-    const format::Effect& effect = start.arm.effects[joint];
-    const double width = effect.name == "tracker" ? kTrackerPrior : kWidePrior;
-    const double mean =
-        effect.formula.code.empty() ? 0.0 : effect.formula.parameters[component].start;
-    if (typical > 0.0)
-      out.push_back({static_cast<Eigen::Index>(i), mean, width * typical, Tail::kHeavy});
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    costs_.push_back(now.cost);
+    return now.iteration >= kPatience && recent_motion() < kAtRest
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
-  ArmState nominal;
-  nominal.arm.calibrated = data.cell->nominal;
-  for (const auto& [name, sigma] : data.cell->fit.priors)
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      if (parameters[i].name == name)
-        out.push_back(
-            {static_cast<Eigen::Index>(i), value_of(nominal, parameters[i]), sigma, Tail::kNormal});
-  return out;
-}
+
+  double recent_motion() const {
+    if (costs_.size() <= kLookBack) return std::numeric_limits<double>::infinity();
+    return motion_of(costs_[costs_.size() - 1 - kLookBack] - costs_.back(), costs_.back(),
+                     residuals_);
+  }
+
+ private:
+  int residuals_;
+  std::vector<double> costs_;
+};
 
 /// All poses as one residual block, so the chain is folded once an evaluation.
 class GeometryCost final : public ceres::CostFunction {
@@ -81,8 +67,9 @@ class GeometryCost final : public ceres::CostFunction {
       : data_(data),
         start_(start),
         parameters_(parameters),
-        known_(known(data, start, parameters)) {
-    set_num_residuals(data.residual_count() + static_cast<int>(known_.size()));
+        poses_(data, parameters),
+        priors_(data, start, parameters) {
+    set_num_residuals(data.residual_count() + priors_.count());
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
 
@@ -94,64 +81,47 @@ class GeometryCost final : public ceres::CostFunction {
     const GeometryDerivative geometry =
         jacobian != nullptr ? GeometryDerivative(start_, parameters_, change)
                             : GeometryDerivative(moved(start_, parameters_, change), {}, {});
-    GeometryDerivative::Point point;
-    Eigen::Index row = 0;
-    const auto emit = [&](double error, double sigma, int column_row) {
-      residual[row] = error / sigma;
-      if (jacobian != nullptr)
-        Eigen::Map<Eigen::RowVectorXd>(jacobian + row * count, count) =
-            point.columns.row(column_row) / -sigma;
-      ++row;
+    const int rows = static_cast<int>(data_.rows.size()), lines = data_.per_pose();
+    const int blocks = (rows + kRowsOfOneThread - 1) / kRowsOfOneThread;
+    std::vector<PoseLines::Undefined> undefined(static_cast<std::size_t>(blocks));
+    const auto evaluate_block = [&](int block) {
+      const int first = block * kRowsOfOneThread;
+      const Eigen::Index line = static_cast<Eigen::Index>(first) * lines;
+      undefined[static_cast<std::size_t>(block)] =
+          poses_.evaluate(geometry, first, std::min(rows, first + kRowsOfOneThread),
+                          residual + line, jacobian == nullptr ? nullptr : jacobian + line * count);
     };
-    const auto& m = *data_.measured;
-    const bool departed = m.departure_B.rows() > 0;
-    const bool has_effects = !geometry.state().arm.effects.empty();
-    const Transformd X_MB = from_pose(geometry.state().X_MB);
-    for (int i : data_.rows) {
-      geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
-                        has_effects ? context_of(m, i, geometry.sensors(), X_MB) : Context{}, point,
-                        departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero());
-      if (point.undefined >= 0) {
-        undefined_ = {i, point.undefined};
+    run_jobs(blocks, evaluate_block);
+    for (const auto& one : undefined)
+      if (one.row >= 0) {
+        undefined_ = one;
         return false;
       }
-      for (int k = 0; k < 3; ++k)
-        if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
-      if (data_.sigma_rad <= 0.0) continue;
-      const auto quat = m.quat_M.row(i);
-      const Matrix3 R_MG = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
-      const Vector3 turn = rotation_vector(R_MG * point.R_MG.transpose());
-      for (int k = 0; k < 3; ++k) emit(turn(k), data_.sigma_rad, 3 + k);
-    }
-    for (const auto& [index, mean, sigma, tail] : known_) {
-      const Pull pull =
-          pull_of((mean - value_of(geometry.state(), parameters_[index])) / sigma, tail);
-      residual[row] = pull.residual;
-      if (jacobian != nullptr) {
-        Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
-        slopes.setZero();
-        slopes(index) = -pull.slope / sigma;
-      }
-      ++row;
-    }
-    return std::all_of(residual, residual + row, [](double r) { return std::isfinite(r); });
+    const Eigen::Index line = static_cast<Eigen::Index>(rows) * lines;
+    priors_.evaluate(geometry.state(), residual + line,
+                     jacobian == nullptr ? nullptr : jacobian + line * count);
+    return std::all_of(residual, residual + num_residuals(),
+                       [](double r) { return std::isfinite(r); });
   }
 
-  /// The row and the effect that had no value when last evaluated; -1 if all had.
-  struct Undefined {
-    int row = -1, effect = -1;
-  };
-  const Undefined& undefined() const { return undefined_; }
+  /// Of the last evaluation.
+  const PoseLines::Undefined& undefined() const { return undefined_; }
 
  private:
   const FitData& data_;
   const ArmState& start_;
   const std::vector<Parameter>& parameters_;
-  std::vector<KnownParameter> known_;
-  mutable Undefined undefined_;
+  PoseLines poses_;
+  PriorLines priors_;
+  mutable PoseLines::Undefined undefined_;
 };
 
 }  // namespace
+
+bool is_many(const FitData& data, const std::vector<Parameter>& parameters) {
+  return static_cast<double>(data.residual_count()) * static_cast<double>(parameters.size()) >
+         kManyNumbers;
+}
 
 int FitData::per_pose() const {
   int axes = sigma_rad > 0.0 ? 3 : 0;
@@ -181,9 +151,28 @@ Solution evaluate(const FitData& data, const ArmState& start,
   return out;
 }
 
+void visit_jacobian(const FitData& data, const ArmState& state,
+                    const std::vector<Parameter>& parameters,
+                    const std::function<void(int, const RowMajorMatrix&)>& visit) {
+  const PoseLines poses(data, parameters);
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
+  const int rows = static_cast<int>(data.rows.size()), lines = data.per_pose();
+  const auto visit_block = [&](int block) {
+    const int first = block * kRowsOfOneThread, last = std::min(rows, first + kRowsOfOneThread);
+    Eigen::VectorXd residual(Eigen::Index{last - first} * lines);
+    RowMajorMatrix J(residual.size(), count);
+    const auto [row, effect] = poses.evaluate(geometry, first, last, residual.data(), J.data());
+    if (row >= 0) refuse_undefined(data, state.arm.effects[static_cast<std::size_t>(effect)], row);
+    visit(first, J);
+  };
+  run_jobs((rows + kRowsOfOneThread - 1) / kRowsOfOneThread, visit_block);
+}
+
 Solution solve(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters,
                double tolerance) {
   if (parameters.empty()) return evaluate(data, start, parameters);
+  if (is_many(data, parameters)) return solve_many(data, start, parameters, tolerance);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
   GeometryCost cost(data, start, parameters);
   ceres::Problem::Options ownership;
@@ -198,6 +187,8 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;
+  PredictionsAtRest at_rest(data.residual_count());
+  options.callbacks.push_back(&at_rest);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   // Where the start has no finite value there is nothing to climb from.
@@ -211,7 +202,9 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   // Two parameters that do nearly the same make the last digits slow, and nobody needs them.
   const auto& last = summary.iterations.back();
   out.converged = summary.termination_type == ceres::CONVERGENCE ||
-                  std::abs(last.cost_change) < kNoChange * last.cost;
+                  summary.termination_type == ceres::USER_SUCCESS ||
+                  std::abs(last.cost_change) < kNoChange * last.cost ||
+                  at_rest.recent_motion() < kNearlyAtRest;
   out.reason = summary.message;
   return out;
 }

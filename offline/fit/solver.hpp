@@ -11,6 +11,14 @@
 
 namespace plumb::offline {
 
+/// Combinations of the arm's numbers about which the poses say next to nothing: each row of
+/// `weights` times what the numbers are away from nominal is a distance in standard deviations.
+struct WeakDirections {
+  std::vector<Parameter> parameters;
+  Eigen::MatrixXd weights;  // shape (directions, parameters) [1/SI]
+  Eigen::VectorXd share;    // of each number that lies in these directions, 0 to 1
+};
+
 /// What a geometric fit is weighed with: rows used, and 1 sigma of each coordinate.
 struct FitData {
   const Measurements* measured = nullptr;
@@ -18,6 +26,7 @@ struct FitData {
   Rows3 sigma_m;               // shape (all poses, 3)
   double sigma_rad = 0.0;      // 0: orientation is not used
   const Cell* cell = nullptr;  // with its priors, or null: none
+  WeakDirections weak = {};    // held near nominal; the parameters of a fit must contain theirs
 
   int per_pose() const;        // residuals of one pose
   int residual_count() const;  // of all poses, priors not counted
@@ -34,8 +43,9 @@ struct Solution {
 };
 
 /// Least squares over `parameters` from `start` with Ceres (Levenberg-Marquardt, exact
-/// derivatives), until an iteration gains less than `tolerance` of the cost. With `parameters`
-/// empty it only evaluates.
+/// derivatives), until an iteration gains less than `tolerance` of the cost, or until many of them
+/// together move the predicted points by less than a small share of the noise: parameters that the
+/// points do not show may then still be on their way. With `parameters` empty it only evaluates.
 Solution solve(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters,
                double tolerance = 1e-12);
 

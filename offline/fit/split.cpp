@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cell/random.hpp"
+#include "cell/replicates.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -51,7 +52,19 @@ void order_by_joints(const RowsN& q, std::vector<int>::iterator begin,
 
 std::vector<int> strata_order(const Measurements& m, const std::vector<bool>& used) {
   auto rows = representatives(m, used);
-  order_by_joints(m.q, rows.begin(), rows.end());
+  if (m.setup.empty()) {
+    order_by_joints(m.q, rows.begin(), rows.end());
+    return rows;
+  }
+  // Set-up by set-up, so that each gives its share.
+  const auto setup = [&](int row) { return m.setup[static_cast<std::size_t>(row)]; };
+  std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return setup(a) < setup(b); });
+  for (auto begin = rows.begin(); begin != rows.end();) {
+    const auto end =
+        std::find_if(begin, rows.end(), [&](int row) { return setup(row) != setup(*begin); });
+    order_by_joints(m.q, begin, end);
+    begin = end;
+  }
   return rows;
 }
 
@@ -107,7 +120,12 @@ void make_folds(const Measurements& m, int folds, Random& random, Split& split) 
     if (!split.used[i]) split.fold[i] = -1;
 }
 
+bool marks_held_rows(const Measurements& m) {
+  return std::find(m.set.begin(), m.set.end(), SetMark::kHeld) != m.set.end();
+}
+
 void hold_marked(const Measurements& m, Split& split) {
+  split.marked = true;
   for (int i = 0; i < m.size(); ++i) split.held[i] = m.set[i] == SetMark::kHeld;
   if (std::none_of(split.held.begin(), split.held.end(), [](bool b) { return b; }))
     fail("no row is marked 'held' in column 'set'", "mark some, or set held_out = \"20%\"");
@@ -133,12 +151,39 @@ void leave_out_repeats_of_held(const Measurements& m, Split& split) {
   }
   if (left == 0 && split.repeats_of_held > 0)
     fail("every pose to be fitted is held out as well, so that nothing is left to fit",
-         "hold out other poses than those fitted, or let plumb choose: held_out = \"auto\"");
+         "hold out other poses than those fitted, or let plumb choose: plumb fit --held-out 20%");
 }
 
-}  // namespace
+/// What a split looks at. The same pose in two set-ups is one here: fitted in one, it would vouch
+/// for itself in the other.
+Measurements by_pose(const Measurements& m) {
+  Measurements out;
+  out.q = m.q;
+  out.set = m.set;
+  out.setup = m.setup;
+  out.replicate_group = pose_groups(m);
+  if (m.tables.empty()) return out;
+  Table& last = out.tables.emplace_back();  // its length is all that counts
+  last.lines = m.tables.back().lines;
+  if (m.tables.size() > 1) out.tables.insert(out.tables.begin(), Table{});
+  return out;
+}
 
-Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed) {
+constexpr std::size_t kFewestOfASetup = 8;  // poses: fewer hardly tell a frame of six numbers
+
+/// A set-up of a few poses needs all of them for its own frame and reflector: none is held out.
+void fit_all_of_small_setups(const Measurements& m, Split& split) {
+  std::map<int, std::set<int>> poses;
+  for (int i = 0; i < m.size(); ++i)
+    if (split.used[i]) poses[m.setup[static_cast<std::size_t>(i)]].insert(m.replicate_group[i]);
+  for (int i = 0; i < m.size(); ++i) {
+    if (poses[m.setup[static_cast<std::size_t>(i)]].size() >= kFewestOfASetup) continue;
+    split.fold[i] = -1;
+    split.held[i] = false;
+  }
+}
+
+Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed) {
   Split split;
   split.fold.assign(m.size(), -1);
   split.held.assign(m.size(), false);
@@ -148,7 +193,9 @@ Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t 
   using Kind = HeldOutRule::Kind;
   switch (rule.kind) {
     case Kind::kAuto:
-      if (static_cast<int>(representatives(m, split.used).size()) < kFoldsBelow)
+      if (marks_held_rows(m))
+        hold_marked(m, split);
+      else if (static_cast<int>(representatives(m, split.used).size()) < kFoldsBelow)
         make_folds(m, 5, random, split);
       else
         hold_share(m, 0.2, random, split);
@@ -166,8 +213,16 @@ Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t 
       hold_last_file(m, split);
       break;
   }
+  if (!m.setup.empty() && !split.marked && rule.kind != HeldOutRule::Kind::kFile)
+    fit_all_of_small_setups(m, split);
   leave_out_repeats_of_held(m, split);
   return split;
+}
+
+}  // namespace
+
+Split split_poses(const Measurements& m, const HeldOutRule& rule, std::uint64_t seed) {
+  return m.setup.empty() ? split_of(m, rule, seed) : split_of(by_pose(m), rule, seed);
 }
 
 std::vector<int> fit_rows(const Split& split) { return fit_rows(split, -2); }

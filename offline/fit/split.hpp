@@ -18,8 +18,12 @@ struct Split {
   std::vector<bool> held;   // per row: held out from the final model
   std::vector<bool> used;   // per row: false = `set` says ignore, or it repeats a held-out pose
   int repeats_of_held = 0;  // so many rows that would have been fitted
+  bool marked = false;      // the marks of column `set` chose the held-out rows
 };
 
+/// With "auto", rows that the files mark as held are the held-out set; without such marks the
+/// program chooses.
+///
 /// Stratified in joint space: neighbours along a k-d order share a stratum, and each stratum gives
 /// its share. Deterministic in the seed. Throws Failure (kInput) if the rule cannot be met.
 Split split_poses(const Measurements& measurements, const HeldOutRule& rule, std::uint64_t seed);

@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "fit/fit.hpp"
+#include "fit/held_out_excess.hpp"
 
 namespace plumb::offline {
 
-/// "Is my calibration good?" in one sentence. Good is what is within tolerance at 95 % of the
-/// held-out poses and nowhere three times beyond it.
+/// What a calibration comes to. Within tolerance: at 95 % of the held-out poses and nowhere three
+/// times beyond it.
+enum class Quality {
+  kNotHeldOut,       // no pose was held out
+  kGood,             // within tolerance, and at the noise floor or as few poses leave it
+  kRepeatsDisagree,  // within tolerance, but repeats of a pose differ by more than the model misses
+  kSigmaTooLarge,    // the same, but the noise is stated and not measured
+  kGoodNoiseUnknown,     // within tolerance; no noise floor is known
+  kGoodNotComplete,      // within tolerance, but clearly above the noise floor
+  kWorstPoseIsFar,       // within tolerance but for single poses
+  kLimitedByNoise,       // beyond tolerance, at the noise floor
+  kBeyondSigmaTooLarge,  // beyond tolerance, and clearly below the noise as it is stated
+  kTooFewPoses,          // beyond tolerance, as few poses leave it
+  kBeyond,               // beyond tolerance, clearly above the noise floor
+  kBeyondNoiseUnknown    // beyond tolerance; no noise floor is known
+};
+
+Quality quality(const Fit& fit, double tolerance_m);
+
+/// What the calibrated arm leaves on the held-out poses, without those that stand out, which say
+/// nothing about physics. Nothing without held-out poses or a noise floor.
+std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit);
+
+/// "Is my calibration good?" in one sentence.
 std::string verdict(const Fit& fit, double tolerance_m);
+
+/// What `plumb` should be told next, with a comment that says why: "compile   # ...".
+std::string next_step(const Fit& fit, double tolerance_m);
 
 /// Whether these held-out figures keep a tolerance.
 bool keeps(const ErrorStats& held, double tolerance_m);

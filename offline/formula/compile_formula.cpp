@@ -17,7 +17,7 @@ using format::FormulaOp;
 using Kind = FormulaProblem::Kind;
 
 constexpr std::uint8_t kRobot = 0, kEnvironment = 1;
-constexpr std::size_t kMostSensors = 4;  // beside direction, travel, payload and time
+constexpr std::size_t kMostSensors = 4;  // besides direction, travel, payload and time
 
 void check_used(const std::vector<ParameterText>& parameters, const FormulaText& text,
                 const Expression& expression, FormulaProblems& problems) {
@@ -58,7 +58,8 @@ void check_result(const Expression& expression, const FormulaText& text, const T
        .help = fmt::format("multiply it by a parameter in [{}]", factor)});
 }
 
-/// What the cycle does not know cannot be of the robot.
+/// Reports variables that the cycle does not know in a formula whose domain is evaluated in the
+/// cycle.
 void check_domain(const Expression& expression, std::uint8_t domain, FormulaProblems& problems) {
   if (domain != kRobot && domain != kEnvironment) return;
   for (const auto& node : expression.nodes)
@@ -72,7 +73,7 @@ void check_domain(const Expression& expression, std::uint8_t domain, FormulaProb
                                                               : "domain = \"measurement\""});
 }
 
-/// On one line, whatever line breaks the file has.
+/// The formula on one line, without the line breaks of the file.
 std::string shown(const FormulaText& text) {
   std::string out = text.target + " = " + text.expression;
   for (char& c : out)

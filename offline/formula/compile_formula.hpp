@@ -10,9 +10,9 @@
 
 namespace plumb::offline {
 
-/// A formula as the cell file has it.
+/// A formula as it is written in the cell file.
 struct FormulaText {
-  std::string name;  // empty: after its target
+  std::string name;  // if empty, the formula is named after its target
   std::string target;
   std::string expression;
   std::vector<std::string> parameters;
@@ -27,12 +27,13 @@ struct CompiledFormula {
   std::vector<std::uint8_t> joints_read(format::FormulaOp op) const;  // sorted, each once
 };
 
-/// Translates, and checks names, units and sizes against the arm. The result is of use only if
-/// nothing was added to `problems`.
+/// Translates a formula and checks its names, units and sizes against the arm. The result is valid
+/// only if nothing was added to `problems`.
 CompiledFormula compile_formula(const FormulaText& text, const FormulaArm& arm,
                                 FormulaProblems& problems);
 
-/// What a formula is called: "motor_heat", or "dq2" and "post4_dz" after its target.
+/// The name of a formula: its own, such as "motor_heat", or one after its target, such as "dq2" or
+/// "post4_dz".
 std::string formula_label(const FormulaText& text);
 
 const std::vector<std::string>& formula_domains();

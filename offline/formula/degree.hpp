@@ -8,10 +8,11 @@ namespace plumb::offline {
 /// How a formula depends on its parameters.
 enum class Degree { kNone, kLinear, kCurved };
 
-/// On one of them, the others being held.
+/// How it depends on one parameter while the others are constant.
 Degree degree_of(const format::Formula& formula, int parameter);
 
-/// On all of them together: k * (1 + c * tau2) is curved, though linear in k and in c.
+/// How it depends on all parameters together: k * (1 + c * tau2) is curved, although it is linear
+/// in k and in c.
 Degree degree_of(const format::Formula& formula);
 
 }  // namespace plumb::offline

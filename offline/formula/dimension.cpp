@@ -35,7 +35,7 @@ Dimension operator/(const Dimension& a, const Dimension& b) { return sum(a, b, -
 Dimension raised(const Dimension& a, double power) { return sum({}, a, power); }
 
 std::string text_of(const Dimension& dimension) {
-  // Mass that comes with s^-2 or more per kg is force.
+  // A unit with s^-2, or a higher power of 1/s, for each kg is written with forces.
   const double kg = dimension.power[1];
   const bool forces = std::abs(kg) > kSame && -dimension.power[2] / kg > 2.0 - kSame;
   const Dimension rest = forces ? dimension / raised(kForce, kg) : dimension;

@@ -40,7 +40,8 @@ class Emitter {
   void put(FormulaOp op, unsigned operand) {
     height_ += 1 - format::taken(op);
     out_.depth = std::max(out_.depth, height_);
-    // Too many are refused for their number; here they must not spill into the operation.
+    // A formula with too many operands is refused elsewhere. Here a large operand only must not
+    // overwrite the bits of the operation.
     out_.code.push_back(format::instruction(op, std::min(operand, 255U)));
   }
 

@@ -11,7 +11,7 @@ namespace {
 using format::FormulaOp;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kDeepest = 64;  // parentheses, powers and signs inside each other
+constexpr int kDeepest = 64;  // nested parentheses, powers and signs
 
 /// sum = product {(+|-) product};  product = signed {(*|/) signed};  signed = {-|+} power;
 /// power = primary [^ signed];  primary = number [unit] | name | name(sum, ...) | (sum)
@@ -75,7 +75,8 @@ class ExpressionParser {
     out.last = token.at + token.length;
     return out;
   }
-  /// Stands for what could not be read; never looked at when code is made.
+  /// A node in place of text that could not be read. No code is made of an expression that contains
+  /// it.
   int none() { return add(at(now())); }
 
   int binary(FormulaOp op, const Token& sign, int a, int b) {
@@ -150,7 +151,7 @@ class ExpressionParser {
     node.value = now().value;
     node.is_number = true;
     ++next_;
-    // 0 is 0 in every unit.
+    // The number 0 has any unit.
     if (node.value != 0.0) node.dimension = kNumberOnly;
     if (now().kind == Token::Kind::kUnit) read_unit(node);
     return add(std::move(node));

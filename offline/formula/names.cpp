@@ -37,7 +37,7 @@ constexpr Function kFunctions[] = {
     {"tanh", FormulaOp::kTanh, 1}, {"sign", FormulaOp::kSign, 1}, {"step", FormulaOp::kStep, 1},
     {"min", FormulaOp::kMin, 2},   {"max", FormulaOp::kMax, 2},   {"clamp", FormulaOp::kClamp, 3}};
 
-/// The number behind a prefix, from 1; 0 if there is none.
+/// The number that follows the prefix, counted from 1; 0 if there is none.
 int number_behind(const std::string& name, const std::string& prefix) {
   if (!name.starts_with(prefix)) return 0;
   const char* first = name.data() + prefix.size();

@@ -10,14 +10,14 @@
 
 namespace plumb::offline {
 
-/// "k [rad/(N m)] ~ 1e-6 = 2e-6": name, unit, typical size and, if wanted, where the fit begins.
-/// SI.
+/// A parameter as text, for example "k [rad/(N m)] ~ 1e-6 = 2e-6": name, unit, typical size and
+/// optionally the start value of the fit. Values in SI units.
 struct ParameterText {
   std::string name;
   WrittenUnit unit;
   double typical = 1.0;
   std::optional<double> start;
-  bool sound = false;  // else it was reported, and its unit may be any
+  bool sound = false;  // false after a reported problem; the unit then is arbitrary
 };
 
 std::vector<ParameterText> parse_parameters(const std::vector<std::string>& texts,

@@ -9,7 +9,8 @@
 
 namespace plumb::offline {
 
-/// "dq2", "pre3.rx", "post4.dz", "base.dx", "tool.rz", "tcp.x": what a formula moves, in what unit.
+/// What a formula moves, and the unit of the motion: "dq2", "pre3.rx", "post4.dz", "base.dx",
+/// "tool.rz" or "tcp.x".
 struct TargetText {
   format::FormulaTarget target = format::FormulaTarget::kJoint;
   std::uint8_t joint = 0;

@@ -20,7 +20,7 @@ FormulaProblem trouble(std::size_t at, std::size_t length, std::string message, 
           .help = "numbers as in 1.5e-6, units as in 50 [N m], signs + - * / ^ ( ) ,"};
 }
 
-/// A number at the front of `text`; length 0 if it is none.
+/// The number at the beginning of `text`; its length is 0 if there is none.
 Token number(std::string_view text) {
   Token out{.kind = Token::Kind::kNumber};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out.value);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "formula/expression.hpp"
-#include "plumb/runtime/formula_code.hpp"
+#include "plumb/runtime/detail/formula_code.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -42,7 +42,7 @@ class UnitCheck {
                          .help = std::move(help)});
   }
 
-  /// All inner ones have one unit; it is that of the result.
+  /// Checks that all operands have the same unit, which is that of the result.
   Unit alike(const char* what) {
     Unit out;
     for (std::size_t i = 0; i < node_->inner.size(); ++i) {
@@ -127,7 +127,7 @@ class UnitCheck {
     }
   }
 
-  /// The value of what never changes, by the functions of the cycle.
+  /// Computes the value of a constant operation with the functions of the cycle.
   void fold() {
     ExpressionNode& node = *node_;
     if (node.op == FormulaOp::kDivide && inner(1).constant == 0.0) {

@@ -18,7 +18,7 @@ struct Atom {
 };
 
 constexpr Dimension kEnergy = kTorque;
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn_rad = 3.14159265358979323846;
 
 constexpr Atom kAtoms[] = {
     {"m", kLength, 1.0, "m"},
@@ -27,7 +27,7 @@ constexpr Atom kAtoms[] = {
     {"rad", kNumberOnly, 1.0, "rad"},
     {"mrad", kNumberOnly, 1e-3, "rad"},
     {"urad", kNumberOnly, 1e-6, "rad"},
-    {"deg", kNumberOnly, kPi / 180.0, "rad"},
+    {"deg", kNumberOnly, kHalfTurn_rad / 180.0, "rad"},
     {"kg", kMass, 1.0, "kg"},
     {"g", kMass, 1e-3, "kg"},
     {"s", kTime, 1.0, "s"},

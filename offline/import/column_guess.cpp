@@ -4,47 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <map>
 #include <regex>
 
 #include "cell/column_names.hpp"
 #include "cell/units.hpp"
+#include "import/expanded.hpp"
+#include "import/map_option.hpp"
+#include "import/numbered.hpp"
+#include "import/unit_words.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
 namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-/// "°", "[mm]", "Millimeter" as plumb writes them.
-std::string known_unit(std::string text) {
-  std::erase_if(text,
-                [](char c) { return c == '[' || c == ']' || c == '(' || c == ')' || c == ' '; });
-  static const std::map<std::string, std::string> kOther{
-      {"°", "deg"},         {"degree", "deg"}, {"degrees", "deg"}, {"grad", "deg"},
-      {"°c", "degC"},       {"degc", "degC"},  {"c", "degC"},      {"celsius", "degC"},
-      {"millimeter", "mm"}, {"meter", "m"},    {"µm", "um"},       {"μm", "um"},
-      {"inch", "in"},       {"radian", "rad"}, {"radians", "rad"}, {"sec", "s"},
-      {"kg", "kg"},         {"k", "K"},        {"n", "N"},         {"nm", "Nm"}};
-  if (unit_of(text)) return text;
-  const std::string small = lower(text);
-  if (unit_of(small)) return small;
-  const auto found = kOther.find(small);
-  return found == kOther.end() ? std::string() : found->second;
-}
-
-/// The unit of others that a text is, or empty.
-std::string unit_of_others(std::string text) {
-  std::erase_if(text,
-                [](char c) { return c == '[' || c == ']' || c == '(' || c == ')' || c == ' '; });
-  for (const auto& tried : {text, lower(text)})
-    if (foreign_unit(tried) != nullptr) return tried;
-  return {};
-}
 
 /// Header without its unit, and the unit.
 struct Named {
@@ -61,51 +33,6 @@ Named split_unit(const std::string& header, std::string (*read_unit)(std::string
   return {header, ""};
 }
 
-/// The canonical name of what a column is called, or empty.
-std::string canonical(const std::string& raw) {
-  std::string name;
-  for (char c : lower(raw))
-    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-  static const std::regex kJoint(R"(^(?:q|j|a|joint|axis|achse|theta|actualq)0?([1-9])$)");
-  static const std::regex kCommanded(R"(^(?:qc|qcmd|cmdq|targetq)([1-9])$)");
-  static const std::regex kAxis(
-      R"(^(?:measured|meas|measurement|m|pos|position|tracker)?([xyz])$)");
-  static const std::regex kNominal(R"(^(?:n|nom|nominal)([xyz])$)");
-  static const std::regex kSigma(R"(^(?:s|sigma|std|stdev|measurementstd)([xyz])$)");
-  static const std::regex kTurn(R"(^(?:measured|measurement|m)?r([xyz])$)");
-  std::smatch match;
-  if (std::regex_match(name, match, kJoint)) return "q" + match[1].str();
-  if (std::regex_match(name, match, kCommanded)) return "qc" + match[1].str();
-  if (std::regex_match(name, match, kAxis)) return match[1];
-  if (std::regex_match(name, match, kNominal)) return "n" + match[1].str();
-  if (std::regex_match(name, match, kSigma)) return "s" + match[1].str();
-  if (std::regex_match(name, match, kTurn)) return "r" + match[1].str();
-  static const std::map<std::string, std::string> kWords{{"pose", "pose"},
-                                                         {"point", "pose"},
-                                                         {"pointname", "pose"},
-                                                         {"name", "pose"},
-                                                         {"poseid", "pose"},
-                                                         {"id", "pose"},
-                                                         {"qw", "qw"},
-                                                         {"qx", "qx"},
-                                                         {"qy", "qy"},
-                                                         {"qz", "qz"},
-                                                         {"payload", "payload"},
-                                                         {"load", "payload"},
-                                                         {"temp", "temp"},
-                                                         {"temperature", "temp"},
-                                                         {"t", "t"},
-                                                         {"timestamp", "time"},
-                                                         {"time", "time"},
-                                                         {"datetime", "time"},
-                                                         {"set", "set"},
-                                                         {"note", "note"},
-                                                         {"comment", "note"},
-                                                         {"repeat", "repeat"}};
-  const auto found = kWords.find(name);
-  return found == kWords.end() ? std::string() : found->second;
-}
-
 bool needs_unit(const std::string& name) {
   return !name.empty() && !allowed_quantities(name).empty();
 }
@@ -115,45 +42,77 @@ bool needs_unit(const std::string& name) {
                 {.code = code, .message = std::move(message), .help = std::move(help)});
 }
 
-void apply_wish(const std::string& wish, std::vector<ColumnPlan>& plans) {
-  const auto equals = wish.rfind('=');
-  if (equals == wish.npos || equals == 0 || equals + 1 == wish.size())
-    refuse("E-IMPORT-MAP", fmt::format("--map '{}' is not OLD=NEW_UNIT", wish),
-           "--map \"Goal x=nx_m\", or --map note=- to leave a column out");
-  const std::string from = wish.substr(0, equals), to = wish.substr(equals + 1);
-  std::vector<std::string> names;
-  for (const auto& plan : plans) names.push_back(plan.from);
-  const auto at = std::find(names.begin(), names.end(), from);
-  if (at == names.end()) {
-    const auto guess = did_you_mean(from, names);
-    refuse("E-IMPORT-MAP", fmt::format("--map: the file has no column '{}'", from),
-           guess ? fmt::format("did you mean '{}'?", *guess)
-                 : fmt::format("its columns: {}", fmt::join(names, ", ")));
-  }
-  ColumnPlan& plan = plans[static_cast<std::size_t>(at - names.begin())];
-  if (plan.wished)
-    refuse("E-IMPORT-MAP", fmt::format("--map: column '{}' is named twice", from),
-           "say once what it is");
+/// A coordinate in degrees, a payload in millimetres.
+void refuse_other_kind(const std::string& from, const Heading& heading) {
+  const auto allowed = allowed_quantities(heading.name);
+  const Quantity given = unit_of(heading.unit)->quantity;
+  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), given) != allowed.end()) return;
+  std::vector<std::string> kinds;
+  for (const Quantity q : allowed) kinds.emplace_back(kind_name(q));
+  refuse("E-IMPORT-MAP",
+         fmt::format("--map: {} is {}, but {} measures {}", heading.name, fmt::join(kinds, " or "),
+                     heading.unit, kind_name(given)),
+         map_option({fmt::format("{}={}_{}", from, heading.name, usual_unit(heading.name))}));
+}
+
+/// A new name of --map: "x_mm"; "u95x_um" for an expanded uncertainty; "-" for none.
+void take_name(const std::string& from, std::string to, ColumnPlan& plan) {
   plan.wished = true;
   plan.lacks_unit = false;
   plan.foreign.clear();
+  plan.divisor = 1.0;
+  plan.named = {};
+  plan.said.clear();
   if (to == "-") {
     plan.name.clear();
     return;
   }
+  if (to.find('|') != to.npos)
+    refuse("E-IMPORT-MAP", fmt::format("--map: '{}' leaves a choice", to),
+           "keep one of the units that '|' divides, as in x_mm");
   if (unitless_quantity(to)) {
     plan.name = to;
     plan.unit.clear();
     return;
+  }
+  const bool expanded = to.size() > 5 && to.starts_with("u95") && to[4] == '_';
+  if (expanded) {
+    to = "s" + to.substr(3);
+    plan.divisor = 2.0;
+    plan.said = "u95";
   }
   const Heading heading = split_heading(to);
   if (heading.unit.empty() || !unit_of(heading.unit))
     refuse("E-IMPORT-MAP", fmt::format("--map: '{}' has no unit plumb knows", to),
            foreign_unit(heading.unit) != nullptr
                ? fmt::format("convert the numbers first: {}", foreign_unit(heading.unit)->equals)
-               : fmt::format("--map \"{}={}_{}\"", from, heading.name, usual_unit(heading.name)));
+               : fmt::format("say it, as in --map \"{}={}_{}\"", from, heading.name,
+                             usual_unit(heading.name)));
+  refuse_other_kind(from, heading);
   plan.name = heading.name;
   plan.unit = heading.unit;
+}
+
+void apply_wish(const ColumnWish& wish, const std::vector<std::string>& elsewhere,
+                std::vector<ColumnPlan>& plans) {
+  std::vector<std::string> names;
+  for (const auto& plan : plans) names.push_back(plan.from);
+  const auto at = std::find(names.begin(), names.end(), wish.from);
+  if (at == names.end()) {
+    if (std::find(elsewhere.begin(), elsewhere.end(), wish.from) != elsewhere.end()) return;
+    names.insert(names.end(), elsewhere.begin(), elsewhere.end());
+    const auto guess = did_you_mean(wish.from, names);
+    refuse("E-IMPORT-MAP",
+           fmt::format("--map: {} column '{}'",
+                       elsewhere.empty() ? "the file has no" : "neither file has a", wish.from),
+           guess ? fmt::format("did you mean '{}'?", *guess)
+                 : fmt::format("the columns: {}", fmt::join(names, ", ")));
+  }
+  ColumnPlan& plan = plans[static_cast<std::size_t>(at - names.begin())];
+  if (plan.wished)
+    refuse("E-IMPORT-MAP", fmt::format("--map: column '{}' is named twice", wish.from),
+           "say once what it is");
+  take_name(wish.from, wish.to, plan);
 }
 
 void refuse_doubles(const std::vector<ColumnPlan>& plans) {
@@ -169,44 +128,95 @@ void refuse_doubles(const std::vector<ColumnPlan>& plans) {
   }
 }
 
+/// A column in plumb's own style, "q1_deg", is taken at its word.
+bool in_own_style(const std::string& header, ColumnPlan& out) {
+  if (unitless_quantity(header)) {
+    out.name = header;
+    return true;
+  }
+  const Heading own = split_heading(header);
+  if (own.unit.empty() || !unit_of(own.unit)) return false;
+  out.name = own.name;
+  out.unit = own.unit;
+  const NamedColumn named = named_column(own.name);
+  if (named.name.empty() && !named.uncertain) return true;
+  out.named = named;
+  if (allowed_quantities(own.name).empty()) out.name = named.name;
+  return true;
+}
+
 }  // namespace
 
 ColumnPlan guess_column(const std::string& header, const std::string& unit_row) {
   ColumnPlan out{.from = header};
-  // A heading in plumb's own style is taken at its word.
-  const Heading own = split_heading(header);
-  if (unitless_quantity(header)) {
-    out.name = header;
-    return out;
+  const auto expanded = expanded_uncertainty(header);
+  const std::string heading = expanded ? expanded->rest : header;
+  if (!in_own_style(heading, out)) {
+    const Named named = split_unit(heading, known_unit);
+    out.named = named_column(named.name);
+    out.name = out.named.name;
+    out.unit = !named.unit.empty() ? named.unit : known_unit(unit_row);
+    const Named other = split_unit(heading, unit_of_others);
+    const NamedColumn foreign = named_column(other.name);
+    if (named.unit.empty() && needs_unit(foreign.name)) {
+      out.foreign = !other.unit.empty() ? other.unit
+                    : out.unit.empty()  ? unit_of_others(unit_row)
+                                        : "";
+      if (!out.foreign.empty()) out.name = foreign.name, out.named = foreign;
+    }
   }
-  if (!own.unit.empty() && unit_of(own.unit)) {
-    out.name = own.name;
-    out.unit = own.unit;
-    if (const std::string name = canonical(own.name);
-        allowed_quantities(own.name).empty() && !name.empty())
-      out.name = name;
-    return out;
+  if (expanded) {
+    // Only of a measured point is an uncertainty of use, and only by axis.
+    const bool of_axis = out.name.size() == 2 && out.name[0] == 's' && out.name != "s";
+    out.named.uncertain = !of_axis;
+    if (of_axis) out.divisor = expanded->factor, out.said = expanded->said;
+    if (!of_axis) out.name.clear();
+  } else if (out.named.uncertain) {
+    out.name.clear();
   }
-  const Named named = split_unit(header, known_unit);
-  out.name = canonical(named.name);
-  out.unit = !named.unit.empty() ? named.unit : known_unit(unit_row);
-  if (unitless_quantity(out.name)) out.unit.clear();
-  out.lacks_unit = needs_unit(out.name) && out.unit.empty();
-  const Named other = split_unit(header, unit_of_others);
-  const std::string name = canonical(other.name);
-  if (!named.unit.empty() || !needs_unit(name)) return out;
-  out.foreign = !other.unit.empty() ? other.unit : out.unit.empty() ? unit_of_others(unit_row) : "";
-  if (!out.foreign.empty()) out.name = name;
+  if (out.name == "time" && unit_of(out.unit) && unit_of(out.unit)->quantity == Quantity::kTime)
+    out.name = "t";
+  out.uncertain_unit = out.named.uncertain ? out.unit : "";
+  if (out.name.empty() || unitless_quantity(out.name)) out.unit.clear();
+  out.lacks_unit = needs_unit(out.name) && out.unit.empty() && out.foreign.empty();
+  return out;
+}
+
+std::vector<ColumnWish> wishes_of(const std::vector<std::string>& texts,
+                                  const std::vector<std::string>& columns) {
+  std::vector<ColumnWish> out;
+  for (const auto& text : texts) {
+    std::string_view rest = text;
+    while (!rest.empty()) {
+      // A name of a column may hold commas and equals signs: known names come first.
+      std::size_t length = 0;
+      for (const auto& column : columns)
+        if (rest.starts_with(column) && rest.substr(column.size()).starts_with('='))
+          length = std::max(length, column.size());
+      if (length == 0) length = std::min(rest.find('='), rest.size());
+      const auto behind = rest.substr(std::min(length + 1, rest.size()));
+      const auto end = std::min(behind.find(','), behind.size());
+      if (length == 0 || end == 0)
+        refuse("E-IMPORT-MAP", fmt::format("--map '{}' is not OLD=NEW_UNIT", text),
+               "--map \"Goal x=nx_m\", or --map note=- to leave a column out");
+      out.push_back({std::string(rest.substr(0, length)), std::string(behind.substr(0, end))});
+      rest = behind.substr(std::min(end + 1, behind.size()));
+    }
+  }
   return out;
 }
 
 std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
                                      const std::vector<std::string>& units,
-                                     const std::vector<std::string>& wishes) {
+                                     const std::vector<ColumnContent>& contents,
+                                     const std::vector<ColumnWish>& wishes,
+                                     const std::vector<std::string>& elsewhere,
+                                     std::vector<Problem>& remarks) {
   std::vector<ColumnPlan> out;
   for (std::size_t i = 0; i < header.size(); ++i)
     out.push_back(guess_column(header[i], i < units.size() ? units[i] : ""));
-  for (const auto& wish : wishes) apply_wish(wish, out);
+  for (const auto& wish : wishes) apply_wish(wish, elsewhere, out);
+  decide_numbered(contents, out, remarks);
   // A wish outdoes a guess of the same name.
   for (const auto& wished : out)
     for (auto& other : out)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "import/content.hpp"
+#include "import/words.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 
@@ -15,11 +17,15 @@ struct ColumnPlan {
   std::string unit = {};  // of the file's numbers: "rad"; empty for texts and plain numbers
   bool wished = false;    // by --map
   bool lacks_unit = false;
-  std::string foreign = {};  // a unit that plumb does not convert: "cm"
+  std::string foreign = {};         // a unit that plumb does not convert: "cm"
+  double divisor = 1.0;             // of the numbers: 2 for an expanded uncertainty
+  std::string said = {};            // what says so: "U(95)"
+  std::string uncertain_unit = {};  // of an uncertainty that is left out, if its name says one
+  NamedColumn named = {};           // what the words of its name said
 };
 
-/// Plans a column: "X [mm]", "x(mm)", "Joint 1 / deg", "A1", "axis_3 deg", "Temp °C" are known; a
-/// unit row helps. What is not recognised is left out.
+/// Plans a column: "X [mm]", "x(mm)", "Joint 1 / deg", "Achse_3 deg", "Temp °C" are known; a unit
+/// row helps. What is not recognised is left out.
 ColumnPlan guess_column(const std::string& header, const std::string& unit_row);
 
 /// "Goal x=nx_m" or "note=-": the column and what it becomes.
@@ -27,10 +33,19 @@ struct ColumnWish {
   std::string from, to;
 };
 
-/// The plan of every column. Throws Failure (kUsage): E-IMPORT-MAP for a column that is not there
-/// (did you mean) or a new name without a known unit, E-IMPORT-TWICE for two of one name.
+/// Wishes of --map, several in one text: "x=x_mm,Y, measured=y_mm". `columns`: names in the files,
+/// which may hold commas. Throws Failure (kUsage, E-IMPORT-MAP).
+std::vector<ColumnWish> wishes_of(const std::vector<std::string>& texts,
+                                  const std::vector<std::string>& columns);
+
+/// The plan of every column. `elsewhere`: columns of the other file, which wishes may also name.
+/// Throws Failure (kUsage): E-IMPORT-MAP for a column that is in no file (did you mean) or a new
+/// name without a known unit, E-IMPORT-TWICE for two of one name.
 std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
                                      const std::vector<std::string>& units,
-                                     const std::vector<std::string>& wishes);
+                                     const std::vector<ColumnContent>& contents,
+                                     const std::vector<ColumnWish>& wishes,
+                                     const std::vector<std::string>& elsewhere,
+                                     std::vector<Problem>& remarks);
 
 }  // namespace plumb::offline

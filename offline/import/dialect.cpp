@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
 
 #include "cell/units.hpp"
+#include "import/unit_words.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb::offline {
@@ -42,19 +44,26 @@ Cells cut_blanks(std::string_view line) {
   }
 }
 
-Cells cut_line(std::string_view line, char separator) {
+/// Whether a separator between brackets, as in "U(x) [mm; k=2]", divides cells too.
+enum class Brackets { kCut, kKeptWhole };
+
+Cells cut_line(std::string_view line, char separator, Brackets brackets = Brackets::kCut) {
   if (separator == ' ') return cut_blanks(line);
   Cells out;
   bool quoted = false;
+  int open = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i < line.size() && (quoted || line[i] != separator)) continue;
+    if (i < line.size()) {
+      const char c = line[i];
+      if (c == '"') quoted = !quoted;
+      if (brackets == Brackets::kKeptWhole && (c == '[' || c == '(')) ++open;
+      if (brackets == Brackets::kKeptWhole && (c == ']' || c == ')')) open = std::max(0, open - 1);
+      if (quoted || open > 0 || c != separator) continue;
+    }
     out.push_back(unquoted(line.substr(first, i - first)));
     first = i + 1;
   }
-  // A separator at the end of every line, as many programs write, adds no column.
-  if (out.size() > 1 && out.back().empty()) out.pop_back();
   return out;
 }
 
@@ -62,9 +71,21 @@ bool is_number(std::string_view cell) {
   return number_in(cell, '.').has_value() || number_in(cell, ',').has_value();
 }
 
-double number_share(const Cells& cells) {
+/// "16:57", "20.10.2022 16:57": no number, but no name of a column either.
+bool is_time(std::string_view cell) {
+  if (cell.empty() || std::isdigit(static_cast<unsigned char>(cell.front())) == 0) return false;
+  if (cell.find_first_not_of("0123456789.,:/-+ TZAPMapm") != cell.npos) return false;
+  const auto signs = std::count_if(cell.begin(), cell.end(),
+                                   [](char c) { return c == '.' || c == '/' || c == '-'; });
+  return signs >= 2 || cell.find(':') != cell.npos;
+}
+
+double number_share(Cells cells) {
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
   if (cells.empty()) return 0.0;
-  const auto numbers = std::count_if(cells.begin(), cells.end(), is_number);
+  const auto numbers = std::count_if(cells.begin(), cells.end(), [](std::string_view cell) {
+    return is_number(cell) || is_time(cell);
+  });
   return static_cast<double>(numbers) / static_cast<double>(cells.size());
 }
 
@@ -148,23 +169,27 @@ void find_header(const SourceText& text, const DialectWishes& wishes, Dialect& d
          "name them: --header \"pose,q1_deg,q2_deg,...,x_mm,y_mm,z_mm\"", "numbers begin here");
   }
   const auto names_of = [&](std::size_t i) {
-    auto line = trimmed(text.lines[i]);
+    // Not trimmed unless it is a comment: a tab at the beginning ends an empty first cell.
+    std::string_view line = text.lines[i];
     for (const char* sign : kCommentSigns)
-      if (line.starts_with(sign)) line = trimmed(line.substr(std::string_view(sign).size()));
-    std::vector<std::string> out;
-    for (const auto cell : cut_line(line, d.separator)) out.emplace_back(cell);
-    return out;
+      if (const auto comment = trimmed(line); comment.starts_with(sign))
+        line = trimmed(comment.substr(std::string_view(sign).size()));
+    Cells cells = cut_line(line, d.separator);
+    if (cells.size() != wanted) {
+      Cells whole = cut_line(line, d.separator, Brackets::kKeptWhole);
+      if (whole.size() == wanted) cells = std::move(whole);
+    }
+    return std::vector<std::string>(cells.begin(), cells.end());
   };
   // "name" over "mm" over numbers: the nearer of the two lines is the row of units.
-  static const std::vector<std::string> kUnits{
-      "mm", "m",  "um", "in", "deg", "rad",  "mrad", "kg",    "s",     "ms",  "degC",
-      "N",  "Nm", "-",  "",   "°",   "[mm]", "[m]",  "[deg]", "[rad]", "[-]", "°C"};
   const auto nearest = names_of(above[0]);
   const bool units =
-      above.size() > 1 && std::all_of(nearest.begin(), nearest.end(), [](const std::string& cell) {
-        const bool brackets = cell.size() > 2 && cell.front() == '[' && cell.back() == ']';
-        return std::find(kUnits.begin(), kUnits.end(), cell) != kUnits.end() ||
-               foreign_unit(brackets ? cell.substr(1, cell.size() - 2) : cell) != nullptr;
+      above.size() > 1 &&
+      std::any_of(nearest.begin(), nearest.end(),
+                  [](const std::string& cell) { return !known_unit(cell).empty(); }) &&
+      std::all_of(nearest.begin(), nearest.end(), [](const std::string& cell) {
+        return cell.empty() || cell == "-" || cell == "[-]" || !known_unit(cell).empty() ||
+               !unit_of_others(cell).empty();
       });
   d.header = units ? names_of(above[1]) : nearest;
   d.header_line = static_cast<int>(units ? above[1] : above[0]) + 1;
@@ -174,13 +199,20 @@ void find_header(const SourceText& text, const DialectWishes& wishes, Dialect& d
 struct DecimalVotes {
   int comma = 0, point = 0, either = 0;
   int either_line = 0;
+  int both = 0;            // "1.234,5": the point divides thousands
+  int grouped_points = 0;  // "1.234": thousands beside a decimal comma, else decimals
+  int grouped_line = 0;
 };
 
 void vote(std::string_view cell, int line, DecimalVotes& votes) {
   const auto commas = std::count(cell.begin(), cell.end(), ',');
   const auto points = std::count(cell.begin(), cell.end(), '.');
   if (commas == 0 && points <= 1) {
-    votes.point += points == 1 ? 1 : 0;
+    if (points == 0 || !number_in(cell, '.')) return;
+    ++votes.point;
+    if (!number_in(cell, ',')) return;
+    ++votes.grouped_points;
+    if (votes.grouped_line == 0) votes.grouped_line = line;
     return;
   }
   if (commas == 1 && points == 0 && number_in(cell, ',')) {
@@ -191,14 +223,20 @@ void vote(std::string_view cell, int line, DecimalVotes& votes) {
     if (thousands && votes.either_line == 0) votes.either_line = line;
   } else if (number_in(cell, ',')) {
     ++votes.comma;
+    votes.both += commas == 1 && points > 0 ? 1 : 0;
   }
 }
 
 char find_decimal(const SourceText& text, const RawRows& rows) {
-  if (rows.dialect.separator == ',') return '.';
   DecimalVotes votes;
   for (std::size_t i = 0; i < rows.cells.size(); ++i)
     for (const auto cell : rows.cells[i]) vote(cell, rows.lines[i], votes);
+  if (votes.comma > 0 && votes.grouped_points > 0 && votes.both == 0)
+    fail(text, votes.grouped_line, "E-IMPORT-DECIMAL",
+         "a point with three digits behind it may divide thousands or decimals: other numbers have "
+         "a decimal comma",
+         "if it divides thousands: --decimal comma; else write all numbers alike",
+         "1.234 is 1.234 or 1234");
   if (votes.comma > 0) return ',';
   if (votes.either > 0 && votes.point == 0)
     fail(text, votes.either_line, "E-IMPORT-DECIMAL",
@@ -216,10 +254,57 @@ void add_comment(std::string_view line, RawRows& out) {
                             std::string(trimmed(line.substr(colon + 2))));
 }
 
+/// Beside a decimal comma every point must divide thousands: "1.234.567,8", not "0.125".
+bool divides_thousands(std::string_view cell) {
+  const auto first = cell.find('.');
+  if (first == cell.npos) return true;
+  const auto whole = cell.substr(0, std::min(cell.find(','), cell.find_first_of("eE")));
+  if (whole.find('.') == whole.npos) return false;
+  std::size_t digits = 0;
+  for (std::size_t i = whole.size(); i-- > 0; ++digits) {
+    if (whole[i] != '.') continue;
+    if (digits != 3) return false;
+    digits = static_cast<std::size_t>(-1);
+  }
+  const bool sign = whole.starts_with('-') || whole.starts_with('+');
+  const auto lead = first - (sign ? 1 : 0);
+  return lead >= 1 && lead <= 3 && whole[sign ? 1 : 0] != '0' &&
+         cell.find('.', whole.size()) == cell.npos;
+}
+
+/// Cells behind the last heading: none in it, and empty in every row.
+void drop_empty_ends(const SourceText& text, RawRows& out) {
+  auto& header = out.dialect.header;
+  std::size_t named = header.size(), dropped = 0;
+  while (named > 0 && header[named - 1].empty()) --named;
+  const bool all_empty = std::all_of(out.cells.begin(), out.cells.end(), [&](const Cells& row) {
+    return std::all_of(row.begin() + static_cast<std::ptrdiff_t>(std::min(named, row.size())),
+                       row.end(), [](std::string_view cell) { return cell.empty(); });
+  });
+  if (!all_empty || named == 0) return;
+  dropped = header.size() - named;
+  header.resize(named);
+  if (out.dialect.units.size() > named) out.dialect.units.resize(named);
+  for (auto& row : out.cells) {
+    if (row.size() <= named) continue;
+    dropped = std::max(dropped, row.size() - named);
+    row.resize(named);
+  }
+  if (dropped == 0) return;
+  out.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-IMPORT-EMPTY",
+       .message = fmt::format("the lines end with {} that hold nothing in any row: left out",
+                              dropped == 1 ? "a separator" : fmt::format("{} cells", dropped)),
+       .place = Place{.file = text.file, .line = std::max(1, out.dialect.header_line)},
+       .help = "nothing is lost"});
+}
+
 }  // namespace
 
 std::optional<double> number_in(std::string_view cell, char decimal) {
   cell = trimmed(cell);
+  if (decimal == ',' && !divides_thousands(cell)) return std::nullopt;
   std::string copy;
   copy.reserve(cell.size());
   for (char c : cell) {
@@ -276,13 +361,15 @@ RawRows cut(const SourceText& text, const DialectWishes& wishes) {
     }
     out.cells.push_back(cut_line(text.lines[i], d.separator));
     out.lines.push_back(static_cast<int>(i) + 1);
-    if (out.cells.back().size() != d.header.size())
-      fail(text, out.lines.back(), "E-IMPORT-RAGGED",
-           fmt::format("this row has {} cells, the header {}", out.cells.back().size(),
-                       d.header.size()),
-           "complete or delete the row; if the separator is wrong: --separator \";\"",
-           "cells are missing or too many");
   }
+  drop_empty_ends(text, out);
+  for (std::size_t i = 0; i < out.cells.size(); ++i)
+    if (out.cells[i].size() != d.header.size())
+      fail(
+          text, out.lines[i], "E-IMPORT-RAGGED",
+          fmt::format("this row has {} cells, the header {}", out.cells[i].size(), d.header.size()),
+          "complete or delete the row; if the separator is wrong: --separator \";\"",
+          "cells are missing or too many");
   if (out.cells.empty())
     fail(text, d.header_line, "E-IMPORT-ROWS", "the file has a header and no rows",
          "export the measurements again", "nothing follows");

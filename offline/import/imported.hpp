@@ -19,6 +19,12 @@ struct ImportedColumn {
   std::string heading() const { return unit.empty() ? name : name + "_" + unit; }
 };
 
+/// A column of numbers that nothing was made of.
+struct UnusedColumn {
+  std::string from;
+  double largest = 0.0;  // of their sizes, as written
+};
+
 /// A foreign file as plumb understood it.
 struct Imported {
   std::string file;
@@ -26,7 +32,8 @@ struct Imported {
   std::string separator, decimal;  // in words
   std::vector<ImportedColumn> columns;
   std::vector<std::string> left_out;
-  std::vector<int> lines;  // of the rows
+  std::vector<UnusedColumn> unused;  // those of numbers, but for what the user left out
+  std::vector<int> lines;            // of the rows
   std::vector<std::pair<std::string, std::string>> comments;
   std::vector<Problem> remarks;
 

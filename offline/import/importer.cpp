@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <cmath>
 
 #include "cell/column_names.hpp"
 #include "cell/csv_line.hpp"
 #include "cell/units.hpp"
 #include "import/column_guess.hpp"
+#include "import/content.hpp"
 #include "import/euler.hpp"
+#include "import/map_option.hpp"
 #include "import/moves.hpp"
 #include "import/timestamps.hpp"
 #include "program/file.hpp"
@@ -19,6 +23,10 @@
 namespace plumb::offline {
 namespace {
 
+constexpr double kOneTurn = 6.3;      // radians of a joint that turns once about
+constexpr double kLeastMove_m = 0.2;  // of the points: less may be a few degrees
+constexpr double kLongLever_m = 1.0;  // all joints moving the tool by that arm, one way
+constexpr int kRowsToJudge = 8;
 constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
 
 std::string in_words(char sign) {
@@ -56,7 +64,12 @@ class Importer {
       : text_(text), rows_(rows), wishes_(wishes) {}
 
   Imported run() {
-    auto plans = plan_columns(rows_.dialect.header, rows_.dialect.units, wishes_.map);
+    contents_ = column_contents(rows_);
+    std::vector<Problem> decisions;
+    std::vector<std::string> columns = rows_.dialect.header;
+    columns.insert(columns.end(), wishes_.elsewhere.begin(), wishes_.elsewhere.end());
+    auto plans = plan_columns(rows_.dialect.header, rows_.dialect.units, contents_,
+                              wishes_of(wishes_.map, columns), wishes_.elsewhere, decisions);
     out_.file = text_.file;
     out_.sha256 = text_.sha256;
     out_.separator = in_words(rows_.dialect.separator);
@@ -65,10 +78,15 @@ class Importer {
     out_.comments = rows_.comments;
     out_.remarks = text_.remarks;
     out_.remarks.insert(out_.remarks.end(), rows_.remarks.begin(), rows_.remarks.end());
+    out_.remarks.insert(out_.remarks.end(), decisions.begin(), decisions.end());
+    leave_out_empty(plans);
+    join_date_and_time(plans);
     look_at_units(plans);
+    say_of_uncertainties(plans);
+    say_of_sliding(plans);
     for (std::size_t k = 0; k < plans.size(); ++k) {
       if (plans[k].name.empty())
-        out_.left_out.push_back(plans[k].from);
+        leave_out(plans[k], k);
       else if (plans[k].name == "time")
         add_times(plans[k], k);
       else if (unitless_quantity(plans[k].name) == Quantity::kText)
@@ -76,45 +94,143 @@ class Importer {
       else
         add_numbers(plans[k], k);
     }
-    refuse_if_nothing_is_known();
     problems_.stop_on_errors();
+    say_of_radians(plans);
     turn_to_quaternions();
     say_what_was_left_out();
     return std::move(out_);
   }
 
  private:
+  void leave_out(const ColumnPlan& plan, std::size_t k) {
+    out_.left_out.push_back(plan.from.empty() ? fmt::format("column {}", k + 1) : plan.from);
+    const bool of_quaternion = plan.named.letter_q || plan.named.quaternion_part;  // said elsewhere
+    if (!plan.wished && !of_quaternion && contents_[k].numeric() && !plan.from.empty())
+      out_.unused.push_back({plan.from, contents_[k].largest});
+  }
+
+  /// A known column that holds nothing in any row is no column of bad numbers.
+  void leave_out_empty(std::vector<ColumnPlan>& plans) {
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+      if (!contents_[k].empty || plans[k].name.empty() || plans[k].wished) continue;
+      if (unitless_quantity(plans[k].name) == Quantity::kText) continue;
+      plans[k].name.clear();
+      plans[k].lacks_unit = false;
+      plans[k].foreign.clear();
+    }
+  }
+
+  /// A date in one column and the time of day in another are one time stamp.
+  void join_date_and_time(std::vector<ColumnPlan>& plans) {
+    const auto find = [&](const char* name) {
+      const auto at = std::find_if(plans.begin(), plans.end(),
+                                   [&](const ColumnPlan& plan) { return plan.name == name; });
+      return at == plans.end() ? nullptr : &*at;
+    };
+    ColumnPlan *date = find("date"), *time = find("time");
+    if (date == nullptr) return;
+    if (time == nullptr) {
+      date->name = "time";
+      return;
+    }
+    date_column_ = static_cast<std::size_t>(date - plans.data());
+    time->from = date->from + "' and '" + time->from;
+    date->name.clear();
+    joined_date_ = true;
+  }
+
   /// A recognised column must say its unit, and one that plumb knows; a preview only warns.
   void look_at_units(std::vector<ColumnPlan>& plans) {
-    for (auto& plan : plans) {
-      if (!plan.lacks_unit && plan.foreign.empty()) continue;
-      const Problem problem = plan.foreign.empty() ? unitless(plan) : of_another_unit(plan);
-      if (wishes_.preview)
-        out_.remarks.push_back(problem), plan.unit = "?";
-      else
-        problems_.add(problem);
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+      ColumnPlan& plan = plans[k];
+      if (plan.name == "time" && !joined_date_ && contents_[k].numeric() &&
+          !may_be_date(contents_[k].largest)) {
+        plan.name = "t";
+        plan.lacks_unit = true;
+      }
     }
+    std::vector<std::size_t> unitless;
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+      if (plans[k].lacks_unit) unitless.push_back(k);
+      if (!plans[k].foreign.empty()) complain(of_another_unit(plans[k]));
+    }
+    if (!unitless.empty()) complain(without_unit(plans, unitless));
+    for (auto& plan : plans)
+      if (plan.lacks_unit || !plan.foreign.empty()) plan.unit = "?";
     problems_.stop_on_errors();
   }
 
-  /// A file of which no column was understood would be written empty.
-  void refuse_if_nothing_is_known() {
-    if (!out_.columns.empty() || !problems_.errors().empty() || wishes_.preview) return;
-    const int line = std::max(rows_.dialect.header_line, 1);
-    problems_.error("E-IMPORT-HEADER", "none of the columns is known",
-                    Place{.file = text_.file,
-                          .line = line,
-                          .column = 1,
-                          .source = std::string(text_.lines[line - 1]),
-                          .label = "taken as the header"},
-                    fmt::format("say what they are: --map \"{}=q1_deg\"",
-                                rows_.dialect.header.empty() ? "NAME" : rows_.dialect.header[0]));
+  void complain(const Problem& problem) {
+    if (wishes_.preview)
+      out_.remarks.push_back(problem);
+    else
+      problems_.add(problem);
   }
 
-  Problem unitless(const ColumnPlan& plan) const {
-    return of_unit(plan, fmt::format("column '{}' has no unit", plan.from),
-                   fmt::format("taken as '{}'", plan.name),
-                   fmt::format("--map \"{}={}_{}\"", plan.from, plan.name, usual_unit(plan.name)));
+  /// Columns of one kind have one unit: q1 to q6, x to z.
+  static std::string kind_of(const std::string& name) {
+    if (joint_number(name, "q") > 0) return "q";
+    if (joint_number(name, "qc") > 0) return "qc";
+    if (joint_number(name, "travel_j") > 0) return "travel";
+    const bool axis = !name.empty() && name.back() >= 'x' && name.back() <= 'z';
+    return axis ? name.substr(0, name.size() - 1) + "x" : name;
+  }
+
+  /// What to offer for the columns of one kind, and why.
+  UnitChoice choice_for(const std::vector<ColumnPlan>& plans, std::size_t k) const {
+    const std::string kind = kind_of(plans[k].name);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      if (plans[i].name.empty() || kind_of(plans[i].name) != kind) continue;
+      if (plans[i].lacks_unit)
+        largest = std::max(largest, contents_[i].largest);
+      else if (plans[i].foreign.empty() && kind != plans[i].name)
+        return {{plans[i].unit}, fmt::format("{}, like '{}'", plans[i].unit, plans[i].from)};
+    }
+    return unit_choice(plans[k].name, largest);
+  }
+
+  /// One sentence and one line to paste for all columns that do not say their unit.
+  Problem without_unit(const std::vector<ColumnPlan>& plans,
+                       const std::vector<std::size_t>& unitless) const {
+    std::vector<std::pair<std::string, std::vector<std::string>>> kinds;  // reason -> columns
+    std::vector<std::string> names, wishes;
+    bool choose = false;
+    for (const std::size_t k : unitless) {
+      const UnitChoice choice = choice_for(plans, k);
+      choose = choose || choice.units.size() > 1;
+      names.push_back(plans[k].from);
+      wishes.push_back(fmt::format("{}={}_{}", plans[k].from, map_name(plans[k]), choice.text()));
+      if (kinds.empty() || kinds.back().first != choice.reason)
+        kinds.push_back({choice.reason, {}});
+      kinds.back().second.push_back(plans[k].from);
+    }
+    std::vector<std::string> reasons;
+    for (const auto& [reason, columns] : kinds)
+      reasons.push_back(fmt::format("{} ({})", in_short(columns), reason));
+    const ColumnPlan& first = plans[unitless.front()];
+    Problem out =
+        of_unit(first,
+                unitless.size() == 1
+                    ? fmt::format("column '{}' has no unit", first.from)
+                    : fmt::format("{} columns have no unit: {}", unitless.size(), in_short(names)),
+                unitless.size() == 1 ? fmt::format("taken as '{}'; {}", first.name,
+                                                   choice_for(plans, unitless.front()).reason)
+                                     : fmt::format("{}", fmt::join(reasons, "; ")),
+                map_option(wishes));
+    if (choose) out.help += "  (keep one of the units that | divides)";
+    return out;
+  }
+
+  /// What --map calls it, so that pasting the line changes no number: an expanded uncertainty stays
+  /// one.
+  static std::string map_name(const ColumnPlan& plan) {
+    return plan.divisor != 1.0 ? "u95" + plan.name.substr(1) : plan.name;
+  }
+
+  static std::string in_short(const std::vector<std::string>& names) {
+    if (names.size() <= 4) return fmt::format("{}", fmt::join(names, ", "));
+    return fmt::format("{}, {}, ... {}", names[0], names[1], names.back());
   }
 
   Problem of_another_unit(const ColumnPlan& plan) const {
@@ -123,16 +239,123 @@ class Importer {
                    fmt::format("column '{}' is in {}, which is none of plumb's units", plan.from,
                                plan.foreign),
                    std::string(unit.equals),
-                   fmt::format("convert the numbers and name the column {}_{}, or leave it out: "
-                               "--map \"{}=-\"",
-                               plan.name, unit.use, plan.from));
+                   fmt::format("convert the numbers and name the column {}_{}, or leave it out: {}",
+                               plan.name, unit.use, map_option({plan.from + "=-"})));
+  }
+
+  /// What was divided, and what was not used because nothing says by how much.
+  void say_of_uncertainties(const std::vector<ColumnPlan>& plans) {
+    std::vector<std::string> divided, as_they_are, unclear, wishes;
+    bool unit_known = false;
+    std::string said;
+    double divisor = 1.0;
+    for (const auto& plan : plans) {
+      if (plan.divisor != 1.0) {
+        divided.push_back(plan.from), said = plan.said, divisor = plan.divisor;
+        as_they_are.push_back(fmt::format("{}={}_{}", plan.from, plan.name, unit_in_wish(plan)));
+      }
+      if (!plan.named.uncertain || plan.wished) continue;
+      unclear.push_back(plan.from);
+      if (wishes.empty()) unit_known = !plan.uncertain_unit.empty();
+      wishes.push_back(plan.uncertain_unit.empty() ? "um" : plan.uncertain_unit);
+    }
+    if (!divided.empty())
+      out_.remarks.push_back(
+          {.severity = Severity::kNote,
+           .code = "N-IMPORT-EXPANDED",
+           .message = fmt::format("{} hold expanded uncertainties ({}): divided by {:g} they are "
+                                  "one standard deviation",
+                                  in_short(divided), said, divisor),
+           .help = "if they already are one: " + map_option(as_they_are)});
+    if (!unclear.empty())
+      out_.remarks.push_back(
+          {.severity = Severity::kWarning,
+           .code = "W-IMPORT-UNCERTAINTY",
+           .message =
+               fmt::format("{} left out: nothing says of which axis, or of how many standard "
+                           "deviations, these uncertainties are",
+                           in_short(unclear)),
+           .help =
+               fmt::format("{} if one, or u95x_{} if two (k = 2, 95 %){}",
+                           map_option({unclear.front() + "=sx_" + wishes.front()}), wishes.front(),
+                           unit_known ? "" : "; mm in place of um if that is the unit")});
+  }
+
+  /// A joint in millimetres slides; of one that turns it is a slip that only the cell can tell.
+  void say_of_sliding(const std::vector<ColumnPlan>& plans) {
+    for (const auto& plan : plans) {
+      const auto unit = unit_of(plan.unit);
+      if (!plan.wished || joint_number(plan.name, "q") == 0 || !unit ||
+          unit->quantity != Quantity::kLength)
+        continue;
+      out_.remarks.push_back(
+          {.severity = Severity::kNote,
+           .code = "N-IMPORT-SLIDE",
+           .message = fmt::format("{} is taken in {}: that is right for a sliding joint only",
+                                  plan.name, plan.unit),
+           .help = "if it turns: " + map_option({fmt::format("{}={}_deg", plan.from, plan.name)})});
+    }
+  }
+
+  /// Largest minus smallest number of a column, in SI; 0 if it is not there.
+  double span_of(const std::string& name) const {
+    const ImportedColumn* column = out_.find(name);
+    if (column == nullptr || column->text.empty() || !unit_of(column->unit)) return 0.0;
+    double low = value_of(*column, 0), high = low;
+    for (std::size_t i = 1; i < column->text.size(); ++i) {
+      low = std::min(low, value_of(*column, i));
+      high = std::max(high, value_of(*column, i));
+    }
+    return high - low;
+  }
+
+  /// Columns of degrees that hold a turn in radians at most, though the arm has moved by far more
+  /// than so few degrees would move it. Asked, never changed.
+  void say_of_radians(const std::vector<ColumnPlan>& plans) {
+    std::vector<std::string> names, wishes;
+    double largest = 0.0, turned = 0.0;
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+      if (joint_number(plans[k].name, "q") == 0 || plans[k].unit != "deg" || plans[k].wished)
+        continue;
+      names.push_back(plans[k].from);
+      wishes.push_back(fmt::format("{}={}_rad", plans[k].from, plans[k].name));
+      largest = std::max(largest, contents_[k].largest);
+      turned += span_of(plans[k].name);
+    }
+    const double moved = std::hypot(span_of("x"), span_of("y"), span_of("z"));
+    if (names.empty() || out_.rows() < kRowsToJudge || largest > kOneTurn || moved < kLeastMove_m ||
+        moved < turned * kLongLever_m)
+      return;
+    out_.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-IMPORT-RADIANS",
+         .message = fmt::format("{} say deg, but no number is beyond {:.3g}: all joints together "
+                                "turn by {:.2g} deg and the points move by {:.2g} m, which fits "
+                                "radians",
+                                in_short(names), largest, turned * 180.0 / M_PI, moved),
+         .help = "if they are radians: " + map_option(wishes)});
+  }
+
+  /// Of the column, or the usual one of uncertainties.
+  static std::string unit_in_wish(const ColumnPlan& plan) {
+    return plan.unit.empty() || plan.unit == "?" ? "um" : plan.unit;
+  }
+
+  /// Where a name stands alone: 'x' is not the end of "index".
+  static std::size_t place_of(const std::string& line, const std::string& name) {
+    const auto part_of_word = [&](std::size_t at) {
+      return at < line.size() && std::isalnum(static_cast<unsigned char>(line[at])) != 0;
+    };
+    for (auto at = line.find(name); at != line.npos; at = line.find(name, at + 1))
+      if ((at == 0 || !part_of_word(at - 1)) && !part_of_word(at + name.size())) return at;
+    return line.find(name);
   }
 
   Problem of_unit(const ColumnPlan& plan, std::string message, std::string label,
                   std::string help) const {
     const int line = std::max(rows_.dialect.header_line, 1);
     const std::string source(text_.lines[line - 1]);
-    const auto column = std::min(source.find(plan.from), source.size());
+    const auto column = std::min(place_of(source, plan.from), source.size());
     return {.severity = wishes_.preview ? Severity::kWarning : Severity::kError,
             .code = wishes_.preview ? "W-IMPORT-UNIT" : "E-IMPORT-UNIT",
             .message = std::move(message),
@@ -157,8 +380,11 @@ class Importer {
     column.text.reserve(rows_.cells.size());
     for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
       const auto cell = rows_.cells[i][k];
-      if (!number_in(cell, decimal)) bad_number(plan, i, cell);
-      column.text.push_back(plain_number(cell, decimal));
+      const auto number = number_in(cell, decimal);
+      if (!number) bad_number(plan, i, cell);
+      column.text.push_back(plan.divisor != 1.0 && number
+                                ? fmt::format("{}", *number / plan.divisor)
+                                : plain_number(cell, decimal));
     }
     out_.columns.push_back(std::move(column));
   }
@@ -178,22 +404,50 @@ class Importer {
                     plan.from));
   }
 
+  /// Cells of a time stamp, a date from another column before them.
+  std::vector<std::string> stamps(std::size_t k) const {
+    std::vector<std::string> out;
+    for (const auto& row : rows_.cells)
+      out.push_back(joined_date_ ? joined(row[date_column_], row[k]) : std::string(row[k]));
+    return out;
+  }
+
+  /// Spreadsheets write a date alone as "2022-10-20 00:00:00".
+  static std::string joined(std::string_view date, std::string_view time) {
+    for (const char* midnight : {" 00:00:00", "T00:00:00", " 00:00"})
+      if (date.ends_with(midnight)) date.remove_suffix(std::string_view(midnight).size());
+    return fmt::format("{} {}", date, time);
+  }
+
+  Place row_of_file(std::size_t row, std::string label) const {
+    const int line = rows_.lines[std::min(row, rows_.lines.size() - 1)];
+    return {.file = text_.file,
+            .line = line,
+            .column = 1,
+            .source = std::string(text_.lines[line - 1]),
+            .label = std::move(label)};
+  }
+
   void add_times(const ColumnPlan& plan, std::size_t k) {
-    std::vector<std::string_view> cells;
-    for (const auto& row : rows_.cells) cells.push_back(row[k]);
-    const Timestamps times = read_timestamps(cells, rows_.dialect.decimal);
+    const std::vector<std::string> texts = stamps(k);
+    const std::vector<std::string_view> cells(texts.begin(), texts.end());
+    const Timestamps times = read_timestamps(cells, rows_.dialect.decimal, wishes_.date_order);
+    if (times.undecided)
+      complain({.severity = wishes_.preview ? Severity::kWarning : Severity::kError,
+                .code = wishes_.preview ? "W-IMPORT-TIME" : "E-IMPORT-DATE",
+                .message = fmt::format("'{}': whether '{}' begins with the day or with the month "
+                                       "cannot be told: no number of the file is beyond 12",
+                                       plan.from, texts.front()),
+                .place = row_of_file(0, times.format),
+                .help = "--date day-first, or --date month-first"});
     if (times.seconds.empty()) {
-      const int line = rows_.lines[std::min(times.damaged_row, rows_.lines.size() - 1)];
-      out_.remarks.push_back(
-          {.severity = Severity::kWarning,
-           .code = "W-IMPORT-TIME",
-           .message = fmt::format("the time stamps in '{}' are lost: {}", plan.from, times.damage),
-           .place = Place{.file = text_.file,
-                          .line = line,
-                          .column = 1,
-                          .source = std::string(text_.lines[line - 1]),
-                          .label = "from here on"},
-           .help = "export again without opening the file in a spreadsheet"});
+      if (!times.undecided)
+        out_.remarks.push_back({.severity = Severity::kWarning,
+                                .code = "W-IMPORT-TIME",
+                                .message = fmt::format("the time stamps in '{}' are lost: {}",
+                                                       plan.from, times.damage),
+                                .place = row_of_file(times.damaged_row, "from here on"),
+                                .help = "export again without opening the file in a spreadsheet"});
       out_.left_out.push_back(plan.from);
       return;
     }
@@ -202,6 +456,16 @@ class Importer {
     for (std::size_t i = 0; i < times.seconds.size(); ++i)
       if (times.seconds[i] > 1e5) column.text[i] = fmt::format("{:.3f}", times.seconds[i]);
     out_.columns.push_back(std::move(column));
+    if (times.format != "ISO 8601" && times.format != "clock" && times.format != "YYYYMMDDhhmmss")
+      out_.remarks.push_back(
+          {.severity = Severity::kNote,
+           .code = "N-IMPORT-TIME",
+           .message = fmt::format("the time stamps in '{}' were read as {}: "
+                                  "seconds from the first, {:g} in all",
+                                  plan.from, times.format,
+                                  *std::max_element(times.seconds.begin(), times.seconds.end())),
+           .help =
+               fmt::format("to leave them out: {}", map_option({rows_.dialect.header[k] + "=-"}))});
     if (times.wrapped)
       out_.remarks.push_back(
           {.severity = Severity::kNote,
@@ -251,12 +515,16 @@ class Importer {
         {.severity = Severity::kNote,
          .code = "N-IMPORT-LEFT",
          .message = fmt::format("columns left out: {}", fmt::join(out_.left_out, ", ")),
-         .help = fmt::format("to keep one: --map \"{}=NAME_UNIT\"", out_.left_out.front())});
+         .help =
+             fmt::format("to keep one: {}", map_option({out_.left_out.front() + "=NAME_UNIT"}))});
   }
 
   const SourceText& text_;
   const RawRows& rows_;
   const ImportWishes& wishes_;
+  std::vector<ColumnContent> contents_;
+  std::size_t date_column_ = 0;
+  bool joined_date_ = false;
   ProblemList problems_;
   Imported out_;
 };
@@ -280,6 +548,13 @@ Imported import_file(const std::filesystem::path& file, const ImportWishes& wish
   decode(read_file(file), display_name(file), text);
   const RawRows rows = cut(text, wishes.dialect);
   return Importer(text, rows, wishes).run();
+}
+
+std::vector<std::string> column_names(const std::filesystem::path& file,
+                                      const DialectWishes& wishes) {
+  SourceText text;
+  decode(read_file(file), display_name(file), text);
+  return cut(text, wishes).dialect.header;
 }
 
 void add_directions(Imported& data) {

@@ -8,6 +8,7 @@
 
 #include "import/dialect.hpp"
 #include "import/imported.hpp"
+#include "import/timestamps.hpp"
 
 namespace plumb::offline {
 
@@ -16,12 +17,18 @@ struct ImportWishes {
   DialectWishes dialect;
   std::vector<std::string> map;  // "Goal x=nx_m"
   std::string rotation;          // "xyz-moving": what rx, ry, rz mean
-  bool preview = false;          // a column without unit is a warning, its unit "?"
+  DateOrder date_order = DateOrder::kUnknown;
+  bool preview = false;                // a column without unit is a warning, its unit "?"
+  std::vector<std::string> elsewhere;  // columns of the other file, which `map` may also name
 };
 
 /// Reads one foreign file: encoding, dialect, columns, time stamps, turns. Throws Failure with all
 /// bad cells (first 20).
 Imported import_file(const std::filesystem::path& file, const ImportWishes& wishes);
+
+/// The names of the columns of a file. Throws as `import_file`.
+std::vector<std::string> column_names(const std::filesystem::path& file,
+                                      const DialectWishes& wishes);
 
 /// Adds dir_jN and travel_jN of consecutive moves.
 void add_directions(Imported& data);

@@ -164,6 +164,8 @@ Imported join(const Imported& first, const Imported& second, const JoinWishes& w
   out.remarks.insert(out.remarks.end(), second.remarks.begin(), second.remarks.end());
   out.left_out = first.left_out;
   out.left_out.insert(out.left_out.end(), second.left_out.begin(), second.left_out.end());
+  out.unused = first.unused;
+  out.unused.insert(out.unused.end(), second.unused.begin(), second.unused.end());
   Pairs pairs;
   switch (wishes.by) {
     case JoinBy::kPose:

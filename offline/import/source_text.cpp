@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
 
 #include "program/file.hpp"
 #include "program/utf8.hpp"
@@ -11,7 +14,11 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kLooked = 1 << 16;  // bytes that tell a text from a binary file
+constexpr std::size_t kLongestLine = 1 << 20;
+
+constexpr std::size_t kNoEuropeanWord = 4;  // different letters beyond ASCII in a row
+constexpr std::size_t kLooked = 1 << 16;    // bytes that tell a text from a binary file
+constexpr std::size_t kShortestUtf16 = 16;  // bytes below which nothing is concluded
 
 void append_utf8(std::string& out, unsigned code) {
   if (code < 0x80) {
@@ -43,12 +50,57 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return out;
 }
 
+/// Which half of the byte pairs is nearly always 0, as it is in UTF-16 of European text: 0 the
+/// first (big endian), 1 the second; nothing if neither is.
+std::optional<int> zero_half(std::string_view bytes) {
+  const auto part = bytes.substr(0, std::min(kLooked, bytes.size() / 2 * 2));
+  if (part.size() < kShortestUtf16) return std::nullopt;
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < part.size(); ++i) zeros[i % 2] += part[i] == '\0' ? 1U : 0U;
+  for (int half = 0; half < 2; ++half)
+    if (zeros[half] * 20 >= part.size() / 2 * 19 && zeros[1 - half] == 0) return half;
+  return std::nullopt;
+}
+
 bool looks_binary(std::string_view bytes) {
   const auto part = bytes.substr(0, kLooked);
   return std::any_of(part.begin(), part.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f';
   });
+}
+
+unsigned byte_at(std::string_view bytes, std::size_t i) {
+  return static_cast<unsigned char>(bytes[i]);
+}
+
+/// True if all bytes beyond ASCII form characters of Shift-JIS, one of which is none of two
+/// characters that European text has side by side.
+bool looks_shift_jis(std::string_view bytes) {
+  bool sure = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const unsigned lead = byte_at(bytes, i);
+    if (lead < 0x80 || (lead >= 0xA1 && lead <= 0xDF)) continue;  // ASCII, half-width kana
+    const unsigned trail = i + 1 < bytes.size() ? byte_at(bytes, i + 1) : 0;
+    const bool is_lead = (lead >= 0x81 && lead <= 0x9F) || (lead >= 0xE0 && lead <= 0xFC);
+    if (!is_lead || trail < 0x40 || trail == 0x7F || trail > 0xFC) return false;
+    sure = sure || (lead <= 0x9F && trail >= 0x80);
+    ++i;
+  }
+  return sure;
+}
+
+/// Four different letters with accents one after another: no European word has them, and words in
+/// Chinese, Korean, Japanese or Cyrillic encodings do.
+bool looks_not_latin(std::string_view bytes) {
+  for (std::size_t i = 0; i < bytes.size();) {
+    std::size_t end = i;
+    std::set<char> different;
+    while (end < bytes.size() && byte_at(bytes, end) >= 0x80) different.insert(bytes[end++]);
+    if (different.size() >= kNoEuropeanWord) return true;
+    i = end + 1;
+  }
+  return false;
 }
 
 Problem note(std::string message) {
@@ -84,16 +136,37 @@ void decode(std::string bytes, const std::string& file, SourceText& out) {
     out.remarks.push_back(note(fmt::format("{} is in UTF-16", file)));
   } else if (bytes.starts_with("\xEF\xBB\xBF")) {
     bytes.erase(0, 3);
+  } else if (const auto half = zero_half(bytes)) {
+    bytes = from_utf16(bytes, *half == 0);
+    out.remarks.push_back(
+        note(fmt::format("{} is in UTF-16, though no byte-order mark says so", file)));
   }
   if (looks_binary(bytes))
     fail("E-IMPORT-BINARY", "this is no text file",
          "export the measurements as text (CSV) from the tracker's or controller's software");
   if (find_invalid_utf8(bytes) != std::string::npos) {
+    if (looks_shift_jis(bytes))
+      fail("E-IMPORT-ENCODING",
+           "the text is in Shift-JIS, and import reads UTF-8, UTF-16 and Latin-1",
+           fmt::format("convert it: iconv -f CP932 -t UTF-8 {} > utf8.csv", file));
+    if (looks_not_latin(bytes))
+      fail("E-IMPORT-ENCODING",
+           "the text is in none of the encodings that import reads: UTF-8, UTF-16 and Latin-1",
+           fmt::format("save it as UTF-8, or convert it from the encoding it was written in, as "
+                       "with: iconv -f GB18030 -t UTF-8 {} > utf8.csv",
+                       file));
     bytes = from_latin1(bytes);
     out.remarks.push_back(note(fmt::format("{} is not UTF-8; it was read as Latin-1", file)));
   }
   out.bytes = std::move(bytes);
   cut_lines(out.bytes, out.lines);
+  for (std::size_t k = 0; k < out.lines.size(); ++k)
+    if (out.lines[k].size() > kLongestLine)
+      throw Failure(Exit::kInput,
+                    {.code = "E-CSV-LINE",
+                     .message = "a line is longer than 1 MB: this is no table of measurements",
+                     .place = Place{.file = file, .line = static_cast<int>(k) + 1},
+                     .help = "look at its beginning: head -c 300 " + file});
   if (std::all_of(out.lines.begin(), out.lines.end(),
                   [](std::string_view line) { return trimmed(line).empty(); }))
     fail("E-IMPORT-EMPTY", "the file is empty", "export the measurements again");

@@ -23,7 +23,8 @@ struct SourceText {
 };
 
 /// Turns UTF-16 (with its mark) and Latin-1 into UTF-8 and says so. Throws Failure (kInput):
-/// E-IMPORT-EMPTY, E-IMPORT-BINARY.
+/// E-IMPORT-EMPTY, E-IMPORT-BINARY; E-IMPORT-ENCODING for Shift-JIS and for text that cannot be
+/// Latin-1 (Chinese, Korean, Cyrillic), which would turn into nonsense.
 void decode(std::string bytes, const std::string& file, SourceText& out);
 
 }  // namespace plumb::offline

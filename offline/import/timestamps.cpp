@@ -4,124 +4,342 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
 #include <chrono>
-#include <cstdio>
+#include <cmath>
 #include <optional>
 #include <set>
 
 #include "import/dialect.hpp"
+#include "import/words.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr double kDay_s = 86400.0;
+constexpr double kFirstDay = 20000.0, kLastDay = 80000.0;  // of a spreadsheet: 1954 to 2119
+constexpr double kMostDays = 1000.0;                       // that a measurement takes
+constexpr double kFirstEpoch_s = 9e8, kLastEpoch_s = 5e9;  // 1998 to 2128
 
-std::optional<double> at(int year, int month, int day, int hour, int minute, double second) {
-  if (month < 1 || day < 1 || hour > 24 || minute > 59 || second >= 61.0) return std::nullopt;
+std::optional<double> seconds_of(int year, int month, int day) {
+  if (month < 1 || day < 1) return std::nullopt;
   const auto date = std::chrono::year{year} / std::chrono::month(static_cast<unsigned>(month)) /
                     std::chrono::day(static_cast<unsigned>(day));
   if (!date.ok()) return std::nullopt;
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return static_cast<double>(days) * kDay_s + hour * 3600.0 + minute * 60.0 + second;
+  return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count()) * kDay_s;
 }
 
-std::string plain(std::string_view cell) {
-  std::string out(cell);
-  std::replace(out.begin(), out.end(), ',', '.');
+/// A cell read both ways, where both are dates.
+struct Reading {
+  std::string format;
+  std::optional<double> day_first, month_first;
+  bool either = false;  // written in an order that differs between countries
+};
+
+/// Takes text from its front, piece by piece.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : rest_(text) {}
+
+  void blanks() {
+    while (!rest_.empty() && rest_.front() == ' ') rest_.remove_prefix(1);
+  }
+  bool sign(char c) {
+    if (!rest_.starts_with(c)) return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+  char any_of(std::string_view signs) {
+    if (rest_.empty() || signs.find(rest_.front()) == signs.npos) return '\0';
+    const char c = rest_.front();
+    rest_.remove_prefix(1);
+    return c;
+  }
+  /// Digits, up to `most`; their count in `length`.
+  std::optional<int> whole(std::size_t most, std::size_t& length) {
+    length = 0;
+    while (length < rest_.size() && std::isdigit(static_cast<unsigned char>(rest_[length])))
+      ++length;
+    if (length == 0 || length > most) return std::nullopt;
+    int value = 0;
+    std::from_chars(rest_.data(), rest_.data() + length, value);
+    rest_.remove_prefix(length);
+    return value;
+  }
+  std::string letters() {
+    std::size_t length = 0;
+    while (length < rest_.size() && (std::isalpha(static_cast<unsigned char>(rest_[length])) ||
+                                     static_cast<unsigned char>(rest_[length]) >= 0x80))
+      ++length;
+    std::string out = folded(rest_.substr(0, length));
+    rest_.remove_prefix(length);
+    return out;
+  }
+  std::optional<double> number() {
+    std::size_t length = 0;
+    while (length < rest_.size() &&
+           (std::isdigit(static_cast<unsigned char>(rest_[length])) || rest_[length] == '.'))
+      ++length;
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + length, value);
+    if (length == 0 || error != std::errc{} || end != rest_.data() + length) return std::nullopt;
+    rest_.remove_prefix(length);
+    return value;
+  }
+  bool done() const { return rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+};
+
+int month_named(const std::string& word) {
+  static constexpr std::array<std::string_view, 12> kMonths{
+      "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"};
+  if (word.size() < 3) return 0;
+  for (std::size_t m = 0; m < kMonths.size(); ++m)
+    if (word.starts_with(kMonths[m])) return static_cast<int>(m) + 1;
+  if (word == "mai") return 5;
+  if (word.starts_with("okt")) return 10;
+  if (word.starts_with("dez")) return 12;
+  return 0;
+}
+
+int full_year(int year, std::size_t digits) { return digits == 2 ? 2000 + year : year; }
+
+/// "20.10.2022", "2022-10-20", "10/20/22", "20-Oct-2022", "20 Oct 2022", "Oct 20, 2022".
+std::optional<Reading> date(Scanner& s) {
+  std::size_t digits[3] = {0, 0, 0};
+  int n[3] = {0, 0, 0};
+  if (const int month = month_named(s.letters()); month > 0) {
+    s.sign('.');
+    s.blanks();
+    const auto day = s.whole(2, digits[0]);
+    s.sign(',');
+    s.blanks();
+    const auto year = s.whole(4, digits[1]);
+    if (!day || !year || digits[1] != 4) return std::nullopt;
+    const auto t = seconds_of(*year, month, *day);
+    return Reading{"month by name", t, t};
+  }
+  auto first = s.whole(4, digits[0]);
+  if (!first) return std::nullopt;
+  n[0] = *first;
+  char separator = s.any_of("./- ");
+  if (separator == '.') s.blanks();
+  if (const std::string word = s.letters(); !word.empty()) {
+    const int month = month_named(word);
+    s.any_of(".-/");
+    s.blanks();
+    const auto year = s.whole(4, digits[2]);
+    if (month == 0 || !year || (digits[2] != 4 && digits[2] != 2)) return std::nullopt;
+    const auto t = seconds_of(full_year(*year, digits[2]), month, n[0]);
+    return Reading{"month by name", t, t};
+  }
+  if (separator == '\0' || separator == ' ') return std::nullopt;
+  for (int k = 1; k < 3; ++k) {
+    if (k == 2 && !s.sign(separator)) return std::nullopt;
+    const auto next = s.whole(4, digits[k]);
+    if (!next) return std::nullopt;
+    n[k] = *next;
+  }
+  if (digits[0] == 4) {
+    const auto t = seconds_of(n[0], n[1], n[2]);
+    return Reading{separator == '-' ? "ISO 8601" : fmt::format("YYYY{0}MM{0}DD", separator), t, t};
+  }
+  // Two digits for the year may be its place at either end where dashes divide.
+  if (digits[2] != 4 && (digits[2] != 2 || separator == '-')) return std::nullopt;
+  const int year = full_year(n[2], digits[2]);
+  return Reading{fmt::format("{}", separator), seconds_of(year, n[1], n[0]),
+                 seconds_of(year, n[0], n[1]), true};
+}
+
+/// "16:57", "16:57:03.5", "4:57:03 PM", with a Z or +02:00 behind it. Seconds of the day.
+std::optional<double> time_of_day(Scanner& s, bool& has_seconds) {
+  std::size_t digits = 0;
+  const auto hour = s.whole(2, digits);
+  if (!hour || !s.sign(':')) return std::nullopt;
+  const auto minute = s.whole(2, digits);
+  if (!minute || digits != 2) return std::nullopt;
+  double second = 0.0;
+  has_seconds = s.sign(':');
+  if (has_seconds) {
+    const auto read = s.number();
+    if (!read) return std::nullopt;
+    second = *read;
+  }
+  if (*hour > 24 || *minute > 59 || second >= 61.0) return std::nullopt;
+  double out = *hour * 3600.0 + *minute * 60.0 + second;
+  s.blanks();
+  if (const char zone = s.any_of("+-"); zone != '\0') {
+    const auto hours = s.whole(4, digits);
+    if (!hours) return std::nullopt;
+    int minutes = digits == 4 ? *hours % 100 : 0;
+    const int whole = digits == 4 ? *hours / 100 : *hours;
+    if (s.sign(':')) minutes = s.whole(2, digits).value_or(0);
+    return out - (zone == '+' ? 1.0 : -1.0) * (whole * 3600.0 + minutes * 60.0);
+  }
+  const std::string word = s.letters();
+  if (word.empty() || word == "z" || word == "uhr" || word == "utc" || word == "h") return out;
+  if ((word != "am" && word != "pm") || *hour > 12 || *hour < 1) return std::nullopt;
+  if (*hour == 12) out -= 12.0 * 3600.0;
+  return word == "pm" ? out + 12.0 * 3600.0 : out;
+}
+
+std::optional<Reading> dated(const std::string& text) {
+  if (text.size() == 14 &&
+      std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
+    const auto part = [&](int from, int count) { return std::stoi(text.substr(from, count)); };
+    auto t = seconds_of(part(0, 4), part(4, 2), part(6, 2));
+    if (!t || part(8, 2) > 24 || part(10, 2) > 59 || part(12, 2) > 60) return std::nullopt;
+    *t += part(8, 2) * 3600.0 + part(10, 2) * 60.0 + part(12, 2);
+    return Reading{"YYYYMMDDhhmmss", t, t};
+  }
+  Scanner s(text);
+  auto out = date(s);
+  if (!out) return std::nullopt;
+  s.sign(',');
+  s.blanks();
+  (void)(s.sign('T') || s.sign('t'));
+  s.blanks();
+  bool has_seconds = false;
+  const auto t = time_of_day(s, has_seconds);
+  s.blanks();
+  if (!t || !s.done()) return std::nullopt;
+  if (out->day_first) *out->day_first += *t;
+  if (out->month_first) *out->month_first += *t;
+  if (!out->day_first && !out->month_first) return std::nullopt;
+  if (out->format != "ISO 8601") out->format += has_seconds ? " hh:mm:ss" : " hh:mm";
   return out;
 }
 
-struct Reading {
-  double seconds;
-  const char* format;
-};
-
-std::optional<Reading> dated(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-  double second = 0.0;
-  int used = 0;
-  const auto whole = [&](int fields, int wanted) {
-    return fields >= wanted && used == static_cast<int>(text.size());
-  };
-  const auto reading = [&](const char* format) -> std::optional<Reading> {
-    if (const auto t = at(year, month, day, hour, minute, second)) return Reading{*t, format};
-    return std::nullopt;
-  };
-  if (text.size() == 14 &&
-      std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
-    if (std::sscanf(text.c_str(), "%4d%2d%2d%2d%2d%2lf", &year, &month, &day, &hour, &minute,
-                    &second) == 6)
-      return reading("YYYYMMDDhhmmss");
-  }
-  if (whole(std::sscanf(text.c_str(), "%4d-%2d-%2d%*1[T ]%2d:%2d:%lf%n", &year, &month, &day, &hour,
-                        &minute, &second, &used),
-            6))
-    return reading("ISO 8601");
-  if (whole(std::sscanf(text.c_str(), "%4d-%2d-%2d%*1[T ]%2d:%2d:%lf%*1[Z]%n", &year, &month, &day,
-                        &hour, &minute, &second, &used),
-            6))
-    return reading("ISO 8601");
-  if (whole(std::sscanf(text.c_str(), "%2d.%2d.%4d %2d:%2d:%lf%n", &day, &month, &year, &hour,
-                        &minute, &second, &used),
-            6))
-    return reading("DD.MM.YYYY hh:mm:ss");
-  return std::nullopt;
+std::optional<Reading> clock(const std::string& text) {
+  Scanner s(text);
+  bool has_seconds = false;
+  const auto t = time_of_day(s, has_seconds);
+  s.blanks();
+  if (!t || !s.done() || !has_seconds || *t < 0.0 || *t >= kDay_s) return std::nullopt;
+  return Reading{"clock", t, t};
 }
 
-std::optional<Reading> clock(const std::string& text) {
-  int hour = 0, minute = 0, used = 0;
-  double second = 0.0;
-  if (std::sscanf(text.c_str(), "%2d:%2d:%lf%n", &hour, &minute, &second, &used) == 3 &&
-      used == static_cast<int>(text.size()) && hour < 24 && minute < 60)
-    return Reading{hour * 3600.0 + minute * 60.0 + second, "clock"};
-  return std::nullopt;
+std::string with_points(std::string_view cell, char decimal) {
+  std::string out(trimmed(cell));
+  if (decimal == ',' || out.find(':') != out.npos) {
+    const auto comma = out.rfind(',');
+    if (comma != out.npos && comma + 1 < out.size() &&
+        std::isdigit(static_cast<unsigned char>(out[comma + 1])))
+      out[comma] = '.';
+  }
+  return out;
 }
 
 std::optional<Reading> read(std::string_view cell, char decimal) {
-  const std::string text = plain(cell);
+  const std::string text = with_points(cell, decimal);
   if (auto found = dated(text)) return found;
   if (auto found = clock(text)) return found;
-  if (const auto days = number_in(cell, decimal);
-      days && *days > 20000.0 && *days < 80000.0 && cell.find_first_of("eE") == cell.npos)
-    return Reading{*days * kDay_s, "spreadsheet days"};
-  if (const auto seconds = number_in(cell, decimal);
-      seconds && *seconds < 20000.0 && *seconds >= 0.0 && cell.find_first_of("eE") == cell.npos)
-    return Reading{*seconds, "seconds"};
+  const auto number = number_in(cell, decimal);
+  if (!number || cell.find_first_of("eE") != cell.npos) return std::nullopt;
+  if (*number > kFirstDay && *number < kLastDay)
+    return Reading{"spreadsheet days", *number * kDay_s, *number * kDay_s};
+  if (*number > kFirstEpoch_s && *number < kLastEpoch_s)
+    return Reading{"seconds since 1970", *number, *number};
+  if (*number > kFirstEpoch_s * 1e3 && *number < kLastEpoch_s * 1e3)
+    return Reading{"milliseconds since 1970", *number * 1e-3, *number * 1e-3};
   return std::nullopt;
 }
 
 std::string damage_of(std::string_view cell) {
-  if (cell.find_first_of("eE") != cell.npos)
-    return fmt::format("a spreadsheet rounded them: '{}'", cell);
-  if (std::count(cell.begin(), cell.end(), ':') == 1)
+  if (number_in(cell, '.') || number_in(cell, ','))
+    if (cell.find_first_of("eE") != cell.npos)
+      return fmt::format("a spreadsheet rounded them: '{}'", cell);
+  if (std::count(cell.begin(), cell.end(), ':') == 1 && cell.size() < 10)
     return fmt::format("a spreadsheet cut the hours off: '{}'", cell);
   return fmt::format("'{}' is no time stamp plumb knows", cell);
 }
 
+std::vector<double> times_of(const std::vector<Reading>& readings, DateOrder order) {
+  std::vector<double> out;
+  for (const auto& r : readings) {
+    const auto& t = order == DateOrder::kMonthFirst ? r.month_first : r.day_first;
+    if (!t) return {};
+    out.push_back(*t);
+  }
+  return out;
+}
+
+bool same_steps(const std::vector<double>& a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs((a[i] - a[0]) - (b[i] - b[0])) > 1e-3) return false;
+  return true;
+}
+
+/// Times in the order that the column tells; says in `out` if it does not.
+std::vector<double> decided(const std::vector<Reading>& readings, DateOrder wished,
+                            Timestamps& out) {
+  auto day_first = times_of(readings, DateOrder::kDayFirst);
+  auto month_first = times_of(readings, DateOrder::kMonthFirst);
+  if (readings.empty() || !readings.front().either) return day_first;
+  const char separator = readings.front().format.front();
+  const auto named = [&](DateOrder order) {
+    const bool day = order == DateOrder::kDayFirst;
+    out.format = fmt::format("{1}{0}{2}{0}YYYY{3}", separator, day ? "DD" : "MM", day ? "MM" : "DD",
+                             readings.front().format.substr(1));
+    return order == DateOrder::kDayFirst ? day_first : month_first;
+  };
+  if (wished != DateOrder::kUnknown) return named(wished);
+  if (!day_first.empty() && (month_first.empty() || separator == '.'))
+    return named(DateOrder::kDayFirst);
+  if (day_first.empty() && !month_first.empty()) return named(DateOrder::kMonthFirst);
+  if (day_first.empty()) return {};
+  if (same_steps(day_first, month_first)) return named(DateOrder::kDayFirst);
+  out.undecided = true;
+  out.format = fmt::format("DD{0}MM or MM{0}DD", separator);
+  return {};
+}
+
 }  // namespace
 
-Timestamps read_timestamps(const std::vector<std::string_view>& cells, char decimal) {
+bool may_be_date(double number) {
+  return (number > kFirstDay && number < kLastDay) || number > kFirstEpoch_s;
+}
+
+Timestamps read_timestamps(const std::vector<std::string_view>& cells, char decimal,
+                           DateOrder order) {
   Timestamps out;
-  double day = 0.0, last = 0.0;
+  std::vector<Reading> readings;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto reading = read(cells[i], decimal);
-    if (!reading || (i > 0 && out.format != reading->format)) {
-      out.damage =
-          reading ? fmt::format("the format changes from {} to {}", out.format, reading->format)
-                  : damage_of(cells[i]);
+    auto reading = read(cells[i], decimal);
+    if (!reading || (i > 0 && readings.front().format != reading->format)) {
+      out.damage = reading ? fmt::format("the format changes from {} to {}",
+                                         readings.front().format, reading->format)
+                           : damage_of(cells[i]);
       out.damaged_row = i;
-      out.seconds.clear();
       return out;
     }
-    out.format = reading->format;
-    double now = reading->seconds + day;
-    if (out.format == "clock" && i > 0 && now < last - 0.5 * kDay_s) {
-      day += kDay_s;
-      now += kDay_s;
-      out.wrapped = true;
-    }
-    last = now;
-    out.seconds.push_back(now);
+    readings.push_back(std::move(*reading));
+  }
+  if (readings.empty()) return out;
+  out.format = readings.front().format;
+  out.seconds = decided(readings, order, out);
+  if (out.seconds.empty()) {
+    if (!out.undecided) out.damage = "no order of day and month fits all of them";
+    return out;
+  }
+  const auto [low, high] = std::minmax_element(out.seconds.begin(), out.seconds.end());
+  if (out.format == "spreadsheet days" && *high - *low > kMostDays * kDay_s) {
+    out.damage = "as days of a spreadsheet they would last years";
+    out.seconds.clear();
+    return out;
+  }
+  double day = 0.0;
+  for (std::size_t i = 1; out.format == "clock" && i < out.seconds.size(); ++i) {
+    out.seconds[i] += day;
+    if (out.seconds[i] >= out.seconds[i - 1] - 0.5 * kDay_s) continue;
+    day += kDay_s;
+    out.seconds[i] += kDay_s;
+    out.wrapped = true;
   }
   const std::set<double> distinct(out.seconds.begin(), out.seconds.end());
   if (out.seconds.size() > 2 && distinct.size() == 1) {
@@ -129,7 +347,7 @@ Timestamps read_timestamps(const std::vector<std::string_view>& cells, char deci
     out.seconds.clear();
     return out;
   }
-  const double first = out.seconds.empty() ? 0.0 : out.seconds.front();
+  const double first = out.seconds.front();
   for (double& t : out.seconds) t -= first;
   return out;
 }

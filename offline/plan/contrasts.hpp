@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cell/measurements.hpp"
-#include "plumb/runtime/effect.hpp"
+#include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::offline {
 

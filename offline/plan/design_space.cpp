@@ -69,7 +69,10 @@ DesignSpace design_space(const Cell& cell, const ArmState& state, const Measurem
     const double as_one = p.of_effect()  ? kPlausible / std::max(rms, 1e-300)
                           : p.of_robot() ? kPlausible
                                          : kAnywhere;
-    if (rms <= 1e-300 || rms * as_one < kMoves) continue;
+    // What is planned will be measured in the first set-up; poses of the others still tell of the
+    // arm only what their own frames and reflectors leave.
+    const bool elsewhere = p.setup > 0;
+    if (!elsewhere && (rms <= 1e-300 || rms * as_one < kMoves)) continue;
     kept.push_back(p);
     width.push_back(as_one);
   }

@@ -7,7 +7,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kMostRounds = 30;
+constexpr int kMostSwaps = 30;
 
 /// Poses with the start as number n.
 class Roads {
@@ -65,7 +65,7 @@ std::vector<int> driving_order(const RowsN& q, const Eigen::VectorXd& range,
                                const Eigen::VectorXd& start) {
   const Roads roads(q, range, start);
   std::vector<int> out = nearest_first(roads, static_cast<int>(q.rows()));
-  for (int round = 0; round < kMostRounds && uncross(roads, out); ++round) {
+  for (int round = 0; round < kMostSwaps && uncross(roads, out); ++round) {
   }
   return out;
 }

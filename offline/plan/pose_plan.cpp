@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "cell/setups.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/frame_start.hpp"
 #include "fit/noise_floor.hpp"
 #include "plan/driving_order.hpp"
 #include "plan/plan_steps.hpp"
@@ -32,8 +34,9 @@ ArmState nominal_arm(const Cell& cell) {
   out.arm.calibrated = cell.nominal;
   out.arm.gravity = cell.gravity;
   out.arm.mechanics = mechanics_of(cell);
-  out.X_MB = cell.measurement.X_MB;
-  out.X_TG.p = cell.measurement.fit_target ? kUsualTarget_m : cell.measurement.target_T;
+  place_as_given(cell.measurement, out);
+  for (int k = 0; k < out.setups(); ++k)
+    if (setup_rule(cell.measurement, k).fit_target) out.target(k).p = kUsualTarget_m;
   return out;
 }
 
@@ -61,6 +64,13 @@ double sigma_of(const Cell& cell, const Measurements& used) {
 
 PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
                    PosePlan& out) {
+  if (const auto& setups = cell.measurement.setups; setups.size() > 1)
+    out.remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-PLAN-SETUP",
+         .message = fmt::format("the poses are chosen to be measured in the first set-up, '{}'",
+                                setups.front().name),
+         .help = "for another one, list it first in cell.toml"});
   PlanStart start;
   start.used = measured.size() > 0 ? pick(measured, used_rows(measured)) : measured;
   start.state = arm_to_plan_for(cell, start.used, out);

@@ -7,7 +7,7 @@
 
 #include "fit/effect_binding.hpp"
 #include "plan/plan_steps.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {

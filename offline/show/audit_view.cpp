@@ -52,19 +52,21 @@ Json audit_json(const Audit& audit, const format::Model& model) {
 }
 
 std::string audit_text(const Audit& audit, const format::Model& model) {
-  TextTable table({fmt::format("audit over {} poses of the trained domain", kAuditPoses), ""});
+  TextTable table({fmt::format("audit of {} poses in the domain", kAuditPoses), ""});
   table.add({"largest correction at the tool",
-             fmt::format("{} mm, {:.4f} deg", mm(audit.worst_correction_m),
-                         to_deg(audit.worst_rotation_rad))});
+             model.guard.corrects == format::Corrects::kPose
+                 ? fmt::format("{} mm, {:.4f} deg", mm(audit.worst_correction_m),
+                               to_deg(audit.worst_rotation_rad))
+                 : mm(audit.worst_correction_m) + " mm"});
   if (!audit.worst_q.empty()) table.add({"  at joints", worst_q_text(audit, model)});
   table.add({"limit of the guard", mm(model.guard.max_correction_m) + " mm"});
   if (!model.provenance.covariance.empty())
-    table.add({"1 sigma at the tool (3-D)",
+    table.add({"3-D sigma of the fit at the tool",
                fmt::format("mean {} mm, max {} mm", mm(audit.sigma_tool_mean_m),
                            mm(audit.sigma_tool_max_m))});
   table.add({"leaves", fmt::format("{}", audit.leaves)});
   if (audit.leaves > 0) {
-    table.add({"  with a say in one value, at most", fmt::format("{}", audit.active_leaves)});
+    table.add({"  that contribute to one value", fmt::format("at most {}", audit.active_leaves)});
     table.add({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
   }
   table.add({"size", fmt::format("{} bytes", audit.bytes)});

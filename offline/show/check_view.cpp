@@ -12,6 +12,7 @@ namespace plumb::offline::show {
 namespace {
 
 constexpr std::size_t kMostReadings = 6;
+constexpr double kGoodCondition = 100.0, kFairCondition = 1000.0;
 
 std::string residual(double metres, double size) {
   return metres < size ? fmt::format("{:.3f}", to_mm(metres)) : "no fit";
@@ -25,6 +26,14 @@ std::string readings_text(const Cell& cell, const Detection& d) {
   std::vector<Reading> rows = d.table;
   const auto is_best = [&](const Reading& r) { return r.convention == d.best.convention; };
   std::stable_partition(rows.begin(), rows.end(), is_best);
+  // Readings that predict the same points name the same arm, mirrored or counted otherwise.
+  const std::size_t all = rows.size();
+  std::erase_if(rows, [&](const Reading& r) {
+    return !(r.convention == labels) &&
+           std::any_of(d.same.begin(), d.same.end(),
+                       [&](const Reading& same) { return same.convention == r.convention; });
+  });
+  const std::size_t hidden = all - rows.size();
   if (rows.size() > kMostReadings) rows.resize(kMostReadings);
   const auto labelled = [&](const Reading& r) { return r.convention == labels; };
   if (std::none_of(rows.begin(), rows.end(), labelled)) rows.push_back(d.present);
@@ -35,7 +44,12 @@ std::string readings_text(const Cell& cell, const Detection& d) {
     table.add({residual(r.placed_m, r.size_m), residual(r.fitted_m, r.size_m),
                (is_best(r) ? "best: " : "") + name});
   }
-  return table.text() + fmt::format("  {} readings tried\n", d.tried);
+  return table.text() + fmt::format("  {} readings tried{}\n", d.tried,
+                                    hidden == 0
+                                        ? ""
+                                        : fmt::format("; {} more name the same arm, mirrored "
+                                                      "or counted otherwise",
+                                                      hidden));
 }
 
 std::string coverage_text(const Cell& cell, const Coverage& coverage) {
@@ -72,13 +86,16 @@ std::string noise_text(const Check& check) {
   return out;
 }
 
+const char* condition_words(double condition) {
+  return condition < kGoodCondition ? "well" : condition < kFairCondition ? "fairly" : "poorly";
+}
+
 std::string parameters_text(const IdentifiabilityReport& p) {
-  const auto& o = p.observability;
   std::string out = fmt::format(
-      "  rank {} of {} candidates, {} fitted; scaled condition {:.3g}; calibrability {:.3g}\n"
-      "  observability O1 {:.3g}, O2 {:.3g}, O3 {:.3g}, O4 {:.3g}, O5 {:.3g}\n",
-      p.rank, p.candidates, p.calibration.estimates.size(), p.scaled_condition,
-      p.calibration.calibrability, o.O1, o.O2, o.O3, o.O4, o.O5);
+      "  {} numbers fitted, of {} candidates; these poses show them {} (condition "
+      "{:.3g})\n",
+      p.calibration.estimates.size(), p.candidates, condition_words(p.scaled_condition),
+      p.scaled_condition);
   int choices = 0;
   for (const auto& s : p.separations) {
     if (s.cause == Separation::Cause::kChoice)
@@ -87,17 +104,26 @@ std::string parameters_text(const IdentifiabilityReport& p) {
       out += "  " + s.text + "\n";
   }
   if (choices > 0)
-    out += fmt::format("  {} more are a choice of where base and tool begin: no harm\n", choices);
+    out += fmt::format(
+        "  {} more only say where base and tool frame are placed, which is free: no harm\n",
+        choices);
   return out;
 }
 
+/// "Testable" in one line; of the others, what is in the way and what to measure.
 std::string effects_text(const std::vector<Testable>& effects) {
-  static const char* const kAnswers[] = {"no", "weakly", "yes"};
-  TextTable table({"effect", "testable", "why", "to measure"});
-  table.left_from(1);
-  for (const auto& e : effects)
-    table.add({e.effect, kAnswers[static_cast<int>(e.answer)], e.why, e.measure});
-  return table.text();
+  std::string yes, weakly, no;
+  for (const auto& e : effects) {
+    const std::string why = fmt::format("  {}: {}{}\n", e.effect, e.why,
+                                        e.measure.empty() ? "" : "; measure " + e.measure);
+    if (e.answer == Testable::Answer::kYes) yes += (yes.empty() ? "" : ", ") + e.effect;
+    if (e.answer == Testable::Answer::kWeakly) weakly += why;
+    if (e.answer == Testable::Answer::kNo) no += why;
+  }
+  std::string out = "These data can show: " + (yes.empty() ? "no effect" : yes) + "\n";
+  if (!weakly.empty()) out += "\nThey can show weakly\n" + weakly;
+  if (!no.empty()) out += "\nThey cannot show\n" + no;
+  return out;
 }
 
 }  // namespace

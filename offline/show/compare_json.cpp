@@ -44,6 +44,8 @@ const char* key_of(Kind kind) {
       return "load";
     case Kind::kContext:
       return "context";
+    case Kind::kSetup:
+      return "setup";
   }
   return "";
 }
@@ -57,8 +59,12 @@ void add_bins(const ErrorProfile& profile, Json& out) {
       row["joint"] = profile.name;
     else if (profile.kind != Kind::kOrder)
       row["quantity"] = profile.name;
-    row["from" + suffix] = in_unit(bin.from, profile.unit);
-    row["to" + suffix] = in_unit(bin.to, profile.unit);
+    if (profile.kind == Kind::kSetup) {
+      row = {{"setup", profile.names[static_cast<std::size_t>(bin.from)]}};
+    } else {
+      row["from" + suffix] = in_unit(bin.from, profile.unit);
+      row["to" + suffix] = in_unit(bin.to, profile.unit);
+    }
     row["n"] = bin.n;
     put(row, "mean_mm", bin.n > 0 ? to_mm(bin.mean_m) : NAN, "no pose lies here");
     row["n_fit"] = bin.fit_n;
@@ -71,6 +77,8 @@ Json profiles_json(const Comparison& comparison) {
   Json out;
   for (const auto kind : {Kind::kJoint, Kind::kRegion, Kind::kLoad, Kind::kContext, Kind::kOrder})
     out[key_of(kind)] = Json::array();
+  for (const auto& profile : comparison.profiles)
+    if (profile.kind == Kind::kSetup) out[key_of(Kind::kSetup)] = Json::array();
   for (const auto& profile : comparison.profiles) add_bins(profile, out[key_of(profile.kind)]);
   return out;
 }
@@ -87,7 +95,7 @@ Json matters_json(const Comparison& comparison) {
   return out;
 }
 
-Json joints_json(const Cell& cell, const Comparison& comparison) {
+Json joint_shares_json(const Cell& cell, const Comparison& comparison) {
   Json out = Json::array();
   for (const auto& share : comparison.joints)
     out.push_back({{"joint", cell.nominal.joints[share.joint].name},
@@ -99,9 +107,9 @@ Json joints_json(const Cell& cell, const Comparison& comparison) {
   return out;
 }
 
-Json lack_of_fit_json(const compare::LackOfFit& found) {
+Json lack_of_fit_json(const compare::LackOfFit& found, const Fit& fit) {
   using Basis = compare::LackOfFit::Basis;
-  Json out{{"text", lack_of_fit_words(found)}};
+  Json out{{"text", lack_of_fit_words(found, held_out_excess_of(fit))}};
   if (found.basis == Basis::kNone) {
     put_null(out, "ratio", "neither repeats of a pose nor sigma_um are given");
     return out;
@@ -135,11 +143,11 @@ void add_shift(const compare::StepFound& step, bool slides, Json& out) {
     return Json{step.shift(first) * scale, step.shift(first + 1) * scale,
                 step.shift(first + 2) * scale};
   };
-  if (step.mover == compare::Mover::kJoint)
+  if (step.source == compare::MotionSource::kJoint)
     out[slides ? "shift_um" : "turn_urad"] = step.shift(0) * 1e6;
   else
     out["shift_mm"] = three(0, 1e3);
-  if (step.mover == compare::Mover::kBase) out["turn_urad"] = three(3, 1e6);
+  if (step.source == compare::MotionSource::kBase) out["turn_urad"] = three(3, 1e6);
 }
 
 Json steps_json(const Cell& cell, const Measurements& measured, const compare::Changes& found) {
@@ -151,10 +159,10 @@ Json steps_json(const Cell& cell, const Measurements& measured, const compare::C
              {"before_pose", measured.pose[step.after]},
              {"earliest_row", step.earliest + 1},
              {"latest_row", step.latest + 1},
-             {"of", mover_name(step.mover)},
+             {"of", source_name(step.source)},
              {"size_mm", to_mm(step.size_m)},
              {"ln_p", step.ln_p}};
-    const bool joint = step.mover == compare::Mover::kJoint;
+    const bool joint = step.source == compare::MotionSource::kJoint;
     if (joint) row["joint"] = cell.nominal.joints[step.joint].name;
     add_shift(step, joint && slides(cell.nominal.joints[step.joint]), row);
     out.push_back(std::move(row));
@@ -168,7 +176,7 @@ Json drifts_json(const Cell& cell, const Measurements& measured, const compare::
     Json row{{"text", drift_words(cell, measured, drift)},
              {"from_row", drift.from + 1},
              {"to_row", drift.to + 1},
-             {"of", mover_name(drift.mover)},
+             {"of", source_name(drift.source)},
              {"size_mm", to_mm(drift.size_m)},
              {"ln_p", drift.ln_p}};
     if (drift.joint >= 0) row["joint"] = cell.nominal.joints[drift.joint].name;
@@ -183,6 +191,7 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
                   const Run& run) {
   const Fit& fit = run.fit;
   Json out = stats_json(comparison.stats);
+  add_interval(held_out_interval(measured, fit), out);
   out["set"] = comparison.set == Comparison::Set::kHeldOut ? "held_out" : "fit";
   out["frame"] = "measurement";
   out["run"] = run.number;
@@ -197,9 +206,9 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   out["where"] = where_words(comparison);
   out["by"] = profiles_json(comparison);
   out["matters"] = matters_json(comparison);
-  out["joints"] = joints_json(cell, comparison);
+  out["joints"] = joint_shares_json(cell, comparison);
   out["joints_text"] = joint_words(cell, comparison);
-  out["lack_of_fit"] = lack_of_fit_json(comparison.lack_of_fit);
+  out["lack_of_fit"] = lack_of_fit_json(comparison.lack_of_fit, fit);
   out["autocorrelation"] = order_json(comparison.order);
   out["change_points"] = steps_json(cell, measured, comparison.changes);
   out["drifts"] = drifts_json(cell, measured, comparison.changes);

@@ -8,6 +8,8 @@
 
 #include "fit/verdict.hpp"
 #include "show/compare_words.hpp"
+#include "show/error_table.hpp"
+#include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -17,42 +19,57 @@ namespace {
 using compare::Comparison;
 using compare::ErrorProfile;
 
-constexpr std::size_t kWorst = 10;
+constexpr double kMostOfTheError = 0.3;  // of the squared error: a jump that is the cause
+constexpr std::size_t kWorstListed = 10;
 constexpr std::size_t kProfilesShown = 4;
-constexpr int kBarWidth = 24;
+constexpr int kBarWidth = 18;
+constexpr double kClear_ln_p = -6.9;  // by chance once in a thousand
 
 std::vector<std::string> stats_row(const std::string& name, const ErrorStats& s,
-                                   const std::string& within) {
+                                   const MeanInterval& interval = {}) {
   if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
-  return {name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max), within};
+  return {name,     fmt::format("{}", s.n), mm(s.mean), text_of(interval), mm(s.rms), mm(s.p95),
+          mm(s.max)};
 }
 
-std::string errors_text(const Comparison& comparison, const Fit& fit, double tolerance_m) {
-  const auto percent = [](double share) { return fmt::format("{:.1f} %", 100.0 * share); };
-  TextTable table({"position error [mm]", "poses", "mean", "RMS", "95 %", "max",
-                   fmt::format("within {}", mm(tolerance_m))});
-  table.add(stats_row("held-out, nominal arm", fit.nominal_held, ""));
-  if (fit.tree) table.add(stats_row("held-out, without the tree", fit.geometry_held, ""));
-  table.add(stats_row("held-out, calibrated", fit.held, percent(comparison.within_tolerance)));
+std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
+
+std::string within_text(const Comparison& comparison, const Fit& fit, double tolerance_m) {
+  if (fit.held.n == 0)
+    return fmt::format("Within the tolerance of {} mm: {} of the fitted readings.\n",
+                       mm(tolerance_m), percent(comparison.fit_within_tolerance));
+  return fmt::format(
+      "Within the tolerance of {} mm: {} of the held-out readings, {} of the fitted.\n",
+      mm(tolerance_m), percent(comparison.within_tolerance),
+      percent(comparison.fit_within_tolerance));
+}
+
+std::string errors_text(const Measurements& measured, const Comparison& comparison, const Fit& fit,
+                        double tolerance_m) {
+  TextTable table({head::kPositionError, head::kReadings, head::kMean, head::kInterval, head::kRms,
+                   head::kP95, head::kMax});
+  table.add(stats_row("held-out, nominal arm", fit.nominal_held));
+  if (fit.tree) table.add(stats_row("held-out, without the tree", fit.geometry_held));
+  table.add(stats_row("held-out, calibrated", fit.held, held_out_interval(measured, fit)));
   if (!fit.held_outliers.empty())
-    table.add(stats_row("  without its outliers", fit.held_without_outliers, ""));
-  table.add(stats_row("fit (never accuracy)", fit.fit, percent(comparison.fit_within_tolerance)));
+    table.add(stats_row("  without its outliers", fit.held_without_outliers));
+  table.add(stats_row(fit_row_name(fit), fit.fit));
   if (fit.floor.source == NoiseFloor::Source::kNone)
     table.add({"noise floor: unknown"});
   else
-    table.add({"noise floor", "", mm(fit.floor.mean_m), mm(fit.floor.rms_m)});
-  return table.text();
+    table.add({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m)});
+  return table.text() + within_text(comparison, fit, tolerance_m);
 }
 
 std::string worst_text(const Comparison& comparison) {
   TextTable table({"pose", "error", "dx", "dy", "dz"});
-  for (std::size_t i = 0; i < std::min(kWorst, comparison.poses.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kWorstListed, comparison.poses.size()); ++i) {
     const auto& pose = comparison.poses[i];
     table.add({pose.pose, mm(pose.error_M.norm()), fmt::format("{:+.3f}", to_mm(pose.error_M(0))),
                fmt::format("{:+.3f}", to_mm(pose.error_M(1))),
                fmt::format("{:+.3f}", to_mm(pose.error_M(2)))});
   }
-  return "\nWorst poses [mm], measured - predicted in the measurement frame\n" + table.text();
+  return "\nWorst readings [mm], measured - predicted in the measurement frame\n" + table.text();
 }
 
 std::string title(const ErrorProfile& profile) {
@@ -62,6 +79,8 @@ std::string title(const ErrorProfile& profile) {
 
 /// As many decimals as tell one bin from the next.
 std::string range_text(const ErrorProfile& profile, const compare::ErrorBin& bin) {
+  if (profile.unit == ErrorProfile::Unit::kName)
+    return profile.names[static_cast<std::size_t>(bin.from)];
   if (profile.unit == ErrorProfile::Unit::kSign) return fmt::format("{:+.0f}", bin.from);
   const double step = std::abs(in_unit(bin.to, profile.unit) - in_unit(bin.from, profile.unit));
   const int digits = step >= 2.0 || step == 0.0 ? 0 : step >= 0.2 ? 1 : 2;
@@ -96,20 +115,25 @@ std::string profile_text(const ErrorProfile& profile, Comparison::Set set) {
 std::string where_text(const Comparison& comparison) {
   std::vector<const ErrorProfile*> chosen;
   for (const auto& profile : comparison.profiles)
-    if (profile.matters) chosen.push_back(&profile);
+    if (profile.matters && profile.kind != ErrorProfile::Kind::kSetup) chosen.push_back(&profile);
   std::stable_sort(chosen.begin(), chosen.end(),
                    [](auto* a, auto* b) { return a->ln_p < b->ln_p; });
   if (chosen.size() > kProfilesShown) chosen.resize(kProfilesShown);
   std::string out = "\n" + where_words(comparison) + "\n";
+  if (!chosen.empty())
+    out += comparison.set == Comparison::Set::kHeldOut
+               ? "Number of readings and their mean error [mm], of the held-out ones and of the "
+                 "fitted:\n"
+               : "Number of readings and their mean error [mm]:\n";
   for (const auto* profile : chosen) out += profile_text(*profile, comparison.set);
   return out;
 }
 
 std::string findings_text(const Cell& cell, const Measurements& measured,
-                          const Comparison& comparison) {
-  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit) + "\n" +
-                    joint_words(cell, comparison) + "\n" + order_words(comparison.order) + "\n" +
-                    changes_words(comparison.changes) + "\n";
+                          const Comparison& comparison, const Fit& fit) {
+  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit, held_out_excess_of(fit)) +
+                    "\n" + joint_words(cell, comparison) + "\n" + order_words(comparison.order) +
+                    "\n" + changes_words(comparison.changes) + "\n";
   for (const auto& step : comparison.changes.steps)
     out += "  " + step_words(cell, measured, step) + "\n";
   for (const auto& drift : comparison.changes.drifts)
@@ -117,13 +141,64 @@ std::string findings_text(const Cell& cell, const Measurements& measured,
   return out;
 }
 
+/// Set-ups are listed whether or not they differ: that they do not is worth knowing.
+std::string setups_text(const Comparison& comparison) {
+  for (const auto& profile : comparison.profiles)
+    if (profile.kind == ErrorProfile::Kind::kSetup)
+      return fmt::format(
+                 "\nMean error by set-up [mm]; the set-ups {}\n",
+                 profile.matters ? "differ beyond chance" : "differ no more than by chance") +
+             profile_text(profile, comparison.set);
+  return "";
+}
+
+/// How much of the squared error a jump of this size can cause at most: the fit takes its mean
+/// away.
+double share_of_jump(const compare::StepFound& step, const Comparison& comparison, double rows) {
+  const double before = static_cast<double>(step.before + 1) / rows;
+  const double rms = comparison.stats.rms;
+  return rms > 0.0 ? step.size_m * step.size_m * before * (1.0 - before) / (rms * rms) : 1.0;
+}
+
+/// A jump that causes the error explains more than the size of the error does; beside one that does
+/// not, something else is missing, and may look like a jump where the poses change.
+std::string compare_verdict(const Cell& cell, const Measurements& measured,
+                            const Comparison& comparison, const Run& run) {
+  const std::string error = verdict(run.fit, cell.tolerance_m);
+  const auto& steps = comparison.changes.steps;
+  if (steps.empty() || steps.front().ln_p > kClear_ln_p) return error;
+  const double share =
+      share_of_jump(steps.front(), comparison, static_cast<double>(measured.pose.size()));
+  if (share < kMostOfTheError)
+    return fmt::format(
+        "{}\nPossibly something moved too: {}. It would cause at most {:.0f} % of the squared "
+        "error; what else is missing may look like a jump, so diagnose first.",
+        error, step_words(cell, measured, steps.front()), std::ceil(100.0 * share));
+  return fmt::format("Something moved during the measurement: {}.\n{}",
+                     step_words(cell, measured, steps.front()), error);
+}
+
 }  // namespace
+
+std::string after_comparison(const Cell& cell, const Comparison& comparison, const Run& run) {
+  if (!comparison.changes.steps.empty() || !comparison.changes.drifts.empty())
+    return "diagnose   # puts it into the model, if the readings support it";
+  switch (quality(run.fit, cell.tolerance_m)) {
+    case Quality::kWorstPoseIsFar:
+      return "check   # is one of the readings wrong?";
+    case Quality::kLimitedByNoise:
+      return "check   # how large are noise and rounding of the readings?";
+    default:
+      return next_step(run.fit, cell.tolerance_m);
+  }
+}
 
 std::string compare_text(const Cell& cell, const Measurements& measured,
                          const Comparison& comparison, const Run& run) {
   const double tolerance_m = cell.tolerance_m;
-  return verdict(run.fit, tolerance_m) + "\n\n" + errors_text(comparison, run.fit, tolerance_m) +
-         findings_text(cell, measured, comparison) + worst_text(comparison) +
+  return compare_verdict(cell, measured, comparison, run) + "\n\n" +
+         errors_text(measured, comparison, run.fit, tolerance_m) + setups_text(comparison) +
+         findings_text(cell, measured, comparison, run.fit) + worst_text(comparison) +
          where_text(comparison);
 }
 

@@ -17,4 +17,8 @@ Json compare_json(const Cell& cell, const Measurements& measured,
 std::string compare_text(const Cell& cell, const Measurements& measured,
                          const compare::Comparison& comparison, const Run& run);
 
+/// What `plumb` should be told next.
+std::string after_comparison(const Cell& cell, const compare::Comparison& comparison,
+                             const Run& run);
+
 }  // namespace plumb::offline::show

@@ -12,7 +12,7 @@ namespace plumb::offline::show {
 
 using compare::ErrorProfile;
 using compare::LackOfFit;
-using compare::Mover;
+using compare::MotionSource;
 using Unit = ErrorProfile::Unit;
 
 namespace {
@@ -26,13 +26,13 @@ std::string vector_um(const Eigen::VectorXd& v, Eigen::Index first) {
 }
 
 std::string shift_words(const Cell& cell, const compare::StepFound& step) {
-  switch (step.mover) {
-    case Mover::kTool:
+  switch (step.source) {
+    case MotionSource::kTool:
       return vector_um(step.shift, 0) + " um along the tool's axes";
-    case Mover::kBase:
+    case MotionSource::kBase:
       return vector_um(step.shift, 0) + " um and " + vector_um(step.shift, 3) +
              " urad about the middle of the points";
-    case Mover::kJoint:
+    case MotionSource::kJoint:
       return fmt::format("{:+.0f} {}", step.shift(0) * 1e6,
                          slides(cell.nominal.joints[step.joint]) ? "um" : "urad");
   }
@@ -79,6 +79,7 @@ const char* unit_name(Unit unit) {
       return "min";
     case Unit::kRow:
       return "row";
+    case Unit::kName:
     case Unit::kSign:
       return "";
   }
@@ -98,45 +99,53 @@ std::string quantity_words(const ErrorProfile& profile) {
   }
 }
 
-const char* mover_name(Mover mover) {
-  return mover == Mover::kTool ? "tool" : mover == Mover::kBase ? "base" : "joint";
+const char* source_name(MotionSource source) {
+  return source == MotionSource::kTool ? "tool" : source == MotionSource::kBase ? "base" : "joint";
 }
 
-std::string mover_words(const Cell& cell, Mover mover, int joint) {
-  if (mover == Mover::kTool) return "the reflector or the tool";
-  if (mover == Mover::kBase) return "the tracker or the base";
+std::string source_words(const Cell& cell, MotionSource source, int joint) {
+  if (source == MotionSource::kTool) return "the reflector or the tool";
+  if (source == MotionSource::kBase) return "the tracker or the base";
   return fmt::format("the zero of {}", cell.nominal.joints[joint].name);
 }
 
-std::string lack_of_fit_words(const LackOfFit& found) {
+std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOutExcess>& held) {
   if (found.basis == LackOfFit::Basis::kNone)
     return "Lack of fit: unknown; repeats of a few poses, or sigma_um, would tell.";
-  const std::string against =
-      found.basis == LackOfFit::Basis::kRepeats
-          ? fmt::format("what the poses miss is F({}, {}) = {:.3g} times what repeats scatter",
-                        found.dof_model, found.dof_noise, found.ratio)
-          : fmt::format("the mean square error is {:.3g} times that of the stated sigma",
-                        found.ratio);
+  if (!found.significant() && held && held->lack_of_fit())
+    return "Lack of fit: none on the fitted readings; it is the held-out ones that the model "
+           "misses "
+           "by more than noise.";
   if (!found.significant())
-    return fmt::format("Lack of fit: none; {}, which chance explains.", against);
+    return "Lack of fit: none; what the model misses is no more than the noise of the readings.";
+  if (held && held->level() == HeldOutExcess::Level::kAtTheFloor)
+    return fmt::format(
+        "Lack of fit: {:.0f} % of the squared error of the fitted readings is systematic (by "
+        "chance: {}), too little to take the held-out ones above the noise floor.",
+        100.0 * found.systematic, chance(found.ln_p));
   return fmt::format(
-      "Lack of fit: {} (by chance {}); {:.0f} % of the squared error of the fit is systematic.",
-      against, chance(found.ln_p), 100.0 * found.systematic);
+      "Lack of fit: {:.0f} % of the squared error is systematic, so a better model "
+      "can remove it (by chance: {}).",
+      100.0 * found.systematic, chance(found.ln_p));
 }
 
 std::string order_words(const compare::Autocorrelation& found) {
-  if (found.n == 0) return "Order: too few poses to tell.";
-  const std::string size = fmt::format(
-      "autocorrelation of successive residuals {:+.2f}, chance gives {:+.2f} .. {:+.2f}",
-      found.lag1, found.low95, found.high95);
-  if (!found.beyond()) return fmt::format("Order: no memory; {}.", size);
-  if (found.lag1 < 0.0) return fmt::format("Order: neighbours alternate; {}.", size);
+  if (found.n == 0) return "Time: too few poses to tell.";
+  if (!found.beyond()) return "Time: the error does not depend on the order of measuring.";
+  const std::string size = fmt::format("(correlation {:+.2f}, by chance {:+.2f} .. {:+.2f})",
+                                       found.lag1, found.low95, found.high95);
+  if (found.lag1 < 0.0)
+    return fmt::format("Time: readings that follow each other miss in opposite directions {}.",
+                       size);
   if (found.closeness < kClose)
     return fmt::format(
-        "Order: neighbours miss alike; {}. Successive poses also lie close together "
-        "in joint space, so this may be the pose and not the time.",
+        "Time: readings that follow each other miss alike {}. Their poses also lie "
+        "close together, so this may be the pose and not the time.",
         size);
-  return fmt::format("Order: neighbours miss alike; {}: something changes with time.", size);
+  return fmt::format(
+      "Time: readings that follow each other miss alike {}: something changes with "
+      "time.",
+      size);
 }
 
 std::string joint_words(const Cell& cell, const compare::Comparison& found) {
@@ -150,8 +159,8 @@ std::string joint_words(const Cell& cell, const compare::Comparison& found) {
       others +=
           fmt::format(", {} {:.0f} %", cell.nominal.joints[share.joint].name, 100.0 * share.share);
   return fmt::format(
-      "Joints: {} matters most; a turn of it that depends on its own angle, {:.0f} urad RMS, would "
-      "explain {:.0f} % of the squared error{}.",
+      "Joints: {} matters most; an error of its angle that depends on the angle, {:.0f} urad RMS, "
+      "would explain {:.0f} % of the squared error{}.",
       cell.nominal.joints[best->joint].name, best->rms_rad * 1e6, 100.0 * best->share, others);
 }
 
@@ -168,10 +177,10 @@ std::string where_words(const compare::Comparison& found) {
 
 std::string step_words(const Cell& cell, const Measurements& measured,
                        const compare::StepFound& step) {
-  std::string out = fmt::format("between pose {} and {} (rows {} and {}) {} jumped by {}",
-                                measured.pose[step.before], measured.pose[step.after],
-                                step.before + 1, step.after + 1,
-                                mover_words(cell, step.mover, step.joint), shift_words(cell, step));
+  std::string out =
+      fmt::format("between rows {} and {} (poses {} and {}) {} jumped by {}", step.before + 1,
+                  step.after + 1, measured.pose[step.before], measured.pose[step.after],
+                  source_words(cell, step.source, step.joint), shift_words(cell, step));
   if (step.earliest != step.latest)
     out += fmt::format("; the last row before it lies in {} .. {}", step.earliest + 1,
                        step.latest + 1);
@@ -180,16 +189,17 @@ std::string step_words(const Cell& cell, const Measurements& measured,
 
 std::string drift_words(const Cell& cell, const Measurements& measured,
                         const compare::DriftFound& drift) {
-  return fmt::format("from pose {} to {} {} drifts by {} mm, smoothly", measured.pose[drift.from],
-                     measured.pose[drift.to], mover_words(cell, drift.mover, drift.joint),
+  return fmt::format("from row {} to {} (poses {} and {}) {} drifts by {} mm, smoothly",
+                     drift.from + 1, drift.to + 1, measured.pose[drift.from],
+                     measured.pose[drift.to], source_words(cell, drift.source, drift.joint),
                      mm(drift.size_m));
 }
 
 std::string changes_words(const compare::Changes& found) {
-  if (found.visits == 0) return "Changes in order: too few poses to tell.";
+  if (found.visits == 0) return "Jumps and drift: too few poses to tell.";
   if (found.steps.empty() && found.drifts.empty())
-    return fmt::format("Changes in order: none over {} visits.", found.visits);
-  return "Changes in order:";
+    return fmt::format("Jumps and drift: none over {} readings in order.", found.visits);
+  return "Jumps and drift:";
 }
 
 }  // namespace plumb::offline::show

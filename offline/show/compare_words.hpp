@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "compare/comparison.hpp"
+#include "fit/held_out_excess.hpp"
 
 namespace plumb::offline::show {
 
 /// What a comparison found, a sentence each, the same on the screen and for programs.
-std::string lack_of_fit_words(const compare::LackOfFit& found);
+
+/// Whether the error of the fitted readings is more than noise, said so that it never contradicts
+/// what is left on the held-out poses (`held`; none without a noise floor or without such poses).
+std::string lack_of_fit_words(const compare::LackOfFit& found,
+                              const std::optional<HeldOutExcess>& held);
+
 std::string order_words(const compare::Autocorrelation& found);
 std::string joint_words(const Cell& cell, const compare::Comparison& found);
 std::string where_words(const compare::Comparison& found);
@@ -19,10 +26,10 @@ std::string drift_words(const Cell& cell, const Measurements& measured,
                         const compare::DriftFound& drift);
 
 /// "the reflector or the tool", "the tracker or the base", "the zero of J3".
-std::string mover_words(const Cell& cell, compare::Mover mover, int joint);
+std::string source_words(const Cell& cell, compare::MotionSource source, int joint);
 
 /// "tool", "base", "joint": as [effects.step] says it.
-const char* mover_name(compare::Mover mover);
+const char* source_name(compare::MotionSource source);
 
 /// "angle of J4", "height", "torque of J2".
 std::string quantity_words(const compare::ErrorProfile& profile);

@@ -16,7 +16,7 @@ class CsvColumns {
  public:
   explicit CsvColumns(const std::vector<Table>& tables);
 
-  int rows() const { return static_cast<int>(rows_.size()); }
+  int rows() const { return rows_; }
 
   /// Shape of `cells`: (rows,).
   void set(const std::string& name, std::vector<std::string> cells);
@@ -30,9 +30,17 @@ class CsvColumns {
  private:
   std::size_t column(const std::string& name);
 
+  struct Part {
+    std::vector<std::size_t> columns;  // where each of its columns stands
+    KeptRows rows;
+  };
+  void append(const Part& part, std::size_t row, std::size_t row_of_all, std::string& out) const;
+
   std::vector<std::string> header_;
-  std::vector<std::vector<std::string>> rows_;
+  std::vector<Part> parts_;  // one a table
+  int rows_ = 0;
   std::size_t inputs_ = 0;
+  std::vector<std::vector<std::string>> ours_;  // cells of each column; empty: not one of ours
   std::vector<std::string> replaced_;
 };
 

@@ -74,6 +74,7 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
   out["parameters"] = parameters_json(c);
   put(out, "share_pct", 100.0 * c.explained);
   put(out, "absorbed_by_geometry_pct", 100.0 * c.absorbed);
+  put(out, "largest_mm", to_mm(c.largest_m));
   out["confounded_with"] = effects_of(c.confounded_with);
   out["confounded"] = c.confounded_with;
   if (!c.separate.empty()) out["separate_by"] = c.separate;
@@ -142,14 +143,14 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     put(large, "times_usual", one.times);
     out["unlikely"].push_back(std::move(large));
   }
-  if (d.left_over)
-    out["left_over"] = {{"times_floor", d.left_over->times},
-                        {"unavoidable_times", d.left_over->unavoidable},
-                        {"lack_of_fit", d.left_over->lack_of_fit()}};
+  if (d.held_out_excess)
+    out["left_over"] = {{"times_floor", d.held_out_excess->times},
+                        {"unavoidable_times", d.held_out_excess->unavoidable},
+                        {"lack_of_fit", d.held_out_excess->lack_of_fit()}};
   else
     put_null(out, "left_over", "no noise floor is known");
   out["outliers"] = d.outliers;
-  out["blocks_tried"] = d.blocks;
+  out["blocks_tried"] = d.regressors;
   return out;
 }
 

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 
-#include "diagnose/verdict.hpp"
+#include "diagnose/diagnosis_text.hpp"
 #include "show/effect_arguments.hpp"
+#include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -14,88 +15,131 @@ namespace plumb::offline::show {
 namespace {
 
 constexpr std::size_t kShown = 8;
-constexpr std::size_t kNumbersShown = 4;
-
-std::string in_common_unit(const CandidateNumber& n) {
-  if (n.unit == "rad") return fmt::format("{:.0f} ± {:.0f} µrad", n.value * 1e6, 1.96e6 * n.std);
-  if (n.unit == "m") return fmt::format("{:.1f} ± {:.1f} µm", n.value * 1e6, 1.96e6 * n.std);
-  return fmt::format("{:.3g} ± {:.2g} {}", n.value, 1.96 * n.std, n.unit == "1" ? "" : n.unit);
-}
 
 std::string errors_text(const Cell& cell, const Diagnosis& d) {
-  TextTable table({"held-out error [mm]", "mean", "RMS", "95 %", "max"});
+  TextTable table({head::kHeldOutError, head::kMean, head::kRms, head::kP95, head::kMax});
   const auto add = [&](const std::string& name, const ErrorStats& e) {
     table.add({name, mm(e.mean), mm(e.rms), mm(e.p95), mm(e.max)});
   };
   add("now", d.before);
   for (const auto& a : d.added) add("+ " + in_words(cell, a.entry, a.cycles), a.held);
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
-  std::string out = table.text();
   if (d.floor.source != NoiseFloor::Source::kNone)
-    out += fmt::format("  noise floor  mean {}  RMS {}\n", mm(d.floor.mean_m), mm(d.floor.rms_m));
+    table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
+  return table.text();
+}
+
+const char* support_words(const Diagnosis& d, const Candidate& c) {
+  if (!c.supported) return "no";
+  if (!c.plausible) return "unlikely";
+  return falls(d.before.mean, c.alone.mean) ? "yes" : "no gain";
+}
+
+/// What most people need: which effect, and how far the error falls.
+std::string short_table(const Cell& cell, const Diagnosis& d) {
+  TextTable table({" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect});
+  table.left_from(3);
+  for (std::size_t i = 0; i < std::min(kShown, d.candidates.size()); ++i) {
+    const Candidate& c = d.candidates[i];
+    table.add({fmt::format("{:>2}", i + 1), mm(c.alone.mean), mm(c.after.mean), support_words(d, c),
+               in_words(cell, c.entry, c.cycles)});
+  }
+  std::string out = table.text();
+  if (d.candidates.size() > kShown)
+    out += fmt::format("  and {} more: --all\n", d.candidates.size() - kShown);
   return out;
 }
 
-std::string candidates_text(const Cell& cell, const Diagnosis& d) {
-  if (d.candidates.empty()) return {};
-  TextTable table({"candidate", "ln Bayes", "fall", "alone", "after #1", "share", "absorbed", ""});
+/// Everything that is known of every candidate.
+std::string full_table(const Cell& cell, const Diagnosis& d) {
+  TextTable table({head::kLnBayes, head::kFall, head::kAlone, head::kWithFirst, head::kSize,
+                   head::kShare, head::kAbsorbed, head::kSupported, head::kEffect});
   table.left_from(7);
-  std::string numbers;
-  for (std::size_t i = 0; i < std::min(kShown, d.candidates.size()); ++i) {
-    const Candidate& c = d.candidates[i];
-    table.add({fmt::format("{} {}", i + 1, in_words(cell, c.entry, c.cycles)),
-               fmt::format("{:.1f}", c.ln_bayes),
-               fmt::format("{:.1f} ± {:.1f} %", 100 * c.gain, 100 * c.gain_se), mm(c.alone.mean),
-               mm(c.after.mean), fmt::format("{:.0f} %", 100 * c.explained),
-               fmt::format("{:.0f} %", 100 * c.absorbed),
-               !c.supported   ? "not supported"
-               : !c.plausible ? "supported, but of an unlikely size"
-                              : "supported"});
-  }
+  for (const Candidate& c : d.candidates)
+    table.add({fmt::format("{:8.1f}", c.ln_bayes), fmt::format("{:.0f} %", 100 * c.gain),
+               mm(c.alone.mean), mm(c.after.mean), mm(c.largest_m),
+               fmt::format("{:.0f} %", 100 * c.explained),
+               fmt::format("{:.0f} %", 100 * c.absorbed), support_words(d, c),
+               command_name(cell, c.entry)});
+  return table.text();
+}
+
+/// Its size where it counts, and what it may be mistaken for.
+std::string first_text(const Cell& cell, const Diagnosis& d) {
+  const Candidate& first = d.candidates.front();
+  std::string out = fmt::format(
+      "\nThe first moves the measured point by up to {} mm in a way that geometry "
+      "cannot imitate.\n",
+      mm(first.largest_m));
+  std::vector<std::string> near, similar;
+  for (const auto& key : first.confounded_with)
+    (is_near_rival(cell, d, key) ? near : similar).push_back(key_in_words(key));
+  if (!near.empty())
+    out += fmt::format(
+        "Hard to tell from: {}.{}\n", fmt::join(near, ", "),
+        first.separate.empty() ? "" : " To tell them apart, measure " + first.separate + ".");
+  if (!similar.empty())
+    out += fmt::format("Similar, but explaining these poses clearly worse: {}.\n",
+                       fmt::join(similar, ", "));
+  return out;
+}
+
+std::string candidates_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
+  if (d.candidates.empty()) return {};
   std::string out =
-      "\nCandidates: held-out error [mm] alone and with the first one\n" + table.text();
-  if (d.candidates.size() > kShown)
-    out += fmt::format("  and {} more: --json\n", d.candidates.size() - kShown);
-  const Candidate& best = d.candidates.front();
-  if (!best.supported) return out;
-  out += "\n  " + in_words(cell, best.entry, best.cycles) + ":";
-  for (std::size_t i = 0; i < std::min(kNumbersShown, best.numbers.size()); ++i)
-    out += fmt::format("{} {}", i == 0 ? "" : ",", in_common_unit(best.numbers[i]));
-  if (best.numbers.size() > kNumbersShown)
-    out += fmt::format(", {} more", best.numbers.size() - kNumbersShown);
-  if (!best.confounded_with.empty())
-    out += fmt::format("\n  hard to tell from {}{}", fmt::join(best.confounded_with, ", "),
-                       best.separate.empty() ? "" : "; measure " + best.separate);
-  if (best.rival)
-    out += fmt::format("\n  poses for that: plumb plan --separate {},{}",
-                       planning_argument(cell, best.entry), planning_argument(cell, *best.rival));
-  return out + "\n";
+      std::string(d.added.empty() ? "\nCandidates" : "\nCandidates before any was added") +
+      ": held-out error [mm] alone, and together with the first one\n" +
+      (shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d));
+  return d.candidates.front().supported ? out + first_text(cell, d) : out;
 }
 
 std::string not_testable_text(const Diagnosis& d) {
   if (d.not_testable.empty()) return {};
-  TextTable table({"not testable with these data", "why", "measure"});
-  table.left_from(1);
-  for (const auto& t : d.not_testable) table.add({t.effect, t.why, t.measure});
-  return "\n" + table.text();
+  std::string out = "\nNot testable with these data\n";
+  for (const auto& t : d.not_testable)
+    out += fmt::format("  {}: {}{}\n", t.effect, t.why,
+                       t.measure.empty() ? "" : "; measure " + t.measure);
+  return out;
 }
 
-std::string next_text(const Cell& cell, const Diagnosis& d) {
-  if (d.finding_after || d.finding != Finding::kMissing) return {};
-  return fmt::format(
-      "\nAdd it:            plumb add {}\nOr go all the way: plumb diagnose --apply\n",
-      adding_arguments(cell, d.candidates.front().entry, d.candidates.front().cycles));
+bool good_enough(const Cell& cell, const ErrorStats& held) {
+  return held.n > 0 && held.p95 <= cell.tolerance_m;
 }
+
+std::string separating(const Cell& cell, const EffectEntry& a, const EffectEntry& b) {
+  return fmt::format("plan --separate {},{}", planning_argument(cell, a),
+                     planning_argument(cell, b));
+}
+
+constexpr const char* kMeasure = "plan --n 30   # which poses to measure next";
+constexpr const char* kCompile = "compile   # the model file for the controller";
 
 }  // namespace
 
-std::string diagnose_text(const Cell& cell, const Diagnosis& d) {
+std::string diagnose_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
   std::string out = d.text + "\n";
   if (d.finding_after) out += d.text_after + "\n";
-  out += "\n" + errors_text(cell, d) + candidates_text(cell, d);
+  out += "\n" + errors_text(cell, d) + candidates_text(cell, d, shown);
   if (!d.outliers.empty())
     out += fmt::format("\nLeft out, the others contradict them: {}\n", fmt::join(d.outliers, ", "));
-  return out + not_testable_text(d) + next_text(cell, d);
+  return out + not_testable_text(d);
+}
+
+std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
+  const Finding finding = d.finding_after.value_or(d.finding);
+  if (finding == Finding::kMissing) {
+    const Candidate& first = d.candidates.front();
+    if (!falls(d.before.mean, first.alone.mean))
+      return {good_enough(cell, d.before) ? kCompile : kMeasure};
+    std::vector<std::string> out{"add " + adding_arguments(cell, first.entry, first.cycles),
+                                 "diagnose --apply   # all that is supported, one by one"};
+    if (first.rival)
+      out.push_back(separating(cell, first.entry, *first.rival) + "   # to be sure which it is");
+    return out;
+  }
+  if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
+  if (d.tied) return {separating(cell, d.candidates.front().entry, *d.tied)};
+  return {good_enough(cell, d.after) ? kCompile : kMeasure};
 }
 
 }  // namespace plumb::offline::show

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "diagnose/diagnosis.hpp"
 #include "show/json.hpp"
@@ -11,9 +12,15 @@ namespace plumb::offline::show {
 /// `result` of `plumb diagnose`.
 Json diagnose_json(const Cell& cell, const Diagnosis& diagnosis);
 
+/// The first candidates in few columns, or all of them with all that is known.
+enum class Candidates { kFirst, kAll };
+
 /// Verdict, errors before and after, ranked candidates, what cannot be told apart, what these data
 /// cannot show.
-std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis);
+std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis, Candidates shown);
+
+/// What `plumb` should be told next; the first helps most.
+std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& diagnosis);
 
 /// ["J2", "J3"]
 Json joints_json(const Cell& cell, const EffectEntry& effect);

@@ -3,20 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
 namespace {
 
-std::vector<std::string> row(const std::string& name, const ErrorStats& s) {
-  if (s.n == 0) return {name, "0", "-", "-", "-", "-"};
-  return {name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max)};
+std::vector<std::string> row(const std::string& name, const ErrorStats& s,
+                             const MeanInterval& interval = {}) {
+  if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
+  return {name,     fmt::format("{}", s.n), mm(s.mean), text_of(interval), mm(s.rms), mm(s.p95),
+          mm(s.max)};
 }
 
 std::string turn_table(const ErrorStats& s) {
   if (s.n == 0) return "";
-  TextTable table({"orientation error [deg]", "poses", "mean", "RMS", "95 %", "max"});
+  TextTable table({"orientation error [deg]", head::kReadings, head::kMean, head::kRms, head::kP95,
+                   head::kMax});
   const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
              deg(s.max)});
@@ -27,20 +33,36 @@ constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are giv
 
 }  // namespace
 
-std::string error_table(const Fit& fit) {
-  TextTable table({"position error [mm]", "poses", "mean", "RMS", "95 %", "max"});
+std::string text_of(const MeanInterval& interval) {
+  if (!std::isfinite(interval.low)) return "";
+  return mm(interval.low) + " .. " + mm(interval.high);
+}
+
+void add_interval(const MeanInterval& interval, Json& out) {
+  constexpr const char* kTooFew = "fewer than three poses were held out";
+  put(out, "mean_low_mm", to_mm(interval.low), kTooFew);
+  put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
+}
+
+const char* fit_row_name(const Fit& fit) {
+  return fit.calibration.outliers.empty() ? "fit (never accuracy)" : "fit, with its outliers";
+}
+
+std::string error_table(const Measurements& measured, const Fit& fit) {
+  TextTable table({head::kPositionError, head::kReadings, head::kMean, head::kInterval, head::kRms,
+                   head::kP95, head::kMax});
   table.add(
       row(fit.base == Base::kArm ? "held-out, nominal arm" : "held-out, controller's own positions",
           fit.nominal_held));
   if (fit.tree) table.add(row("held-out, without the tree", fit.geometry_held));
-  table.add(row("held-out, calibrated", fit.held));
+  table.add(row("held-out, calibrated", fit.held, held_out_interval(measured, fit)));
   if (!fit.held_outliers.empty())
     table.add(row("  without its outliers", fit.held_without_outliers));
-  table.add(row("fit (never accuracy)", fit.fit));
+  table.add(row(fit_row_name(fit), fit.fit));
   if (fit.floor.source == NoiseFloor::Source::kNone)
     table.add({"noise floor: unknown"});
   else
-    table.add({"noise floor", "", mm(fit.floor.mean_m), mm(fit.floor.rms_m)});
+    table.add({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m)});
   return table.text() + turn_table(fit.turn_held);
 }
 

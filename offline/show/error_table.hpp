@@ -4,13 +4,23 @@
 #include <string>
 
 #include "fit/fit.hpp"
+#include "fit/mean_interval.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {
 
 /// Before and after on the held-out poses, the fit poses, and the noise floor [mm]; of orientations
 /// [deg], if they are fitted.
-std::string error_table(const Fit& fit);
+std::string error_table(const Measurements& measured, const Fit& fit);
+
+/// The name of the row of the fitted readings, which says so if it counts outliers.
+const char* fit_row_name(const Fit& fit);
+
+/// "0.141 .. 0.187"; empty if it is not known.
+std::string text_of(const MeanInterval& interval);
+
+/// mean_low_mm and mean_high_mm; null with reason if they are not known.
+void add_interval(const MeanInterval& interval, Json& out);
 
 /// held_out_orientation: in deg; null with reason if orientations are not fitted.
 void add_turns(const ErrorStats& turn_held, Json& out);

@@ -6,8 +6,10 @@
 #include <numeric>
 
 #include "cell/formula_reader.hpp"
+#include "cell/setups.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
+#include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -62,7 +64,8 @@ Json effects_json(const Cell& cell) {
 }
 
 std::string parameter_table(const std::vector<Estimate>& estimates) {
-  TextTable table({"parameter", "nominal", "fitted", "change", "1 sigma", ""});
+  TextTable table(
+      {head::kParameter, head::kNominal, head::kFitted, head::kChange, head::kSigma, ""});
   table.left_from(5);
   for (const auto& e : estimates) {
     if (!e.of_robot) continue;
@@ -74,7 +77,39 @@ std::string parameter_table(const std::vector<Estimate>& estimates) {
   return table.text();
 }
 
+Json setups_json(const MeasurementSettings& m, const ArmState& state) {
+  Json out = Json::array();
+  for (int k = 0; k < state.setups(); ++k) {
+    const Setup rule = setup_rule(m, k);
+    Json one{{"name", setup_name(m, k)}, {"frame", pose_json(state.frame(k))}};
+    one["frame"]["fitted"] = rule.fit_frame;
+    const auto& t = state.target(k).p;
+    one["target_mm"] = {to_mm(t[0]), to_mm(t[1]), to_mm(t[2])};
+    one["target_fitted"] = rule.fit_target;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// One line for each of several set-ups.
+std::string setups_text(const MeasurementSettings& m, const ArmState& state) {
+  TextTable table({"set-up [mm]", "frame", "x", "y", "z", "target", "x", "y", "z"});
+  const auto how = [&](bool fitted, int root, int k) {
+    return root != k ? "as " + setup_name(m, root) : std::string(fitted ? "fitted" : "given");
+  };
+  for (int k = 0; k < state.setups(); ++k) {
+    const Setup rule = setup_rule(m, k);
+    const auto &f = state.frame(k).p, &t = state.target(k).p;
+    table.add({setup_name(m, k), how(rule.fit_frame, frame_root(m, k), k), mm(f[0]), mm(f[1]),
+               mm(f[2]), how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
+  }
+  return table.text() +
+         "  frame: base in the measurement frame; target: reflector in the tool frame\n";
+}
+
 std::string measurement_text(const Cell& cell, const ArmState& state) {
+  if (state.setups() > 1) return setups_text(cell.measurement, state);
+  const Setup rule = setup_rule(cell.measurement, 0);
   const auto& f = state.X_MB;
   const auto& t = state.X_TG.p;
   const auto how = [](bool fitted) { return fitted ? "fitted" : "given"; };
@@ -82,8 +117,8 @@ std::string measurement_text(const Cell& cell, const ArmState& state) {
       "  frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
       "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})\n"
       "  target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm\n",
-      how(cell.measurement.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1],
-      f.q[2], f.q[3], how(cell.measurement.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
+      how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1], f.q[2],
+      f.q[3], how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
 }
 
 std::string tree_text(const Fit& fit) {
@@ -108,7 +143,7 @@ Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
 
 std::string held_text(const std::vector<std::string>& held) {
   if (held.empty()) return "";
-  return fmt::format("  held at nominal, these poses say less about them: {}\n",
+  return fmt::format("  kept at nominal, because these poses say too little about them: {}\n",
                      fmt::join(held, ", "));
 }
 
@@ -123,6 +158,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   out["identifiable_rank"] = c.rank;
   put(out, "calibrability", c.calibrability);
   out["held_out"] = stats_json(fit.held);
+  add_interval(held_out_interval(measured, fit), out["held_out"]);
   add_turns(fit.turn_held, out);
   out["fit"] = stats_json(fit.fit);
   out["held_out_without_outliers"] = stats_json(fit.held_without_outliers);
@@ -135,10 +171,12 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   out["still_joints"] = fit.still;
   out["effects"] = effects_json(cell);
   out["frame"] = pose_json(c.state.X_MB);
-  out["frame"]["fitted"] = cell.measurement.fit_frame;
+  const Setup first = setup_rule(cell.measurement, 0);
+  out["frame"]["fitted"] = first.fit_frame;
   const auto& t = c.state.X_TG.p;
   out["target_mm"] = {to_mm(t[0]), to_mm(t[1]), to_mm(t[2])};
-  out["target_fitted"] = cell.measurement.fit_target;
+  out["target_fitted"] = first.fit_target;
+  if (c.state.setups() > 1) out["setups"] = setups_json(cell.measurement, c.state);
   out["measurement_std"] = measurement_std_json(c.estimates);
   if (fit.tree)
     out["tree"] = tree_json(*fit.tree);
@@ -152,13 +190,13 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   return out;
 }
 
-std::string fit_text(const Cell& cell, const Fit& fit) {
+std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;
-  std::string out = verdict(fit, cell.tolerance_m) + "\n\n" + error_table(fit) + "\n";
+  std::string out = verdict(fit, cell.tolerance_m) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += measurement_text(cell, c.state) + tree_text(fit);
-  return out + fmt::format("  rank {} of all candidates; calibrability {:.3g}; {} iterations\n",
-                           c.rank, c.calibrability, c.iterations);
+  return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",
+                           c.estimates.size(), c.iterations);
 }
 
 }  // namespace plumb::offline::show

@@ -14,6 +14,6 @@ namespace plumb::offline::show {
 Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit);
 
 /// Verdict, error table, parameters with 1 sigma, frame, target, tree.
-std::string fit_text(const Cell& cell, const Fit& fit);
+std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit);
 
 }  // namespace plumb::offline::show

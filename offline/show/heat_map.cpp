@@ -40,9 +40,9 @@ std::string colour(const std::array<Colour, 5>& scale, double share) {
 /// Without a sign on zero.
 std::string whole(double value) { return fmt::format("{:.0f}", std::round(value) + 0.0); }
 
-class Figure {
+class HeatMapDrawing {
  public:
-  explicit Figure(const HeatMap& map) : map_(map) {}
+  explicit HeatMapDrawing(const HeatMap& map) : map_(map) {}
 
   std::string text() {
     out_ = fmt::format(
@@ -149,6 +149,6 @@ class Figure {
 
 }  // namespace
 
-std::string svg(const HeatMap& map) { return Figure(map).text(); }
+std::string svg(const HeatMap& map) { return HeatMapDrawing(map).text(); }
 
 }  // namespace plumb::offline::show

@@ -13,8 +13,8 @@ namespace {
 
 using drivers::LatencyHistogram;
 
-constexpr double kLeft = 80, kTop = 72, kWidth = 600, kHeight = 320, kRight = 40, kAxis = 52,
-                 kLine = 18;
+constexpr double kPlotLeft = 80, kPlotTop = 72, kPlotWidth = 600, kPlotHeight = 320,
+                 kPlotRight = 40, kPlotAxis = 52, kPlotLine = 18;
 constexpr double kFloor = 0.5;  // count at the foot of the axis: one call still shows
 
 struct Style {
@@ -31,18 +31,18 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-class Figure {
+class HistogramDrawing {
  public:
-  explicit Figure(const LatencyFigure& figure) : figure_(figure) { find_ranges(); }
+  explicit HistogramDrawing(const LatencyFigure& figure) : figure_(figure) { find_ranges(); }
 
   std::string text() {
-    const double height = kTop + kHeight + kAxis + kLine * (0.5 + lines());
+    const double height = kPlotTop + kPlotHeight + kPlotAxis + kPlotLine * (0.5 + lines());
     out_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
         "height=\"{1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-        kLeft + kWidth + kRight, height);
-    label(kLeft, 26, "start", figure_.title, "#000000", 15);
+        kPlotLeft + kPlotWidth + kPlotRight, height);
+    label(kPlotLeft, 26, "start", figure_.title, "#000000", 15);
     axes();
     for (std::size_t i = 0; i < figure_.series.size(); ++i) draw(i);
     notes();
@@ -69,12 +69,12 @@ class Figure {
   }
 
   double x(double ns) const {
-    return kLeft + kWidth * (std::log10(std::max(1.0, ns)) - low_) / (high_ - low_);
+    return kPlotLeft + kPlotWidth * (std::log10(std::max(1.0, ns)) - low_) / (high_ - low_);
   }
   double y(double count) const {
     const double foot = std::log10(kFloor);
     const double share = (std::log10(std::max(kFloor, count)) - foot) / (most_ - foot);
-    return kTop + kHeight * (1.0 - share);
+    return kPlotTop + kPlotHeight * (1.0 - share);
   }
 
   void label(double at_x, double at_y, const char* anchor, const std::string& text,
@@ -94,34 +94,34 @@ class Figure {
   void axes() {
     for (double decade = low_; decade <= high_; ++decade) {
       const double at = x(std::pow(10.0, decade));
-      line(at, kTop, at, kTop + kHeight, "#dddddd");
-      label(at, kTop + kHeight + 18, "middle", duration(std::pow(10.0, decade)));
+      line(at, kPlotTop, at, kPlotTop + kPlotHeight, "#dddddd");
+      label(at, kPlotTop + kPlotHeight + 18, "middle", duration(std::pow(10.0, decade)));
     }
     for (double decade = 0.0; decade <= most_; ++decade) {
       const double at = y(std::pow(10.0, decade));
-      line(kLeft, at, kLeft + kWidth, at, "#dddddd");
-      label(kLeft - 6, at + 4, "end", fmt::format("{:.0f}", std::pow(10.0, decade)));
+      line(kPlotLeft, at, kPlotLeft + kPlotWidth, at, "#dddddd");
+      label(kPlotLeft - 6, at + 4, "end", fmt::format("{:.0f}", std::pow(10.0, decade)));
     }
     out_ += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n",
-        kLeft, kTop, kWidth, kHeight);
-    label(kLeft + kWidth / 2, kTop + kHeight + 40, "middle",
+        kPlotLeft, kPlotTop, kPlotWidth, kPlotHeight);
+    label(kPlotLeft + kPlotWidth / 2, kPlotTop + kPlotHeight + 40, "middle",
           "time a call [ns, us, ms; logarithmic]");
-    label(kLeft - 66, kTop - 10, "start", "number of calls [logarithmic]");
+    label(kPlotLeft - 66, kPlotTop - 10, "start", "number of calls [logarithmic]");
   }
 
   /// The outline of the bins, from the foot to the foot.
   std::string outline(const LatencyHistogram& histogram) const {
-    std::string path = fmt::format("M{:.1f} {:.1f}", kLeft, y(0.0));
+    std::string path = fmt::format("M{:.1f} {:.1f}", kPlotLeft, y(0.0));
     for (std::size_t i = 0; i + 1 < LatencyHistogram::kBins; ++i) {
       const auto from = static_cast<double>(LatencyHistogram::lower_ns(i));
       const auto to = static_cast<double>(LatencyHistogram::lower_ns(i + 1));
-      if (x(from) < kLeft || x(from) > kLeft + kWidth) continue;
+      if (x(from) < kPlotLeft || x(from) > kPlotLeft + kPlotWidth) continue;
       const auto count = static_cast<double>(histogram.in_bin(i));
       path += fmt::format("L{0:.1f} {1:.1f}L{2:.1f} {1:.1f}", x(from), y(count),
-                          std::min(x(to), kLeft + kWidth));
+                          std::min(x(to), kPlotLeft + kPlotWidth));
     }
-    return path + fmt::format("L{:.1f} {:.1f}", kLeft + kWidth, y(0.0));
+    return path + fmt::format("L{:.1f} {:.1f}", kPlotLeft + kPlotWidth, y(0.0));
   }
 
   void draw(std::size_t i) {
@@ -131,18 +131,18 @@ class Figure {
         "<path d=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.2\" stroke-dasharray=\"{}\"/>\n",
         outline(histogram), style.fill, style.colour, style.dashes);
     const auto worst = static_cast<double>(histogram.worst_ns());
-    const double mark = kTop + 16 + kLine * static_cast<double>(i);
-    line(x(worst), mark, x(worst), kTop + kHeight, style.colour);
-    const bool right = x(worst) < kLeft + 0.5 * kWidth;
+    const double mark = kPlotTop + 16 + kPlotLine * static_cast<double>(i);
+    line(x(worst), mark, x(worst), kPlotTop + kPlotHeight, style.colour);
+    const bool right = x(worst) < kPlotLeft + 0.5 * kPlotWidth;
     label(x(worst) + (right ? 5 : -5), mark + 4, right ? "start" : "end",
           fmt::format("worst, {}: {}", name, duration(worst)), style.colour);
   }
 
   void notes() {
-    double at = kTop + kHeight + kAxis + kLine;
+    double at = kPlotTop + kPlotHeight + kPlotAxis + kPlotLine;
     for (const auto& note : figure_.notes) {
-      label(kLeft, at, "start", note);
-      at += kLine;
+      label(kPlotLeft, at, "start", note);
+      at += kPlotLine;
     }
   }
 
@@ -154,6 +154,6 @@ class Figure {
 
 }  // namespace
 
-std::string svg(const LatencyFigure& figure) { return Figure(figure).text(); }
+std::string svg(const LatencyFigure& figure) { return HistogramDrawing(figure).text(); }
 
 }  // namespace plumb::offline::show

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include "show/counted.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
 namespace {
+
+constexpr std::size_t kJointsInALine = 3;
+constexpr std::size_t kDigitsShown = 16;  // of a check sum; all stand in --json
 
 const char* convention(const format::Chain& chain) {
   return chain.convention == format::Convention::kStandard ? "standard" : "modified";
@@ -73,6 +77,38 @@ Json domain_json(const format::Model& model) {
   return out;
 }
 
+/// As people write them: [kg], [mm], [N], [N m], [degC].
+struct ShownRange {
+  std::string name, unit;
+  double low, high;
+};
+
+ShownRange shown_range(const format::ContextRange& r) {
+  if (r.input == format::ContextInput::kTemperature) return {r.name, "degC", r.low, r.high};
+  if (r.name.empty()) return {"payload", "kg", r.low, r.high};
+  if (r.name[0] == 'c') return {"payload_" + r.name, "mm", to_mm(r.low), to_mm(r.high)};
+  return {r.name, r.name[0] == 'f' ? "N" : "Nm", r.low, r.high};
+}
+
+Json context_json(const format::Model& model) {
+  Json out = Json::array();
+  for (const auto& range : model.domain.context) {
+    const ShownRange r = shown_range(range);
+    out.push_back({{"input", r.name}, {"min_" + r.unit, r.low}, {"max_" + r.unit, r.high}});
+  }
+  return out;
+}
+
+std::string context_text(const format::Model& model) {
+  std::string out;
+  for (const auto& range : model.domain.context) {
+    const ShownRange r = shown_range(range);
+    out += fmt::format("{}{} {:.4g} .. {:.4g} {}", out.empty() ? "" : ", ", r.name, r.low, r.high,
+                       r.unit);
+  }
+  return out;
+}
+
 Json guard_json(const format::GuardLimits& g) {
   return {{"corrects", corrects(g)},
           {"max_correction_mm", to_mm(g.max_correction_m)},
@@ -124,27 +160,32 @@ std::string chain_text(const format::Model& model) {
 
 std::string held_out_text(const format::Provenance& p) {
   if (p.held_out.poses == 0) return "none: every pose was used for the fit";
-  return fmt::format("mean {}, RMS {}, 95 % {}, max {} mm ({} poses); noise floor {} mm",
-                     mm(p.held_out.mean_m), mm(p.held_out.rms_m), mm(p.held_out.p95_m),
-                     mm(p.held_out.max_m), p.held_out.poses, mm(p.noise_floor_m));
+  return fmt::format("mean {}, RMS {}, 95 % {}, max {} mm ({} poses)", mm(p.held_out.mean_m),
+                     mm(p.held_out.rms_m), mm(p.held_out.p95_m), mm(p.held_out.max_m),
+                     p.held_out.poses);
 }
 
-std::string domain_text(const format::Model& model) {
-  std::string out;
-  for (std::size_t i = 0; i < model.domain.q_min.size(); ++i) {
+/// Three joints a line.
+void add_domain(const format::Model& model, TextTable& table) {
+  std::string line;
+  const std::size_t joints = model.domain.q_min.size();
+  if (joints == 0) table.add({"trained domain", "none"});
+  for (std::size_t i = 0; i < joints; ++i) {
     const auto& row = model.nominal.joints[i];
-    out += fmt::format("{}{} {:.0f} .. {:.0f} {}", i == 0 ? "" : ", ", row.name,
-                       shown(model.domain.q_min[i], slides(row)),
-                       shown(model.domain.q_max[i], slides(row)), unit(slides(row)));
+    line += fmt::format("{}{} {:.0f} .. {:.0f} {}", line.empty() ? "" : ", ", row.name,
+                        shown(model.domain.q_min[i], slides(row)),
+                        shown(model.domain.q_max[i], slides(row)), unit(slides(row)));
+    if (i % kJointsInALine != kJointsInALine - 1 && i + 1 < joints) continue;
+    table.add({i < kJointsInALine ? "trained domain" : "", line});
+    line.clear();
   }
-  return out.empty() ? "none" : out;
 }
 
 std::string effects_text(const format::Model& model) {
-  std::string out = "geometry";
+  std::vector<std::string> names{"geometry"};
   for (const auto& effect : model.effects)
-    out += ", " + (effect.formula.code.empty() ? effect.name : effect.formula.expression);
-  return out;
+    names.push_back(effect.formula.code.empty() ? effect.name : effect.formula.expression);
+  return counted(names);
 }
 
 std::string trees_text(const format::Model& model) {
@@ -177,8 +218,18 @@ Json model_json(const format::Model& model) {
           {"trees", trees_json(model)},
           {"domain", domain_json(model)},
           {"domain_fade", model.domain.fade},
+          {"domain_context", context_json(model)},
           {"guard", guard_json(model.guard)},
           {"provenance", provenance_json(model.provenance)}};
+}
+
+/// What the guard lets through.
+std::string corrected_text(const format::GuardLimits& g) {
+  const bool pose = g.corrects == format::Corrects::kPose;
+  return fmt::format("{}, at most {} mm{}, changing by at most {:.1f} mm a second",
+                     pose ? "position and orientation" : "position only", mm(g.max_correction_m),
+                     pose ? fmt::format(" and {:.3f} deg", to_deg(g.max_rotation_rad)) : "",
+                     to_mm(g.slew_m_per_s));
 }
 
 std::string model_text(const format::Model& model) {
@@ -191,14 +242,15 @@ std::string model_text(const format::Model& model) {
   table.add({"effects", effects_text(model)});
   table.add({"trees", trees_text(model)});
   table.add({"held-out", held_out_text(p)});
-  table.add({"corrects", fmt::format("{}, at most {} mm and {:.3f} deg, {:.1f} mm/s", corrects(g),
-                                     mm(g.max_correction_m), to_deg(g.max_rotation_rad),
-                                     to_mm(g.slew_m_per_s))});
-  table.add({"trained domain", domain_text(model)});
+  table.add({"noise floor", p.noise_floor_m > 0.0 ? mm(p.noise_floor_m) + " mm" : "unknown"});
+  table.add({"corrects", corrected_text(g)});
+  add_domain(model, table);
+  if (!model.domain.context.empty()) table.add({"trained with", context_text(model)});
   table.add({"made", fmt::format("{} by plumb {}, run {}, {} poses", p.created, p.tool_version,
                                  p.run, p.poses_fit)});
   for (const auto& input : p.inputs)
-    table.add({"input", fmt::format("{}  sha256 {}", input.name, input.sha256)});
+    table.add({"input",
+               fmt::format("{} (sha256 {}...)", input.name, input.sha256.substr(0, kDigitsShown))});
   return table.left_from(1).text() + "\n" + chain_text(model);
 }
 

@@ -79,11 +79,18 @@ std::string prediction_text(const PosePlan& plan) {
   if (plan.measured > 0) row(fmt::format("with the {} measured", plan.measured), plan.before);
   row(fmt::format("{}these {}", plan.measured > 0 ? "and " : "with ", plan.poses.size()),
       plan.after);
-  std::string out = table.text();
+  std::string out =
+      table.text() +
+      "\nThat comes from the uncertainty of the fitted numbers alone; the error of what "
+      "the model lacks is added to it.\n";
   if (plan.measured > 0)
-    out += fmt::format("\nThe worst falls by {:.0f} %, the mean by {:.0f} %.\n",
+    out += fmt::format("The worst falls by {:.0f} %, the mean by {:.0f} %.\n",
                        100.0 * (1.0 - plan.after.worst / plan.before.worst),
                        100.0 * (1.0 - plan.after.mean / plan.before.mean));
+  if (plan.measured > 0 && plan.before.worst < plan.sigma_m)
+    out +=
+        "Measuring them changes little: the fitted numbers already predict a point better than "
+        "one reading of the tracker.\n";
   return out;
 }
 
@@ -91,9 +98,9 @@ std::string contrast_text(const PosePlan& plan) {
   if (plan.contrast == Contrast::kNone) return "No contrast tells them apart, only poses do.\n";
   std::string out = fmt::format("What tells them apart best: {}.\n", contrast_words(plan.contrast));
   if (payloads(plan))
-    out += fmt::format("A load of {:.3g} kg was reckoned with.\n", plan.sizes.payload_kg);
+    out += fmt::format("A load of {:.3g} kg was assumed.\n", plan.sizes.payload_kg);
   for (const auto other : plan.others)
-    out += fmt::format("It would do as well, in part: {}.\n", contrast_words(other));
+    out += fmt::format("Part of it would also be told by: {}.\n", contrast_words(other));
   return out;
 }
 
@@ -188,8 +195,10 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
 std::string plan_text(const PlanRequest& request, const PosePlan& plan) {
   std::string out;
   if (request.separate.empty()) {
-    out = fmt::format("Planned {} poses, the best for {} parameters out of {}.\n\n",
-                      plan.poses.size(), plan.parameters, plan.pool);
+    out = fmt::format(
+        "Planned {} poses, chosen from {} random ones so that they tell most about the "
+        "{} parameters.\n\n",
+        plan.poses.size(), plan.pool, plan.parameters);
   } else {
     out = fmt::format("Planned {} measurements to tell {} apart.\n", plan.poses.size(),
                       pair_words(request)) +

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "show/counted.hpp"
+#include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -100,15 +102,16 @@ Json runs_json(const std::vector<ListedRun>& runs) {
 }
 
 std::string runs_text(const std::vector<ListedRun>& runs) {
-  if (runs.empty()) return "No runs yet: plumb fit makes the first.\n";
-  TextTable table({"run", "created", "poses", "mean", "RMS", "95 %", "max", "effects"});
+  if (runs.empty()) return "No runs yet.\n";
+  TextTable table({head::kRun, head::kCreated, head::kReadings, head::kMean, head::kRms, head::kP95,
+                   head::kMax, head::kEffects});
   table.left_from(7);
   for (const auto& [run, state] : runs) {
     const auto& s = run.fit.held;
     table.add(
         {fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
          run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
-         fmt::format("{}{}", fmt::join(run.effects, ", "),
+         fmt::format("{}{}", counted(run.effects),
                      run.fit.base == Base::kController ? ", on the controller's positions" : "")});
   }
   return fmt::format("{} run{}, held-out error in mm (* of the present cell and data):\n\n",
@@ -135,8 +138,10 @@ Json diff_json(const Run& a, const Run& b) {
 
 std::string diff_text(const Run& a, const Run& b) {
   std::string out = verdict_of(a, b) + "\n\n";
-  for (const auto& name : only_in(b.effects, a.effects)) out += "  + effect " + name + "\n";
-  for (const auto& name : only_in(a.effects, b.effects)) out += "  - effect " + name + "\n";
+  const std::string more = counted(only_in(b.effects, a.effects));
+  const std::string less = counted(only_in(a.effects, b.effects));
+  if (!more.empty()) out += "  more effects: " + more + "\n";
+  if (!less.empty()) out += "  fewer effects: " + less + "\n";
   const auto all = changes(a, b);
   if (all.empty()) return out + "  No parameter differs.\n";
   TextTable table({"parameter", fmt::format("run {}", a.number), fmt::format("run {}", b.number),

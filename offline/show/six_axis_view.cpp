@@ -14,14 +14,14 @@ namespace {
 using study::SixAxisDraw;
 using study::SixAxisStudy;
 
-struct Figure {
+struct TableFigure {
   const char* key;
   const char* words;
   const char* paper;
   double SixAxisDraw::*value;
 };
 
-constexpr Figure kFigures[] = {
+constexpr TableFigure kTableFigures[] = {
     {"before_mm", "seen poses, no correction", "0.057", &SixAxisDraw::before},
     {"published_seen_mm", "seen poses, three trees of five leaves", "0.0126",
      &SixAxisDraw::published_seen},
@@ -45,7 +45,7 @@ Json six_axis_json(const SixAxisStudy& study) {
            {"draws", study.draws.size()},
            {"poses", study.request.poses},
            {"seed", study.request.seed}};
-  for (const Figure& figure : kFigures) {
+  for (const TableFigure& figure : kTableFigures) {
     out["median"][figure.key] = to_mm(median_of(study, figure.value));
     out["worst"][figure.key] = to_mm(worst_of(study, figure.value));
   }
@@ -54,7 +54,7 @@ Json six_axis_json(const SixAxisStudy& study) {
   out["rows"] = Json::array();
   for (const auto& draw : study.draws) {
     Json row{{"added", draw.added}, {"tree", draw.tree}};
-    for (const Figure& figure : kFigures) row[figure.key] = to_mm(draw.*figure.value);
+    for (const TableFigure& figure : kTableFigures) row[figure.key] = to_mm(draw.*figure.value);
     out["rows"].push_back(row);
   }
   return out;
@@ -74,7 +74,7 @@ std::string six_axis_text(const SixAxisStudy& study) {
   TextTable table({fmt::format("mean position error [mm] of {} arms, {} poses each",
                                study.draws.size(), study.request.poses),
                    "paper", "median", "worst"});
-  for (const Figure& figure : kFigures)
+  for (const TableFigure& figure : kTableFigures)
     table.add({figure.words, figure.paper,
                fmt::format("{:.4f}", to_mm(median_of(study, figure.value))),
                fmt::format("{:.4f}", to_mm(worst_of(study, figure.value)))});

@@ -15,7 +15,7 @@ using study::AxisTrees;
 using study::PlanarStudy;
 using study::StudyRow;
 
-constexpr const char* kAxis[] = {"x", "y"};
+constexpr const char* kAxisName[] = {"x", "y"};
 
 /// One quantity of the test grid, its rows phi12 and its columns phi23, as the grid is listed.
 HeatMap map_of(const PlanarStudy& study, const Eigen::VectorXd& value_mm) {
@@ -88,7 +88,7 @@ HeatMap signed_map(const PlanarStudy& study, const Eigen::VectorXd& value, std::
 HeatMap leaf_map(const StudyRow& row, int axis, HeatMap below) {
   below.lines = Borders(*row.trees, axis).lines;
   below.title = fmt::format("{}: {} leaves for {} over {}", row.model,
-                            row.trees->tree[axis].leaves(), kAxis[axis], below.title);
+                            row.trees->tree[axis].leaves(), kAxisName[axis], below.title);
   return below;
 }
 
@@ -105,15 +105,16 @@ std::vector<std::pair<std::string, std::string>> planar_figures(const PlanarStud
   std::vector<std::pair<std::string, std::string>> out;
   const auto positions = study::true_poses(study.request.variant, study.test_q).p_AC_A;
   for (int axis = 0; axis < 2; ++axis) {
-    const HeatMap error = signed_map(study, remaining_mm(study, axis),
-                                     fmt::format("error of the calibrated arm, {}", kAxis[axis]));
-    out.emplace_back(fmt::format("fig{:02}_error_{}.svg", 4 + axis, kAxis[axis]), svg(error));
+    const HeatMap error =
+        signed_map(study, remaining_mm(study, axis),
+                   fmt::format("error of the calibrated arm, {}", kAxisName[axis]));
+    out.emplace_back(fmt::format("fig{:02}_error_{}.svg", 4 + axis, kAxisName[axis]), svg(error));
     const HeatMap leaves = leaf_map(study.row("calibrated_llmt"), axis, error);
-    out.emplace_back(fmt::format("fig{:02}_leaves_{}.svg", 6 + axis, kAxis[axis]), svg(leaves));
+    out.emplace_back(fmt::format("fig{:02}_leaves_{}.svg", 6 + axis, kAxisName[axis]), svg(leaves));
     const HeatMap place =
-        signed_map(study, 1e3 * positions.col(axis), fmt::format("position {}", kAxis[axis]));
+        signed_map(study, 1e3 * positions.col(axis), fmt::format("position {}", kAxisName[axis]));
     const HeatMap alone = leaf_map(study.row("alone"), axis, place);
-    out.emplace_back(fmt::format("fig{:02}_leaves_alone_{}.svg", 8 + axis, kAxis[axis]),
+    out.emplace_back(fmt::format("fig{:02}_leaves_alone_{}.svg", 8 + axis, kAxisName[axis]),
                      svg(alone));
   }
   for (const StudyRow& row : study.rows)

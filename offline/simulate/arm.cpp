@@ -14,7 +14,7 @@ Isometry3d link(const format::JointRow& row) {
          AngleAxisd(row.beta, Vector3d::UnitY()) * Isometry3d::Identity();
 }
 
-Isometry3d exp(const format::Twist& twist) {
+Isometry3d moved_by(const format::Twist& twist) {
   return sim::exp(Vector3d(twist.d.data()), Vector3d(twist.e.data()));
 }
 
@@ -22,15 +22,15 @@ Isometry3d exp(const format::Twist& twist) {
 
 Arm::Arm(const format::Chain& chain)
     : chain_(chain),
-      base_(to_isometry(chain.base) * exp(chain.base_twist)),
-      tool_(exp(chain.tool_twist) * to_isometry(chain.tool)),
+      base_(to_isometry(chain.base) * moved_by(chain.base_twist)),
+      tool_(moved_by(chain.tool_twist) * to_isometry(chain.tool)),
       between_(chain.joints.size() + 1, Isometry3d::Identity()) {
   const bool modified = chain_.convention == format::Convention::kModified;
   for (int i = 0; i < joints(); ++i) {
     const auto& row = chain_.joints[i];
     if (modified) between_[i] = between_[i] * link(row);
-    between_[i] = between_[i] * exp(row.pre);
-    between_[i + 1] = exp(row.post);
+    between_[i] = between_[i] * moved_by(row.pre);
+    between_[i + 1] = moved_by(row.post);
     if (!modified) between_[i + 1] = between_[i + 1] * link(row);
   }
 }

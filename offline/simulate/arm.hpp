@@ -12,12 +12,12 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// What bends the arm away from its rigid geometry at one pose.
+/// The deviations of the arm from its rigid geometry at one pose.
 struct Deflection {
   explicit Deflection(int joints)
       : dq(VectorXd::Zero(joints)), link(joints, Isometry3d::Identity()) {}
   VectorXd dq;                   // joint positions [rad] or [m]
-  std::vector<Isometry3d> link;  // motion of all that is behind joint i, in its frame P_i
+  std::vector<Isometry3d> link;  // motion of everything behind joint i, in the frame P_i
   Isometry3d base = Isometry3d::Identity();  // motion of the whole arm, base frame
   Isometry3d tool = Isometry3d::Identity();  // motion of the reflector, tool frame
   Vector3d tip_B = Vector3d::Zero();         // of the measured point, base frame [m]
@@ -30,9 +30,9 @@ struct Frames {
   Isometry3d tool;                // X_BT
 };
 
-/// Kinematics of the simulator, written apart from the runtime's so that one can test the other.
-/// Rows as in format::Chain: the link is Tx(a) Rx(alpha) Ry(beta), behind the joint motion
-/// Rz(theta) Tz(d) in the standard convention and before it in the modified one.
+/// The kinematics of the simulator, independent of those of the runtime so that one can test the
+/// other. The rows are as in format::Chain: the link is Tx(a) Rx(alpha) Ry(beta), behind the joint
+/// motion Rz(theta) Tz(d) in the standard convention and before it in the modified one.
 class Arm {
  public:
   explicit Arm(const format::Chain& chain);
@@ -44,8 +44,8 @@ class Arm {
   Frames frames(const VectorXd& q) const { return frames(q, Deflection(joints())); }
   Frames frames(const VectorXd& q, const Deflection& deflection) const;
 
-  /// From P_i to the origin of P_(i+1), or of the flange, in P_i [m]; q decides only for a sliding
-  /// joint i + 1.
+  /// The vector from P_i to the origin of P_(i+1), or of the flange, in P_i [m]. It depends on q
+  /// only if joint i + 1 slides.
   Vector3d link_vector(int i, const VectorXd& q) const;
 
   /// Sum of the lengths of all links and the tool [m].

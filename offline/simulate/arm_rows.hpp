@@ -8,7 +8,8 @@
 
 namespace plumb::offline::sim {
 
-/// A row as data sheets print it: [mm] and [deg]; q limits in [deg], of a sliding joint in [mm].
+/// A DH row in the units of data sheets, [mm] and [deg]. The limits of q are in [deg], or in [mm]
+/// for a sliding joint.
 struct SheetRow {
   double alpha_deg = 0.0;
   double a_mm = 0.0;
@@ -20,8 +21,8 @@ struct SheetRow {
   bool parallel_next = false;
 };
 
-/// A cell with joints J1, J2, ... and a tool along z of the flange; frame and target are fitted,
-/// sigma 10 um, geometry the only effect.
+/// A cell with joints J1, J2, ... and a tool along z of the flange. Frame and target are fitted,
+/// sigma is 10 um, and geometry is the only effect.
 Cell cell_from_sheet(format::Convention convention, const std::vector<SheetRow>& rows,
                      double tool_mm);
 

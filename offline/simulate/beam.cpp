@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kIntervals = 128;  // even
 
-// Weight per length over that of a bar with the root's section everywhere.
+// Ratio of the weight per length at x to that at the root.
 double section(const TaperedBeam& beam, double x) { return std::pow(1.0 - beam.taper * x, 2); }
 
 // Integral of section(y) (y - x) over y = x .. 1; one Simpson interval is exact for a cubic.

@@ -5,14 +5,15 @@
 
 namespace plumb::offline::sim {
 
-/// A cantilever that gets thinner: diameter (1 - taper s / length) of that at its root, so bending
-/// stiffness EI falls with the fourth power and weight per length with the second.
+/// A tapered cantilever. Its diameter is (1 - taper s / length) times that at the root, so the
+/// bending stiffness EI decreases with the fourth power of this factor and the weight per length
+/// with the second.
 struct TaperedBeam {
   double length = 1.0;            // [m]
-  double EI = 1.0;                // at the root [N m^2]
+  double EI = 1.0;                // bending stiffness at the root [N m^2]
   double GJ_over_EI = 1.0 / 1.3;  // round bar, Poisson's ratio 0.3
-  double taper = 0.4;             // 0: constant section
-  double mass = 0.0;              // [kg], spread over the length
+  double taper = 0.4;             // 0 for a constant section
+  double mass = 0.0;              // distributed over the length [kg]
 };
 
 /// Motion of the free end, in the frame of the arguments.

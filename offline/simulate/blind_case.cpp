@@ -38,7 +38,7 @@ Cell cell_of(const BlindRequest& request) {
   return cell;
 }
 
-// Nothing but the tool, about half, and nearly the full load.
+// Three payloads: the tool alone, about half the load, and nearly the full load.
 std::vector<Payload> three_payloads(const Cell& cell, Random random) {
   std::vector<Payload> out;
   for (const double share : {0.15, 0.55, 1.0}) {
@@ -50,7 +50,7 @@ std::vector<Payload> three_payloads(const Cell& cell, Random random) {
   return out;
 }
 
-// An upright tracker on its stand, 3.5 to 5 m away, turned anyhow.
+// An upright tracker on its stand, 3.5 to 5 m away, with a random azimuth.
 format::Pose tracker_pose(Random random) {
   const double bearing = random.uniform(-std::numbers::pi, std::numbers::pi);
   const double turn = random.uniform(-std::numbers::pi, std::numbers::pi);
@@ -95,7 +95,7 @@ SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
   return plan;
 }
 
-// The same arm and session at other poses; readings without noise.
+// The plan for the same arm and session at other poses, measured without noise.
 SimulationPlan fresh_plan(const BlindRequest& request, SimulationPlan plan,
                           std::vector<HiddenEffect> effects) {
   plan.truth.effects.clear();
@@ -118,7 +118,7 @@ std::vector<HiddenEffect> of_the_arm(const std::vector<HiddenEffect>& effects) {
   return out;
 }
 
-// Columns must be the same whatever acts.
+// Measures with the same context columns as `like`, whatever effects act.
 Simulation measured_again(const Cell& cell, SimulationPlan plan, const Simulation& like) {
   const auto has = [&](const std::string& name) {
     return std::any_of(like.context.begin(), like.context.end(),

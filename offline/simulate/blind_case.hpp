@@ -9,24 +9,26 @@
 
 namespace plumb::offline {
 
-/// kHeavy: 2.2 m, 60 kg; kLight: 1.3 m, 10 kg; both with geometry errors and masses that are not as
-/// stated. The planar arms of the published study bring their beams with them.
+/// kHeavy has a reach of 2.2 m and carries 60 kg, kLight 1.3 m and 10 kg; both have geometry errors
+/// and masses that differ from the stated ones. The planar arms of the published study include
+/// their flexible beams.
 enum class BlindArm { kHeavy, kLight, kPlanarPublished, kPlanarPrinted };
 
-/// What a blind case is made of.
+/// The settings of a blind case.
 struct BlindRequest {
   BlindArm arm = BlindArm::kHeavy;
-  std::vector<std::string> effects;  // as for parse_hidden_effect, such as "gear_ripple:J2:5"
+  std::vector<std::string> effects;  // in the form of parse_hidden_effect: "gear_ripple:J2:5"
   double sigma_m = 20e-6;            // of the tracker, per axis
   int poses = 150;
   int fresh_poses = 500;
-  int repeats = 3;  // of every tenth pose
+  int repeats = 3;  // readings of every tenth pose
   std::uint64_t seed = 1;
-  double richness = 1.0;  // of the laws, see HiddenTruth
+  double richness = 1.0;  // see HiddenTruth
   double outlier_share = 0.0;
   double session_s = 3.0 * 3600.0;
   PoseChoice choice;
-  /// kVaried: three payloads, each with a centre of mass of its own; kConstant: the cell's alone.
+  /// kVaried: three payloads, each with its own centre of mass. kConstant: the payload of the cell
+  /// only.
   enum class Payloads { kVaried, kConstant } payloads = Payloads::kVaried;
   Recorded directions = Recorded::kAlways;
   Recorded temperatures = Recorded::kAlways;
@@ -34,20 +36,21 @@ struct BlindRequest {
   double held_share = 0.0;
 };
 
-/// A measured arm with something hidden. Only the scorer may look at what follows `measured`.
+/// A measured arm with hidden effects. Only the scoring may use the members that follow `measured`.
 struct BlindCase {
   Cell cell;
   std::string cell_toml;         // refers to measurements.csv
-  std::string measurements_csv;  // what a diagnosis may see
+  std::string measurements_csv;  // the input of a diagnosis
   std::string truth_json;
-  /// Fresh poses in a session of the same length, at other times of it, noise-free: measured with
-  /// everything that acted, and as a perfect measurement would see the arm.
+  /// Fresh poses without noise, at other times of a session of the same length: measured with all
+  /// effects, and as a perfect measurement would see the arm.
   std::string fresh_csv;
   std::string fresh_robot_csv;
   Simulation measured, fresh, fresh_robot;
 };
 
-/// The same request gives the same bytes. Throws Failure (kUsage) as simulate does.
+/// Makes a blind case. The same request gives the same bytes. Throws Failure (kUsage) as simulate
+/// does.
 BlindCase make_blind_case(const BlindRequest& request);
 
 }  // namespace plumb::offline

@@ -8,18 +8,18 @@
 
 namespace plumb::offline::sim {
 
-/// Temperatures over 20 degC during a session, a function of time alone: the air swings with the
-/// heating of the hall and drifts; the drives heat the column and every link, each zone with a
-/// first-order lag of its own, and pause for a while in the middle of the session.
+/// Temperatures above 20 degC during a session, as functions of time. The air temperature
+/// oscillates with the heating of the hall and drifts. The drives heat the column and every link,
+/// each zone with its own first-order lag, and pause for a while in the middle of the session.
 ///   T_zone' = (T_air + rise_zone work(t) - T_zone) / lag_zone, T_zone(0) = T_air(0)
 class Climate {
  public:
-  /// `spread` of the zones: 0 makes them all alike. `session_s` is only where the pause lies and
-  /// how far the table reaches.
+  /// `spread` is the variation between the zones; 0 makes them all equal. `session_s` decides only
+  /// when the pause is and how long the table is.
   Climate(int joints, double session_s, double spread, Random random);
 
   double air(double time_s) const;
-  /// [0] column, [i] link behind joint i.
+  /// The temperatures of the zones: [0] is the column, [i] the link behind joint i.
   VectorXd zones(double time_s) const;
   double period_s() const { return period_s_; }
   const VectorXd& rises() const { return rise_; }

@@ -74,8 +74,8 @@ Demo unknown() { return light("Demo: nobody knows", "DEMO-UNKNOWN", "joint_produ
 
 Demo mixed() {
   Demo demo = heavy("Demo: three at once", "DEMO-MIXED", "joint_compliance:J2,J3:5");
-  demo.plan.truth.effects.push_back("gear_harmonics:J1:2");
-  demo.plan.truth.effects.push_back("drift::2");
+  for (const char* more : {"gear_harmonics:J1:2", "drift::2"})
+    demo.plan.truth.effects.emplace_back(more);
   demo.plan.outlier_share = 0.01;
   return demo;
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kNearParallel_rad = 0.05;
 
-// The row whose alpha lies between axes i and i + 1.
+// The index of the DH row whose alpha is between the axes i and i + 1.
 int link_row(const format::Chain& chain, int i) {
   return chain.convention == format::Convention::kModified ? i + 1 : i;
 }

@@ -25,7 +25,7 @@ constexpr std::array kUnits{Unit{"um", Size::kLength, 1e-6},
                             Unit{"rad", Size::kAngle, 1.0},
                             Unit{"deg", Size::kAngle, std::numbers::pi / 180.0}};
 
-/// Reads one specification and remembers where it is for messages.
+/// Reads one specification of an effect and keeps track of the position for messages.
 class Reader {
  public:
   Reader(const std::string& spec, const Cell& cell) : spec_(spec), cell_(cell) {}
@@ -67,7 +67,7 @@ class Reader {
     if (second < end_) add_sigma({second + 1, end_}, law, out);
   }
 
-  // @KEY=NUMBER,...
+  // Reads the part "@KEY=NUMBER,...".
   void read_numbers(const sim::LawEntry& law, HiddenEffect& out) {
     std::size_t begin = end_ + 1;
     for (end_ = spec_.size(); begin <= end_;) {
@@ -181,7 +181,7 @@ class Reader {
 
   const std::string& spec_;
   const Cell& cell_;
-  std::size_t end_ = 0;  // of what stands before '@'
+  std::size_t end_ = 0;  // end of the part before '@'
 };
 
 }  // namespace

@@ -7,18 +7,18 @@
 
 namespace plumb::offline::sim {
 
-/// Error of one joint: a formula and its true numbers.
+/// The error of one joint: a formula and its true numbers.
 struct JointError {
   SizedJoint at;
-  std::function<double(const Moment&)> dq;  // [rad], size included
-  nlohmann::ordered_json numbers;           // joint and size are added
+  std::function<double(const Moment&)> dq;  // error of the joint, including the size [rad]
+  nlohmann::ordered_json numbers;           // without joint and size, which are added
   std::vector<std::string> inputs = {};     // see Law::inputs
 };
 
-/// dq of every joint by its own formula.
+/// A law with a separate formula for each joint.
 std::unique_ptr<Law> joint_law(std::vector<JointError> joints);
 
-/// Anything else in one piece.
+/// A law that acts on the whole arm.
 struct ArmBending {
   std::function<void(const Moment&, Deflection&)> bend;
   nlohmann::ordered_json truth;
@@ -26,26 +26,27 @@ struct ArmBending {
 };
 std::unique_ptr<Law> arm_law(ArmBending bending);
 
-/// Where a joint turns.
+/// For each joint, whether it is revolute.
 std::vector<bool> turning(const World& world);
 
-/// Everywhere or nowhere but at joint j.
+/// A list that is true for joint j only, or nowhere if the arm has no joint j.
 std::vector<bool> only(const World& world, int j);
 
-/// One stream per law and joint: what is drawn for one joint does not depend on which others bend.
+/// A random stream for this law and joint, so that what is drawn for one joint does not depend on
+/// which other joints are affected.
 Random joint_random(const World& world, const std::string& law, int joint);
 
-/// "q4" for joint 3.
+/// The name of the angle of a joint: "q4" for joint 3.
 std::string angle_name(int joint);
 
-/// A joint from the numbers of an effect (counted from 1), or `fallback`. Throws Failure (kUsage)
-/// if the arm has no such joint.
+/// The joint that the number `key` of an effect states (counted from 1), or `fallback` if it is not
+/// given. Throws Failure (kUsage) if the arm has no such joint.
 int joint_number(const HiddenEffect& effect, const std::string& key, const World& world,
                  int fallback);
 
 double number(const HiddenEffect& effect, const std::string& key, double fallback);
 
-/// Refuses an effect that this arm cannot have.
+/// Throws Failure (kUsage) for an effect that this arm cannot have.
 [[noreturn]] void refuse(const HiddenEffect& effect, const std::string& why);
 
 }  // namespace plumb::offline::sim

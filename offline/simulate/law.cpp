@@ -8,7 +8,7 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr int kReferencePoses = 500;
-constexpr double kHardlyLoaded = 3e-3;  // of weight times reach
+constexpr double kHardlyLoaded = 3e-3;  // share of weight times reach
 
 }  // namespace
 

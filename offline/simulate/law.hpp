@@ -11,22 +11,22 @@
 
 namespace plumb::offline::sim {
 
-/// The arm as its laws see it; outlives them.
+/// The arm and its surroundings, as the laws use them. It must outlive the laws.
 struct World {
   const Cell& cell;
   const Arm& arm;  // the true one
   const MassModel& masses;
   const std::vector<Visit>& visits;
   VectorXd q_min, q_max;
-  std::uint64_t seed = 1;  // of the arm
+  std::uint64_t seed = 1;  // for the arm
   double session_s = 0.0;
   Isometry3d X_MB = Isometry3d::Identity();  // true base in the tracker frame
   Isometry3d X_TG = Isometry3d::Identity();  // reflector in the tool frame
   double most_payload_kg = 0.0;
-  double richness = 1.0;  // times what is of second order in every law
+  double richness = 1.0;  // factor on the second-order terms of every law
 };
 
-/// One visit with what follows from it; frames and loads are those of the rigid true arm.
+/// One visit with the frames and loads that follow from it, which are those of the rigid true arm.
 struct Moment {
   int row = 0;
   const Visit& visit;
@@ -34,7 +34,8 @@ struct Moment {
   const Loads& loads;
 };
 
-/// Poses inside the limits on which sizes are defined; the same for every plan with that seed.
+/// The poses inside the joint limits at which the sizes of effects are defined. They are the same
+/// for every plan with this seed.
 std::vector<VectorXd> reference_poses(const World& world);
 
 /// Largest gravity torque of each joint at the reference poses [N m]; 0 where the joint slides or
@@ -45,41 +46,44 @@ VectorXd largest_torque(const World& world);
 class Law {
  public:
   virtual ~Law() = default;
-  /// Adds what the effect does at one visit; in proportion to its size.
+  /// Adds the deflection that the effect causes at one visit. It is proportional to the size of the
+  /// effect.
   virtual void bend(const Moment& now, Deflection& out) const = 0;
-  /// Its true numbers, for the truth file: one object, or an array of one object per "joint".
+  /// The true numbers for the truth file: one object, or an array with one object for each "joint".
   virtual nlohmann::ordered_json truth() const = 0;
-  /// What it truly depends on, where that is the question: "q4", "t", "previous q2".
+  /// For effects unknown to the library, the inputs on which they depend: "q4", "t", "previous q2".
   virtual std::vector<std::string> inputs() const { return {}; }
-  /// Writes into `effect` what it took from this session, so that it is the same in another one.
+  /// Writes the numbers that depend on this session into `effect`, so that it is the same in
+  /// another session.
   virtual void pin(HiddenEffect&) const {}
 };
 
-/// A joint a law works on (or the link behind it) and how much.
+/// A joint, or the link behind it, on which a law acts, and the size of the effect there.
 struct SizedJoint {
   int joint = 0;
   std::string name;
   double size = 0.0;  // SI
 };
 
-/// The joints asked for, or all `usual` ones; each with its own size, else the effect's, else
-/// `fallback`. Throws Failure (kUsage) if a joint is named that is not `possible`.
+/// The joints that the effect names, or else all `usual` ones. Each has its own size if one is
+/// given, else the size of the effect, else `fallback`. Throws Failure (kUsage) if a joint is named
+/// that is not `possible`.
 std::vector<SizedJoint> sized_joints(const HiddenEffect& effect, const World& world,
                                      const std::vector<bool>& possible,
                                      const std::vector<bool>& usual, double fallback,
                                      const std::string& why_not);
 
-/// What the simulator knows of a law before it is made.
+/// The description of a law in the list of laws.
 struct LawEntry {
   std::string name;
   std::string line;     // for --help
-  std::string library;  // what a diagnosis should call it, or "unknown"
+  std::string library;  // name that a diagnosis should find, or "unknown"
   enum class Size { kNone, kAngle, kLength } size = Size::kAngle;
   enum class On { kJoints, kArm } on = On::kJoints;
   enum class Domain { kRobot, kEnvironment, kMeasurement, kProcedure } domain = Domain::kRobot;
-  enum class Needs { kNothing, kDirection, kTemperature } needs = Needs::kNothing;  // then recorded
-  std::vector<std::string> keys;     // of HiddenEffect::numbers
-  std::vector<std::string> same_as;  // what else may explain it as well
+  enum class Needs { kNothing, kDirection, kTemperature } needs = Needs::kNothing;  // recorded
+  std::vector<std::string> keys;     // keys that HiddenEffect::numbers may have
+  std::vector<std::string> same_as;  // effects that may explain it equally well
   std::unique_ptr<Law> (*make)(const HiddenEffect&, const World&) = nullptr;
 };
 const std::vector<LawEntry>& law_entries();

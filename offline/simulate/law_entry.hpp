@@ -3,28 +3,30 @@
 
 #include "simulate/law.hpp"
 
-/// Words to write the list of laws with: each takes an entry and gives it back changed.
+/// Functions with which the list of laws is written. Most take an entry and return it with a
+/// change.
 namespace plumb::offline::sim {
 
 using LawMaker = std::unique_ptr<Law> (*)(const HiddenEffect&, const World&);
 
-/// A law of single joints, sized by an angle, called in the library as here.
+/// A law of single joints whose size is an angle and whose name in the library is the same.
 LawEntry of_joints(const std::string& name, const std::string& line, LawMaker make);
 
 /// A law of the whole arm.
 LawEntry of_arm(const std::string& name, const std::string& line, LawEntry::Size size,
                 LawEntry::Domain domain, LawMaker make);
 
-/// It can be told these numbers.
+/// Adds the numbers that the user can set.
 LawEntry with_keys(LawEntry entry, std::vector<std::string> keys);
 
-/// It is of no use without these columns.
+/// Adds the columns that the effect needs.
 LawEntry needing(LawEntry entry, LawEntry::Needs needs);
 
-/// What a diagnosis may call it as well, because hardly any data can tell them apart.
+/// Adds other effects that a diagnosis may name instead, because hardly any data can tell them
+/// apart.
 LawEntry like(LawEntry entry, std::vector<std::string> others);
 
-/// The library calls it otherwise.
+/// Sets a different name of the effect in the library.
 LawEntry called(LawEntry entry, const std::string& library);
 
 LawEntry during(LawEntry entry, LawEntry::Domain domain);

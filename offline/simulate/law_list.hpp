@@ -7,7 +7,7 @@ namespace plumb::offline::sim {
 
 using MadeLaw = std::unique_ptr<Law>;
 
-// The makers, one per law; formulas stand above their code.
+// One function for each law makes it. The formulas are stated above the code.
 MadeLaw make_joint_compliance(const HiddenEffect& effect, const World& world);
 MadeLaw make_soft_joint_compliance(const HiddenEffect& effect, const World& world);
 MadeLaw make_cross_compliance(const HiddenEffect& effect, const World& world);

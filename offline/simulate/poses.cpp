@@ -20,7 +20,7 @@ RowsN drawn(const SimulationPlan& plan, const VectorXd& q_min, const VectorXd& q
   return q;
 }
 
-// Each joint on one of `levels` equally spaced places, the limits among them.
+// Moves each joint to the nearest of `levels` equally spaced positions, which include the limits.
 void snap(RowsN& q, int levels, const VectorXd& q_min, const VectorXd& q_max) {
   for (Eigen::Index j = 0; j < q.cols(); ++j) {
     const double step = (q_max(j) - q_min(j)) / (levels - 1);
@@ -30,7 +30,8 @@ void snap(RowsN& q, int levels, const VectorXd& q_min, const VectorXd& q_max) {
   }
 }
 
-// Always on to the nearest pose that is left, as an operator would save time.
+// Orders the poses so that each is followed by the nearest remaining one, as an operator would do
+// to save time.
 RowsN nearest_first(const RowsN& q) {
   std::vector<bool> done(static_cast<std::size_t>(q.rows()), false);
   RowsN out(q.rows(), q.cols());

@@ -5,8 +5,8 @@
 
 namespace plumb::offline::sim {
 
-/// The distinct poses of a plan in the order in which they are visited: its own q, or drawn inside
-/// the joint limits [rad] or [m] as plan.choice says.
+/// The distinct poses of a plan in the order in which they are visited: its own q, or poses drawn
+/// inside the joint limits [rad] or [m] according to plan.choice.
 RowsN distinct_poses(const SimulationPlan& plan, const Eigen::VectorXd& q_min,
                      const Eigen::VectorXd& q_max);
 

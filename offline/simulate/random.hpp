@@ -9,11 +9,12 @@
 namespace plumb::offline::sim {
 
 /// Random numbers that are the same on every compiler: xoshiro256++ [Blackman, Vigna 2021], seeded
-/// through splitmix64, normal values by Box and Muller. The standard's distributions are not used:
-/// they differ between libraries.
+/// through splitmix64, normal values by Box and Muller. The distributions of the C++ standard
+/// library are not used, because they differ between implementations.
 class Random {
  public:
-  /// One independent stream per purpose, so that a new draw in one does not shift the others.
+  /// Each purpose has an independent stream, so that an additional draw in one does not change the
+  /// others.
   Random(std::uint64_t seed, std::string_view purpose);
 
   std::uint64_t bits();

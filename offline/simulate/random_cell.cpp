@@ -23,11 +23,11 @@ double rounded(Random& random, double low, double high) {
 
 double quarter_turn(Random& random) { return 90.0 * (random.below(4) - 1); }
 
-// Rows in the standard convention. Never two parallel pairs in a row, so that no axis is idle for
-// the position of the tool.
+// DH rows in the standard convention. There are never two successive pairs of parallel axes, so
+// that every axis moves the tool point.
 std::vector<SheetRow> revolute_rows(int joints, Random& random) {
   std::vector<SheetRow> rows(joints);
-  bool parallel_before = true;  // the first two axes stand across
+  bool parallel_before = true;  // so that the first two axes are perpendicular
   for (int i = 0; i < joints; ++i) {
     SheetRow& row = rows[i];
     row.theta_deg = quarter_turn(random);
@@ -63,7 +63,8 @@ std::vector<SheetRow> scara_rows(Random& random) {
   return rows;
 }
 
-// The same arm in Craig's rows: each link moves to the row of the joint it leads to.
+// Converts the rows to Craig's convention: each link moves to the row of the joint that it leads
+// to.
 void to_modified(std::vector<SheetRow>& rows) {
   for (std::size_t i = rows.size() - 1; i > 0; --i) {
     rows[i].a_mm = rows[i - 1].a_mm;

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int kEveryTenth = 10;
 constexpr double kLeastOutlier = 30.0, kMostOutlier = 300.0;  // [sigma]
-constexpr double kOutlierUnit_m = 10e-6;                      // without noise
-// P001, P002 and on: as many digits as the last one needs, at least three.
+constexpr double kOutlierUnit_m = 10e-6;  // unit of outliers if the plan has no noise
+// The name of a pose: P001, P002, ... with as many digits as the last one needs, at least three.
 std::string pose_name(int pose, int poses) {
   const std::size_t digits = std::max<std::size_t>(std::to_string(poses).size(), 3);
   const std::string number = std::to_string(pose + 1);
   return "P" + std::string(digits - number.size(), '0') + number;
 }
 
-// Held-out poses at random, all readings of a pose alike.
+// Marks random poses as held out. All readings of a pose have the same mark.
 std::vector<SetMark> marks(const SimulationPlan& plan, const std::vector<int>& pose_of_row) {
   std::vector<SetMark> out(pose_of_row.size(), SetMark::kUnmarked);
   if (plan.held_share == 0.0) return out;

@@ -7,23 +7,25 @@
 
 namespace plumb::offline::sim {
 
-/// The tracker and its file: which rows there are, their names, and the noise.
+/// The tracker and its file. It decides the rows, their names, and the noise.
 class Recording {
  public:
-  /// `poses` are the distinct ones; every tenth is written plan.repeats times.
+  /// `poses` are the distinct poses. Every tenth is measured plan.repeats times.
   Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses,
             const std::vector<HiddenEffect>& effects);
 
   int rows() const { return measured_.size(); }
   const RowsN& joint_rows() const { return measured_.q; }
 
-  /// Row by row, in order: point and orientation of the reflector, noise added.
+  /// Measures point and orientation of the reflector for one row and adds noise. The rows must be
+  /// measured in order.
   void measure(int row, const Isometry3d& X_MG);
 
-  /// Moves plan.outlier_share of the rows far away and says which, by row.
+  /// Turns plan.outlier_share of the rows into gross outliers and returns them, sorted by row.
   std::vector<GrossOutlier> spoil();
 
-  /// t_s; payloads; how each joint arrived and temperatures where asked for or needed by an effect.
+  /// The context columns: time and payloads, and the directions of arrival and temperatures if they
+  /// are requested or needed by an effect.
   std::vector<Column> context(const std::vector<Visit>& visits) const;
 
   Measurements finish(const std::vector<Column>& context) const;

@@ -4,7 +4,7 @@
 
 #include "simulate/recording.hpp"
 
-/// What is written beside the measured points.
+/// The context columns that are written with the measured points.
 namespace plumb::offline::sim {
 namespace {
 
@@ -50,7 +50,8 @@ void add_payloads(std::vector<Column>& out, const std::vector<Visit>& visits) {
 
 }  // namespace
 
-// Sensors sit elsewhere than the zones, lag behind them and are noisy.
+// Adds the readings of the temperature sensors. They are at other places than the zones, lag behind
+// them, and are noisy.
 void Recording::add_temperatures(std::vector<Column>& out, const std::vector<Visit>& visits) const {
   Random random(plan_.seed, "temperature noise");
   const int n = cell_.joints();

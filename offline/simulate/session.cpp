@@ -8,12 +8,12 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr double kTrial = 1e-4;        // [rad] or [m]
-constexpr double kHardlySeen = 1e-6;   // share that geometry leaves
-constexpr double kSmallest_m = 1e-12;  // of a trial
-constexpr double kAgreement = 1e-4;    // of a size with the one asked for
+constexpr double kHardlySeen = 1e-6;   // smallest share that geometry does not absorb
+constexpr double kSmallest_m = 1e-12;  // smallest motion of a trial
+constexpr double kAgreement = 1e-4;    // relative agreement of a size with the requested one
 constexpr int kMostRounds = 6;
 
-// Shift of every measured point by one law alone [m].
+// The shift of every measured point that one law alone causes [m].
 Rows3 shift_M(const World& world, const Law& law) {
   Rows3 out(static_cast<Eigen::Index>(world.visits.size()), 3);
   for (int row = 0; row < out.rows(); ++row) {
@@ -34,7 +34,8 @@ Rows3 shift_M(const World& world, const Law& law) {
   throw Failure(Exit::kUsage, {Severity::kError, "E-SIM-SIZE", message, std::nullopt, help});
 }
 
-/// Finds the size that leaves so much visible; laws are proportional to their size to first order.
+/// Finds the size of an effect at which the requested amount is visible. Laws are proportional to
+/// their size to first order.
 class Sizer {
  public:
   Sizer(const World& world, const SimulationPlan& plan)

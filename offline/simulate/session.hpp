@@ -6,12 +6,14 @@
 
 namespace plumb::offline::sim {
 
-/// Pose of the reflector in the measurement frame at one visit, bent by some laws.
+/// The pose of the reflector in the measurement frame at one visit, with the deflections of these
+/// laws.
 Isometry3d bent_pose(const World& world, const std::vector<HiddenLaw>& laws, int row);
 
-/// Laws for the effects of a plan. An effect whose size is given in sigma gets the size in SI that
-/// leaves so much visible; numbers that a law took from this session are written down, so that the
-/// same effects can be measured in another one. Throws Failure (kUsage) where that is not possible.
+/// The laws for the effects of a plan. An effect whose size is given in sigma gets the SI size at
+/// which that much is visible. Numbers that a law took from this session are stored in `effects`,
+/// so that the same effects can be measured in another session. Throws Failure (kUsage) where that
+/// is not possible.
 struct SizedLaws {
   std::vector<HiddenLaw> laws;
   std::vector<HiddenEffect> effects;

@@ -67,7 +67,8 @@ VectorXd limits(const Cell& cell, double format::JointRow::*which) {
   return q;
 }
 
-// A tracker 3 to 5 m away, arbitrarily turned.
+// The true pose of the base in the tracker frame: that of the plan or of the cell, or else 3 to 5 m
+// away with a random orientation.
 Isometry3d place_tracker(const Cell& cell, const SimulationPlan& plan, std::uint64_t seed) {
   if (plan.truth.X_MB) return sim::to_isometry(*plan.truth.X_MB);
   if (!cell.measurement.fit_frame) return sim::to_isometry(cell.measurement.X_MB);
@@ -76,7 +77,8 @@ Isometry3d place_tracker(const Cell& cell, const SimulationPlan& plan, std::uint
   return Eigen::Translation3d(p) * random.orientation() * Isometry3d::Identity();
 }
 
-// A reflector 50 to 150 mm beside the tool.
+// The position of the reflector: that of the plan or of the cell, or else 50 to 150 mm beside the
+// tool.
 Isometry3d place_target(const Cell& cell, const SimulationPlan& plan, std::uint64_t seed) {
   Random random(seed, "target");
   Isometry3d X_TG = Isometry3d::Identity();
@@ -111,7 +113,7 @@ sim::MassModel true_masses(const Cell& cell, const SimulationPlan& plan, const s
   return out;
 }
 
-// Every pose carries one of the payloads.
+// Assigns one of the payloads to every pose.
 void load(std::vector<Visit>& visits, const Cell& cell, const SimulationPlan& plan) {
   Random random(plan.seed, "payloads");
   for (std::size_t row = 0; row < visits.size(); ++row) {

@@ -10,8 +10,8 @@ namespace {
 constexpr double kCarriedPerCubicMetre = 5.0;   // [kg/m^3]
 constexpr double kWeightPerPayloadMetre = 3.0;  // [1/m]
 constexpr double kComError_m = 0.1;
-constexpr double kLeastMass = 0.2;  // of the one in the cell
-constexpr double kMassRatio = 0.6;  // of a link to the one before it
+constexpr double kLeastMass = 0.2;  // share of the mass in the cell
+constexpr double kMassRatio = 0.6;  // ratio of the masses of successive links
 
 double guessed_moving_mass(const Cell& cell, double reach) {
   const double carried =

@@ -9,10 +9,11 @@
 
 namespace plumb::offline::sim {
 
-/// Masses of the moving links. What the cell does not state is guessed from its size: the arm
-/// carries 5 r^3 kg at reach r [m] (1.3 m: 11 kg, 2.2 m: 53 kg) or its payload if that is more, and
-/// weighs 3 / m of payload times reach; each link weighs 0.6 of the one before it, its centre of
-/// mass lies near the middle of the link and a little beside it.
+/// The masses of the moving links. Masses that the cell does not state are estimated from the size
+/// of the arm. It carries 5 r^3 kg at reach r [m] (11 kg at 1.3 m, 53 kg at 2.2 m), or its payload
+/// if that is more. Its mass is payload times reach times 3 / m. Each link has 0.6 times the mass
+/// of the one before it, with the centre of mass near the middle of the link and a little beside
+/// it.
 struct MassModel {
   std::vector<double> mass;                 // [kg]
   std::vector<Vector3d> com;                // in P_i [m]
@@ -21,10 +22,11 @@ struct MassModel {
   Vector3d gravity;                         // base frame [m/s^2]
 };
 
-/// What the cell states is off by `share` (1 sigma), a centre of mass by share times 0.1 m.
+/// The true masses: those that the cell states with a relative error of `share` (1 sigma), and an
+/// error of share times 0.1 m of their centres.
 MassModel guess_masses(const Cell& cell, const Arm& arm, double share, Random random);
 
-/// Weight of everything behind a joint, at one pose, base frame.
+/// The weight of everything behind each joint at one pose, in the base frame.
 class Loads {
  public:
   Loads(const MassModel& masses, const Frames& frames)
@@ -39,7 +41,7 @@ class Loads {
   }
   /// Gravity torque on revolute joint j about its own axis [N m].
   double torque(int j) const { return axis_[j].dot(moment(j, origin_[j])); }
-  /// The payload's share of it.
+  /// The part of this torque that the payload causes.
   double payload_torque(int j) const {
     return axis_[j].dot(moment(static_cast<int>(axis_.size()), origin_[j]));
   }

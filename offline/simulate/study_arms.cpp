@@ -39,7 +39,7 @@ Cell light_arm() {
 }
 
 void state_masses(Cell& cell, double moving_kg) {
-  constexpr double kRatio = 0.6;  // of a link to the one before it
+  constexpr double kRatio = 0.6;  // ratio of the masses of successive links
   const Arm arm(cell.nominal);
   const int n = arm.joints();
   double mass = moving_kg * (1.0 - kRatio) / (1.0 - std::pow(kRatio, n));

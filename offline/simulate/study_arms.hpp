@@ -5,13 +5,15 @@
 
 namespace plumb::offline::sim {
 
-/// Heavy six-axis arm, table 2 of the published study and an assumed sixth axis: no masses stated.
+/// A heavy six-axis arm from table 2 of the published study with an assumed sixth axis. No masses
+/// are stated.
 Cell heavy_arm();
 
-/// Light six-axis arm, UR10-like: no masses stated.
+/// A light six-axis arm similar to a UR10. No masses are stated.
 Cell light_arm();
 
-/// Adds nominal masses of the links, as a data sheet would give them, so that they can be wrong.
+/// States nominal masses of the links, as a data sheet would, so that the true ones can differ from
+/// them.
 void state_masses(Cell& cell, double moving_kg);
 
 }  // namespace plumb::offline::sim

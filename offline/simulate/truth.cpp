@@ -53,7 +53,7 @@ Json size_json(const EffectSize& size, double noise_m) {
   return out;
 }
 
-// Where a row stands, for whoever knows only the file.
+// Adds the names of the poses before and after a row, for readers who have only the file.
 void name_poses(Json& numbers, const Simulation& simulation) {
   if (!numbers.contains("row_after")) return;
   const auto row = numbers["row_after"].get<std::size_t>();

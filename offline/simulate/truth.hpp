@@ -9,7 +9,7 @@
 
 namespace plumb::offline::sim {
 
-/// A hidden effect and the law it became.
+/// A hidden effect and the law that was made from it.
 struct HiddenLaw {
   std::string name;
   std::unique_ptr<Law> law;
@@ -20,8 +20,8 @@ struct HiddenLaw {
 /// place of d.
 format::Chain draw_geometry(const Cell& cell, const HiddenTruth& truth, Random random);
 
-/// Everything true as one JSON text, keys in a fixed order: parameters with unit, frame, target,
-/// effects, noise, and each row's point without noise.
+/// The whole truth as a JSON text with keys in a fixed order: parameters with units, frame, target,
+/// effects, noise, and the point of each row without noise.
 std::string truth_json(const Cell& cell, const SimulationPlan& plan, const Simulation& simulation,
                        const std::vector<HiddenLaw>& laws);
 

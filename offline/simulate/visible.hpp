@@ -8,16 +8,17 @@
 
 namespace plumb::offline::sim {
 
-/// What geometry can explain of shifts of the measured points: constant twists of the base, behind
-/// every joint and of the tool. Of many rows, evenly picked ones stand for all (about 4000).
+/// The part of the shifts of measured points that geometry can explain, that is by constant twists
+/// of the base, behind every joint, and of the tool. Of many rows only about 4000, evenly picked,
+/// are used.
 class Visible {
  public:
   Visible(const World& world, const std::array<bool, 3>& measured_axes);
 
   int rank() const { return static_cast<int>(basis_.cols()); }
 
-  /// Per-axis RMS of shifts, shape (rows, 3) [m], in any frame of the measurement: all of them,
-  /// and what is left of them after geometry has been fitted to them.
+  /// The RMS per axis of shifts, shape (rows, 3) [m], in any constant frame: of all of the shift,
+  /// and of what remains after geometry was fitted to it.
   EffectSize size_of(const Rows3& shift_M) const;
 
  private:

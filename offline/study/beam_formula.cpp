@@ -8,10 +8,10 @@
 namespace plumb::offline::study {
 namespace {
 
-constexpr double kDiameter_m = 0.060;  // in print
+constexpr double kDiameter_m = 0.060;  // as printed in the study
 constexpr double kYoung_Pa = 210e9;
 
-/// What the printed bars bend, for 1 / EI = 1: the formula is proportional to it.
+/// The deflection of the printed bars for 1 / EI = 1. The formula is proportional to 1 / EI.
 Samples deflection_of_one(const RowsN& q) {
   const double EI = kYoung_Pa * std::numbers::pi * std::pow(kDiameter_m, 4) / 64.0;
   Samples out(q.rows(), 2);

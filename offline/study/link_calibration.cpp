@@ -9,9 +9,9 @@ namespace plumb::offline::study {
 namespace {
 
 constexpr int kMostIterations = 20;
-constexpr double kDecrease = 1e-9;  // of the deviations: less is none
+constexpr double kDecrease = 1e-9;  // relative decrease of the deviations that counts as none
 
-/// d X / d d and d Y / d d of one pose. The model is linear in d.
+/// The derivatives d X / d d and d Y / d d at one pose. The model is linear in d.
 Eigen::Matrix<double, 2, 4> jacobian(double phi12, double phi23) {
   const double p2 = phi12, p3 = phi12 + phi23;
   Eigen::Matrix<double, 2, 4> J;

@@ -14,7 +14,7 @@
 namespace plumb::offline::study {
 namespace {
 
-constexpr double kLeastSigma_m = 1e-6;  // what a noise-free tracker is said to have
+constexpr double kLeastSigma_m = 1e-6;  // stated for a tracker without noise
 
 ArmState calibrated(const Cell& cell, const Measurements& measured) {
   std::vector<int> rows(measured.size());

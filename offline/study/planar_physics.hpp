@@ -6,7 +6,7 @@
 #include "fit/arm_state.hpp"
 #include "study/planar_poses.hpp"
 
-/// The missing physics instead of a tree: the planar arm as a cell like any other.
+/// The planar arm as an ordinary cell, so that the missing physics can be fitted instead of a tree.
 namespace plumb::offline::study {
 
 struct PlanarMeasuring {
@@ -16,7 +16,7 @@ struct PlanarMeasuring {
   std::uint64_t seed = 1;
 };
 
-/// Cell and measurements, as `plumb study planar --write-cell` writes them.
+/// The cell and the measurements that `plumb study planar --write-cell` writes.
 struct PlanarCell {
   Cell cell;
   Measurements measured;
@@ -24,10 +24,10 @@ struct PlanarCell {
 };
 PlanarCell measured_cell(const PlanarMeasuring& measuring);
 
-/// Calibrated with the bending of both links, through the law that runs in the cycle.
+/// The calibration with the bending of both links, by the law that is also evaluated in the cycle.
 ArmState with_link_flexure(const PlanarCell& planar);
 
-/// What `plumb diagnose --apply` makes of it.
+/// The result of `plumb diagnose --apply`.
 struct PlanarDiagnosis {
   ArmState state;
   std::string verdict;  // at the end, in words

@@ -8,7 +8,7 @@ namespace plumb::offline::study {
 
 struct PlanarStudy;
 
-/// Plain words: what deviates from the paper, and why; what the figures show.
+/// Sentences for the user: what deviates from the paper and why, and what the figures show.
 std::vector<std::string> planar_remarks(const PlanarStudy& study);
 
 }  // namespace plumb::offline::study

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "study/beam_formula.hpp"
 #include "study/planar_physics.hpp"
 #include "study/planar_remarks.hpp"
@@ -25,12 +25,12 @@ namespace {
 constexpr double kMm = 1e-3;
 constexpr int kDisjoint = 20000;
 constexpr std::uint64_t kDisjointSeed = 5985;
-constexpr double kDelta = 0.035, kGain = 0.02;  // stops of the study
+constexpr double kDelta = 0.035, kGain = 0.02;  // stop criteria of the study
 constexpr int kSamplesCalibrated = 10, kSamplesAlone = 6, kSamplesFine = 31;
 constexpr int kAffineLeaves = 93, kQuadraticLeaves = 80, kAloneLeaves = 211;
 constexpr int kFineAffine = 3300, kFineQuadratic = 1600;
-constexpr double kFewNoise_m = 20e-6;      // of the few poses
-constexpr double kTrackerNoise_m = 10e-6;  // at least so much when diagnosing
+constexpr double kFewNoise_m = 20e-6;      // noise of the few poses
+constexpr double kTrackerNoise_m = 10e-6;  // smallest noise in a diagnosis
 
 using Predictor = std::function<Samples(const RowsN&)>;
 
@@ -38,7 +38,7 @@ std::string leaf_count(const AxisTrees& trees) {
   return fmt::format("{} + {} leaves", trees.tree[0].leaves(), trees.tree[1].leaves());
 }
 
-/// What is learnt from: angles, and for both axes what the trees shall say.
+/// Training data: joint angles, and the values that the trees of both axes shall have there.
 struct Lesson {
   RowsN q;
   Samples y;
@@ -52,11 +52,11 @@ struct Lesson {
         u(normalised(domain, q)) {}
 };
 
-/// The three of the study.
+/// The three sets of training data of the study.
 struct Lessons {
-  Lesson rest;                 // what the calibrated links leave
-  Lesson alone;                // the positions themselves
-  std::optional<Lesson> fine;  // many of them
+  Lesson rest;                 // residuals of the calibrated links
+  Lesson alone;                // the positions
+  std::optional<Lesson> fine;  // the positions on the finest grid
 };
 
 Lessons lessons_of(const PlanarRequest& request, const PlanarPoses& train, const Links& links) {
@@ -89,7 +89,7 @@ Splits all_splits(const GrownTree& tree) { return tree.first_splits(tree.leaves(
 Splits by_gain(const GrownTree& tree) { return tree.first_splits(leaves_at_gain(tree, kGain)); }
 Splits by_delta(const GrownTree& tree) { return stop_by_delta(tree, kDelta); }
 
-/// Ours, as `plumb fit` chooses it.
+/// Blended trees with the size and ridge that `plumb fit` would choose.
 AxisTrees chosen(const Lesson& lesson, int leaves, int degree, std::uint64_t seed) {
   Samples y = Samples::Zero(lesson.q.rows(), format::kTreeAxes);
   y.leftCols<2>() = lesson.y;
@@ -105,7 +105,8 @@ AxisTrees chosen(const Lesson& lesson, int leaves, int degree, std::uint64_t see
   return {choice.domain, {choice.trees[0], choice.trees[1]}};
 }
 
-/// One global least squares on a tree of that size, nothing chosen.
+/// Blended trees of this size, fitted by one global least squares without a choice by
+/// cross-validation.
 AxisTrees at_once(const Lesson& lesson, int leaves, int degree) {
   AxisTrees out{lesson.domain, {}};
   GrowthSettings growth = kBlendedGrowth;
@@ -121,7 +122,7 @@ AxisTrees at_once(const Lesson& lesson, int leaves, int degree) {
   return out;
 }
 
-/// Collects rows; every figure is against positions without noise.
+/// Collects the rows of the table. Every error is relative to positions without noise.
 class Collector {
  public:
   Collector(PlanarStudy& out, const RowsN& training_q)
@@ -141,7 +142,7 @@ class Collector {
     out_.rows.push_back(std::move(row));
   }
 
-  /// Trees over rigid links, or alone (base = nullptr).
+  /// Adds a row for trees on top of rigid links, or for trees alone (base = nullptr).
   void add_trees(StudyRow row, const AxisTrees& trees, const Links* base) {
     row.size = leaf_count(trees);
     row.trees = trees;

@@ -9,7 +9,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "simulate/arm_rows.hpp"
 #include "simulate/simulate.hpp"
 #include "simulate/study_arms.hpp"
@@ -48,7 +48,8 @@ Simulation measured(const Cell& cell, int poses, double noise_m, std::uint64_t a
   return simulate(cell, plan);
 }
 
-/// Three trees of five leaves over all joints, as published: nothing held out, nothing clamped.
+/// Three trees with five leaves each over all joints, as published: without held-out poses, and
+/// without clamping.
 class PublishedTrees {
  public:
   PublishedTrees(const RowsN& q, const Samples& e) : domain_(trained_box(q)) {
@@ -75,7 +76,7 @@ class PublishedTrees {
   std::vector<format::Tree> trees_;
 };
 
-/// White noise with the mean norm of `like`. Shape (n, 3).
+/// White noise with the same mean norm as `like`. Shape (n, 3).
 Samples noise_like(const Samples& like, std::uint64_t seed) {
   Random random(seed);
   Samples out(like.rows(), 3);
@@ -94,7 +95,8 @@ std::string words_for(const Diagnosis& found) {
   return out.empty() ? "nothing" : fmt::format("{}", fmt::join(out, "; "));
 }
 
-/// Calibrated with whatever the diagnosis supports; it has not seen the truth.
+/// The calibration with all effects that the diagnosis supports. The diagnosis has not seen the
+/// truth.
 ArmState diagnosed(const Cell& cell, const Measurements& seen, SixAxisDraw& out) {
   const Diagnosis found = diagnose(cell, seen, {.apply = true, .tell = {}});
   out.added = words_for(found);

@@ -11,7 +11,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSigmaShare = 1.0 / 3.0;  // of a cell's width
+constexpr double kSigmaShare = 1.0 / 3.0;  // share of the width of a cell
 constexpr double kM5 = 15.0;
 
 struct Cell {
@@ -34,7 +34,7 @@ MatrixXd with_constant(const Samples& u) {
   return out;
 }
 
-/// Rows: samples, columns: cells; rows add up to 1.
+/// The weights of the cells (columns) at the samples (rows). Each row adds up to 1.
 MatrixXd validity(const std::vector<Cell>& cells, const Samples& u) {
   MatrixXd out(u.rows(), static_cast<Eigen::Index>(cells.size()));
   for (std::size_t k = 0; k < cells.size(); ++k)

@@ -3,15 +3,16 @@
 
 #include "tree/growth.hpp"
 
-/// Trees as the study and textbooks have them; for comparison only, never compiled into a model.
+/// Trees as in the study and in textbooks. They are used for comparison only and are never compiled
+/// into a model.
 namespace plumb::offline::study {
 
-/// As published: what a leaf says is not held to what it saw.
+/// The tree without clamping the leaves to the range of their samples, as published.
 format::Tree unheld(format::Tree tree);
 
-/// LOLIMOT [Nelles 2000]: halves the cell whose samples it misses most, along the input that helps
-/// most; normalised Gaussian validity of sigma = width / 3, each leaf fitted to the samples
-/// weighted by its validity. Predictions at u_test, shape (m,).
+/// LOLIMOT [Nelles 2000]: repeatedly halves the cell with the largest error, along the input that
+/// lowers it most; normalised Gaussian validity of sigma = width / 3, each leaf fitted to the
+/// samples weighted by its validity. Predictions at u_test, shape (m,).
 Eigen::VectorXd lolimot(const Samples& u, const Eigen::VectorXd& y, int leaves,
                         const Samples& u_test);
 

@@ -5,7 +5,7 @@
 
 namespace plumb::offline::study {
 
-/// N(0, 1) by Box and Muller.
+/// A normally distributed random number N(0, 1), by the method of Box and Muller.
 double normal(Random& random);
 
 }  // namespace plumb::offline::study

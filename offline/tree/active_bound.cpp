@@ -9,7 +9,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kBoxes = 20000;  // looked at, at most
+constexpr int kBoxes = 20000;  // largest number of boxes that are examined
 
 struct Interval {
   double low = -1.0, high = 1.0;
@@ -18,15 +18,15 @@ struct Interval {
 
 struct Box {
   std::array<Interval, format::kMaxJoints> side;
-  int met = 0;  // leaves that a point of it may have
+  int met = 0;  // upper bound of the active leaves at any of its points
   bool operator<(const Box& other) const { return met < other.met; }
 };
 
-/// Where the box should be cut: an edge of a ramp that runs through it.
+/// The place to cut a box: the edge of a ramp that runs through it.
 struct Cut {
   int input = -1;
   double at = 0.0;
-  double centrality = -1.0;  // the more in the middle, the better
+  double centrality = -1.0;  // larger for cuts nearer to the middle
 };
 
 class Search {
@@ -41,7 +41,7 @@ class Search {
       const Box box = open.top();
       cut = {};
       count(0, box, cut);
-      if (cut.input < 0) return box.met;  // no edge runs through it: met is exact, and the most
+      if (cut.input < 0) return box.met;  // no edge runs through it: exact, and the maximum
       open.pop();
       for (const bool high : {false, true}) {
         Box part = box;
@@ -66,7 +66,8 @@ class Search {
     return out;
   }
 
-  /// An edge inside the box at relative place 0 .. 1 of the split value's range.
+  /// Considers an edge inside the box as a cut. Its relative position in the range of the split
+  /// value is between 0 and 1.
   void consider(int node, const Box& box, const Interval& x, double edge, Cut& cut) const {
     if (!(edge > x.low && edge < x.high)) return;
     const double place = (edge - x.low) / (x.high - x.low);
@@ -76,7 +77,7 @@ class Search {
     cut.input = tree_.nodes[node].input;
     cut.at = edge;
     if (tree_.directions.empty()) return;
-    double widest = 0.0;  // halve the side that matters most to the direction
+    double widest = 0.0;  // for oblique splits: halve the side with the largest share
     for (int k = 0; k < inputs_; ++k) {
       const double d = tree_.directions[static_cast<std::size_t>(node) * inputs_ + k];
       const double width = std::abs(d) * (box.side[k].high - box.side[k].low);

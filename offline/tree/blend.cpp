@@ -8,7 +8,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kNarrowest = 1e-6;  // half width, normalised: a ramp between two float values
+constexpr double kNarrowest = 1e-6;  // half width, normalised; narrower ramps vanish in rounding
 
 class Ramps {
  public:

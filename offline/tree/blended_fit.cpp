@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tree/jobs.hpp"
 
 namespace plumb::offline {
@@ -19,13 +19,13 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr int kDenseUnknowns = 900;
 constexpr Index kSlab = 256;
-constexpr double kLeastScale = 1e-6;  // of a leaf, normalised input
-constexpr double kRootRidge = 1e-12;  // of the whole box's own model
+constexpr double kLeastScale = 1e-6;  // smallest scale of a leaf, in normalised inputs
+constexpr double kRootRidge = 1e-12;  // ridge of the model for the whole box
 
-/// Leaf and weight of every sample, row by row, and the same by leaf.
+/// The weights of the leaves at every sample, listed by sample and again by leaf.
 struct Say {
   struct Entry {
-    int index;  // leaf, or row
+    int index;  // of the leaf, or of the row
     double weight;
   };
   std::vector<std::size_t> row_begin;
@@ -50,13 +50,14 @@ Say say_of(const format::Tree& tree, const Samples& u) {
   return out;
 }
 
-/// Share of the range that n samples show by which the truth may go further between and beside
-/// them: about the gap between neighbours of a grid in two inputs, a quarter for few samples.
+/// The share of the range seen in n samples by which the true values may exceed that range between
+/// and beside the samples. It is about the distance of neighbours in a grid over two inputs, and a
+/// quarter for few samples.
 double unseen_share(std::size_t n) {
   return n == 0 ? 0.0 : std::min(0.25, 2.0 / std::sqrt(static_cast<double>(n)));
 }
 
-/// Inputs centred and scaled to where a leaf has a say.
+/// The centre and the scale of the inputs in the region where a leaf is active.
 struct Frame {
   std::array<double, format::kMaxJoints> middle{}, scale{};
 };
@@ -77,7 +78,7 @@ Frame frame_of(const std::vector<Say::Entry>& entries, const Samples& u) {
   return out;
 }
 
-/// w, in terms of (u - middle) / scale, written in terms of u.
+/// Converts the coefficients w of (u - middle) / scale to coefficients of u.
 void to_inputs(const Frame& frame, int inputs, int degree, const double* w, double* out) {
   const std::size_t terms = format::leaf_terms(static_cast<std::size_t>(inputs), degree);
   std::fill_n(out, terms, 0.0);
@@ -117,7 +118,7 @@ struct BlendedFit::Design {
       set_up_sparse();
   }
 
-  /// Terms of a leaf at row i, in its own frame, times its weight.
+  /// The terms of a leaf at row i in its own centred inputs, multiplied by its weight.
   void fill(const Frame& frame, Index i, double weight, double* out) const {
     std::array<double, format::kMaxJoints> local;
     for (int j = 0; j < inputs; ++j) local[j] = (u(i, j) - frame.middle[j]) / frame.scale[j];
@@ -126,7 +127,7 @@ struct BlendedFit::Design {
     for (int t = 0; t < terms; ++t) out[t] *= weight;
   }
 
-  /// phi of every entry of `say`, row by row.
+  /// The weighted terms of every active leaf at every sample, row by row.
   std::vector<double> all_terms() const {
     std::vector<double> out(say.by_row.size() * terms);
     for (Index i = 0; i < u.rows(); ++i)
@@ -135,7 +136,8 @@ struct BlendedFit::Design {
     return out;
   }
 
-  /// In slabs of rows, so that most of it is one matrix product.
+  /// Sets up the dense normal matrix from slabs of rows, so that most of the work is matrix
+  /// products.
   void set_up_dense() {
     phi = all_terms();
     dense = MatrixXd::Zero(unknowns(), unknowns());
@@ -150,7 +152,8 @@ struct BlendedFit::Design {
     }
   }
 
-  /// Column block by column block: no two jobs write the same numbers.
+  /// Sets up the sparse normal matrix by blocks of columns, so that no two jobs write the same
+  /// numbers.
   void set_up_sparse() {
     phi = all_terms();
     const std::size_t block = static_cast<std::size_t>(terms) * terms;
@@ -214,7 +217,7 @@ struct BlendedFit::Design {
 
   int unknowns() const { return leaves * terms; }
 
-  /// One model for the whole box, shape (terms, outputs).
+  /// Fits one model for the whole box. Shape (terms, outputs).
   MatrixXd whole_box(const Samples& y) const {
     std::vector<Say::Entry> all(u.rows());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = {static_cast<int>(i), 1.0};
@@ -260,7 +263,7 @@ struct BlendedFit::Design {
     if (dense.size() > 0) {
       MatrixXd A = dense;
       A.diagonal().array() += added;
-      const Eigen::LLT<MatrixXd> factor(A);  // of the lower triangle
+      const Eigen::LLT<MatrixXd> factor(A);  // reads the lower triangle
       if (factor.info() == Eigen::Success) return factor.solve(b);
       return A.selfadjointView<Eigen::Lower>().ldlt().solve(b);
     }
@@ -298,7 +301,7 @@ struct BlendedFit::Design {
   int inputs, terms, leaves;
   std::vector<Frame> frames;
   std::vector<double> phi;
-  MatrixXd dense;  // lower triangle; or
+  MatrixXd dense;  // lower triangle, or empty if `sparse` is used
   Sparse sparse;
 };
 

@@ -12,11 +12,13 @@ namespace plumb::offline {
 
 /// All leaf coefficients of a blended tree in one least squares over all samples:
 ///   min sum_i (y_i - sum_k Phi_k(u_i) y_k(u_i))^2 + ridge n / leaves sum_k |c_k|^2
-/// where c_k are leaf k's coefficients less those of one model for the whole box, in inputs centred
-/// and scaled to where the leaf has a say: with a large ridge the tree is that one model.
-/// The normal matrix couples only leaves that have a say together, so it is sparse.
+/// where c_k are the coefficients of leaf k minus those of one model for the whole box, in inputs
+/// that are centred and scaled to the region where the leaf is active. With a large ridge the tree
+/// becomes that one model.
+/// The normal matrix couples only leaves that are active at the same point, so it is sparse.
 ///
-/// Made once for a tree and its samples; solved for as many outputs and ridges as wanted.
+/// It is set up once for a tree and its samples, and can be solved for any number of outputs and
+/// ridges.
 /// Cost: samples x (active terms)^2 / 2 to set up; a sparse or, below a thousand or so unknowns, a
 /// dense Cholesky factorisation a ridge.
 class BlendedFit {
@@ -28,12 +30,13 @@ class BlendedFit {
   BlendedFit& operator=(const BlendedFit&) = delete;
 
   /// The tree with new coefficients and bounds for every column of y, shape (n, outputs) [m].
-  /// bounds: what was seen where a leaf has a say, and 2 / sqrt(samples) of that range more, at
-  /// most a quarter: between the samples, and in the corners, the truth goes further.
+  /// The bounds of a leaf are the range of y where it is active, widened by 2 / sqrt(samples) of
+  /// that range, at most by a quarter, because between the samples and in the corners the true
+  /// values exceed the range that was seen.
   std::vector<format::Tree> solve(const Samples& y, double ridge) const;
 
-  /// The same with each leaf fitted by itself to the samples weighted by its validity: the textbook
-  /// LOLIMOT way [Nelles 2000], for comparison.
+  /// The same with each leaf fitted alone to the samples weighted by its validity, as LOLIMOT does
+  /// [Nelles 2000]. Used for comparison.
   std::vector<format::Tree> solve_locally(const Samples& y) const;
 
   int unknowns() const;
@@ -43,7 +46,7 @@ class BlendedFit {
   std::unique_ptr<Design> design_;
 };
 
-/// Smallest ridge that is used: below it nothing changes but rounding.
+/// The smallest ridge that is used; smaller ones change the result by rounding errors only.
 inline constexpr double kLeastRidge = 1e-12;
 
 }  // namespace plumb::offline

@@ -4,24 +4,24 @@
 #include <algorithm>
 #include <numeric>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tree/active_bound.hpp"
 #include "tree/blend.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kNarrower = 0.7;     // ramps, until few enough leaves have a say
-constexpr double kNarrowest = 0.1;    // overlap: less is nearly crisp
-constexpr int kStepShare = 3;         // of the leaves are split at a time: one in three
-constexpr double kBeyondSeen = 0.25;  // of the width of what a leaf saw
+constexpr double kNarrower = 0.7;      // factor on the ramps until few enough leaves are active
+constexpr double kLeastOverlap = 0.1;  // smallest overlap; less is nearly crisp
+constexpr int kStepShare = 3;          // one leaf in three is split in each step
+constexpr double kBeyondSeen = 0.25;   // share of the width of the samples of a leaf
 constexpr double kAlmostAll = 1e-6;
 
 }  // namespace
 
 std::optional<format::Tree> with_ramps(format::Tree tree, const Samples& u, double overlap) {
   const int inputs = static_cast<int>(u.cols());
-  for (; overlap > kNarrowest; overlap *= kNarrower) {
+  for (; overlap > kLeastOverlap; overlap *= kNarrower) {
     add_ramps(tree, u, overlap);
     if (tree.leaves() <= format::kMaxActiveLeaves) return tree;
     if (most_active_leaves(tree, inputs) <= format::kMaxActiveLeaves) return tree;
@@ -39,7 +39,8 @@ BlendedPath::BlendedPath(const Samples& u, const Samples& y, const BlendSettings
   make_fit();
 }
 
-/// False if the ramps of these splits would give too many leaves a say.
+/// Fits the tree of the present splits. Returns false if its ramps would make too many leaves
+/// active at one point.
 bool BlendedPath::make_fit() {
   const auto tree = with_ramps(grown_.cut(stand_), u_, settings_.overlap);
   if (!tree) return false;

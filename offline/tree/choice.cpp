@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tree/domain.hpp"
 #include "tree/folds.hpp"
 #include "tree/jobs.hpp"
@@ -18,16 +18,17 @@
 namespace plumb::offline {
 namespace {
 
-/// Below so many poses a coefficient, a tree describes the noise: 45 poses on a six-axis arm look
-/// five times better in-sample and are worse on fresh poses (the published experiment, on noise).
+/// With fewer poses per coefficient a tree fits the noise. In the published experiment, repeated
+/// with pure noise on 45 poses of a six-axis arm, the error is five times smaller in-sample and
+/// larger on fresh poses.
 constexpr int kPosesPerCoefficient = 10;
 
-/// The cycle walks as deep as the deepest leaf whatever the input: a few more leaves elsewhere cost
-/// less than one that is far down.
+/// Largest depth of crisp trees. The cycle always makes as many comparisons as the deepest leaf
+/// needs, so a few more leaves elsewhere cost less than a single deep one.
 constexpr int kCrispDepth = 10;
-constexpr double kCrispMustGain = 0.95;  // of the error of blended trees
+constexpr double kCrispMustGain = 0.95;  // share of the error of the blended trees
 
-using Chosen = std::array<int, format::kTreeAxes>;  // of the candidates, per axis
+using Chosen = std::array<int, format::kTreeAxes>;  // index of the candidate for each axis
 
 /// Mean over folds and its standard error.
 struct Mean {
@@ -40,14 +41,15 @@ Mean mean_of(const Eigen::VectorXd& x) {
   return {mean, std::sqrt((x.array() - mean).square().sum() / (n * (n - 1.0)))};
 }
 
-/// ln of squared errors; folds without any error are as good as it gets.
+/// The logarithm of squared errors. Folds without any error get the smallest possible value.
 Eigen::VectorXd logarithm(const Eigen::VectorXd& squared_error) {
   return squared_error.array().max(std::numeric_limits<double>::min()).log();
 }
 
-/// Fewest coefficients among the candidates that the best one does not beat by more than a standard
-/// error; of the same size the one with the least error. Ratios are compared: a fold that is hard
-/// for all of them must not hide a difference. squared_error: (folds, candidates).
+/// Among the candidates whose error exceeds the best one's by at most one standard error, the one
+/// with the fewest coefficients, and among those of equal size the one with the smallest error.
+/// Ratios of errors are compared, so that a fold that is difficult for all candidates hides no
+/// difference. squared_error: (folds, candidates).
 int smallest_good(const Eigen::MatrixXd& squared_error,
                   const std::vector<TreeCandidate>& candidates, int inputs) {
   const Eigen::VectorXd total = squared_error.colwise().sum();
@@ -74,10 +76,10 @@ Eigen::VectorXd squared_error_of(const Validation& validation, const Chosen& cho
   return sum;
 }
 
-/// RMS error before and after, and whether the fall is worth a correction.
+/// The RMS error before and after, and whether the reduction justifies a correction.
 struct Gain {
   double before = 0.0, after = 0.0;  // [m]
-  double se = 0.0;                   // of the fall over folds [m]
+  double se = 0.0;                   // standard error of the reduction over the folds [m]
   bool enough_share = false, beyond_se = false;
   double share() const { return before > 0.0 ? 1.0 - after / before : 0.0; }
   bool convinces() const { return enough_share && beyond_se; }
@@ -96,7 +98,7 @@ Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
   return out;
 }
 
-/// Every axis takes its own best, or the best of all together.
+/// The best candidate of every axis, or the one that is best for all axes together.
 Chosen best_of(const Validation& validation, Sharing sharing, int inputs) {
   Chosen out{};
   Eigen::MatrixXd sum;
@@ -111,7 +113,7 @@ Chosen best_of(const Validation& validation, Sharing sharing, int inputs) {
   return out;
 }
 
-/// An axis whose own fall does not convince gets none.
+/// The choice without trees for the axes on which the reduction is not significant.
 Chosen convincing(const Validation& validation, Chosen chosen, double min_gain) {
   for (int axis = 0; axis < format::kTreeAxes; ++axis) {
     if (!validation.has_axis(axis)) {
@@ -132,9 +134,10 @@ std::string too_few(int poses, int joints) {
       poses, joints, joints + 1, kPosesPerCoefficient * (joints + 1));
 }
 
-/// Share by which the error must fall. With few poses luck alone makes it fall by up to about
-/// (coefficients + 2) / poses; asking for more keeps weak effects from making fresh poses worse by
-/// 1 % in more than one data set of a hundred (tried with 2 and 6 joints, 30 to 1500 poses).
+/// The share by which the error must be reduced. With few poses chance alone reduces it by up to
+/// about (coefficients + 2) / poses. With the larger share that is required here, weak effects make
+/// fresh poses worse by 1 % in at most one data set of a hundred (tried with 2 and 6 joints, 30 to
+/// 1500 poses).
 double asked_gain(double min_gain, int poses, int joints) {
   return std::max(min_gain, (joints + 3.0) / poses);
 }
@@ -198,11 +201,12 @@ std::vector<format::Tree> blended_trees(const Samples& u, const Samples& y,
   path.grow_to(candidate.leaves);
   auto out = path.solve(candidate.ridge);
   add_regions(out[0], u);
-  for (auto& tree : out) tree.region = out[0].region;  // the leaves are the same
+  for (auto& tree : out) tree.region = out[0].region;  // all axes have the same leaves
   return out;
 }
 
-/// RMS of held-out errors where a leaf has a say, by its say: the error to expect there.
+/// Adds the error to expect in each leaf: the RMS of the held-out errors, weighted by the validity
+/// of the leaf.
 void add_sigma(const Samples& u, const Eigen::VectorXf& error, format::Tree& tree) {
   const TreeView view(tree, static_cast<int>(u.cols()));
   std::vector<double> sum(tree.leaves(), 0.0), weight(tree.leaves(), 0.0);
@@ -251,14 +255,15 @@ void grow_chosen(const Samples& q, const Samples& residual, const Validation& va
   }
 }
 
-/// Sums depend on the order of their terms in the last bit: let the data say the order.
+/// The order in which rows are used, which depends on the data only. Sums depend on the order of
+/// their terms in the last bit.
 std::vector<int> lexicographic_pairs(const Samples& q, const Samples& residual) {
   Samples table(q.rows(), q.cols() + residual.cols());
   table << q, residual;
   return lexicographic(table);
 }
 
-/// Quadratic leaves need poses too.
+/// The largest degree of the leaves for which there are enough poses.
 int degree_for(const TreeSettings& settings, int poses, int joints) {
   if (settings.form == TreeForm::kCrisp) return 1;
   const auto terms = static_cast<int>(format::leaf_terms(joints, 2));

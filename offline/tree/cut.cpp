@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tree/growth.hpp"
 
 namespace plumb::offline {
@@ -11,7 +11,8 @@ bool stands(const GrownTree& tree, const Splits& stand, int cell) {
   return tree.cells[cell].is_split() && stand[cell];
 }
 
-/// Cells that are reached, level by level, so that parents come before children.
+/// The cells that the standing splits lead to, level by level, so that parents precede their
+/// children.
 std::vector<int> reached(const GrownTree& tree, const Splits& stand) {
   std::vector<int> out;
   if (!tree.cells.empty()) out.push_back(0);
@@ -39,7 +40,8 @@ void append_node(const TreeCell& cell, int low, int high, format::Tree& out) {
                        .high = static_cast<std::int16_t>(high)});
 }
 
-/// If one split is oblique all get a direction, so that the walk costs the same everywhere.
+/// Stores a direction for every split if one is oblique, so that every step down the tree costs the
+/// same.
 void append_directions(const GrownTree& tree, const std::vector<int>& inner, format::Tree& out) {
   const auto oblique = [&](int cell) { return !tree.cells[cell].direction.empty(); };
   if (std::none_of(inner.begin(), inner.end(), oblique)) return;
@@ -96,7 +98,7 @@ double GrownTree::rss(int k) const {
 format::Tree GrownTree::cut(const Splits& stand, int output) const {
   format::Tree out;
   out.degree = static_cast<std::uint8_t>(degree);
-  std::vector<int> child(cells.size()), inner;  // child: of a cell, as the model file counts
+  std::vector<int> child(cells.size()), inner;  // child: number of a cell in the model file
   int leaf = 0;
   for (int cell : reached(*this, stand)) {
     if (stands(*this, stand, cell)) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -6,11 +6,11 @@
 
 namespace plumb::offline {
 
-/// Box of the joint positions q, shape (n >= 1, joints) [rad] or [m]; a joint that hardly moved
-/// gets a hair's width, so that q_min < q_max.
+/// The box of the joint positions q, shape (n >= 1, joints) [rad] or [m]. The range of a joint that
+/// hardly moved is widened to 1e-6, so that q_min < q_max.
 format::Domain trained_box(const Samples& q);
 
-/// Joints that move by more than that hair.
+/// The number of joints whose range is wider than that minimum.
 int moving_joints(const Samples& q);
 
 /// u of every row as the runtime sees it: in [-1, 1], clamped outside. Shape (n, joints).

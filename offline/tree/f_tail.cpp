@@ -29,7 +29,7 @@ double fraction(double p, double q, double x) {
   return h;
 }
 
-/// ln of x^p y^q / B(p, q), y = 1 - x.
+/// The logarithm of x^p y^q / B(p, q), where y = 1 - x.
 double ln_front(double p, double q, double x, double y) {
   return std::lgamma(p + q) - std::lgamma(p) - std::lgamma(q) + p * std::log(x) + q * std::log(y);
 }

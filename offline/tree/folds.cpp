@@ -11,7 +11,7 @@
 namespace plumb::offline {
 namespace {
 
-/// A new permutation of the folds for every round of dealing.
+/// Deals folds in rounds, with a new permutation of the folds in every round.
 class Dealer {
  public:
   Dealer(int folds, std::uint64_t seed) : random_(seed), hand_(folds) {

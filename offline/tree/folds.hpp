@@ -15,7 +15,7 @@ namespace plumb::offline {
 std::vector<int> deal_folds(const Samples& q, const Samples& residual, std::span<const int> group,
                             int folds, std::uint64_t seed);
 
-/// How many different groups there are.
+/// The number of different groups.
 int count_groups(std::span<const int> group);
 
 /// The rows listed, shape (which, columns).

@@ -14,9 +14,10 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of the largest |y|: residuals below it are arithmetic
+constexpr double kRounding = 1e-12;  // share of the largest |y|; smaller residuals are rounding
 
-/// Row lists sorted by every column, each cell a range of them [Breiman 1984, presorting].
+/// Lists of the rows, one sorted by each column. A cell is a range of all of them [Breiman 1984,
+/// presorting].
 class SortedLists {
  public:
   explicit SortedLists(const TrainingRows& rows) : low_(rows.rows), spare_(rows.rows) {

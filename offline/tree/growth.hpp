@@ -10,46 +10,48 @@
 
 namespace plumb::offline {
 
-/// kAxes: one input a split. kOblique: also weighted sums of inputs, where they pay.
+/// kAxes: every split is along one input. kOblique: also along weighted sums of inputs where that
+/// lowers the error clearly.
 enum class SplitKind { kAxes, kOblique };
 
 struct GrowthSettings {
   int max_leaves = 256;
   int min_samples = 0;                    // per leaf; 0 = 3 times its coefficients
-  int max_depth = format::kMaxTreeDepth;  // compares on the way to a leaf
+  int max_depth = format::kMaxTreeDepth;  // comparisons on the way to a leaf
   int degree = 1;                         // of the leaves: affine or quadratic
   SplitKind splits = SplitKind::kAxes;
   double min_side = 0.0;  // share of a cell's width that either side of a split keeps, 0 .. 0.5;
 };                        // 0.5 halves cells as LOLIMOT does. Wide cells blend better.
 
-/// Least squares on the samples of one cell, all outputs.
+/// The least-squares model of the samples of one cell, for all outputs.
 struct LocalModel {
   std::vector<double> w;                          // outputs x leaf terms [m]
   double rss = 0.0;                               // of all outputs [m^2]
-  std::array<double, format::kTreeAxes> y_min{};  // what was seen [m]
+  std::array<double, format::kTreeAxes> y_min{};  // range of the samples [m]
   std::array<double, format::kTreeAxes> y_max{};
   int samples = 0;
 };
 
-/// A box of the input space that was a leaf once, and perhaps was split.
+/// A cell of the input space, which was a leaf when it was made and may have been split later.
 struct TreeCell {
   LocalModel model;
   int depth = 0;
-  int input = -1;                      // of its split along an axis; -1: none, or oblique
+  int input = -1;                      // input of its split; -1 if not split or oblique
   std::vector<double> direction = {};  // of an oblique split: shape (p,), sum |.| = 1
   double threshold = 0.0;
-  int low = -1, high = -1;  // cells; -1: never split
-  int split_at = 0;         // leaves of the tree when it was split
+  int low = -1, high = -1;  // its two parts; -1 if it was never split
+  int split_at = 0;         // number of leaves when it was split
 
   bool is_split() const { return low >= 0; }
   double split_value(std::span<const double> u) const;
 };
 
-/// Which splits of a grown tree stand, one a cell. Those below one that does not stand are moot.
+/// For each cell of a grown tree, whether its split is used. Splits below an unused one have no
+/// effect.
 using Splits = std::vector<char>;
 
-/// A linear model tree grown best-first by exhaustive splits [Karlic 1992, Potts 2005], with every
-/// size on the way. Crisp; blended_fit.hpp makes a smooth one of it.
+/// A crisp linear model tree that was grown best-first with exhaustive splits [Karlic 1992, Potts
+/// 2005]. It contains the trees of all smaller sizes. blended_fit.hpp makes a smooth tree of it.
 class GrownTree {
  public:
   int leaves() const { return cells.empty() ? 0 : static_cast<int>(split_order.size()) + 1; }
@@ -57,20 +59,21 @@ class GrownTree {
   /// Residual sum of squares with k leaves [m^2], k = 1 .. leaves(). Cost O(k).
   double rss(int k) const;
 
-  /// Those of the tree with k leaves.
+  /// The splits of the tree with k leaves.
   Splits first_splits(int k) const;
 
-  /// In the model file's form, for one output; k = 0: no correction.
+  /// The tree with these splits in the form of the model file, for one output.
   format::Tree cut(const Splits& stand, int output = 0) const;
   format::Tree cut(int k, int output = 0) const;
 
-  /// Cells that are leaves when only those splits stand, in the order of the tree cut so.
+  /// The cells that are leaves of the tree with these splits, in the order of its leaves.
   std::vector<int> leaf_cells(const Splits& stand) const;
 
-  /// What a cell says at u, clamped to what it saw as the runtime does. u: shape (p,).
+  /// The value of a cell's model at u, clamped to the range of its samples as in the runtime. u:
+  /// shape (p,).
   double predict(int cell, std::span<const double> u, int output) const;
 
-  std::vector<TreeCell> cells;   // every cell ever made, parents before children
+  std::vector<TreeCell> cells;   // all cells, parents before children
   std::vector<int> split_order;  // the cell that was split when the tree had 1, 2, ... leaves
   int inputs = 0;
   int degree = 1;
@@ -80,9 +83,9 @@ class GrownTree {
 /// Grows on (u, y), u: (n, p) in [-1, 1], p <= kMaxJoints, y: (n, 1 .. 3) [m]: several outputs
 /// share the splits that lower their errors together. Every leaf keeps min_samples and a design of
 /// full rank (condition at most about 1e7); terms that depend on earlier ones in all samples get no
-/// coefficient and no split. Thresholds lie midway between neighbouring values. Ties go to the
-/// lowest input, then the lowest threshold, and the result is the same to the last bit for any
-/// order of the rows. Fewer than min_samples rows: no leaves.
+/// coefficient and no split. Thresholds lie midway between neighbouring values. Of equal splits the
+/// one with the lowest input, then with the lowest threshold, is chosen. The result is the same to
+/// the last bit for any order of the rows. Fewer than min_samples rows: no leaves.
 /// Cost O(p terms^2 n) a level after one sort; oblique splits sort again in every cell.
 GrownTree grow(const Samples& u, const Samples& y, const GrowthSettings& settings);
 

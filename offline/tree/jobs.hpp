@@ -10,7 +10,7 @@
 namespace plumb::offline {
 
 /// Runs job(0) .. job(count - 1) on all processors; each job writes only its own result, so the
-/// outcome does not depend on the number of threads. Rethrows what a job throws.
+/// outcome does not depend on the number of threads. Exceptions of the jobs are thrown again here.
 template <class Job>
 void run_jobs(int count, const Job& job) {
   std::atomic<int> next = 0;

@@ -12,11 +12,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kFollowed = 3;          // times the fold is followed from a start
-constexpr double kWorthIt = 0.95;     // of the RSS along an axis
-constexpr double kNegligible = 0.02;  // of a direction: rounded away, simpler is better
+constexpr int kFollowed = 3;          // number of iterations from each start
+constexpr double kWorthIt = 0.95;     // share of the RSS of the best split along an axis
+constexpr double kNegligible = 0.02;  // smaller components of a direction are set to zero
 
-/// Inputs of some rows, centred; outputs beside them.
+/// The centred inputs and the outputs of some rows.
 struct Cell {
   MatrixXd u, y;
 };
@@ -32,19 +32,19 @@ Cell cell_of(const TrainingRows& rows, std::span<const int> which) {
   return out;
 }
 
-/// Slopes of the best plane, shape (inputs, outputs).
+/// The slopes of the least-squares plane, shape (inputs, outputs).
 MatrixXd slopes(const Cell& cell) {
   MatrixXd A(cell.u.rows(), cell.u.cols() + 1);
   A << VectorXd::Ones(cell.u.rows()), cell.u;
   return A.colPivHouseholderQr().solve(cell.y).bottomRows(cell.u.cols());
 }
 
-/// Largest direction of a symmetric sum of outer products.
+/// The eigenvector with the largest eigenvalue of a symmetric matrix.
 VectorXd leading(const MatrixXd& S) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(S).eigenvectors().rightCols<1>();
 }
 
-/// Where the surface curves most; empty if there are too few rows to tell.
+/// The direction of the strongest curvature; empty if there are too few rows.
 VectorXd curved_most(const Cell& cell) {
   const Eigen::Index p = cell.u.cols(), terms = p * (p + 1) / 2;
   if (cell.u.rows() < 2 * (1 + p + terms)) return {};
@@ -64,7 +64,8 @@ VectorXd curved_most(const Cell& cell) {
   return leading(S);
 }
 
-/// sum |.| = 1, the largest positive, negligible parts 0. Empty for none.
+/// The direction scaled to sum |.| = 1 with a positive largest component and negligible components
+/// set to 0. Empty if d is zero.
 std::vector<double> as_direction(VectorXd d) {
   const double largest = d.size() > 0 ? d.cwiseAbs().maxCoeff() : 0.0;
   if (!(largest > 0.0)) return {};
@@ -94,7 +95,7 @@ class Fold {
     return out;
   }
 
-  /// Normal of the fold between the planes of both sides.
+  /// The normal of the line where the planes of the two sides meet.
   std::vector<double> normal(const SplitCandidate& split) const {
     std::vector<int> low, high;
     for (int row : which_) (split.value(rows_, row) <= split.threshold ? low : high).push_back(row);

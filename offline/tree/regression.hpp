@@ -8,11 +8,11 @@
 
 namespace plumb::offline {
 
-/// Smallest share of a column that must be independent of the others: worse than that, the design
-/// has a condition of 1e7 or more and no leaf is made of it.
+/// The smallest share of a column that must be independent of the others. With less, the condition
+/// number of the design is 1e7 or more, and no leaf is made.
 inline constexpr double kMinIndependentShare = 1e-7;
 
-/// Number of regressors known only when it runs.
+/// The number of regressors is not known at compile time.
 inline constexpr int kAnyTerms = 0;
 
 /// Running least squares of Y outputs on 1 and P terms, sample by sample: rows are turned into the
@@ -64,7 +64,7 @@ class Regression {
   int count() const { return count_; }
   int terms() const { return P == kAnyTerms ? terms_ : P; }
 
-  /// Of all outputs together.
+  /// The residual sum of squares of all outputs together.
   const Scalar& rss() const { return rss_; }
 
   /// Squared norm of term i made orthogonal to the constant and the terms before it.
@@ -84,7 +84,7 @@ class Regression {
   }
 
  private:
-  static constexpr double kEmpty = 1e-300;  // nothing, but divisible
+  static constexpr double kEmpty = 1e-300;  // stands for zero, but can be divided by
   static Scalar splat(double value) { return Scalar{} + value; }
 
   std::array<Scalar, kTerms> diagonal_;

@@ -5,13 +5,14 @@
 #include <numeric>
 
 #include "plumb/format/model.hpp"
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tree/scan.hpp"
 
 namespace plumb::offline {
 namespace {
 
-/// Two outputs are laid out as three, the third 0: one output or all are what the search knows.
+/// The number of outputs in a row. The search is compiled for one or three outputs, so two are
+/// stored as three, the third being 0.
 int laid_out(Eigen::Index outputs) { return outputs == 1 ? 1 : format::kTreeAxes; }
 
 TrainingRows lay_out(const Samples& u, const Samples& y, const std::vector<int>& order,

@@ -7,12 +7,12 @@
 
 namespace plumb::offline {
 
-/// Training samples in the order and layout the search wants: one row a sample, the leaf terms
-/// that are used and then the outputs; rows in lexicographic order, so that nothing depends on the
-/// order given.
+/// Training samples in the order and layout that the search needs. Each row is a sample: the leaf
+/// terms that are used, then the outputs. The rows are in lexicographic order, so that the result
+/// does not depend on the order in which they were given.
 struct TrainingRows {
-  std::vector<int> terms;  // of leaf_terms, in their order; the constant is not among them
-  int inputs = 0;          // the first so many terms are inputs, and can be split
+  std::vector<int> terms;  // indices of the leaf_terms in use, without the constant
+  int inputs = 0;          // number of leading terms that are inputs and can be split
   int outputs = 0;
   int rows = 0;
   int stride = 0;              // terms.size() + outputs
@@ -25,8 +25,9 @@ struct TrainingRows {
 /// Row numbers of a matrix in the lexicographic order of its columns.
 std::vector<int> lexicographic(const Samples& table);
 
-/// Without the terms that depend on earlier ones in all samples; perhaps none remain.
-/// u: (n, p), y: (n, outputs), degree: of the leaves.
+/// The training rows without the terms that depend linearly on earlier ones in all samples. It is
+/// possible that none remain.
+/// u: (n, p), y: (n, outputs), degree: that of the leaves.
 TrainingRows training_rows(const Samples& u, const Samples& y, int degree);
 
 }  // namespace plumb::offline

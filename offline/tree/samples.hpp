@@ -12,7 +12,7 @@ namespace plumb::offline {
 /// Rows are samples. Inputs u in [-1, 1], shape (n, p); outputs y, shape (n, 1 .. 3) [m].
 using Samples = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// One sample as the runtime takes it.
+/// One sample as a contiguous row, as the runtime needs it.
 class SampleRow {
  public:
   SampleRow(const Samples& u, Eigen::Index row) : size_(static_cast<std::size_t>(u.cols())) {

@@ -12,11 +12,11 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kTie = 1e-12;  // of the RSS: less is rounding, not a better split
+constexpr double kTie = 1e-12;  // share of the RSS; smaller differences are rounding errors
 constexpr double kRankLimit = kMinIndependentShare * kMinIndependentShare;
-constexpr int kFixedTerms = 9;  // so many or fewer are known to the compiler
+constexpr int kFixedTerms = 9;  // loops over at most so many terms are unrolled
 
-/// Two regressions side by side: one from each end of a sorted list.
+/// Two regressions that are computed together, one from each end of a sorted list.
 using Pair = double __attribute__((vector_size(16)));
 
 template <class Scalar, class Regressed>
@@ -29,8 +29,8 @@ Scalar least_independent(const Regressed& regression) {
   return least;
 }
 
-/// RSS of the first 1, 2, ... rows of a sorted list and of its last ones; infinite where the rows
-/// do not support a leaf.
+/// The RSS of the first 1, 2, ... rows of a sorted list, and of the last ones. It is infinite where
+/// the rows are not sufficient for a leaf.
 struct EndSums {
   std::vector<double> low, high;
 };
@@ -61,7 +61,8 @@ double midway(double a, double b) {
   return middle < b ? middle : a;
 }
 
-/// value(i): of the i-th row in the order. True if `best` was beaten.
+/// Searches the best split along one order of the rows; value(i) is the value of its i-th row.
+/// Returns true if the split is better than `best`, which it then replaces.
 template <int P, int Y, class Value>
 bool search(const TrainingRows& rows, std::span<const int> order, const Value& value,
             const Admissible& admissible, int min_samples, EndSums& sums, SplitCandidate& best) {

@@ -15,8 +15,8 @@ inline constexpr double kSameValue = 1e-9;
 
 /// One of the weighted sums of inputs tried in a cell; a single input is column `column`.
 struct SplitCandidate {
-  int column = -1;                // of TrainingRows; -1: none, or oblique
-  std::vector<double> direction;  // over the used inputs, sum |.| = 1; empty: none, or one column
+  int column = -1;                // of TrainingRows; -1 if there is none or it is oblique
+  std::vector<double> direction;  // over the used inputs, sum |.| = 1; empty for one column
   double threshold = 0.0;         // rows with value <= threshold go low
   double rss = 0.0;               // both sides together [m^2]
 
@@ -24,7 +24,7 @@ struct SplitCandidate {
   double value(const TrainingRows& rows, int row) const;
 };
 
-/// Thresholds that may be chosen.
+/// The range of the thresholds that may be chosen.
 struct Admissible {
   double from = -2.0, to = 2.0;
 };
@@ -34,15 +34,16 @@ struct Admissible {
 SplitCandidate best_split(const TrainingRows& rows, const std::vector<std::span<const int>>& sorted,
                           std::span<const Admissible> admissible, int min_samples);
 
-/// The same along one direction: order lists the rows by `value`, shape (rows of the cell,).
-/// Infinite rss where nothing is admissible.
+/// The best split along one direction. `order` lists the rows of the cell sorted by `value`, shape
+/// (rows of the cell,). rss is infinite if no split is admissible.
 SplitCandidate best_split_along(const TrainingRows& rows, std::span<const int> order,
                                 std::span<const double> value, int min_samples);
 
-/// Least squares on some rows, in terms of all leaf terms. all_terms: of a leaf, with the constant.
+/// The least-squares model of some rows, with coefficients for all leaf terms. all_terms: number of
+/// terms of a leaf, including the constant.
 LocalModel fit_cell_model(const TrainingRows& rows, std::span<const int> which, int all_terms);
 
-/// First term that depends on the constant and the terms before it, or -1.
+/// The first term that depends linearly on the constant and the terms before it, or -1.
 int dependent_term(const TrainingRows& rows);
 
 }  // namespace plumb::offline

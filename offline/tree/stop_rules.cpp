@@ -22,7 +22,7 @@ Sums sums_of(const GrownTree& tree, const TreeCell& cell) {
           .d = static_cast<double>(format::leaf_terms(tree.inputs, tree.degree))};
 }
 
-/// From the root down: parents stand before their children in the list of cells.
+/// Applies the rule from the root downwards. In the list of cells parents precede their children.
 template <class Rule>
 Splits from_the_root(const GrownTree& tree, const Rule& rule) {
   Splits out(tree.cells.size(), 0), reached(tree.cells.size(), 0);

@@ -3,11 +3,11 @@
 
 #include "tree/growth.hpp"
 
-/// When to stop splitting, besides by cross-validation (choice.hpp).
+/// Rules for when to stop splitting, other than cross-validation (choice.hpp).
 namespace plumb::offline {
 
-/// Fewest leaves at which one more split lowers the rest of the RSS by less than `share` of it:
-/// the stop of the published study with share = 0.02.
+/// The smallest number of leaves at which one more split lowers the remaining RSS by less than
+/// `share` of it. The published study uses share = 0.02.
 int leaves_at_gain(const GrownTree& tree, double share);
 
 /// A split stands if its parent does and it lowers the residual variance by at least
@@ -17,7 +17,7 @@ Splits stop_by_delta(const GrownTree& tree, double share);
 
 /// A split stands if its parent does and Chow's test rejects that both sides are one model:
 /// F = (RSS0 - RSS1 - RSS2) (N - 2 d) / (d (RSS1 + RSS2)) has p < alpha. One output.
-/// The split was chosen as the best of many, so p is charged for their number (Bonferroni).
+/// Because the split is the best of many, p is multiplied by their number (Bonferroni).
 Splits stop_by_chow(const GrownTree& tree, double alpha);
 
 }  // namespace plumb::offline

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tree/blended_path.hpp"
 #include "tree/domain.hpp"
 #include "tree/folds.hpp"
@@ -15,10 +15,10 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kLeafLadder = 1.35;   // next size of a blended tree over the one before
-constexpr int kMostUnknowns = 900;     // of a blended tree that is validated: a second a fold
-constexpr double kClearlyWorse = 1.5;  // times the least squared error of a fold so far
-constexpr int kPatience = 3;           // sizes in a row that may be clearly worse
+constexpr double kLeafLadder = 1.35;   // ratio of successive sizes of a blended tree
+constexpr int kMostUnknowns = 900;     // of a blended tree in validation: about 1 s for each fold
+constexpr double kClearlyWorse = 1.5;  // times the smallest squared error of the fold so far
+constexpr int kPatience = 3;           // growth stops after so many clearly worse sizes in a row
 constexpr std::array kRidges{1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
 
 struct FoldRows {
@@ -50,7 +50,7 @@ Eigen::VectorXd validate_crisp_fold(const Samples& q, const Samples& y, const Fo
   return error_by_size(tree, normalised(box, q_held), trust(box, q_held), rows_of(y, rows.held));
 }
 
-/// As many columns as every fold has sizes.
+/// The curves of all folds as rows, cut to the number of sizes that every fold has.
 Eigen::MatrixXd stacked(const std::vector<Eigen::VectorXd>& curves) {
   Eigen::Index sizes = curves.front().size();
   for (const auto& curve : curves) sizes = std::min(sizes, curve.size());
@@ -59,7 +59,7 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::VectorXd>& curves) {
   return out;
 }
 
-/// Rungs of a ladder of sizes: 1, 2, 3, 4, 6, ...
+/// The sizes that are tried: 1, 2, 3, 4, 6, ... up to `most`.
 std::vector<int> sizes_up_to(int most) {
   std::vector<int> out;
   for (int k = 1; k <= most; k = std::max(k + 1, static_cast<int>(std::lround(k * kLeafLadder))))
@@ -91,7 +91,8 @@ class BlendedFold {
     trust_ = trust(box, q_held);
   }
 
-  /// Errors (held rows, outputs) of every candidate; empty for those that it did not come to.
+  /// The errors of every candidate, shape (held-out rows, outputs); empty for those that were not
+  /// tried.
   std::vector<Samples> run(const std::vector<TreeCandidate>& candidates,
                            const GrowthSettings& growth) const {
     std::vector<Samples> out(candidates.size());

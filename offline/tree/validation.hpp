@@ -8,11 +8,11 @@
 
 namespace plumb::offline {
 
-/// A tree that competes; no leaves is no correction.
+/// A candidate for the choice of a tree; without leaves it means no correction.
 struct TreeCandidate {
   int degree = 1;
   int leaves = 0;
-  double ridge = 0.0;  // of the global least squares; a crisp tree has none
+  double ridge = 0.0;  // of the global least squares; unused for crisp trees
 
   int coefficients(int inputs) const {
     return leaves * static_cast<int>(format::leaf_terms(inputs, degree));
@@ -22,14 +22,15 @@ struct TreeCandidate {
 /// Held-out squared errors of every candidate, fold by fold. Candidate 0 is no correction.
 struct Validation {
   std::vector<TreeCandidate> candidates;
-  std::array<Eigen::MatrixXd, 3> squared_error;  // per axis: (folds, candidates) [m^2]; or none
+  std::array<Eigen::MatrixXd, 3> squared_error;  // per axis: (folds, candidates) [m^2], or empty
   std::array<Eigen::MatrixXf, 3> error;          // per axis: (n, candidates) [m]; blended only
-  Eigen::VectorXd rows;                          // held out in each fold
+  Eigen::VectorXd rows;                          // number of rows held out in each fold
 
   bool has_axis(int axis) const { return squared_error[axis].cols() > 0; }
 };
 
-/// What is validated: (q, residual) as choose_trees takes them, and the fold of every row.
+/// The samples for the validation: (q, residual) as choose_trees takes them, and the fold of every
+/// row.
 struct FoldedSamples {
   const Samples& q;
   const Samples& residual;
@@ -43,15 +44,16 @@ struct FoldedSamples {
 /// faded outside the box. Crisp trees of every size.
 Validation validate_crisp(const FoldedSamples& samples, const GrowthSettings& growth);
 
-/// kShared: one tree for all axes, with numbers of its own for each. kOwn: a tree an axis.
+/// kShared: all axes have the same splits, each with its own coefficients. kOwn: each axis has a
+/// tree of its own.
 enum class Sharing { kShared, kOwn };
 
-/// The same with blended trees of a ladder of sizes and ridges and of every degree up to
-/// growth.degree. A fold stops growing where it has clearly become worse.
+/// The same with blended trees of several sizes and ridges and of every degree up to growth.degree.
+/// Trees of a fold grow no further once their error has clearly become larger.
 Validation validate_blended(const FoldedSamples& samples, const GrowthSettings& growth,
                             Sharing sharing);
 
-/// Columns of the axes that are used, and which axis each is.
+/// The columns of the axes that are used, and the axis of each column.
 struct UsedAxes {
   Samples y;
   std::vector<int> axis;

@@ -7,7 +7,7 @@
 
 namespace plumb::offline {
 
-/// Walls of a cell along each normalised input: at first those of the whole box.
+/// The walls of a cell along each normalised input; initially those of the whole box.
 struct Walls {
   std::array<double, format::kMaxJoints> low, high;
   Walls() {

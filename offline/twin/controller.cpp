@@ -13,9 +13,9 @@ namespace {
 using drivers::BusMessage;
 using drivers::MessageKind;
 
-constexpr double kRest_s = 0.06;      // without motion
+constexpr double kRest_s = 0.06;      // time without motion until the arm counts as at rest
 constexpr double kStill_m = 1.5e-6;   // the bus counts in micrometres
-constexpr double kServoStill = 2e-7;  // [rad] or [m] left to go
+constexpr double kServoStill = 2e-7;  // [rad] or [m] from the goal
 constexpr double kOtherTool_m = 0.02;
 constexpr double kForeign_m = 0.001;  // what a second sender adds to the target
 

@@ -17,14 +17,14 @@
 
 namespace plumb::offline::twin {
 
-/// How the simulated controller drives.
+/// The settings of the simulated controller.
 struct ControllerSettings {
   double cycle_s = 0.004;
   SpeedLimits fastest = {};
   double servo_s = 0.010;        // time constant of the position loop
-  double dwell_s = 0.15;         // at every station, at least
-  double longest_dwell_s = 3.0;  // while the correction still moves
-  double wait_s = 30.0;          // for corrections, before the path begins; 0: begins at once
+  double dwell_s = 0.15;         // shortest time at a station
+  double longest_dwell_s = 3.0;  // longest time to wait until the correction rests
+  double wait_s = 30.0;          // longest wait for corrections before the path; 0: none
   std::uint8_t tool = 1, frame = 1, payload = 1;
   Receiver::Settings receiver = {};
 };
@@ -32,52 +32,54 @@ struct ControllerSettings {
 /// The arm at rest at a station.
 struct Stop {
   int station = 0;
-  VectorXd q;       // encoders [rad, m]
-  Isometry3d X_BD;  // where the tool is meant to be
+  VectorXd q;       // encoder readings [rad, m]
+  Isometry3d X_BD;  // the pose that the tool should have
   Offset offset;    // the correction that was applied
   bool settled = true;
   double path_s = 0.0;  // since the path began
 };
 
-/// plumb-rt went into a state.
+/// A state that plumb-rt entered, as the controller saw it.
 struct StateSeen {
   drivers::SessionState state = drivers::SessionState::kInit;
   double path_s = -1.0;  // since the path began; negative before
 };
 
-/// Monotone, of one run.
+/// Counters and largest values of one run; they only grow.
 struct ControllerCounters {
   std::uint64_t cycles = 0;
   std::uint64_t no_inverse = 0;  // corrected targets that the nominal arm does not reach
-  double largest_step_m = 0.0;   // of the applied correction, from cycle to cycle
+  double largest_step_m = 0.0;   // largest change of the applied correction in a cycle
   double largest_offset_m = 0.0;
-  double first_active_s = -1.0;  // since the start; -1: never
+  double first_active_s = -1.0;  // time since the start; -1 if never
 };
 
-/// A robot controller that knows its nominal arm only. Every cycle it says where it is and where it
-/// is going, listens for corrections, and drives to the corrected target with its own inverse.
-/// Before the path it goes to and fro between the first two stations until corrections are there.
+/// A robot controller that knows the nominal arm only. In every cycle it sends its actual pose and
+/// its target, receives corrections, and moves to the corrected target with its own inverse
+/// kinematics. Before the path begins it moves to and fro between the first two stations until
+/// corrections arrive.
 ///
-/// Thread: one.
+/// To be used by one thread.
 class Controller {
  public:
-  /// kIgnore: sends and hears nothing.
+  /// With kIgnore it sends and receives nothing.
   enum class Corrections { kIgnore, kUse };
 
   Controller(const Cell& cell, const Path& path, const ControllerSettings& settings,
              Corrections corrections, const drivers::BusLayout& layout, const FaultPlan& faults,
              TwinTime& time);
 
-  /// What an option for absolute accuracy would know of the arm; for FaultKind::kAbsolute.
+  /// Gives the controller the chain that an absolute-accuracy option would use, for
+  /// FaultKind::kAbsolute.
   void knows(const format::Chain& own) { own_.emplace(own); }
 
-  /// What its sensors read at each station; without it, it sends no context.
+  /// Sets the readings of its sensors at each station. Without them it sends no context.
   void feels(std::vector<Readings> along) { along_ = std::move(along); }
 
   /// One cycle; `port` may be null if corrections are ignored.
   void cycle(std::int64_t now_ns, drivers::BusPort* port);
 
-  /// Stopped at every station, or gave up waiting for corrections.
+  /// True once it has stopped at every station or given up waiting for corrections.
   bool done() const { return gave_up_ || station_ >= path_.stations(); }
   bool gave_up() const { return gave_up_; }
   const std::vector<Stop>& stops() const { return stops_; }
@@ -85,7 +87,7 @@ class Controller {
   const Receiver& receiver() const { return receiver_; }
   const drivers::SessionStatus& session() const { return session_; }
   const std::vector<StateSeen>& states() const { return states_; }
-  double session_age_s() const;  // since plumb-rt's status last came; infinite: never
+  double session_age_s() const;  // time since the last status of plumb-rt; infinite if none came
 
  private:
   enum class Phase { kApproach, kPath };
@@ -114,15 +116,15 @@ class Controller {
   NominalArm arm_;
   std::optional<NominalArm> own_;
   std::uint32_t serial_;
-  std::vector<std::pair<drivers::MessageKind, std::uint64_t>> every_;  // cycles between messages
+  std::vector<std::pair<drivers::MessageKind, std::uint64_t>> every_;  // its period in cycles
   std::optional<drivers::MessageLayout> context_;
-  std::vector<Readings> along_;  // by station
+  std::vector<Readings> along_;  // one for each station
 
   Phase phase_ = Phase::kApproach;
   Move move_;
-  double move_s_ = 0.0;  // into the move
-  double rest_s_ = 0.0;  // since it ended
-  int station_ = 0;      // that is driven to
+  double move_s_ = 0.0;  // time since the move began
+  double rest_s_ = 0.0;  // time since the move ended
+  int station_ = 0;      // the station that the arm moves to
   bool to_and_fro_ = false;
   bool was_down_ = false;
   bool gave_up_ = false;
@@ -130,7 +132,7 @@ class Controller {
   VectorXd q_path_, q_commanded_, q_measured_, q_frozen_;
   Isometry3d X_BD_;
   Receiver receiver_;
-  std::vector<Offset> recent_;  // of the last moments, for rest
+  std::vector<Offset> recent_;  // the last corrections, to tell whether they rest
   std::uint16_t counter_ = 0;
   std::int64_t start_ns_ = 0, path_ns_ = 0, status_ns_ = 0;
   bool has_status_ = false;

@@ -9,7 +9,7 @@ namespace plumb::offline::twin {
 namespace {
 
 constexpr std::uint64_t kTendEvery = 64;  // cycles
-constexpr int kAfterwards = 8;            // cycles, so that nothing under way is cut off
+constexpr int kAfterwards = 8;  // cycles at the end, so that no message in transit is lost
 
 }  // namespace
 

@@ -8,12 +8,12 @@
 
 namespace plumb::offline::twin {
 
-/// Drives the path without a bus, as fast as this machine computes: corrections off.
+/// Drives the path without a bus and without corrections, as fast as this machine computes.
 std::vector<Stop> drive_uncorrected(const Cell& cell, const Path& path,
                                     const ControllerSettings& settings);
 
-/// Drives the path on the clock of this machine until the controller is done, `longest_s` have
-/// gone by, or `stop` says so. Returns the points of the clock that were missed.
+/// Drives the path in real time until the controller is done, `longest_s` have passed, or `stop`
+/// returns true. Returns the number of missed cycles.
 std::uint64_t drive_in_real_time(Controller& controller, Link& link, double cycle_s,
                                  double longest_s, const std::function<bool()>& stop);
 

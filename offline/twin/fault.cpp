@@ -63,7 +63,7 @@ const Entry& entry_of(const std::string& name, const std::string& text) {
          near ? "did you mean '" + *near + "'?" : "plumb-twin run --list-faults");
 }
 
-/// A number and what stands behind it.
+/// A number and the unit that follows it.
 struct Amount {
   double value = 0.0;
   std::string unit;
@@ -100,7 +100,7 @@ double size_of(const Entry& entry, const std::optional<std::string>& text,
   return share->value * 0.01;
 }
 
-/// Text behind `mark`, which is cut off.
+/// Cuts off `mark` and the text that follows it, and returns that text.
 std::optional<std::string> cut(std::string& text, char mark) {
   const auto at = text.find(mark);
   if (at == std::string::npos) return std::nullopt;

@@ -7,44 +7,45 @@
 
 namespace plumb::offline::twin {
 
-/// What can be wrong with a controller and its line, and what an operator does about it.
+/// The faults of a controller and of its bus, and the actions of an operator.
 enum class FaultKind {
-  kLate,          // every frame comes later; seconds
-  kLose,          // share of the frames that never arrive
-  kRepeat,        // share that arrives twice
-  kCorrupt,       // share with a flipped bit
-  kReorder,       // share that arrives after the ones behind it
-  kDisconnect,    // no frame either way
-  kReboot,        // the controller falls silent, forgets, and counts from zero again
-  kFreeze,        // it repeats old joint positions
-  kAbsolute,      // it corrects its poses by itself: an absolute-accuracy option
-  kTool,          // another tool is active: its poses are those of another point
-  kNoContext,     // payload, temperatures and time are not sent
-  kSecondSender,  // someone else sends corrections under plumb-rt's identifier
+  kLate,          // every frame is delayed; the size is the delay [s]
+  kLose,          // some frames are lost; the size is their share
+  kRepeat,        // some frames arrive twice; the size is their share
+  kCorrupt,       // some frames have a flipped bit; the size is their share
+  kReorder,       // some frames arrive after later ones; the size is their share
+  kDisconnect,    // no frame passes in either direction
+  kReboot,        // the controller restarts: silent, without memory, counters at zero
+  kFreeze,        // the controller repeats old joint positions
+  kAbsolute,      // the controller corrects its poses by itself (absolute-accuracy option)
+  kTool,          // another tool is active, so the poses are those of another point
+  kNoContext,     // the controller sends no payload, temperatures or time
+  kSecondSender,  // another device sends corrections under plumb-rt's identifier
   kStop,          // protective stop
-  kManual,        // operating mode not automatic
+  kManual,        // the operating mode is not automatic
   kDrivesOff,
-  kDisable,      // the cell's own enable is taken away
-  kAcknowledge,  // no fault: the operator's button is pressed
+  kDisable,      // the enable signal of the cell is off
+  kAcknowledge,  // not a fault: the operator presses the acknowledge button
 };
 
-/// One fault and when: for ever, or `for_s` from `from_s` on after the path began [s].
+/// One fault and its time: always, or from `from_s` after the beginning of the path for `for_s`
+/// [s].
 struct Fault {
   FaultKind kind = FaultKind::kLose;
-  double size = 0.0;  // share, or seconds
+  double size = 0.0;  // a share, or a time [s]
   bool always = true;
   double from_s = 0.0;
-  double for_s = 0.0;  // infinite if not said
+  double for_s = 0.0;  // infinite if not given
 };
 
-/// "late=20ms", "lose=30%@5+10", "stop@3+1", "absolute". Throws Failure (kUsage) with "did you
-/// mean".
+/// Reads a fault such as "late=20ms", "lose=30%@5+10", "stop@3+1" or "absolute". Throws Failure
+/// (kUsage), with "did you mean".
 Fault parse_fault(const std::string& text);
 
-/// Name and one line about each.
+/// The name of every fault with one line of description.
 const std::vector<std::pair<std::string, std::string>>& known_faults();
 
-/// What is wrong at a time.
+/// Tells which faults are active at a time.
 class FaultPlan {
  public:
   FaultPlan() = default;

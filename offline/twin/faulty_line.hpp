@@ -11,12 +11,12 @@
 
 namespace plumb::offline::twin {
 
-/// One direction of a line that loses, delays, repeats, corrupts and reorders what goes over it.
-/// The same seed does the same to the same traffic.
+/// One direction of a line that loses, delays, repeats, corrupts and reorders the units that it
+/// transmits. The same seed has the same effect on the same traffic.
 template <class Unit>
 class FaultyLine {
  public:
-  /// What a flipped bit makes of a unit; false: it is lost by that.
+  /// Applies a flipped bit to a unit. Returns false if the unit is lost because of it.
   using Corrupt = std::function<bool(Unit&, sim::Random&)>;
 
   FaultyLine(const FaultPlan& plan, std::uint64_t seed, std::string_view direction, Corrupt corrupt)
@@ -34,7 +34,7 @@ class FaultyLine {
     if (happens(FaultKind::kRepeat)) insert({due_ns, unit});
   }
 
-  /// The next unit that is due; false: none.
+  /// Takes the next unit that is due. Returns false if there is none.
   bool get(Unit& out, std::int64_t now_ns) {
     if (under_way_.empty() || under_way_.front().due_ns > now_ns) return false;
     out = under_way_.front().unit;

@@ -12,13 +12,13 @@
 
 namespace plumb::offline::twin {
 
-/// Which bus the controller speaks on, as the command line says it.
+/// The bus of the controller, as chosen on the command line.
 struct LinkChoice {
   std::string can;              // "vcan0"
-  std::string modbus;           // "host:port": plumb-rt is the server, we ask
-  std::string modbus_serve;     // "address:port": plumb-rt asks, we are the server
+  std::string modbus;           // "host:port": plumb-rt is the server, the twin the client
+  std::string modbus_serve;     // "address:port": the twin is the server
   std::string rtu;              // device
-  std::string role = "server";  // ours on the serial line
+  std::string role = "server";  // of the twin on the serial line
   int unit = 1;
   int baud = 115200;
 
@@ -28,26 +28,26 @@ struct LinkChoice {
   bool is_can() const { return !can.empty(); }
 };
 
-/// The layout of `file`: [bus] of an rt.toml or [deploy.bus] of a cell.toml; without such a table
-/// the default. Throws Failure (kInput).
+/// The layout in `file`, which is the table [bus] of an rt.toml or [deploy.bus] of a cell.toml.
+/// Without such a table it is the default layout. Throws Failure (kInput).
 drivers::BusLayout read_layout(const Cell& cell, const std::filesystem::path& file,
                                drivers::BusUse use);
 
-/// An open bus with whatever stands behind its port.
+/// An open bus and everything that its port needs.
 class Link {
  public:
   virtual ~Link() = default;
   virtual drivers::BusPort& port() noexcept = 0;
-  /// Now and then: helps a link that is down to come back. May wait.
+  /// Tries to restore a link that is down. To be called from time to time; it may block.
   virtual void tend() noexcept {}
 };
 
-/// Throws Failure (kEnvironment, E-TWIN-BUS) with the system's reason. `plan` and `time` outlive
-/// it.
+/// Opens the chosen bus. `plan` and `time` must outlive the link. Throws Failure (kEnvironment,
+/// E-TWIN-BUS) with the system's reason.
 std::unique_ptr<Link> open_link(const LinkChoice& choice, const drivers::BusLayout& layout,
                                 const FaultPlan& plan, const TwinTime& time, std::uint64_t seed);
 
-/// "192.168.0.7:502" or "[::1]:502" in two. Throws Failure (kUsage).
+/// The two parts of an address such as "192.168.0.7:502" or "[::1]:502". Throws Failure (kUsage).
 struct HostAndPort {
   std::string host;
   int port = 0;

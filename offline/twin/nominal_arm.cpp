@@ -9,9 +9,9 @@ namespace plumb::offline::twin {
 namespace {
 
 constexpr int kMostSteps = 30;
-constexpr double kReached = 1e-9;   // of the pose, lengths divided by the reach
-constexpr double kDamping = 1e-12;  // of the squared singular values
-constexpr double kFarthest = 0.5;   // [rad] or [m]: another branch beyond
+constexpr double kReached = 1e-9;   // error of the pose, with lengths divided by the reach
+constexpr double kDamping = 1e-12;  // added to the squared singular values
+constexpr double kFarthest = 0.5;   // [rad] or [m]; a solution farther away is another branch
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 

@@ -9,8 +9,8 @@ using sim::Isometry3d;
 using sim::Vector3d;
 using sim::VectorXd;
 
-/// The arm as the robot controller knows it: nominal kinematics, there and back. Written apart from
-/// the runtime's: the simulator's frames, and a numerical inverse.
+/// The arm as the robot controller knows it: its nominal kinematics, forward and inverse. It is
+/// independent of the runtime, with the frames of the simulator and a numerical inverse.
 class NominalArm {
  public:
   explicit NominalArm(const format::Chain& chain) : arm_(chain), reach_m_(arm_.reach()) {}
@@ -21,9 +21,10 @@ class NominalArm {
   /// Tool pose in the base frame, X_BT.
   Isometry3d forward(const VectorXd& q) const { return arm_.frames(q).tool; }
 
-  /// Moves q [rad, m] to where the tool stands at X_BT, in the configuration that q is in. False,
-  /// and q as it was, if it does not get within 1 nm and 1 nrad, or only beyond 0.5 rad away.
-  /// Fewer than six joints: the target must be one that the arm can reach.
+  /// Moves q [rad, m] to the joint positions with the tool at X_BT, in the configuration of q.
+  /// Returns false, with q unchanged, if it does not come within 1 nm and 1 nrad of the pose or if
+  /// the solution is more than 0.5 rad away. An arm with fewer than six joints must be able to
+  /// reach the target.
   bool inverse(const Isometry3d& X_BT, VectorXd& q) const;
 
   /// Smallest singular value of the Jacobian, lengths divided by the reach.

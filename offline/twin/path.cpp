@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kDrawnPerStation = 4;
 constexpr int kTriesPerStation = 200;
-constexpr int kBetween = 8;          // places looked at on the way
+constexpr int kBetween = 8;          // poses that are checked on the way
 constexpr double kAtStation = 0.06;  // least dexterity
 constexpr double kOnTheWay = 0.04;
-constexpr double kPeak = 1.875;   // highest speed of a move over its mean
-constexpr double kNearby = 0.25;  // of the range
+constexpr double kPeak = 1.875;   // ratio of the highest speed of a move to its mean speed
+constexpr double kNearby = 0.25;  // share of the range of a joint
 constexpr double kShortest_s = 0.1;
-constexpr int kParts = 32;  // of a move, to see how fast the tool is
+constexpr int kParts = 32;  // parts of a move in which the speed of the tool is checked
 
 bool well_between(const NominalArm& arm, const VectorXd& a, const VectorXd& b, int configuration) {
   for (int k = 1; k < kBetween; ++k) {
@@ -29,7 +29,7 @@ bool well_between(const NominalArm& arm, const VectorXd& a, const VectorXd& b, i
   return true;
 }
 
-/// Places of one configuration, as drawn.
+/// Random joint positions of one configuration, in the order in which they were drawn.
 std::vector<VectorXd> drawn(const Cell& cell, const NominalArm& arm, int count, double range,
                             std::uint64_t seed) {
   sim::Random random(seed, "path");
@@ -49,7 +49,8 @@ std::vector<VectorXd> drawn(const Cell& cell, const NominalArm& arm, int count, 
   return out;
 }
 
-/// The nearest one that can be reached on a straight way, out of those left; -1: none.
+/// The nearest of the unused joint positions that can be reached on a straight way; -1 if there is
+/// none.
 int next(const NominalArm& arm, const VectorXd& here, const std::vector<VectorXd>& all,
          const std::vector<bool>& used) {
   std::vector<std::pair<double, int>> order;
@@ -62,7 +63,8 @@ int next(const NominalArm& arm, const VectorXd& here, const std::vector<VectorXd
   return -1;
 }
 
-/// Somewhere near, where the straight ways to all that is left are blocked; empty: nowhere.
+/// A random joint position nearby, for when the straight ways to all unused ones are blocked; empty
+/// if none is found.
 VectorXd nearby(const Cell& cell, const NominalArm& arm, const VectorXd& here, double range,
                 sim::Random& random) {
   const int configuration = arm.configuration(here);

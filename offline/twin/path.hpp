@@ -9,19 +9,21 @@
 
 namespace plumb::offline::twin {
 
-/// Where the controller takes the arm: it stops at every station. Joints of the nominal arm, a row
-/// a station [rad, m].
+/// The path of the arm, which stops at every station. One row of joint positions of the nominal arm
+/// for each station [rad, m].
 struct Path {
   RowsN q;
   int stations() const { return static_cast<int>(q.rows()); }
 };
 
-/// Stations inside the joint limits, one configuration, away from singular poses also in between,
-/// each near the one before. `range`: share of each joint's range, around its middle.
-/// Throws Failure (kNumbersSayNo) if the arm has not so many.
+/// Random stations inside the joint limits, in one configuration, each near the one before, and
+/// with all ways away from singular poses. `range` is the share of the range of each joint that is
+/// used, around its middle.
+/// Throws Failure (kNumbersSayNo) if so many cannot be found.
 Path generated_path(const Cell& cell, int stations, double range, std::uint64_t seed);
 
-/// A targets CSV as plumb correct reads it: tool poses in the base frame with q1_deg ... near them.
+/// Reads a CSV file of targets like those of plumb correct: tool poses in the base frame with joint
+/// positions q1_deg ... near them.
 /// Throws Failure (kInput).
 Path path_from(const Cell& cell, const std::filesystem::path& file);
 
@@ -32,7 +34,8 @@ struct SpeedLimits {
   double tool_rad_per_s = 4.0;
 };
 
-/// How it does: all joints begin and end together, without a jerk.
+/// A move between two stations. All joints begin and end together, with zero speed and acceleration
+/// at both ends.
 ///   q(s) = a + (b - a)(10 s^3 - 15 s^4 + 6 s^5)
 class Move {
  public:

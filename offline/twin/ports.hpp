@@ -11,7 +11,7 @@
 
 namespace plumb::offline::twin {
 
-/// Where CAN frames go in and out: an interface, or memory in tests. None of it blocks.
+/// Transmits CAN frames: over an interface, or in memory for tests. No function blocks.
 class CanWire {
  public:
   virtual ~CanWire() = default;
@@ -20,8 +20,8 @@ class CanWire {
   virtual drivers::LinkState state() const noexcept = 0;
 };
 
-/// The controller's end of a CAN bus, with faults between codec and wire: what is corrupt, lost or
-/// late here meets the other side's own checks. `time` and `plan` outlive it.
+/// The controller's end of a CAN bus, with faults between codec and wire, so that corrupt, lost and
+/// late frames are handled by the checks of the receiver. `time` and `plan` must outlive it.
 class FaultyCanPort final : public drivers::BusPort {
  public:
   FaultyCanPort(CanWire& wire, const drivers::BusLayout& layout, const FaultPlan& plan,
@@ -42,8 +42,8 @@ class FaultyCanPort final : public drivers::BusPort {
   drivers::PortCounters counters_;
 };
 
-/// The same around any other port: faults befall whole messages, and a corrupt one is lost, as the
-/// other side's check sum would have it.
+/// The same for any other port. The faults act on whole messages, and a corrupt message is lost,
+/// because the receiver would discard it for its check sum.
 class FaultyPort final : public drivers::BusPort {
  public:
   FaultyPort(drivers::BusPort& port, const FaultPlan& plan, const TwinTime& time,
@@ -60,7 +60,7 @@ class FaultyPort final : public drivers::BusPort {
   FaultyLine<drivers::BusMessage> out_, in_;
 };
 
-/// Two ports, back to back in memory: what one sends the other receives. For tests.
+/// Two connected ports in memory, for tests: each receives what the other sends.
 class MemoryBus {
  public:
   explicit MemoryBus(const TwinTime& time) : a_(*this, ab_, ba_, time), b_(*this, ba_, ab_, time) {}

@@ -22,9 +22,9 @@ struct Offset {
 Offset offset_between(const Isometry3d& X_BD, const Isometry3d& X_BC);
 Isometry3d applied(const Offset& offset, const Isometry3d& X_BD);
 
-/// What a controller that receives corrections must do, so that no fault of the line or death of
-/// the sender moves the robot wrongly. The reference for those who write it in their controller's
-/// own language:
+/// What a controller that receives corrections must do, so that neither a fault of the bus nor the
+/// death of the sender moves the robot wrongly. It is the reference for an implementation in the
+/// language of a robot controller:
 ///
 ///   1  A correction says which target it belongs to by its counter. Its age is the time since
 ///      that target was sent, not since the answer came: a late answer is an old one.
@@ -46,28 +46,28 @@ class Receiver {
 
   struct Counters {
     std::uint64_t used = 0;
-    std::uint64_t stale = 0;      // for an old target, or one never sent
+    std::uint64_t stale = 0;      // for an old target, or for one that was never sent
     std::uint64_t too_large = 0;  // or not finite
-    std::uint64_t overtaken = 0;  // for a target before the one used last
-    double oldest_s = 0.0;        // age of a used one when it came, at most
+    std::uint64_t overtaken = 0;  // for a target that is older than the one used last
+    double oldest_s = 0.0;        // largest age on arrival of a correction that was used
   };
 
   explicit Receiver(const Settings& settings) : settings_(settings) {}
 
-  /// A target goes out under this counter.
+  /// Remembers the target that is sent with this counter.
   void sent(std::uint16_t counter, const Isometry3d& X_BD, std::int64_t now_ns);
 
-  /// A kCorrected or kOffset came; other kinds are ignored.
+  /// Takes a message of the kind kCorrected or kOffset; other kinds are ignored.
   void hear(const drivers::BusMessage& message, std::int64_t now_ns);
 
-  /// Once a cycle: what to apply now.
+  /// Returns the correction to apply now. To be called once in every cycle.
   const Offset& step(std::int64_t now_ns, double dt_s);
 
   const Offset& present() const { return present_; }
   bool fresh(std::int64_t now_ns) const;
   const Counters& counters() const { return counters_; }
 
-  /// After a reboot: nothing sent is remembered; what is applied stays where it is.
+  /// Forgets all sent targets, as after a restart. The applied correction does not change.
   void forget();
 
  private:
@@ -79,10 +79,10 @@ class Receiver {
   std::optional<Offset> offset_in(const drivers::BusMessage& message, const Sent& target) const;
 
   Settings settings_;
-  std::array<Sent, 256> sent_{};  // by the eight bits of the counter that every bus carries
+  std::array<Sent, 256> sent_{};  // by the eight bits of the counter that every bus transmits
   Offset goal_, present_;
   bool has_goal_ = false;
-  std::int64_t goal_ns_ = 0;  // when the target of the goal was sent
+  std::int64_t goal_ns_ = 0;  // when the target that the goal belongs to was sent
   Counters counters_;
 };
 

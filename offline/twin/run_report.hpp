@@ -8,12 +8,14 @@
 
 namespace plumb::offline::twin {
 
-/// Adds `loop` to the result and its lines to the text: what the controller saw of plumb-rt and of
-/// the bus. An error (kBusLost) if it waited for corrections in vain.
+/// Adds to the result the member `loop`, and to the text its lines: what the controller saw of
+/// plumb-rt and of the bus. Reports an error (kBusLost) if the controller waited for corrections in
+/// vain.
 void add_loop(const Controller& controller, const drivers::PortCounters& port, std::uint64_t missed,
               Outcome& outcome);
 
-/// Adds `stops` to the result: when, how far from where it should be, with which correction.
+/// Adds to the result the member `stops`: for each stop its time, its error and the correction that
+/// was applied.
 void add_stops(const std::vector<Stop>& stops, const TrueErrors& errors, Outcome& outcome);
 
 }  // namespace plumb::offline::twin

@@ -16,7 +16,7 @@ using Domain = sim::LawEntry::Domain;
 
 constexpr double kHours_s = 7200.0;
 
-/// What moves the arm itself, not its measurement.
+/// The hidden effects without those that act on the measurement only.
 HiddenTruth of_the_arm(HiddenTruth truth) {
   std::erase_if(truth.sized, [](const HiddenEffect& effect) {
     const Domain domain = sim::find_law(effect.name)->domain;

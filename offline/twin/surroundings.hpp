@@ -10,9 +10,9 @@
 
 namespace plumb::offline::twin {
 
-/// What moves the arm besides its joints, and what the controller's own sensors say of it. A path
-/// takes the arm through two hours of the simulator's climate, however fast it is driven: station k
-/// of n is visited when k n-ths of them are over.
+/// The influences on the arm besides its joint positions, and what the controller's sensors tell of
+/// them. A path takes the arm through two hours of the simulator's climate, however fast it is
+/// driven: the station with index k of n is visited after k / n of that time.
 
 struct Temperature {
   std::string sensor;
@@ -22,23 +22,24 @@ struct Temperature {
 /// What the controller knows at a station.
 struct Readings {
   Payload payload;
-  double time_s = 0.0;  // since those hours began
+  double time_s = 0.0;  // since the two hours began
   std::vector<Temperature> temperatures;
 };
 
-/// One for every station. Throws Failure (kInput, E-TWIN-SENSOR) for a sensor that the arm has not.
+/// The readings at every station. Throws Failure (kInput, E-TWIN-SENSOR) for an unknown sensor.
 std::vector<Readings> readings_along(const Cell& cell, const Hidden& hidden,
                                      const HiddenTruth& truth, const Path& path);
 
-/// kContext as the layout has it, value by value by their names, temperatures that have none in the
-/// order of the readings; NaN: there is no such reading.
+/// The context message of this layout. Each value is found by its name; temperatures without names
+/// follow the order of the readings. A value without a reading is NaN.
 drivers::BusMessage context_message(const drivers::MessageLayout& layout, const Readings& now,
                                     std::uint16_t counter);
 
-/// The arm, and not its measurement, at the first rows of a path of `stations` stations.
+/// The plan that simulates the arm, without the effects of the measurement, at the first stations
+/// of a path of `stations` stations.
 SimulationPlan visits_of(const HiddenTruth& truth, const RowsN& q, int stations);
 
-/// There are effects whose size follows a temperature.
+/// True if the size of any of these effects depends on a temperature.
 bool needs_temperatures(const std::vector<HiddenEffect>& effects);
 
 }  // namespace plumb::offline::twin

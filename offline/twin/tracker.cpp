@@ -13,7 +13,7 @@
 namespace plumb::offline::twin {
 namespace {
 
-constexpr std::uint64_t kOtherNoise = 0x7ac4e2;  // than that of the measurements
+constexpr std::uint64_t kOtherNoise = 0x7ac4e2;  // so that it differs from the measurements
 
 RowsN joints_of(const std::vector<Stop>& stops) {
   RowsN q(static_cast<Eigen::Index>(stops.size()), stops.front().q.size());

@@ -16,20 +16,21 @@ struct ErrorFigures {
 };
 ErrorFigures figures_of(std::vector<double> errors_m);
 
-/// What the true arm did at the stops of a path, as nobody else can know it, and as the tracker
-/// saw it. A path that was not driven to its end has fewer stops than stations.
+/// The errors of the true arm at the stops of a path: the true ones, which only the simulation
+/// knows, and those that the tracker measured. A path that was not driven to its end has fewer
+/// stops than stations.
 struct TrueErrors {
   ErrorFigures truth;
-  ErrorFigures measured;       // with the tracker's noise
+  ErrorFigures measured;       // including the noise of the tracker
   std::vector<double> each_m;  // true, in the order of the stops
 };
 
-/// Throws Failure (kInput) if the cell does not state where tracker and reflector stand: then the
-/// error has no frame to be stated in.
+/// Throws Failure (kInput) if the cell does not state where tracker and reflector are, because then
+/// there is no frame in which the error could be stated.
 TrueErrors true_errors(const Cell& cell, const Hidden& hidden, const HiddenTruth& truth,
                        int stations, const std::vector<Stop>& stops);
 
-/// What the noise alone would be seen as: mean sigma sqrt(8/pi), RMS sigma sqrt(3).
+/// The error that noise alone would show: mean sigma sqrt(8/pi), RMS sigma sqrt(3).
 struct NoiseFloor {
   double mean_m = 0.0, rms_m = 0.0;
 };
@@ -44,8 +45,9 @@ struct Comparison {
   NoiseFloor floor;
   int unsettled = 0;  // stops at which the correction still moved
 
-  double ratio() const;  // of the mean true errors
-  /// At least five times better, and what the tracker sees below 1.3 times its noise.
+  double ratio() const;  // ratio of the mean true errors
+  /// True if the correction makes the arm at least five times better and the measured error is
+  /// below 1.3 times the noise.
   bool reached() const;
 };
 inline constexpr double kLeastRatio = 5.0;

@@ -6,7 +6,7 @@
 
 namespace plumb::offline::twin {
 
-/// The same pose in the words of the bus and of the simulator.
+/// Converts a pose of the simulator to the type that the bus uses.
 inline Transformd to_transform(const sim::Isometry3d& X) { return {X.linear(), X.translation()}; }
 
 inline sim::Isometry3d to_isometry(const Transformd& X) {

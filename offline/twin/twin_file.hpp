@@ -9,10 +9,10 @@
 
 namespace plumb::offline::twin {
 
-/// What the twin's arm hides and how well its tracker reads; `twin.toml` beside `cell.toml`. No
-/// other program of ours reads it.
+/// The hidden properties of the twin's arm and the noise of its tracker, read from `twin.toml`
+/// beside `cell.toml`. No other program of Plumb reads that file.
 struct Hidden {
-  std::uint64_t seed = 1;                 // of arm, poses and noise
+  std::uint64_t seed = 1;                 // for arm, poses and noise
   std::vector<std::string> effects = {};  // as for plumb simulate: "joint_compliance:J2=150urad"
   double geometry_m = 0.3e-3;             // 1 sigma of every length error
   double geometry_rad = 0.3e-3;           // and of every angle error
@@ -23,17 +23,18 @@ struct Hidden {
 
 std::string write_hidden(const Hidden& hidden);
 
-/// Throws Failure (kInput) with all problems, unknown keys included.
+/// Reads twin.toml. Throws Failure (kInput) with all problems, including unknown keys.
 Hidden parse_hidden(std::string text, const std::string& file_name);
 
-/// What stands in a twin's folder: the cell as its user knows it, and what is hidden from them.
+/// The content of a twin's folder: the cell as its user knows it, and what is hidden from the user.
 struct TwinFolder {
   Cell cell;
   Hidden hidden;
 };
 TwinFolder open_folder(const std::filesystem::path& folder, Outcome& outcome);
 
-/// The same arm every time: sizes in sigma become those that 150 poses of the cell make visible.
+/// The truth of the arm, the same at every call. Sizes stated in sigma become those that 150 poses
+/// of the cell make visible.
 HiddenTruth truth_of(const Cell& cell, const Hidden& hidden);
 
 }  // namespace plumb::offline::twin

@@ -46,20 +46,20 @@ void measure(const Options& options, Outcome& outcome) {
 
 void add_measure(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "measure",
        .summary = "The tracker reads the true arm at random poses: measurements.csv",
        .examples = "  plumb-twin measure mytwin\n  plumb-twin measure mytwin --poses 80 --force"},
       [options](const Globals&, Outcome& o) { measure(*options, o); });
-  verb.add_option("DIR", options->directory, "Folder of the twin")->required();
+  verb.add_option("DIR", options->directory, "Folder of the twin").required();
   verb.add_option("--poses", options->poses, "Distinct poses, uniform inside the joint limits")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  verb.add_option("--repeats", options->repeats, "Read every tenth pose so often")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      .check(whole_number_between(1, 100000))
+      .shows_default();
+  verb.add_option("--repeats", options->repeats, "Read every tenth pose this many times")
+      .check(whole_number_between(1, 1000))
+      .shows_default();
   verb.add_option("-o,--output", options->output, "Measurements; else measurements.csv in DIR")
-      ->type_name("FILE");
+      .type_name("FILE");
   options->write.add_to(verb);
 }
 

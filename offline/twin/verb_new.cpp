@@ -25,7 +25,8 @@ struct Options {
   WriteOptions write;
 };
 
-/// A sample cell of plumb demo lends its arm, and usually something to hide.
+/// A robot to choose from. It takes its arm, and in most cases its hidden effect, from a sample
+/// cell of plumb demo.
 struct Robot {
   const char* name;
   const char* demo;
@@ -50,8 +51,8 @@ const Robot& find_robot(const std::string& name) {
   return kRobots[0];
 }
 
-/// The tracker was aligned to the arm's base, and its reflector sits in the tool centre point: so
-/// an error of the tool has a frame to be stated in.
+/// The tracker is aligned to the base of the arm, and its reflector is at the tool centre point, so
+/// that an error of the tool can be stated in the base frame.
 Cell cell_of(const Robot& robot, const Options& options) {
   Cell cell = make_demo(robot.demo).cell;
   cell.directory = fs::absolute(options.directory);
@@ -80,15 +81,17 @@ std::string next_steps(const std::string& folder) {
       folder);
 }
 
-/// The default layout has room for none. Throws Failure (kUsage) for an effect that is none.
+/// Adds the temperatures to the bus layout if an effect needs them; the default layout has none.
+/// Throws Failure (kUsage) for an unknown effect.
 void report_temperatures(const Hidden& hidden, Cell& cell) {
   std::vector<HiddenEffect> effects;
   for (const auto& effect : hidden.effects) effects.push_back(parse_hidden_effect(effect, cell));
   if (!needs_temperatures(effects)) return;
-  cell.deploy.bus =
+  drivers::BusLayout layout =
       drivers::arm_layout(drivers::bus_arm(cell.nominal, cell.deploy.cycle_s),
                           static_cast<int>(hidden.sensors.size()), drivers::CorrectionForm::kPose);
-  drivers::name_temperatures(hidden.sensors, *cell.deploy.bus);
+  drivers::name_temperatures(hidden.sensors, layout);
+  cell.deploy.bus = std::make_shared<const drivers::BusLayout>(std::move(layout));
 }
 
 void make(const Options& options, Outcome& outcome) {
@@ -102,7 +105,7 @@ void make(const Options& options, Outcome& outcome) {
   if (hidden.effects.empty()) hidden.effects = {robot.hides};
   report_temperatures(hidden, cell);
   const fs::path folder = options.directory;
-  OutputFiles files;
+  OutputFiles files(folder);
   files.add(folder / "cell.toml", write_cell(cell));
   files.add(folder / "twin.toml", write_hidden(hidden));
   outcome.result = {{"directory", folder.string()},
@@ -119,29 +122,29 @@ void make(const Options& options, Outcome& outcome) {
 
 void add_new(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "new",
        .summary = "Write a cell and what its arm hides",
        .examples = "  plumb-twin new mytwin\n"
                    "  plumb-twin new mytwin --robot heavy --hidden gear_ripple:J2=40urad --seed 7"},
       [options](const Globals&, Outcome& o) { make(*options, o); });
-  verb.add_option("DIR", options->directory, "Folder to write into")->required();
+  verb.add_option("DIR", options->directory, "Folder to write into").required();
   verb.add_option("--robot", options->robot, "Which arm")
-      ->check(CLI::IsMember(robot_names()))
-      ->capture_default_str();
+      .check(one_of(robot_names()))
+      .shows_default();
   verb.add_option("--hidden,--effect", options->hidden,
                   "Effect that the nominal model lacks; may be repeated; see plumb simulate --list")
-      ->type_name("EFFECT");
-  verb.add_option("--seed", options->seed, "Of arm, poses and noise")->capture_default_str();
+      .type_name("EFFECT");
+  verb.add_option("--seed", options->seed, "Of arm, poses and noise").shows_default();
   verb.add_option("--noise-um", options->noise_um, "Noise of the tracker per axis, 1 sigma")
-      ->check(CLI::Range(0.01, 1e4))
-      ->capture_default_str();
+      .check(number_between(0.01, 1e4))
+      .shows_default();
   verb.add_option("--geometry-um", options->geometry_um, "1 sigma of every length error")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+      .check(number_between(0.0, 1e5))
+      .shows_default();
   verb.add_option("--geometry-urad", options->geometry_urad, "1 sigma of every angle error")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+      .check(number_between(0.0, 1e5))
+      .shows_default();
   options->write.add_to(verb);
 }
 

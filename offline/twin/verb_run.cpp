@@ -54,7 +54,7 @@ FaultPlan faults_of(const Options& options) {
   return FaultPlan(std::move(out));
 }
 
-/// What there is to drive, and what is hidden from whoever drives it.
+/// A twin that is ready to run: its folder, its hidden truth and its path.
 struct Twin : TwinFolder {
   HiddenTruth truth;
   Path path;
@@ -69,7 +69,7 @@ Twin open(const Options& options, Outcome& outcome) {
   return out;
 }
 
-/// Corrections from plumb-rt, on the clock of this machine.
+/// Drives the path in real time with corrections from plumb-rt.
 std::vector<Stop> drive_corrected(const Options& options, const Twin& twin, Outcome& outcome) {
   const fs::path layout_file =
       options.layout.empty() ? fs::path(options.directory) / "cell.toml" : fs::path(options.layout);
@@ -131,52 +131,53 @@ void run(const Options& options, Outcome& outcome) {
                             .help = "plumb-rt monitor"});
 }
 
-void add_options(Options& o, CLI::App& verb) {
+void add_options(Options& o, VerbOptions& verb) {
   verb.add_option("DIR", o.directory, "Folder of the twin");
-  verb.add_option("--can", o.link.can, "CAN interface")->type_name("NAME");
+  verb.add_option("--can", o.link.can, "CAN interface").type_name("NAME");
   verb.add_option("--modbus", o.link.modbus, "plumb-rt is the Modbus server there")
-      ->type_name("HOST:PORT");
+      .type_name("HOST:PORT");
   verb.add_option("--modbus-serve", o.link.modbus_serve, "We are the Modbus server there")
-      ->type_name("ADDR:PORT");
-  verb.add_option("--rtu", o.link.rtu, "Modbus RTU on a serial device")->type_name("DEVICE");
+      .type_name("ADDR:PORT");
+  verb.add_option("--rtu", o.link.rtu, "Modbus RTU on a serial device").type_name("DEVICE");
   verb.add_option("--role", o.link.role, "Ours on the serial line")
-      ->check(CLI::IsMember({"server", "client"}))
-      ->capture_default_str();
-  verb.add_option("--unit", o.link.unit, "Modbus unit")->check(CLI::Range(0, 255));
-  verb.add_option("--baud", o.link.baud, "Of the serial line")->check(CLI::Range(300, 4000000));
+      .check(one_of({"server", "client"}))
+      .shows_default();
+  verb.add_option("--unit", o.link.unit, "Modbus unit").check(whole_number_between(0, 255));
+  verb.add_option("--baud", o.link.baud, "Of the serial line")
+      .check(whole_number_between(300, 4000000));
   verb.add_option("--layout", o.layout,
                   "rt.toml or cell.toml with the bus layout; else the cell.toml of DIR")
-      ->type_name("FILE");
+      .type_name("FILE");
   verb.add_option("--correction", o.correction, "Drive the path without, with, or both")
-      ->check(CLI::IsMember({"on", "off", "both"}))
-      ->capture_default_str();
+      .check(one_of({"on", "off", "both"}))
+      .shows_default();
   verb.add_option("--path", o.path, "Stations: targets as for plumb correct; else made up")
-      ->type_name("FILE");
+      .type_name("FILE");
   verb.add_option("--stations", o.stations, "How many stations of a made-up path")
-      ->check(CLI::Range(2, 10000))
-      ->capture_default_str();
+      .check(whole_number_between(2, 10000))
+      .shows_default();
   verb.add_option("--range", o.range_pct, "Share of each joint's range that it uses, percent")
-      ->check(CLI::Range(1.0, 100.0))
-      ->capture_default_str();
+      .check(number_between(1.0, 100.0))
+      .shows_default();
   verb.add_option("--speed-deg-s", o.fastest_deg_s, "Fastest speed of a joint")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
+      .check(number_between(0.1, 1000.0))
+      .shows_default();
   verb.add_option("--speed-mm-s", o.fastest_mm_s, "Fastest speed of the tool")
-      ->check(CLI::Range(0.1, 1e5))
-      ->capture_default_str();
+      .check(number_between(0.1, 1e5))
+      .shows_default();
   verb.add_option("--dwell-s", o.dwell_s, "At every station, at least")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+      .check(number_between(0.0, 100.0))
+      .shows_default();
   verb.add_option("--wait-s", o.wait_s,
                   "How long to wait for corrections before the path begins; 0: begin at once")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
+      .check(number_between(0.0, 1e6))
+      .shows_default();
   verb.add_option("--duration-s", o.duration_s, "End after so long, wherever the arm is; 0: never")
-      ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
+      .check(number_between(0.0, 1e9))
+      .shows_default();
   verb.add_option("--fault", o.faults,
                   "What is wrong, and when; may be repeated; see --list-faults")
-      ->type_name("FAULT");
+      .type_name("FAULT");
   verb.add_flag("--list-faults", o.list_faults, "List the faults that --fault takes");
   verb.add_flag("--gate", o.gate,
                 "Exit 1 unless the error falls five times and below 1.3 times the tracker's noise");
@@ -186,7 +187,7 @@ void add_options(Options& o, CLI::App& verb) {
 
 void add_run(Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& verb = program.verb(
+  VerbOptions verb = program.verb(
       {.name = "run",
        .summary =
            "Drive a path, take corrections from the bus, and say how far the true arm missed",

@@ -16,7 +16,8 @@ struct Link {
   Transformd motion() const { return translation(a, 0, 0) * rot_x(alpha) * rot_y(beta); }
 };
 
-/// Where the frame on an axis must stand so that the next axis is one link away.
+/// The place on a joint axis where the DH frame must be, so that one DH link leads to the next
+/// axis.
 struct Foot {
   Vector3 point, x;
 };
@@ -27,7 +28,7 @@ Foot foot_of(const Transformd& G, const JointAxis& next) {
   const double sine = across.norm();
   Foot out{G.p, G.R.col(0)};
   if (sine < kNearParallel) {
-    // Where the next axis crosses the plane through the present origin.
+    // For parallel axes: where the next axis crosses the plane through the present origin.
     const double along = z.dot(G.p - next.point) / z.dot(next.direction);
     const Vector3 there = next.point + along * next.direction - G.p;
     if (there.norm() > kOnTheAxis_m) out.x = there.normalized();

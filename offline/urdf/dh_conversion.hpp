@@ -19,13 +19,14 @@ struct JointAxis {
 };
 
 struct DhArm {
-  format::Chain chain;  // its forward kinematics are those of the axes, to rounding
+  format::Chain chain;  // its forward kinematics equal those of the axes to rounding
   std::vector<Transformd> behind_joint;  // P_i at zero, root frame: where link masses are expressed
 };
 
 /// DH rows of an arm given by its axes and by the tip at zero. Frames lie on the common normals;
 /// where neighbours are nearer to parallel than 0.01 rad Hayati's beta takes the place of a distant
-/// normal [Hayati 1983]. What DH cannot say at both ends goes to base and tool.
+/// normal [Hayati 1983]. What DH rows cannot express at the two ends of the arm goes to base and
+/// tool.
 DhArm to_dh(const std::vector<JointAxis>& axes, const Transformd& X_RT,
             format::Convention convention);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "urdf/urdf_reader.hpp"
 
+#include <console_bridge/console.h>
 #include <fmt/format.h>
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
@@ -9,14 +10,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/assumed_limits.hpp"
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "urdf/dh_conversion.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kNearParallel = 0.05;  // sine: `parallel_next`
-constexpr double kWholeTurn = 2.0 * M_PI;
+constexpr double kParallelNext = 0.05;  // sine of the angle below which parallel_next is set
+constexpr int kDeepest = 100, kMostLinks = 2000, kMostAttributes = 100;
 
 Transformd to_transform(const urdf::Pose& pose) {
   double x = 0, y = 0, z = 0, w = 1;
@@ -24,14 +27,98 @@ Transformd to_transform(const urdf::Pose& pose) {
   return from_pose({{pose.position.x, pose.position.y, pose.position.z}, {w, x, y, z}});
 }
 
+struct UrdfSize {
+  int depth = 0;  // largest depth of nested elements
+  int links = 0;
+  int attributes = 0;  // largest number of an element
+};
+
+/// Measures a text without recursion. The parsers of XML and URDF are recursive and would crash on
+/// elements that are nested too deeply.
+UrdfSize size_of(std::string_view text) {
+  UrdfSize out;
+  int depth = 0;
+  for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
+    const auto rest = text.substr(at);
+    const auto skip_to = [&](std::string_view end) {
+      const auto found = text.find(end, at);
+      at = found == std::string_view::npos ? text.size() : found + end.size();
+    };
+    if (rest.starts_with("<!--")) {
+      skip_to("-->");
+    } else if (rest.starts_with("<![CDATA[")) {
+      skip_to("]]>");
+    } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
+      skip_to(">");
+    } else if (rest.starts_with("</")) {
+      depth = std::max(0, depth - 1);
+      skip_to(">");
+    } else {
+      if (rest.starts_with("<link")) ++out.links;
+      char quote = 0;
+      int attributes = 0;
+      while (++at < text.size() && (quote != 0 || text[at] != '>'))
+        if (quote == 0 && (text[at] == '"' || text[at] == '\''))
+          quote = text[at], out.attributes = std::max(out.attributes, ++attributes);
+        else if (text[at] == quote)
+          quote = 0;
+      if (at < text.size() && text[at - 1] != '/') out.depth = std::max(out.depth, ++depth);
+    }
+  }
+  return out;
+}
+
+/// Keeps what urdfdom reports to the console during its lifetime, so that a message of Plumb can
+/// show it. These reports quote the file.
+class ConsoleLines final : public console_bridge::OutputHandler {
+ public:
+  ConsoleLines() { console_bridge::useOutputHandler(this); }
+  ~ConsoleLines() override { console_bridge::restorePreviousOutputHandler(); }
+  ConsoleLines(const ConsoleLines&) = delete;
+  ConsoleLines& operator=(const ConsoleLines&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) first_ = text;
+  }
+  const std::string& first_error() const { return first_; }
+
+ private:
+  std::string first_;
+};
+
 class Reader {
  public:
   Reader(const std::filesystem::path& file, std::string tip)
       : file_(display_name(file)), tip_(std::move(tip)) {
-    // urdfdom reports to the console; what it says is our message.
-    tree_ = urdf::parseURDF(read_file(file));
-    if (!tree_) fail("E-URDF", "this is no URDF of a robot", "check_urdf names the broken element");
+    const std::string text = read_file_up_to(file, kMostUrdfBytes);
+    const UrdfSize size = size_of(text);
+    if (size.attributes > kMostAttributes)
+      fail("E-URDF-SIZE", fmt::format("an element has more than {} attributes", kMostAttributes),
+           "export the robot again; plumb needs links, joints, masses and limits only");
+    if (size.depth > kDeepest || size.links > kMostLinks)
+      fail("E-URDF-SIZE",
+           size.depth > kDeepest ? fmt::format("elements are nested more than {} deep", kDeepest)
+                                 : fmt::format("the file has more than {} links", kMostLinks),
+           "export the robot again; plumb needs links, joints, masses and limits only");
+    const ConsoleLines said;
+    tree_ = urdf::parseURDF(text);
+    if (!tree_)
+      fail("E-URDF",
+           said.first_error().empty() ? "this is no URDF of a robot"
+                                      : "this is no URDF of a robot: " + said.first_error(),
+           "export the robot again, or mend that element");
   }
+
+  /// Breaks the ownership between links. Links that form a loop own each other and would never be
+  /// freed.
+  ~Reader() {
+    for (const auto& [name, link] : tree_->links_) {
+      link->child_links.clear();
+      link->child_joints.clear();
+    }
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
   Cell read(format::Convention convention) {
     walk();
@@ -44,12 +131,13 @@ class Reader {
     Cell cell;
     cell.robot_name = cell.name = tree_->getName();
     cell.nominal = arm.chain;
+    cell.assumed_limits = assumed_;
     cell.mechanics.resize(axes_.size());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       mass_of(i, arm, cell.mechanics[i]);
       if (i + 1 < axes_.size())
         cell.mechanics[i].parallel_next =
-            axes_[i].direction.cross(axes_[i + 1].direction).norm() < kNearParallel;
+            axes_[i].direction.cross(axes_[i + 1].direction).norm() < kParallelNext;
     }
     return cell;
   }
@@ -92,19 +180,23 @@ class Reader {
 
   void walk() {
     std::vector<urdf::LinkConstSharedPtr> path;
-    for (urdf::LinkConstSharedPtr link = tree_->getLink(tip()); link; link = link->getParent())
+    for (urdf::LinkConstSharedPtr link = tree_->getLink(tip()); link; link = link->getParent()) {
       path.push_back(link);
+      if (path.size() > tree_->links_.size())
+        fail("E-URDF", fmt::format("link '{}' is its own ancestor", link->name),
+             "let every link be the child of one joint");
+    }
     std::reverse(path.begin(), path.end());
     for (const auto& link : path) {
       if (link->parent_joint) step_over(*link->parent_joint);
       weigh(*link);
-      // What hangs rigidly beside the path weighs as well.
+      // Links that are fixed rigidly beside the path contribute their mass as well.
       for (const auto& joint : link->child_joints)
         if (joint->type == urdf::Joint::FIXED &&
             std::none_of(path.begin(), path.end(),
                          [&](const auto& l) { return l->name == joint->child_link_name; }))
           weigh_beside(*tree_->getLink(joint->child_link_name),
-                       X_RL_ * to_transform(joint->parent_to_joint_origin_transform));
+                       X_RL_ * to_transform(joint->parent_to_joint_origin_transform), 0);
     }
   }
 
@@ -127,8 +219,11 @@ class Reader {
              "plumb calibrates serial arms; name another tip: --tip LINK");
     }
     if (joint.mimic)
-      fail("E-URDF-JOINT", fmt::format("joint '{}' mimics another one", joint.name),
-           "plumb calibrates serial arms; name another tip: --tip LINK");
+      fail(
+          "E-URDF-JOINT", fmt::format("joint '{}' mimics another one", joint.name),
+          fmt::format("if '{}' moves by itself, delete its <mimic> element; if the arm ends before "
+                      "it, name that link: --tip LINK",
+                      joint.name));
     axis.name = joint.name;
     axis.point = X_RL_.p;
     axis.direction = X_RL_.R * Vector3(joint.axis.x, joint.axis.y, joint.axis.z);
@@ -138,7 +233,9 @@ class Reader {
     axis.direction.normalize();
     const bool limited = joint.limits && joint.limits->lower < joint.limits->upper &&
                          joint.type != urdf::Joint::CONTINUOUS;
-    const double range = axis.type == format::JointType::kRevolute ? kWholeTurn : 10.0;
+    const double range =
+        axis.type == format::JointType::kRevolute ? kAssumedTurn : kAssumedTravel_m;
+    assumed_.push_back(!limited);
     axis.q_min = limited ? joint.limits->lower : -range;
     axis.q_max = limited ? joint.limits->upper : range;
     axes_.push_back(axis);
@@ -154,11 +251,14 @@ class Reader {
     masses_.back().first_moment += com * link.inertial->mass;
   }
 
-  void weigh_beside(const urdf::Link& link, const Transformd& X_RK) {
+  void weigh_beside(const urdf::Link& link, const Transformd& X_RK, std::size_t depth) {
+    if (depth > tree_->links_.size())
+      fail("E-URDF", fmt::format("link '{}' is its own ancestor", link.name),
+           "let every link be the child of one joint");
     weigh_at(link, X_RK);
     for (const auto& joint : link.child_joints)
       weigh_beside(*tree_->getLink(joint->child_link_name),
-                   X_RK * to_transform(joint->parent_to_joint_origin_transform));
+                   X_RK * to_transform(joint->parent_to_joint_origin_transform), depth + 1);
   }
 
   void mass_of(std::size_t i, const DhArm& arm, JointMechanics& out) const {
@@ -172,8 +272,9 @@ class Reader {
   std::string file_, tip_;
   urdf::ModelInterfaceSharedPtr tree_;
   std::vector<JointAxis> axes_;
+  std::vector<bool> assumed_;  // whether the limits of each axis were assumed
   std::vector<Mass> masses_;
-  Transformd X_RL_;  // of the link reached, at zero
+  Transformd X_RL_;  // pose of the link reached so far, at joint positions zero
 };
 
 }  // namespace

@@ -124,14 +124,14 @@ plumb_result plumb_correct(plumb_robot* robot, const plumb_input* input, plumb_o
     return found;
   }
   const plumb_input in = c::copy_in(input);
-  c::copy_out(output_of(robot->cycle.step(input_of(in))), output);
+  c::copy_out(output_of(robot->robot->correct(input_of(in))), output);
   return PLUMB_OK;
 }
 
 plumb_result plumb_enable(plumb_robot* robot, int on) {
   const plumb_result found = c::check_robot(robot);
   if (found != PLUMB_OK) return found;
-  robot->cycle.enable(on != 0 ? Guard::Enable::kOn : Guard::Enable::kOff);
+  robot->robot->enable(on != 0 ? Guard::Enable::kOn : Guard::Enable::kOff);
   return PLUMB_OK;
 }
 
@@ -146,8 +146,7 @@ plumb_result plumb_predict(const plumb_robot* robot, const plumb_joints* joints,
   }
   const plumb_joints at = c::copy_in(joints);
   const auto q = std::span(at.q).first(static_cast<std::size_t>(robot->joints));
-  const ForwardModel& arm = robot->cycle.model().corrector().forward_model();
-  c::copy_out(prediction_of(arm.predict(q, robot->cycle.context())), prediction);
+  c::copy_out(prediction_of(robot->robot->predict(q)), prediction);
   return PLUMB_OK;
 }
 
@@ -155,7 +154,7 @@ plumb_result plumb_read_counters(const plumb_robot* robot, plumb_counters* count
   const plumb_result writable = c::check_struct(counters);
   if (writable != PLUMB_OK) return writable;
   const plumb_result found = c::check_robot(robot);
-  const GuardCounters now = found == PLUMB_OK ? robot->cycle.counters() : GuardCounters{};
+  const GuardCounters now = found == PLUMB_OK ? robot->robot->counters() : GuardCounters{};
   plumb_counters out{};
   out.steps = now.steps;
   out.refused = now.refused;

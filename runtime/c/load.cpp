@@ -3,19 +3,13 @@
 #include <filesystem>
 #include <new>
 #include <span>
-#include <variant>
 
 #include "check.hpp"
-#include "plumb/format/reader.hpp"
-#include "plumb/runtime/binding.hpp"
 
 namespace {
 
-using plumb::LoadedModel;
-using plumb::ModelSlot;
+using plumb::LoadError;
 using plumb::format::Model;
-using plumb::format::ReadError;
-using Read = std::variant<Model, ReadError>;
 
 /// What a call says about an error.
 struct Message {
@@ -30,28 +24,22 @@ struct Message {
   }
 };
 
-struct Loaded {
-  plumb_result result = PLUMB_OK;
-  std::unique_ptr<const LoadedModel> model;
-};
-
 plumb_result failed(plumb_result result, const Message& message, std::string_view sentence) {
   message.say(sentence);
   return result;
 }
 
-Loaded loaded(Read read, const Message& message) {
-  if (const auto* error = std::get_if<ReadError>(&read))
-    return {failed(PLUMB_UNREADABLE, message, error->detail), nullptr};
-  auto& model = std::get<Model>(read);
-  const plumb::EffectFault fault = plumb::find_effect_fault(model);
-  if (fault.kind != plumb::EffectFault::Kind::kNone) {
-    const std::string& name = model.effects[fault.effect].name;
-    return {failed(PLUMB_UNKNOWN_EFFECT, message,
-                   "effect '" + name + "' cannot be evaluated by Plumb " + plumb_version()),
-            nullptr};
+plumb_result result_of(LoadError::Fault fault) noexcept {
+  switch (fault) {
+    case LoadError::Fault::kUnknownEffect:
+      return PLUMB_UNKNOWN_EFFECT;
+    case LoadError::Fault::kOtherRobot:
+      return PLUMB_OTHER_ROBOT;
+    case LoadError::Fault::kBusy:
+      return PLUMB_BUSY;
+    default:
+      return PLUMB_UNREADABLE;
   }
-  return {PLUMB_OK, LoadedModel::make(std::move(model))};
 }
 
 void describe(plumb_robot& robot, const Model& model) {
@@ -64,32 +52,23 @@ void describe(plumb_robot& robot, const Model& model) {
     }
 }
 
-plumb_result begin(Loaded first, const char* serial, plumb_robot** robot, const Message& message) {
-  if (first.result != PLUMB_OK) return first.result;
-  const Model& model = first.model->model();
-  if (serial != nullptr && model.serial != serial)
-    return failed(PLUMB_OTHER_ROBOT, message,
-                  "the model was made for serial '" + model.serial + "', not '" + serial + "'");
-  auto out = std::make_unique<plumb_robot>(std::move(first.model));
-  describe(*out, out->running->model());
+template <class Source>
+plumb_result load(const Source& source, const char* serial, plumb_robot** robot,
+                  const Message& message) {
+  auto loaded = plumb::Robot::load(
+      source, serial == nullptr ? std::nullopt : std::optional<std::string>(serial));
+  if (loaded.error) return failed(result_of(loaded.error->fault), message, loaded.error->text);
+  auto out = std::make_unique<plumb_robot>();
+  out->robot = std::move(loaded.robot);
+  describe(*out, out->robot->model());
   *robot = out.release();
   return PLUMB_OK;
 }
 
-plumb_result exchange(plumb_robot& robot, Loaded next, const Message& message) {
-  if (next.result != PLUMB_OK) return next.result;
-  const auto fault = plumb::find_binding_fault(robot.running->model(), next.model->model());
-  switch (robot.slot.publish(*next.model)) {
-    case ModelSlot::Published::kBusy:
-      return failed(PLUMB_BUSY, message, plumb_result_text(PLUMB_BUSY));
-    case ModelSlot::Published::kOtherRobot:
-      return failed(PLUMB_OTHER_ROBOT, message, plumb::to_string(fault));
-    case ModelSlot::Published::kDone:
-      break;
-  }
-  robot.before = std::move(robot.running);
-  robot.running = std::move(next.model);
-  return PLUMB_OK;
+template <class Source>
+plumb_result swap(plumb_robot& robot, const Source& source, const Message& message) {
+  const auto error = robot.robot->swap(source);
+  return error ? failed(result_of(error->fault), message, error->text) : PLUMB_OK;
 }
 
 /// Runs a call of the load phase; what it throws becomes a result.
@@ -107,11 +86,9 @@ plumb_result guarded(const Message& message, Call call) noexcept {
   }
 }
 
-Read read_bytes(const void* bytes, std::size_t count) {
-  return plumb::format::read_model(std::span(static_cast<const std::byte*>(bytes), count));
+std::span<const std::byte> span_of(const void* bytes, std::size_t count) noexcept {
+  return {static_cast<const std::byte*>(bytes), count};
 }
-
-Read read_file(const char* path) { return plumb::format::read_model(std::filesystem::path(path)); }
 
 plumb_result check_new(const void* source, plumb_robot** robot) noexcept {
   const plumb_result found = plumb::c::check_pointer(robot);
@@ -134,7 +111,7 @@ plumb_result plumb_load_file(const char* path, const char* serial, plumb_robot**
   const Message to{message, capacity};
   const plumb_result found = check_new(path, robot);
   if (found != PLUMB_OK) return failed(found, to, plumb_result_text(found));
-  return guarded(to, [&] { return begin(loaded(read_file(path), to), serial, robot, to); });
+  return guarded(to, [&] { return load(std::filesystem::path(path), serial, robot, to); });
 }
 
 plumb_result plumb_load_bytes(const void* bytes, std::size_t count, const char* serial,
@@ -142,8 +119,7 @@ plumb_result plumb_load_bytes(const void* bytes, std::size_t count, const char* 
   const Message to{message, capacity};
   const plumb_result found = check_new(bytes, robot);
   if (found != PLUMB_OK) return failed(found, to, plumb_result_text(found));
-  return guarded(to,
-                 [&] { return begin(loaded(read_bytes(bytes, count), to), serial, robot, to); });
+  return guarded(to, [&] { return load(span_of(bytes, count), serial, robot, to); });
 }
 
 plumb_result plumb_unload(plumb_robot* robot) {
@@ -157,27 +133,23 @@ plumb_result plumb_unload(plumb_robot* robot) {
 plumb_result plumb_collect(plumb_robot* robot) {
   const plumb_result found = plumb::c::check_robot(robot);
   if (found != PLUMB_OK) return found;
-  if (!robot->slot.settled()) return PLUMB_BUSY;
-  robot->before.reset();
-  return PLUMB_OK;
+  return robot->robot->collect() ? PLUMB_OK : PLUMB_BUSY;
 }
 
 plumb_result plumb_swap_file(plumb_robot* robot, const char* path, char* message,
                              std::size_t capacity) {
   const Message to{message, capacity};
-  plumb_result found = check_swap(robot, path);
-  if (found == PLUMB_OK) found = plumb_collect(robot);
+  const plumb_result found = check_swap(robot, path);
   if (found != PLUMB_OK) return failed(found, to, plumb_result_text(found));
-  return guarded(to, [&] { return exchange(*robot, loaded(read_file(path), to), to); });
+  return guarded(to, [&] { return swap(*robot, std::filesystem::path(path), to); });
 }
 
 plumb_result plumb_swap_bytes(plumb_robot* robot, const void* bytes, std::size_t count,
                               char* message, std::size_t capacity) {
   const Message to{message, capacity};
-  plumb_result found = check_swap(robot, bytes);
-  if (found == PLUMB_OK) found = plumb_collect(robot);
+  const plumb_result found = check_swap(robot, bytes);
   if (found != PLUMB_OK) return failed(found, to, plumb_result_text(found));
-  return guarded(to, [&] { return exchange(*robot, loaded(read_bytes(bytes, count), to), to); });
+  return guarded(to, [&] { return swap(*robot, span_of(bytes, count), to); });
 }
 
 }  // extern "C"

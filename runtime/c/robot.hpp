@@ -8,26 +8,14 @@
 #include <utility>
 
 #include "plumb.h"
-#include "plumb/runtime/cycle.hpp"
+#include "plumb/robot.hpp"
 
 /// What stands behind the opaque pointer.
 struct plumb_robot {
-  explicit plumb_robot(std::unique_ptr<const plumb::LoadedModel> first)
-      : running(std::move(first)), slot(*running), cycle(slot) {}
-
   static constexpr std::uint64_t kMark = 0x31304d554c503a29;
 
   std::uint64_t mark = kMark;  // tells a robot from other aligned memory
-
-  // Loader thread.
-  std::unique_ptr<const plumb::LoadedModel> running;
-  std::unique_ptr<const plumb::LoadedModel> before;  // until the cycle has taken `running`
-
-  // Both.
-  plumb::ModelSlot slot;
-
-  // Cycle thread.
-  plumb::Cycle cycle;
+  std::unique_ptr<plumb::Robot> robot;
 
   // Any thread; never change.
   int joints = 0;

@@ -53,9 +53,7 @@ plumb_result plumb_configure(plumb_robot* robot, const plumb_settings* settings)
   if (found != PLUMB_OK) return found;
   const plumb_settings asked = c::copy_in(settings);
   if (!is_sound(asked)) return PLUMB_BAD_NUMBER;
-  if (robot->cycle.counters().steps > 0) return PLUMB_RUNNING;
-  robot->cycle = Cycle(robot->slot, settings_of(asked));
-  return PLUMB_OK;
+  return robot->robot->configure(settings_of(asked)) ? PLUMB_OK : PLUMB_RUNNING;
 }
 
 }  // extern "C"

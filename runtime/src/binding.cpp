@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/runtime/binding.hpp"
 
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb {
 namespace {

@@ -12,7 +12,7 @@ Transformd link(const format::JointRow& row) noexcept {
   return translation(row.a, 0.0, 0.0) * rot_x(row.alpha) * rot_y(row.beta);
 }
 
-/// What is constant in a row ahead of the joint's motion.
+/// The constant part of a DH row that comes before the motion of the joint.
 Transformd ahead(const format::JointRow& row, format::Convention convention) noexcept {
   Transformd X = exp(row.pre);
   if (convention == format::Convention::kModified) X = link(row) * X;
@@ -20,7 +20,7 @@ Transformd ahead(const format::JointRow& row, format::Convention convention) noe
   return X;
 }
 
-/// What is constant in a row behind the joint's motion.
+/// The constant part of a DH row that comes after the motion of the joint.
 Transformd behind(const format::JointRow& row, format::Convention convention) noexcept {
   Transformd X = exp(row.post);
   if (row.type == format::JointType::kRevolute) X = translation(0.0, 0.0, row.d) * X;
@@ -46,8 +46,8 @@ Chain::Chain(const format::Chain& parameters) noexcept
   Columns(constant_[0]).store(base_);
   all_turn_ = joints_ == 6;
   for (int i = 0; i < joints_; ++i) all_turn_ = all_turn_ && revolute_[i];
-  usual_ = all_turn_;
-  for (int i = 1; i < joints_; ++i) usual_ = usual_ && link_[i].plain;
+  fast_path_ = all_turn_;
+  for (int i = 1; i < joints_; ++i) fast_path_ = fast_path_ && link_[i].plain;
 }
 
 Chain::Link Chain::link_of(const Transformd& C) noexcept {
@@ -96,7 +96,7 @@ void Chain::frames(std::span<const double> q, ChainAxes& out) const noexcept {
 
 namespace {
 
-/// Notes the frame behind a joint or of the tip, and where its point is.
+/// Records the frame behind a joint, or that of the tip, and the position of the point fixed to it.
 struct PointsAndFrames {
   const JointPoints& of_joints;
   const WidePoint& of_tool;
@@ -119,18 +119,18 @@ struct PointsAndFrames {
 void Chain::frames(std::span<const double> q, const JointPoints& of_joints,
                    const WidePoint& of_tool, ChainFrames& out,
                    ChainPoints& points_B) const noexcept {
-  if (!usual_) return unusual_frames(q, of_joints, of_tool, out, points_B);
-  const PointsAndFrames note{of_joints, of_tool, out, points_B, 6};
-  note(Walk(*this).usual(internal::SixJoints(q.data()), note));
+  if (!fast_path_) return general_frames(q, of_joints, of_tool, out, points_B);
+  const PointsAndFrames record{of_joints, of_tool, out, points_B, 6};
+  record(Walk(*this).fast_path(internal::SixJoints(q.data()), record));
 }
 
-/// Never inlined: what it needs would be saved on the usual way too.
-[[gnu::noinline]] void Chain::unusual_frames(std::span<const double> q,
+/// Kept out of line so that the fast path does not save registers for it.
+[[gnu::noinline]] void Chain::general_frames(std::span<const double> q,
                                              const JointPoints& of_joints, const WidePoint& of_tool,
                                              ChainFrames& out,
                                              ChainPoints& points_B) const noexcept {
-  const PointsAndFrames note{of_joints, of_tool, out, points_B, joints_};
-  note(Walk(*this).unusual(q, note));
+  const PointsAndFrames record{of_joints, of_tool, out, points_B, joints_};
+  record(Walk(*this).general_path(q, record));
 }
 
 }  // namespace plumb

@@ -13,31 +13,33 @@
 
 namespace plumb {
 
-/// The way along the chain, by the columns of its frames.
+/// Evaluates the chain from the base to the tip, frame by frame.
 class Chain::Walk {
  public:
   explicit Walk(const Chain& chain) noexcept : chain_(chain) {}
 
-  /// behind_joint(i, X_BPi) for every joint; returns X_BT.
+  /// Calls behind_joint(i, X_BPi) for every joint i and returns X_BT.
   template <class F>
   [[gnu::always_inline]] Columns along(std::span<const double> q,
                                        const F& behind_joint) const noexcept {
-    if (chain_.usual_) return usual(internal::SixJoints(q.data()), behind_joint);
-    return unusual(q, behind_joint);
+    if (chain_.fast_path_) return fast_path(internal::SixJoints(q.data()), behind_joint);
+    return general_path(q, behind_joint);
   }
 
-  /// The same of six joints that turn and plain links between them: nothing need be asked.
-  bool is_usual() const noexcept { return chain_.usual_; }
+  /// The fast path, for six revolute joints and plain links between them: it tests nothing on its
+  /// way.
+  bool has_fast_path() const noexcept { return chain_.fast_path_; }
   template <class F>
-  [[gnu::always_inline]] Columns usual(const internal::SixJoints& q,
-                                       const F& behind_joint) const noexcept {
+  [[gnu::always_inline]] Columns fast_path(const internal::SixJoints& q,
+                                           const F& behind_joint) const noexcept {
     return turning<true>(q, behind_joint);
   }
 
-  /// Of others. Never inlined: what it needs would be saved on the usual way too.
+  /// The general path, for all other arms. Kept out of line so that the fast path does not save
+  /// registers for it.
   template <class F>
-  [[gnu::noinline]] Columns unusual(std::span<const double> q,
-                                    const F& behind_joint) const noexcept {
+  [[gnu::noinline]] Columns general_path(std::span<const double> q,
+                                         const F& behind_joint) const noexcept {
     if (chain_.all_turn_) return turning<false>(internal::SixJoints(q.data()), behind_joint);
     return any(q, behind_joint);
   }
@@ -45,7 +47,7 @@ class Chain::Walk {
  private:
   static constexpr std::make_index_sequence<6> kSix{};
 
-  /// Six joints that turn: unrolled, so that sines and cosines never leave their registers.
+  /// Six revolute joints. Unrolled, so that sines and cosines stay in their registers.
   template <bool kPlain, class F>
   [[gnu::always_inline]] Columns turning(const internal::SixJoints& q,
                                          const F& behind_joint) const noexcept {
@@ -59,7 +61,7 @@ class Chain::Walk {
       Columns X(chain_.base_);
       (
           [&] {
-            X.turn(sin.spread<i>(), cos.spread<i>());
+            X.turn(sin.broadcast<i>(), cos.broadcast<i>());
             behind_joint(i, X);
             append<kPlain && i + 1 < 6>(i + 1, X);
           }(),
@@ -69,7 +71,7 @@ class Chain::Walk {
     (kSix);
   }
 
-  /// Joints of any number and kind.
+  /// Any number and kind of joints.
   template <class F>
   Columns any(std::span<const double> q, const F& behind_joint) const noexcept {
     const auto n = static_cast<std::size_t>(chain_.joints_);
@@ -94,7 +96,7 @@ class Chain::Walk {
     return X;
   }
 
-  /// kPlain: known to be so.
+  /// Appends constant i. kPlain: it is known to be a plain link.
   template <bool kPlain>
   void append(std::size_t i, Columns& X) const noexcept {
     const Link& link = chain_.link_[i];

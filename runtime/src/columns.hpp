@@ -9,8 +9,8 @@
 
 namespace plumb {
 
-/// A pose X_AB by its columns: the axes of B and its origin, in A; the fourth lane is 0 in an axis
-/// and 1 in the origin.
+/// A pose X_AB by its four columns: the axes of B and its origin, in A. The fourth lane is 0 in an
+/// axis and 1 in the origin.
 class Columns {
  public:
   explicit Columns(const Transformd& X)
@@ -48,7 +48,8 @@ class Columns {
     p_ = (bx * X_BC.p(0) + by * X_BC.p(1) + bz * X_BC.p(2)) + p_;
   }
 
-  /// X_AB <- X_AB Tz(d) Tx(a) Rx(alpha): the same numbers as by its matrix, without the zeros.
+  /// X_AB <- X_AB Tz(d) Tx(a) Rx(alpha). The result equals that of append(), without multiplying by
+  /// the zeros of the matrix.
   void append_link(const Wide& d, const Wide& a, const Wide& sin_alpha, const Wide& cos_alpha) {
     const Lanes by = y_, bz = z_;
     p_ = (x_ * a + bz * d) + p_;
@@ -59,7 +60,7 @@ class Columns {
   /// The point c of frame B, in A.
   Lanes point(const WidePoint& c) const { return x_ * c.x + y_ * c.y + z_ * c.z + p_; }
 
-  /// Whole registers: each is written over the end of the one before.
+  /// Stores in whole registers, each of which overwrites the end of the one before.
   void store(Transformd& out) const {
     static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
     auto* bytes = reinterpret_cast<std::byte*>(&out);
@@ -69,7 +70,8 @@ class Columns {
     plumb::store(Lanes{z_[2], p_[0], p_[1], p_[2]}, bytes + 8 * sizeof(double));
   }
 
-  /// With fewer steps, where the number behind `out` may be written over.
+  /// Stores with fewer instructions, and overwrites the number that follows `out`. To be used only
+  /// where that number is written afterwards (docs/runtime-internals.md, "Overlapping writes").
   void store_over(Transformd& out) const {
     auto* bytes = reinterpret_cast<std::byte*>(&out);
     plumb::store(x_, bytes);
@@ -85,7 +87,7 @@ class Columns {
     plumb::store(p_, out[3].data());
   }
 
-  /// The axes, and the origin.
+  /// The columns: x, y and z axis, and origin.
   const Lanes& x() const { return x_; }
   const Lanes& y() const { return y_; }
   const Lanes& z() const { return z_; }

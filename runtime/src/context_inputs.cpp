@@ -11,7 +11,7 @@ double sound(double value) noexcept {
 
 }  // namespace
 
-/// True if something came.
+/// Takes a new reading or ages the last one. Returns true if a new reading came.
 bool ContextInputs::Input::step(const Reading& came, double ageing_s) noexcept {
   age.advance(ageing_s);
   if (came.age_s != came.age_s) return false;

@@ -9,8 +9,8 @@
 #include "normal_equations.hpp"
 #include "pose_lanes.hpp"
 #include "priority_step.hpp"
-#include "room.hpp"
 #include "square_system.hpp"
+#include "uninitialised.hpp"
 
 namespace plumb {
 namespace {
@@ -23,15 +23,17 @@ using internal::Vector6;
 /// neighbourhood in which the linearisation means anything.
 constexpr double kMaxStep = 0.35;
 
-/// Nor does the curvature take more than this of it back: beyond, its order says nothing either.
-/// Of the pairs tried these two refuse the fewest targets near a singularity.
+/// The second-order correction of a step is limited to this [rad], beyond which it is no longer
+/// valid either. Of the pairs of limits tried, these two refuse the fewest targets near a
+/// singularity.
 constexpr double kMaxBack = 0.125;
 
-/// Position errors beyond it [m] are cut: the target is out of reach and the answer a refusal.
+/// Position errors [m] are clamped to this. The target then is out of reach and will be refused.
 constexpr double kMaxError = 1e6;
 
-/// Singular values below it at every sampled pose are structure (a planar arm's third axis),
-/// also where rounded DH angles leave an axis 1e-4 rad out of parallel.
+/// Singular values that are smaller than this at every sampled pose follow from the structure of
+/// the arm, such as the third direction of a planar arm. The bound also covers axes that rounded DH
+/// angles leave 1e-4 rad out of parallel.
 constexpr double kStructuralZero = 1e-3;
 constexpr int kSamples = 64;
 
@@ -72,16 +74,16 @@ void limit(JointSteps& dq, double most) noexcept {
 
 }  // namespace
 
-/// The arm of one step.
+/// Working memory of a solve: the states of both arms.
 struct Corrector::Arm {
-  internal::Room<ChainAxes> moving;   // of the calibrated chain
-  internal::Room<ChainAxes> nominal;  // of the controller's
-  internal::Room<EffectSet::Scene> scene;
-  internal::Room<Deviation> deviation;  // the one found last
-  Matrix3 to_own;                       // from the true orientation to the controller's own
+  internal::Uninitialised<ChainAxes> moving;   // of the calibrated chain
+  internal::Uninitialised<ChainAxes> nominal;  // of the controller's
+  internal::Uninitialised<EffectSet::Workspace> workspace;
+  internal::Uninitialised<Deviation> deviation;  // the one found last
+  Matrix3 to_own;  // from the true orientation to the controller's own
 };
 
-/// One step: what the arm is taken for, and what of it is looked at.
+/// One step of the plan: where effects and frames come from, and the order of convergence.
 struct Corrector::Plan {
   Stage stage;
   Order order;
@@ -103,13 +105,13 @@ inline std::span<const Corrector::Plan> Corrector::steps() const noexcept {
   return kOthers;
 }
 
-/// How it moves from there.
+/// The Jacobian at the present pose, and its elimination.
 struct Corrector::Derivative {
   internal::ScaledJacobian J;
   internal::SquareSystem square;  // of J; arms of six joints only
 };
 
-/// The step from there.
+/// A step, and the part of the error that the full step removes.
 struct Corrector::Iterate {
   JointSteps dq;
   double left_m;  // what the full step moves: the controllable residual
@@ -119,6 +121,7 @@ struct Corrector::Iterate {
 Corrector::Corrector(const format::Model& model) noexcept
     : true_arm_(model),
       nominal_(model.nominal),
+      known_(model),
       per_length_(1.0 / model.guard.length_scale_m),
       limits_(model.guard) {
   unit_.fill(1.0);
@@ -148,8 +151,9 @@ void Corrector::find_controllable(const format::Chain& nominal) noexcept {
   }
 }
 
-/// The pose that is corrected. Position-only cells: the orientation is the controller's own; where
-/// roughly, it is turned from the true one as it was at the seed.
+/// The pose that is corrected. In cells that correct the position only, its orientation is that of
+/// the controller's own arm; in the rough steps it is obtained from the true orientation by the
+/// rotation between the two at the seed.
 inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm, Transformd& X_BT,
                                Derivative& out) const noexcept {
   const bool position_only = limits_.corrects == format::Corrects::kPosition;
@@ -159,7 +163,7 @@ inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
   ChainAxes &moving = arm.moving.value, &nominal = arm.nominal.value;
   Deviation& deviation = arm.deviation.value;
   if (at_seed || own) nominal_.frames(q, nominal);
-  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.scene.value, deviation);
+  if (at_seed || stage == Stage::kTrue) true_arm_.find_deviation(q, arm.workspace.value, deviation);
   const Status status = true_arm_.locate(q, deviation, moving, X_BT.p);
   if (at_seed || !own) {
     const Matrix3 R = refused(status) ? moving.tip.R : true_arm_.turned(moving.tip.R, deviation);
@@ -174,7 +178,7 @@ inline Status Corrector::place(std::span<const double> q, Stage stage, Arm& arm,
   return status;
 }
 
-/// The controller's own arm.
+/// Computes the Jacobian of the controller's own, nominal arm.
 inline void Corrector::look(std::span<const double> q, Arm& arm, Derivative& out) const noexcept {
   ChainAxes& nominal = arm.nominal.value;
   nominal_.frames(q, nominal);
@@ -189,7 +193,7 @@ inline void Corrector::differentiate(const Chain& chain, const ChainAxes& moving
 
 /// From the tip to its target. The rotation of six joints is the rotation vector up to the eighth
 /// order of its angle t, by y = 1 - cos t: t = sin t (1 + y/3 + 2 y^2/15 + 2 y^3/35 + ..).
-/// Others may never reach the orientation, and need it as a whole.
+/// Other arms may never reach the orientation and therefore need the exact rotation vector.
 inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_BT,
                                     bool& turned_far) const noexcept {
   const Vector3 d = clamped(X_BD.p - X_BT.p, kMaxError) * per_length_;
@@ -210,7 +214,7 @@ inline TipMotion Corrector::towards(const Transformd& X_BD, const Transformd& X_
   return {translation, turned(sine) * (0.5 + y * (1.0 / 6 + y * (1.0 / 15 + y * (1.0 / 35))))};
 }
 
-/// J dq = r, as far as the arm can. left: what of r stays.
+/// Solves J dq = r as far as the arm can move. left: the part of r that it cannot reach.
 inline void Corrector::solution(const Derivative& at, const TipMotion& r, JointSteps& dq,
                                 TipMotion& left) const noexcept {
   if (joints() == 6)
@@ -272,12 +276,20 @@ inline Status Corrector::judge(const Iterate& at, const JointPositions& q,
   const auto rank = internal::rank_above(limits_.min_singular_value, internal::gram(N.J));
   const bool converged = at.left_m <= kMaxResidual_m && at.left_rad <= kMaxResidual_rad;
   const bool turned = joints() == 6 && N.square.determinant_sign() != seed_sign;
-  // From the last to the first, so that all cost the same.
+  // From the lowest priority to the highest, without branches, so that all cost the same.
   Status out = converged ? Status::kOk : Status::kNotConverged;
   out = far(q, seed) ? Status::kFarFromSeed : out;
   out = turned ? Status::kOtherConfiguration : out;
   const bool singular = rank.position < position_rank_ || rank.pose < pose_rank_;
   return singular ? Status::kNearSingular : out;
+}
+
+/// Kept out of line, because it is not needed inside the trained domain.
+[[gnu::noinline]] void Corrector::fade(const Transformd& X_BD, double weight,
+                                       Transformd& X_BC) const noexcept {
+  const Vector3 e = rotation_vector(times_transposed<double>(X_BC.R, X_BD.R));
+  X_BC.p = X_BD.p + (X_BC.p - X_BD.p) * weight;
+  X_BC.R = product(rotation_of(e * weight), X_BD.R);
 }
 
 Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,
@@ -290,7 +302,8 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   if (pose) out.X_BC = X_BD;
   if (state) std::copy_n(seed.begin(), n, out.q.begin());
 
-  // An unusable input costs as much as a good one: its stand-in is solved and the answer dropped.
+  // An invalid input costs as much as a valid one: a valid one is solved in its place and
+  // discarded.
   JointPositions q = out.q;
   const auto here = std::span<const double>(q).first(n);
   Arm arm;
@@ -299,8 +312,8 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   Iterate next;
   bool turned_far = false;
   int seed_sign = 0;
-  unsigned lost = 0;  // where the arm cannot be predicted a step has nothing to go by
-  true_arm_.prepare(context, arm.scene.value);
+  unsigned lost = 0;  // 1 once the arm could not be predicted at a step
+  true_arm_.prepare(context, arm.workspace.value);
   for (const auto& [stage, order] : steps()) {
     const Status found = place(here, stage, arm, X_BT, at);
     lost |= static_cast<unsigned>(refused(found));
@@ -318,9 +331,14 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   if (!refused(out.status) && judged != Status::kOk) out.status = judged;
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
   if (!pose || !state) out.status = Status::kNotFinite;
+  const KnownRange::Found found = known_.look(here, context);  // also if refused: equal cost
   if (refused(out.status)) return out;
   out.X_BC = arm.nominal.value.tip;
   out.q = q;
+  if (found.outside) {
+    out.status = Status::kOutsideDomain;
+    if (found.weight < 1.0) fade(X_BD, found.weight, out.X_BC);
+  }
   return out;
 }
 

@@ -47,7 +47,7 @@ void Cycle::hear_joints(const CycleInput& input) noexcept {
   if (sound(input.q_measured) || sound(input.q_commanded)) joints_age_.renew();
 }
 
-/// The target of this cycle: what arrived, whatever it is, else the last sound one.
+/// The target of this cycle: the one that arrived, valid or not, or else the last valid one.
 Transformd Cycle::hear_target(const CycleInput& input) noexcept {
   if (input.target == Arrival::kNothingNew) return X_BD_;
   if (internal::is_pose(input.X_BD)) {

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 
 #include "plumb/format/formula.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb {
 namespace {
 
 bool known(double v) noexcept { return v == v; }
 
-/// A law as the cycle calls it: whatever it needs is inlined.
+/// A law in the form that the cycle calls, with everything it needs inlined.
 template <class Law>
 [[gnu::flatten]] void apply_law(const BoundEffect& effect, const Situation& at,
                                 Motion<double>& out) noexcept {
   Law::template apply<double>(effect.theta, effect.shape, at, out);
 }
 
-/// Number of the sensor among those the effects read, or -1.
+/// The index of the sensor among those that the effects read, or -1.
 int sensor_of(const format::Model& model, const std::string& name) noexcept {
   const std::string* found = nullptr;
   for (int k = 0; (found = temperature_name(model, k)) != nullptr; ++k)
@@ -28,7 +28,8 @@ int sensor_of(const format::Model& model, const std::string& name) noexcept {
   return -1;
 }
 
-/// Where an input stands in a Context, counted in numbers: so a need is one number, not a switch.
+/// The position of an input in a Context, counted in doubles, so that a required input is found by
+/// an index instead of a switch.
 constexpr std::size_t place(std::size_t bytes) noexcept { return bytes / sizeof(double); }
 constexpr std::size_t kDirectionAt = place(offsetof(Context, direction));
 constexpr std::size_t kTravelAt = place(offsetof(Context, travel));
@@ -89,7 +90,7 @@ EffectSet::EffectSet(const format::Model& model) noexcept
     const int law = find_effect_law(effect.name);
     if (law >= 0 && count_ < format::kMaxEffects) bind(model, effect, law);
   }
-  if (known(stand_ins_.payload_kg)) weights_.expect_payload(stand_ins_.payload_kg);
+  if (known(fallbacks_.payload_kg)) weights_.expect_payload(fallbacks_.payload_kg);
 }
 
 void EffectSet::bind(const format::Model& model, const format::Effect& effect, int law) noexcept {
@@ -104,41 +105,42 @@ void EffectSet::bind(const format::Model& model, const format::Effect& effect, i
     if (place >= 0) bound.shape.sensors.add(static_cast<std::uint8_t>(place));
   }
   std::size_t sensor = 0;
-  for (const auto& need : effect.context) stand_in(need, bound, sensor);
+  for (const auto& need : effect.context) add_fallback(need, bound, sensor);
 }
 
-void EffectSet::stand_in(const format::ContextNeed& need, const BoundEffect& bound,
-                         std::size_t& sensor) noexcept {
+void EffectSet::add_fallback(const format::ContextNeed& need, const BoundEffect& bound,
+                             std::size_t& sensor) noexcept {
   switch (need.input) {
     case format::ContextInput::kDirection:
-      for (const std::size_t j : bound.shape.joints) stand_in(kDirectionAt + j, need.fallback);
+      for (const std::size_t j : bound.shape.joints) add_fallback(kDirectionAt + j, need.fallback);
       break;
     case format::ContextInput::kTravel:
-      for (const std::size_t j : bound.shape.joints) stand_in(kTravelAt + j, need.fallback);
+      for (const std::size_t j : bound.shape.joints) add_fallback(kTravelAt + j, need.fallback);
       break;
     case format::ContextInput::kPayload:
-      stand_in(kPayloadAt, need.fallback);
+      add_fallback(kPayloadAt, need.fallback);
       break;
     case format::ContextInput::kTemperature:
       if (sensor < bound.shape.sensors.size())
-        stand_in(kTemperatureAt + bound.shape.sensors[sensor++], need.fallback);
+        add_fallback(kTemperatureAt + bound.shape.sensors[sensor++], need.fallback);
       break;
     case format::ContextInput::kTime:
-      stand_in(kTimeAt, need.fallback);
+      add_fallback(kTimeAt, need.fallback);
       break;
   }
 }
 
-void EffectSet::stand_in(std::size_t input, double value) noexcept {
+void EffectSet::add_fallback(std::size_t input, double value) noexcept {
   const auto needed = std::span(needs_).first(need_count_);
   if (input >= kInputs || std::find(needed.begin(), needed.end(), input) != needed.end()) return;
   needs_[need_count_++] = input;
   needs_[need_count_] = input;
-  std::memcpy(reinterpret_cast<std::byte*>(&stand_ins_) + input * sizeof value, &value,
+  std::memcpy(reinterpret_cast<std::byte*>(&fallbacks_) + input * sizeof value, &value,
               sizeof value);
 }
 
-/// Two at a time: two numbers are unordered if either is unknown.
+/// Compares two inputs at a time: a comparison is unordered if either of them is NaN, that is
+/// unknown.
 bool EffectSet::lacks(const Context& context) const noexcept {
   const auto* const bytes = reinterpret_cast<const std::byte*>(&context);
   bool any = false;
@@ -152,29 +154,29 @@ bool EffectSet::lacks(const Context& context) const noexcept {
 }
 
 void EffectSet::survey(const ChainFrames& frames, const Context& context,
-                       Surroundings& out) const noexcept {
+                       ContextAndLoads& out) const noexcept {
   out.context = context;
   weights_.weigh(frames, context, out.loads);
 }
 
-void EffectSet::prepare(const Context& context, Scene& out) const noexcept {
+void EffectSet::prepare(const Context& context, Workspace& out) const noexcept {
   out.context = &context;
-  out.stood_in = lacks(context);
-  weights_.hang(context, out.payload_T, out.loads);
+  out.used_fallback = lacks(context);
+  weights_.attach_payload(context, out.payload_T, out.loads);
 }
 
-bool EffectSet::apply(std::span<const double> q, const Chain& chain, Scene& scene,
+bool EffectSet::apply(std::span<const double> q, const Chain& chain, Workspace& workspace,
                       Motion<double>& out) const noexcept {
   const Situation at{.q = q,
                      .chain = chain,
-                     .frames = scene.frames,
-                     .loads = scene.loads,
-                     .context = *scene.context,
-                     .stand_ins = stand_ins_};
-  chain.frames(q, weights_.centres(), scene.payload_T, scene.frames, scene.points_B);
-  weights_.weigh(scene.points_B, scene.loads);
+                     .frames = workspace.frames,
+                     .loads = workspace.loads,
+                     .context = *workspace.context,
+                     .fallbacks = fallbacks_};
+  chain.frames(q, weights_.centres(), workspace.payload_T, workspace.frames, workspace.points_B);
+  weights_.weigh(workspace.points_B, workspace.loads);
   for (const BoundEffect& bound : std::span(effects_).first(count_)) bound.apply(bound, at, out);
-  return scene.stood_in | out.undefined;
+  return workspace.used_fallback | out.undefined;
 }
 
 }  // namespace plumb

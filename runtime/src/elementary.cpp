@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/elementary.hpp"
+#include "plumb/runtime/detail/elementary.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -27,7 +27,8 @@ double power_of_two(int k) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
-/// atan of 0 <= x <= 1 shifted to |t| <= 7/16 or so by atan(x) = atan(c) + atan((x - c)/(1 + c x)).
+/// The arctangent for about |t| <= 7/16. Arguments 0 <= x <= 1 are reduced to it by atan(x) =
+/// atan(c) + atan((x - c)/(1 + c x)).
 double atan_polynomial(double t) {
   const double z = t * t;
   const double w = z * z;
@@ -121,7 +122,8 @@ Pair log_pair(double x) {
   return fast_sum(whole.high, low);
 }
 
-/// e^(x + low) = 2^k times it, |low| much smaller than x. Real: double, or several of them.
+/// The factor f of e^(x + low) = 2^k f, where |low| is much smaller than |x|. Real: double, or a
+/// vector of them.
 template <class Real>
 void exp_reduced(const Real& x, const Real& low, Real& out, Real& shifted) {
   constexpr double kOneOverLn2 = 1.44269504088896338700e+00;
@@ -214,8 +216,9 @@ double atan2(double y, double x) noexcept {
 
 double exp(double x) noexcept { return exp_clamped(x, 0.0); }
 
-/// What is not zero is normal, and so is the power of two, made of k in the last bits of `shifted`;
-/// of others the power is any number, and is not asked for.
+/// Results other than zero are normal numbers, and so is the power of two, which is made from k in
+/// the last bits of `shifted`. Where the result is zero the power may be any number, because it is
+/// not used.
 Two exp_of_negative(Two x) noexcept {
   using Modular = std::uint64_t __attribute__((vector_size(sizeof(Two))));
   Two y, shifted;

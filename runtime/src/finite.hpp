@@ -13,16 +13,16 @@
 #include "pose_lanes.hpp"
 #include "six_joints.hpp"
 
-/// What the cycle accepts as input. Never traps, whatever the bits are.
+/// The checks of the cycle's inputs. They never trap, whatever the bits of the input are.
 namespace plumb::internal {
 
-/// Joint positions beyond this are no arm's, [rad] or [m]; below it sin_cos is exact.
+/// No arm has joint positions beyond this, [rad] or [m]; below it sin_cos is accurate.
 inline constexpr double kMaxJointPosition = 1e4;
 
-/// Allowed departure of R^T R from the identity: what quaternions in single precision leave.
+/// Largest accepted element of R^T R - I: quaternions in single precision deviate as much.
 inline constexpr double kMaxShear = 1e-6;
 
-/// Grows with the magnitude of a number; infinity and NaN are above all others.
+/// An integer that grows with the magnitude of x; infinity and NaN give the largest ones.
 inline std::uint64_t magnitude_key(double x) noexcept {
   return std::bit_cast<std::uint64_t>(x) << 1;
 }
@@ -33,7 +33,7 @@ inline bool is_finite(const Vector3& v) noexcept {
   return is_finite((v(0) - v(0)) + (v(1) - v(1)) + (v(2) - v(2)));
 }
 
-/// Whether the first three are of that magnitude at most; none is that is no number.
+/// True if the magnitudes of the first three lanes are at most `limit`; false for NaN.
 inline bool three_within(const Lanes& v, double limit) noexcept {
 #ifdef __AVX__
   return (__builtin_ia32_movmskpd256(reinterpret_cast<Packed>(within(v, limit))) & 7) == 7;
@@ -42,12 +42,12 @@ inline bool three_within(const Lanes& v, double limit) noexcept {
 #endif
 }
 
-/// Of the first three.
+/// True if the first three lanes are finite.
 inline bool is_finite(const Lanes& v) noexcept {
   return three_within(v, std::numeric_limits<double>::max());
 }
 
-/// Finite and within kMaxJointPosition.
+/// True if all positions are finite and their magnitudes at most kMaxJointPosition.
 inline bool is_joint_state(const SixJoints& q) noexcept {
   PackedBits near = ~PackedBits{};
   for (const Packed& part : q.at) near &= within(part, kMaxJointPosition);
@@ -62,11 +62,12 @@ inline bool is_joint_state(std::span<const double> q) noexcept {
   return all(near);
 }
 
-/// A finite translation and a proper rotation (determinant +1).
+/// True if the translation is finite and the matrix is a rotation (determinant +1).
 ///
-/// By rows, so that three sums are made at once. The fourth column is 0, or NaN beside what is not
-/// finite. Of unit rows at right angles the cross product of two is the third, or, at determinant
-/// -1, its opposite, which is away from it by more than 1 in some place.
+/// The check works on rows, so that three sums are computed at once. The fourth column is 0 for a
+/// finite translation and NaN otherwise. The cross product of two orthonormal rows is the third row
+/// or, if the determinant is -1, its opposite, which differs from it by more than 1 in some
+/// element.
 inline bool is_pose(const Transformd& X) noexcept {
   const Lanes p = origin(X);
   const auto [a, b, c] = rows(axis(X, 0), axis(X, 1), axis(X, 2), p - p);

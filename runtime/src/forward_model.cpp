@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "chain_walk.hpp"
+#include "crisp_walks.hpp"
 #include "finite.hpp"
-#include "hard_walks.hpp"
-#include "room.hpp"
 #include "trained_domain.hpp"
 #include "turn.hpp"
+#include "uninitialised.hpp"
 
 namespace plumb {
 namespace {
@@ -28,7 +28,7 @@ const double* numbers(const Motion<double>& motion) noexcept {
   return reinterpret_cast<const double*>(&motion);
 }
 
-/// Of the tip; what is in the fourth lane means nothing.
+/// The displacement, and below the rotation, of the tip. The fourth lanes are arbitrary.
 Lanes shift_B(const Motion<double>& motion) noexcept {
   static_assert(offsetof(Motion<double>, shift_B) == 9 * sizeof(double));
   return lanes(numbers(motion) + 9);
@@ -38,7 +38,7 @@ Lanes turn_B(const Motion<double>& motion) noexcept {
   return last_three(lanes(numbers(motion) + 11));
 }
 
-/// By whole registers, each written over what ends the one before.
+/// Writes the prediction in whole registers, each of which overwrites the end of the one before.
 Prediction prediction(const Columns& X_BT, const Deviation& deviation) noexcept {
   static_assert(offsetof(Prediction, tree_B) == sizeof(Transformd) &&
                 sizeof(Prediction) == sizeof(Transformd) + sizeof(Lanes));
@@ -60,13 +60,13 @@ ForwardModel::ForwardModel(const format::Model& model) noexcept
   }
   for (const TreeView& tree : trees_)
     if (!tree.empty() && walked_.empty()) walked_ = tree;
-  all_hard_ =
+  all_crisp_ =
       std::all_of(trees_.begin(), trees_.end(), [](const TreeView& tree) { return tree.hard(); });
-  if (all_hard_) hard_trees_ = HardTrees(trees_);
+  if (all_crisp_) crisp_trees_ = CrispTrees(trees_);
   one_walk_ = std::all_of(trees_.begin(), trees_.end(), [&](const TreeView& tree) {
     return tree.empty() || tree.same_leaves(walked_);
   });
-  six_hard_trees_ = all_hard_ && !one_walk_ && hard_trees_.usual();
+  six_crisp_trees_ = all_crisp_ && !one_walk_ && crisp_trees_.has_fast_path();
 }
 
 inline bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
@@ -75,16 +75,16 @@ inline bool ForwardModel::acceptable(std::span<const double> q) const noexcept {
 }
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context) const noexcept {
-  internal::Room<Deviation> found;
+  internal::Uninitialised<Deviation> found;
   Deviation& deviation = found.value;
   find_deviation(q, context, deviation);
   if (refused(deviation.status)) return refusal();
   const Chain::Walk walk(chain_);
-  if (walk.is_usual()) {
+  if (walk.has_fast_path()) {
     using internal::SixJoints;
     const SixJoints bent = SixJoints(q.data()) + SixJoints(deviation.motion.dq.data());
     if (!internal::is_joint_state(bent)) return refusal();
-    return finished(walk.usual(bent, [](std::size_t, const Columns&) {}), deviation);
+    return finished(walk.fast_path(bent, [](std::size_t, const Columns&) {}), deviation);
   }
   JointPositions bent;
   if (!bend(q, deviation, bent)) return refusal();
@@ -93,7 +93,7 @@ Prediction ForwardModel::predict(std::span<const double> q, const Context& conte
 
 Prediction ForwardModel::predict(std::span<const double> q, const Context& context,
                                  ChainFrames& frames) const noexcept {
-  internal::Room<Deviation> deviation;
+  internal::Uninitialised<Deviation> deviation;
   find_deviation(q, context, deviation.value);
   JointPositions bent;
   if (!bend(q, deviation.value, bent)) {
@@ -137,22 +137,22 @@ Matrix3 ForwardModel::turned(const Matrix3& R_BT, const Deviation& deviation) co
 [[gnu::always_inline]] inline void ForwardModel::find_deviation(std::span<const double> q,
                                                                 const Context& context,
                                                                 Deviation& out) const noexcept {
-  internal::Room<EffectSet::Scene> scene;
-  prepare(context, scene.value);
-  deviate(q, scene.value, out);
+  internal::Uninitialised<EffectSet::Workspace> workspace;
+  prepare(context, workspace.value);
+  deviate(q, workspace.value, out);
 }
 
-void ForwardModel::prepare(const Context& context, EffectSet::Scene& out) const noexcept {
+void ForwardModel::prepare(const Context& context, EffectSet::Workspace& out) const noexcept {
   if (!effects_.empty()) effects_.prepare(context, out);
 }
 
-void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& scene,
+void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Workspace& workspace,
                                   Deviation& out) const noexcept {
-  deviate(q, scene, out);
+  deviate(q, workspace, out);
 }
 
 [[gnu::always_inline]] inline void ForwardModel::deviate(std::span<const double> q,
-                                                         EffectSet::Scene& scene,
+                                                         EffectSet::Workspace& workspace,
                                                          Deviation& out) const noexcept {
   clear(out.motion);
   out.tree_B = {};
@@ -162,13 +162,13 @@ void ForwardModel::find_deviation(std::span<const double> q, EffectSet::Scene& s
     return;
   }
   if (has_tree_) add_tree(q, out);
-  if (!effects_.empty()) add_effects(q, scene, out);
+  if (!effects_.empty()) add_effects(q, workspace, out);
 }
 
-inline void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scene& scene,
+inline void ForwardModel::add_effects(std::span<const double> q, EffectSet::Workspace& workspace,
                                       Deviation& out) const noexcept {
-  const bool stood_in = effects_.apply(q, chain_, scene, out.motion);
-  if (stood_in && out.status == Status::kOk) out.status = Status::kContextFallback;
+  const bool used_fallback = effects_.apply(q, chain_, workspace, out.motion);
+  if (used_fallback && out.status == Status::kOk) out.status = Status::kContextFallback;
   const Lanes e = turn_B(out.motion);
   if (internal::three_within(e, internal::kMaxJointPosition))
     internal::turn(e).store(out.turn_B);
@@ -181,7 +181,7 @@ inline void ForwardModel::add_effects(std::span<const double> q, EffectSet::Scen
   if (tree_at(q, out.tree_B) < 1.0) out.status = Status::kOutsideDomain;
 }
 
-/// False: a joint is, or was moved, where no joint can be.
+/// Adds the joint motions of the deviation to q. False if a joint position is impossible then.
 inline bool ForwardModel::bend(std::span<const double> q, const Deviation& deviation,
                                JointPositions& out) const noexcept {
   const auto n = static_cast<std::size_t>(joints());
@@ -196,7 +196,8 @@ inline bool ForwardModel::bend(std::span<const double> q, const Deviation& devia
   return internal::is_joint_state(std::span<const double>(out).first(n));
 }
 
-/// X_BT: of the chain. An encoder scale can still bring a joint beyond what sin_cos knows.
+/// The prediction from the pose X_BT of the chain. Refuses a pose that is not finite, because an
+/// encoder scale can bring a joint beyond the domain of sin_cos.
 inline Prediction ForwardModel::finished(const Columns& X_BT,
                                          const Deviation& deviation) const noexcept {
   const Lanes p = X_BT.p() + shift_B(deviation.motion);
@@ -214,20 +215,20 @@ Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {
   return Vector3(out.data());
 }
 
-/// Returns how far the trees are trusted there; they are already weighed with it.
+/// Evaluates the trees and returns their weight, with which the result is already multiplied.
 [[gnu::always_inline]] inline double ForwardModel::tree_at(std::span<const double> q,
                                                            Deviation::Column& out) const noexcept {
-  if (!six_hard_trees_) return other_tree_at(q, out);
+  if (!six_crisp_trees_) return other_tree_at(q, out);
   alignas(32) std::array<double, 6> looked_up;
   internal::SixJoints u;
   const double weight = domain_.normalise(internal::SixJoints(q.data()), u);
   u.store(looked_up.data());
-  hard_trees_.evaluate(u, looked_up.data(), out);
+  crisp_trees_.evaluate(u, looked_up.data(), out);
   store(lanes(out.data()) * weight, out.data());
   return weight;
 }
 
-/// Never inlined: what it needs would be saved on the usual way too.
+/// Kept out of line so that the fast path does not save registers for it.
 [[gnu::noinline]] double ForwardModel::other_tree_at(std::span<const double> q,
                                                      Deviation::Column& out) const noexcept {
   std::array<double, kMaxJoints> u;
@@ -240,7 +241,7 @@ Vector3 ForwardModel::tree_error(std::span<const double> q) const noexcept {
 
 inline void ForwardModel::trees_at(std::span<const double> at,
                                    Deviation::Column& out) const noexcept {
-  if (all_hard_ && !one_walk_) return hard_trees_.evaluate(at, out);
+  if (all_crisp_ && !one_walk_) return crisp_trees_.evaluate(at, out);
   if (!one_walk_) {
     out = {trees_[0].evaluate(at), trees_[1].evaluate(at), trees_[2].evaluate(at), 0.0};
     return;

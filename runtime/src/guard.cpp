@@ -9,7 +9,8 @@
 namespace plumb {
 namespace {
 
-/// A limit that is no number allows nothing.
+/// A valid limit is kept. A limit that is negative, infinite or NaN becomes 0, which allows no
+/// correction.
 double sound(double limit) noexcept { return limit > 0.0 && limit < 1e300 ? limit : 0.0; }
 
 format::GuardLimits sound(format::GuardLimits limits) noexcept {
@@ -19,7 +20,7 @@ format::GuardLimits sound(format::GuardLimits limits) noexcept {
   return limits;
 }
 
-/// 0 .. 1 without a corner at either end.
+/// Rises from 0 to 1 with zero slope at both ends.
 double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 
 double length(const Lanes& v) noexcept {
@@ -27,8 +28,8 @@ double length(const Lanes& v) noexcept {
   return portable::sqrt(squares[0] + squares[1] + squares[2]);
 }
 
-/// v of that length, shortened to `limit`. One whose square is beyond all numbers becomes zero;
-/// without length or limit the quotient may be NaN, and v stays as it is.
+/// v, which has this length, shortened to `limit`. If the square of the length overflows, the
+/// result is zero. If length and limit are both zero, the quotient is NaN and v is not changed.
 Lanes shortened(const Lanes& v, double length, double limit) noexcept {
   const double share = limit / length;
   return v * (share < 1.0 ? share : 1.0);
@@ -49,10 +50,10 @@ bool approach(const Lanes& goal, double gain, double size, double step, double* 
 
 }  // namespace
 
-/// The correction that is asked for.
+/// The correction that the guard moves to.
 struct Guard::Goal {
-  Lanes translation = spread(0.0);
-  Lanes rotation = spread(0.0);
+  Lanes translation = broadcast(0.0);
+  Lanes rotation = broadcast(0.0);
 };
 
 Guard::Guard(const format::GuardLimits& limits) noexcept : limits_(sound(limits)) {}
@@ -66,7 +67,7 @@ inline double Guard::elapsed(double dt_s) const noexcept {
   return dt_s > 0.0 ? std::min(dt_s, 2.0 * limits_.cycle_s) : 0.0;
 }
 
-/// Without a ramp the step is infinite, or NaN, which is beyond neither end: both arrive at once.
+/// Without a ramp time the step is infinite or NaN; in both cases the goal is reached at once.
 inline void Guard::ramp_towards(double goal, double dt) noexcept {
   const double step = dt / limits_.ramp_s;
   ramp_ = std::max(std::min(goal, ramp_ + step), ramp_ - step);
@@ -94,7 +95,8 @@ bool Guard::approach(const Goal& goal, double dt) noexcept {
   return cut;
 }
 
-/// A model that corrects positions only may still have a turn to undo, of the one before it.
+/// True if a rotation may have to be applied. A model that corrects positions only may still have
+/// to undo a rotation that the model before it applied.
 inline bool Guard::turns() const noexcept {
   using internal::magnitude_key;
   const Three& e = applied_.rotation;
@@ -113,7 +115,7 @@ GuardOutput Guard::applied_to(const Transformd& X_BD, Status status) noexcept {
   return out;
 }
 
-/// What the correction says, unless it is no correction.
+/// The status of the correction, or kNotFinite if it is accepted but not finite.
 template <Guard::Moves kMoves>
 Status Guard::judge(const Transformd& X_BD, const Correction& correction) const noexcept {
   const Transformd& X_BC = correction.X_BC;
@@ -123,7 +125,7 @@ Status Guard::judge(const Transformd& X_BD, const Correction& correction) const 
   return sane || refused(correction.status) ? correction.status : Status::kNotFinite;
 }
 
-/// What this step goes by; counts what lets the correction fade.
+/// The status by which this step proceeds. Counts the causes that let the correction fade.
 inline Status Guard::heard(Status said, Inputs inputs) noexcept {
   if (inputs == Inputs::kStale) {
     ++counters_.stale;

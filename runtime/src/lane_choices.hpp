@@ -7,10 +7,11 @@
 
 #include "lanes.hpp"
 
-/// What is compared and chosen lane by lane, without a branch.
+/// Comparisons and choices lane by lane, without a branch.
 namespace plumb {
 
-/// Of integers, GCC would take a constant through a general register, in three steps.
+/// Bitwise a & b. With integer vectors GCC would load a constant through a general register, in
+/// three instructions.
 inline Packed common_bits(const Packed& a, const Packed& b) {
 #if defined(__AVX__) && !defined(__clang__)
   return __builtin_ia32_andpd256(a, b);
@@ -27,12 +28,12 @@ inline Packed magnitude(const Packed& x) {
 /// All ones in each lane whose magnitude is at most `limit`, else zero; zero for NaN.
 inline PackedBits within(const Packed& x, double limit) { return magnitude(x) <= packed(limit); }
 
-/// The same in each lane that is zero, of either sign.
+/// All ones in each lane that is +0 or -0, else zero.
 inline PackedBits zero(const Packed& x) { return x == packed(0.0); }
 
 /// All ones in each lane that is greater than `limit`, else zero, also for NaN.
 inline PackedBits above(const Packed& x, double limit) {
-#ifdef __AVX__  // as GCC makes a choice, one step longer, of what is ored with a comparison
+#ifdef __AVX__  // for x > y that is then or-ed GCC would generate a blend, one instruction more
   constexpr int kGreater = 30;
   return reinterpret_cast<PackedBits>(__builtin_ia32_cmppd256(x, packed(limit), kGreater));
 #else
@@ -40,7 +41,7 @@ inline PackedBits above(const Packed& x, double limit) {
 #endif
 }
 
-/// Whether all lanes are all ones; each is, or is zero.
+/// True if every lane is all ones. Each lane must be all ones or zero.
 inline bool all(const PackedBits& x) {
 #if defined(__AVX__)
   return __builtin_ia32_movmskpd256(reinterpret_cast<Packed>(x)) == 15;
@@ -57,7 +58,7 @@ inline PackedBits within(const Lanes& x, double limit) {
 inline PackedBits zero(const Lanes& x) { return zero(x.low) & zero(x.high); }
 #endif
 
-/// Lane by lane the first; the second where that is NaN.
+/// Lane by lane: a, or b where a is NaN.
 inline Packed known_or(const Packed& a, const Packed& b) { return a == a ? a : b; }
 #ifndef __AVX__
 inline Lanes known_or(const Lanes& a, const Lanes& b) {
@@ -65,7 +66,7 @@ inline Lanes known_or(const Lanes& a, const Lanes& b) {
 }
 #endif
 
-/// Lane by lane: the first where the whole number is even, else the second.
+/// Lane by lane: `even` where the integer `number` is even, else `odd`.
 inline Packed by_parity(const PackedBits& number, const Packed& even, const Packed& odd) {
 #ifdef __AVX__
   return __builtin_ia32_blendvpd256(even, odd, reinterpret_cast<Packed>(number << 63));
@@ -75,8 +76,8 @@ inline Packed by_parity(const PackedBits& number, const Packed& even, const Pack
 #endif
 }
 
-/// Lane by lane; the second where either is NaN. GCC finds the instruction behind such a choice by
-/// itself only where neither is a constant.
+/// The larger number of each lane; b where either is NaN. GCC recognises this instruction in a
+/// choice only if neither operand is a constant.
 inline Packed larger(const Packed& a, const Packed& b) {
 #if defined(__AVX__)
   return __builtin_ia32_maxpd256(a, b);
@@ -87,6 +88,7 @@ inline Packed larger(const Packed& a, const Packed& b) {
 #endif
 }
 
+/// The smaller number of each lane; b where either is NaN.
 inline Packed smaller(const Packed& a, const Packed& b) {
 #if defined(__AVX__)
   return __builtin_ia32_minpd256(a, b);
@@ -97,8 +99,8 @@ inline Packed smaller(const Packed& a, const Packed& b) {
 #endif
 }
 
-/// Lane by lane within [low, high]; NaN gives `low`.
-inline Lanes held(const Lanes& x, const Lanes& low, const Lanes& high) {
+/// Clamps each lane to [low, high]; NaN gives `low`.
+inline Lanes clamped(const Lanes& x, const Lanes& low, const Lanes& high) {
 #ifdef __AVX__
   return smaller(larger(x, low), high);
 #else

@@ -7,12 +7,12 @@
 
 #include "lanes.hpp"
 
-/// Lanes in another order: vectors x, y, z in the first three of four, and small matrices.
+/// Shuffles of lanes, for vectors (x, y, z in the first three lanes) and small matrices.
 namespace plumb {
 
-/// These lanes of it, in this order.
+/// Lanes i, j, k, l of `a`, in this order.
 template <int i, int j, int k, int l>
-Lanes ordered(const Lanes& a) {
+Lanes shuffle(const Lanes& a) {
 #ifdef __AVX__
   return __builtin_shufflevector(a, a, i, j, k, l);
 #else
@@ -20,11 +20,12 @@ Lanes ordered(const Lanes& a) {
 #endif
 }
 
-/// (a, x, y, z) -> (x, y, z, a): what stands at the end of an array is read without what is behind.
-inline Lanes last_three(const Lanes& end) { return ordered<1, 2, 3, 0>(end); }
+/// (a, x, y, z) -> (x, y, z, a). With it the last three numbers of an array are read as a register
+/// that does not reach beyond the array.
+inline Lanes last_three(const Lanes& end) { return shuffle<1, 2, 3, 0>(end); }
 
-/// (x, y, z, a) -> (a, x, y, z): the other way round.
-inline Lanes to_end(const Lanes& a) { return ordered<3, 0, 1, 2>(a); }
+/// (x, y, z, a) -> (a, x, y, z), the inverse of last_three.
+inline Lanes to_end(const Lanes& a) { return shuffle<3, 0, 1, 2>(a); }
 
 /// (x, y, z, a) -> (1, x, y, z).
 inline Lanes behind_one(const Lanes& a) {
@@ -36,14 +37,14 @@ inline Lanes behind_one(const Lanes& a) {
 }
 
 /// (x, y, z) -> (y, z, x).
-inline Lanes turned(const Lanes& a) { return ordered<1, 2, 0, 3>(a); }
+inline Lanes turned(const Lanes& a) { return shuffle<1, 2, 0, 3>(a); }
 
-/// Its `turned` is a x b; so a sum of cross products need be turned only once.
+/// turned(cross_turned(a, b)) is a x b, so a sum of cross products needs only one `turned`.
 inline Lanes cross_turned(const Lanes& a, const Lanes& b) { return a * turned(b) - turned(a) * b; }
 
 inline Lanes cross(const Lanes& a, const Lanes& b) { return turned(cross_turned(a, b)); }
 
-/// The first three rows of the matrix with these columns.
+/// The first three rows of the matrix with columns a, b, c, d.
 inline std::array<Lanes, 3> rows(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
 #ifdef __AVX__
   const Lanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
@@ -58,7 +59,7 @@ inline std::array<Lanes, 3> rows(const Lanes& a, const Lanes& b, const Lanes& c,
 #endif
 }
 
-/// Columns of three rows of four; what is in the fourth lane means nothing.
+/// The four columns of the matrix with rows x, y, z. Their fourth lanes are arbitrary.
 inline std::array<Lanes, 4> columns(const Lanes& x, const Lanes& y, const Lanes& z) {
 #ifdef __AVX__
   const Lanes even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
@@ -74,7 +75,8 @@ inline std::array<Lanes, 4> columns(const Lanes& x, const Lanes& y, const Lanes&
 #endif
 }
 
-/// Columns of three rows of two; likewise.
+/// The two columns of the matrix with rows x, y, z of two numbers each. Their fourth lanes are
+/// arbitrary.
 inline std::array<Lanes, 2> columns_of_two(const double* x, const double* y, const double* z) {
 #ifdef __AVX__
   const Lanes outer = load_halves(x, z), inner = load_halves(y, y);
@@ -85,7 +87,7 @@ inline std::array<Lanes, 2> columns_of_two(const double* x, const double* y, con
 #endif
 }
 
-/// The columns of [v]x + d, d the same in all lanes.
+/// The columns of the matrix [v]x + d I; d is the same in all lanes.
 inline std::array<Lanes, 3> cross_columns(const Lanes& v, const Lanes& d) {
 #ifdef __AVX__
   constexpr std::int64_t kSign = std::numeric_limits<std::int64_t>::min();
@@ -102,9 +104,10 @@ inline std::array<Lanes, 3> cross_columns(const Lanes& v, const Lanes& d) {
 #endif
 }
 
-/// (a_0 b_1, a_1 b_1, a_1 b_2): a column of what is as good as a b^T and keeps its symmetry.
+/// (a_0 b_1, a_1 b_1, a_1 b_2): the middle column of a b^T where a is a multiple of b, so that its
+/// last element may be a_1 b_2 instead of a_2 b_1.
 inline Lanes middle_products(const Lanes& a, const Lanes& b) {
-  return ordered<0, 1, 1, 1>(a) * ordered<1, 1, 2, 2>(b);
+  return shuffle<0, 1, 1, 1>(a) * shuffle<1, 1, 2, 2>(b);
 }
 
 }  // namespace plumb

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <cstring>
 
-#include "plumb/runtime/wide.hpp"
+#include "plumb/runtime/detail/wide.hpp"
 
 namespace plumb {
 
-/// As many numbers as the machine works on at once, lane by lane; the bits are the same everywhere.
+/// One SIMD register of doubles. Its number of lanes depends on the machine; the results do not.
 #ifdef __AVX__
 inline constexpr std::size_t kPackedLanes = 4;
 #else
@@ -18,8 +18,8 @@ inline constexpr std::size_t kPackedLanes = 2;
 using Packed = double __attribute__((vector_size(kPackedLanes * sizeof(double))));
 using PackedBits = std::int64_t __attribute__((vector_size(kPackedLanes * sizeof(double))));
 
-/// Four numbers worked on together: one register, or two. (GCC would take a vector that is longer
-/// than its registers through memory.)
+/// Four numbers that are computed together, in one register or two. (GCC would move a vector type
+/// that is longer than its registers through memory.)
 #ifdef __AVX__
 using Lanes = Packed;
 #else
@@ -43,6 +43,7 @@ struct Lanes {
   friend Lanes operator*(const Lanes& a, double b) { return {a.low * b, a.high * b}; }
 };
 #endif
+static_assert(sizeof(Lanes) == 4 * sizeof(double) && sizeof(Wide) == sizeof(Lanes));
 
 inline Packed load(const double* from) {
   Packed out;
@@ -55,7 +56,7 @@ void store(Register numbers, void* to) {
   std::memcpy(to, &numbers, sizeof numbers);
 }
 
-/// Four numbers that stand one behind the other.
+/// Loads four consecutive numbers.
 inline Lanes lanes(const double* from) {
 #ifdef __AVX__
   return load(from);
@@ -67,7 +68,7 @@ inline Lanes lanes(const double* from) {
 #ifdef __AVX__
 using Half = double __attribute__((vector_size(2 * sizeof(double))));
 
-/// Two numbers from each.
+/// Loads two consecutive numbers from each address.
 inline Packed load_halves(const double* first, const double* last) {
   Half low, high;
   std::memcpy(&low, first, sizeof low);
@@ -76,7 +77,7 @@ inline Packed load_halves(const double* first, const double* last) {
 }
 #endif
 
-/// The first `count` numbers from there, and zeros; all of them if there are more.
+/// Loads the first `count` numbers, at most a whole register; the other lanes are zero.
 inline Packed load_some(const double* from, std::size_t count) {
   if (count >= kPackedLanes) return load(from);
 #ifdef __AVX__
@@ -86,13 +87,13 @@ inline Packed load_some(const double* from, std::size_t count) {
 #endif
 }
 
-/// The first `count` numbers to there; all of them if there are fewer.
+/// Stores the first `count` numbers, at most a whole register.
 inline void store_some(const Packed& numbers, double* to, std::size_t count) {
   if (count >= kPackedLanes) return store(numbers, to);
   for (std::size_t lane = 0; lane < count; ++lane) to[lane] = numbers[lane];
 }
 
-/// One number in every lane.
+/// A register with the same number in every lane.
 #ifdef __AVX__
 inline Packed packed(double x) { return Packed{x, x, x, x}; }
 inline Lanes twice(const Packed& same) { return same; }
@@ -100,11 +101,11 @@ inline Lanes twice(const Packed& same) { return same; }
 inline Packed packed(double x) { return Packed{x, x}; }
 inline Lanes twice(const Packed& same) { return {same, same}; }
 #endif
-inline Lanes spread(double x) { return twice(packed(x)); }
+inline Lanes broadcast(double x) { return twice(packed(x)); }
 
 inline Lanes operator*(const Lanes& a, const Wide& b) { return a * lanes(b.copies.data()); }
 
-/// One lane in all of them.
+/// A register with the number of lane kLane in every lane.
 template <std::size_t kLane>
 Packed spread_lane(const Packed& x) {
 #ifdef __AVX__

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/last_move.hpp"
+#include "plumb/runtime/detail/last_move.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/loads.hpp"
+#include "plumb/runtime/detail/loads.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -25,7 +25,8 @@ Vector3 narrow(const WidePoint& p) noexcept {
   return {p.x.copies[0], p.y.copies[0], p.z.copies[0]};
 }
 
-/// A context by its numbers: the payload with where it hangs, and the wrench, stand in a row.
+/// A context as an array of numbers. In it the payload and its centre are adjacent, and so are the
+/// force and the moment.
 const double* numbers(const Context& context) noexcept {
   static_assert(std::is_standard_layout_v<Context>);
   return reinterpret_cast<const double*>(&context);
@@ -40,13 +41,14 @@ Lanes lanes(const Loads::Behind& behind) noexcept {
   return plumb::lanes(behind.first_moment.data());
 }
 
-/// The origin of a frame that is not the last of those it stands among.
+/// The origin of a frame. It also reads one number of the frame that follows, so X must not be the
+/// last one.
 Lanes origin_of(const Transformd& X) noexcept { return plumb::lanes(plumb::numbers(X) + 9); }
 
 /// Summed in the order of `dot`.
 double sum_of_three(const Lanes& a) noexcept { return a[0] + a[1] + a[2]; }
 
-/// Of a weight with its first moment about the base, about p.
+/// The first moment about p of masses whose first moment about the base's origin is given.
 Lanes about(const Loads::Behind& behind, const Lanes& p) noexcept {
   return lanes(behind) - p * behind.mass;
 }
@@ -56,7 +58,7 @@ Lanes force_of(const Loads& loads, int j) noexcept {
   return loads.pushed ? weight + lanes(loads.wrench) : weight;
 }
 
-/// Of the external wrench, about a point from which the tip is at `arm`.
+/// The moment of the external wrench about a point; `arm` leads from that point to the tip.
 Lanes wrench_about(const Loads& loads, const Lanes& arm) noexcept {
   return cross(arm, lanes(loads.wrench)) + lanes(loads.tip_moment);
 }
@@ -67,7 +69,7 @@ Lanes moment_of(const Loads& loads, int j, const ChainFrames& frames) noexcept {
   return loads.pushed ? weight + wrench_about(loads, origin(frames.tip) - at) : weight;
 }
 
-/// About or along the axis of joint j.
+/// The component of a load along the axis of joint j.
 double along(int j, const ChainFrames& frames, const Lanes& load) noexcept {
   return sum_of_three(axis(frames.joint[j], 2) * load);
 }
@@ -104,7 +106,7 @@ double Loads::payload_torque(int j, const Chain& chain, const ChainFrames& frame
 
 double Loads::wrench_torque(int j, const Chain& chain, const ChainFrames& frames) const noexcept {
   if (!chain.revolute(j)) return along(j, frames, lanes(wrench));
-  if (!pushed) return along(j, frames, spread(0.0));
+  if (!pushed) return along(j, frames, broadcast(0.0));
   return along(j, frames, wrench_about(*this, origin(frames.tip) - origin_of(frames.joint[j])));
 }
 
@@ -122,7 +124,8 @@ Weights::Weights(const format::Mechanics& mechanics, const std::array<double, 3>
   }
 }
 
-void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) const noexcept {
+void Weights::attach_payload(const Context& context, WidePoint& payload_T,
+                             Loads& out) const noexcept {
   const double* const given = numbers(context);
   const Lanes payload = known_or(plumb::lanes(given + kHangsAt), plumb::lanes(payload_.data()));
   const Lanes at_T = plumb::lanes(X_TF_[0].data()) * spread_lane<1>(payload) +
@@ -142,19 +145,20 @@ void Weights::hang(const Context& context, WidePoint& payload_T, Loads& out) con
   out.pushed = !all(zero(force) & zero(moment));
 }
 
-/// Never inlined: who calls it would have to align his stack for registers that are never on it.
+/// Kept out of line so that its callers need not align their stack for its registers.
 [[gnu::noinline]] void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
   if (joints_ == 6) return weigh<6>(points_B, out);
   weigh<0>(points_B, out);
 }
 
-/// kJoints: known when compiled, so that the loop is unrolled; 0: joints_.
+/// kJoints: number of joints as a compile-time constant, so that the loop is unrolled; 0: joints_.
 template <std::size_t kJoints>
 void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
   const std::size_t n = kJoints > 0 ? kJoints : joints_;
   const Lanes payload_at = plumb::lanes(points_B.at[n].data());
   store(payload_at, &out.payload_at);
-  static_assert(sizeof(Loads::Behind) == sizeof(Lanes));
+  static_assert(sizeof(Loads::Behind) == sizeof(Lanes) &&
+                offsetof(Loads::Behind, mass) == 3 * sizeof(double));
   Lanes behind = payload_at * out.payload_kg;
   for (std::size_t j = n; j-- > 0;) {
     behind = behind + plumb::lanes(points_B.at[j].data()) * mass_[j];
@@ -164,7 +168,7 @@ void Weights::weigh(const ChainPoints& points_B, Loads& out) const noexcept {
 
 void Weights::weigh(const ChainFrames& frames, const Context& context, Loads& out) const noexcept {
   WidePoint payload_T;
-  hang(context, payload_T, out);
+  attach_payload(context, payload_T, out);
   ChainPoints points_B;
   for (std::size_t j = 0; j < joints_; ++j)
     points_B.at[j] = point(frames.joint[j] * narrow(centres_[j]));

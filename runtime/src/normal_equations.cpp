@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "normal_equations.hpp"
 
-#include "room.hpp"
+#include "uninitialised.hpp"
 
 namespace plumb::internal {
 namespace {

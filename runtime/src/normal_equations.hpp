@@ -8,7 +8,7 @@ namespace plumb::internal {
 
 using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 
-/// 6 x 6, a motion a column.
+/// A 6 x 6 matrix, each column of which is a motion of the tip.
 struct Matrix6 {
   std::array<TipMotion, 6> column;
 
@@ -18,31 +18,30 @@ struct Matrix6 {
 };
 using JointVector = Eigen::Matrix<double, kMaxJoints, 1, Eigen::DontAlign>;
 
-/// The lower triangle of J J^T; above its diagonal stands what means nothing.
+/// The lower triangle of J J^T; the elements above the diagonal are arbitrary.
 Matrix6 gram(const ScaledJacobian& J) noexcept;
 
-/// A = L D L^T without pivoting: L unit lower triangular in `L`, D in `d`; above the diagonal of L
-/// stands what means nothing.
-/// By Sylvester's law of inertia A has as many positive eigenvalues as `d` positive entries, and so
-/// has each leading block.
+/// The factors of A = L D L^T without pivoting: the unit lower triangular L and the diagonal d of
+/// D. The elements of L above the diagonal are arbitrary. By Sylvester's law of inertia, A has as
+/// many positive eigenvalues as d has positive entries, and the same holds for each leading block.
 struct Ldl {
   Matrix6 L;
   Vector6 d;
 
-  /// x of A x = b; a pivot that is not positive counts as infinite, so x stays finite.
+  /// Solves A x = b. A pivot that is not positive counts as infinite, so that x stays finite.
   Vector6 solve(const Vector6& b) const noexcept;
 
-  /// Positive entries among the first `rows`.
+  /// The number of positive entries among the first `rows` of d.
   int positive_pivots(int rows) const noexcept;
 };
 
-/// Reads the lower triangle of A.
+/// Factors A, of which only the lower triangle is read.
 Ldl factor(const Matrix6& A) noexcept;
 
-/// How many singular values of the first rows of J exceed s, without computing one.
+/// The number of singular values of J above s, which is found without computing any of them.
 struct RankAbove {
-  int position;  // of rows 0-2
-  int pose;      // of all rows
+  int position;  // singular values of rows 0-2
+  int pose;      // singular values of all rows
 };
 RankAbove rank_above(double s, Matrix6 JJt) noexcept;
 

@@ -6,23 +6,23 @@
 #include "lane_order.hpp"
 #include "plumb/runtime/transform.hpp"
 
-/// A pose in memory, by whole registers.
+/// Loads and stores of poses in whole registers.
 namespace plumb {
 
-/// The numbers of a pose: its three axes, then its origin.
+/// The twelve numbers of a pose: its three axes, then its origin.
 inline const double* numbers(const Transformd& X_AB) {
   static_assert(sizeof(Transformd) == 12 * sizeof(double) && offsetof(Transformd, p) == 72);
   return reinterpret_cast<const double*>(&X_AB);
 }
 inline double* numbers(Transformd& X_AB) { return reinterpret_cast<double*>(&X_AB); }
 
-/// Axis j of B in A, column j of the rotation; what is in the fourth lane means nothing.
+/// Axis j of B in A: column j of the rotation. The fourth lane is arbitrary.
 inline Lanes axis(const Transformd& X_AB, std::size_t j) { return lanes(numbers(X_AB) + 3 * j); }
 
-/// The origin of B in A; likewise.
+/// The origin of B in A. The fourth lane is arbitrary.
 inline Lanes origin(const Transformd& X_AB) { return last_three(lanes(numbers(X_AB) + 8)); }
 
-/// By whole registers, all read before one is written.
+/// Copies in whole registers; all are read before the first is written.
 inline void copy(const Transformd& from, Transformd& to) {
   const double* in = numbers(from);
   const Lanes begin = lanes(in), middle = lanes(in + 4), end = lanes(in + 8);
@@ -31,7 +31,7 @@ inline void copy(const Transformd& from, Transformd& to) {
   store(end, numbers(to) + 8);
 }
 
-/// X_AB with the origin of B moved by d, in A; likewise.
+/// X_AB with its origin moved by d, given in A.
 inline Transformd moved(const Transformd& X_AB, const Lanes& d) {
   const double* in = numbers(X_AB);
   const Lanes begin = lanes(in), middle = lanes(in + 4), end = lanes(in + 8), sum = end + to_end(d);

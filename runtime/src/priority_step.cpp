@@ -6,7 +6,7 @@
 namespace plumb::internal {
 namespace {
 
-constexpr double kTiny = 1e-14;  // of a squared length: singular values below 1e-7 are rounding
+constexpr double kTiny = 1e-14;  // a squared length: singular values below 1e-7 are rounding errors
 
 constexpr int kFewJoints = 5;
 

@@ -5,15 +5,15 @@
 
 namespace plumb::internal {
 
-/// What fewer than six joints can influence, as generic ranks of the nominal Jacobian:
-/// a planar arm with two joints has position 2 and pose 2, a SCARA position 3 and pose 4.
+/// What an arm with fewer than six joints can influence, as generic ranks of the nominal Jacobian:
+/// a planar arm with two joints has position 2 and pose 2, a SCARA arm position 3 and pose 4.
 struct Controllable {
   int position = 3;
   int pose = 6;
 };
 
-/// Step of an arm with fewer than six joints: the position first, as well as it can be met, then
-/// the orientation with what freedom the position leaves; each least squares, shortest step.
+/// Step of an arm with fewer than six joints: first the position in the least-squares sense, then
+/// the orientation with the freedom that the position leaves. Both are the shortest steps.
 ///
 ///   dq = Jp^+ rp + (Jo Z)^+ (ro - Jo Jp^+ rp),   Z projecting on the null space of Jp
 ///

@@ -14,7 +14,8 @@ void ScaledJacobian::set(const Chain& chain, const ChainAxes& moving, const Chai
     set_columns<0>(chain, moving, turning, per_length);
 }
 
-/// kJoints: known when compiled, so that the loop is unrolled; 0: any number.
+/// kJoints: number of joints as a compile-time constant, so that the loop is unrolled; 0 for any
+/// number.
 template <std::size_t kJoints>
 void ScaledJacobian::set_columns(const Chain& chain, const ChainAxes& moving,
                                  const ChainAxes& turning, double per_length) noexcept {

@@ -10,8 +10,8 @@
 
 namespace plumb::internal {
 
-/// A small motion of the tip in the base frame, lengths divided by a length, so that metres and
-/// radians compare. The fourth lanes mean nothing.
+/// A small motion of the tip in the base frame. Lengths are divided by a reference length, so that
+/// they compare with radians. The fourth lanes are arbitrary.
 struct TipMotion {
   Lanes translation, rotation;
 
@@ -20,28 +20,28 @@ struct TipMotion {
   }
 };
 
-/// Steps of the joints: turning ones in [rad], sliding ones divided by the same length; 0 behind
-/// the last joint, up to the end of its register.
+/// Steps of the joints: of revolute joints in [rad], of prismatic ones divided by the reference
+/// length. The numbers after the last joint, up to the end of its register, are 0.
 struct JointSteps : std::array<double, (kMaxJoints + 3) / 4 * 4> {};
 
-/// How the tip moves with each joint.
+/// The Jacobian of the tip, with lengths divided by the reference length.
 class ScaledJacobian {
  public:
-  /// Translations by `moving`, rotations by `turning`, two states of one arm.
-  /// per_length: 1 / length, [1/m]. Cost: fixed for a given number of joints.
+  /// Computes the translations from `moving` and the rotations from `turning`, two states of one
+  /// arm. per_length: 1 / reference length [1/m]. Cost: fixed for a given number of joints.
   void set(const Chain& chain, const ChainAxes& moving, const ChainAxes& turning,
            double per_length) noexcept;
 
   int joints() const noexcept { return static_cast<int>(joints_); }
   std::span<const TipMotion> columns() const noexcept { return std::span(column_).first(joints_); }
 
-  /// J dq.
+  /// The motion J dq.
   TipMotion times(const JointSteps& dq) const noexcept;
 
-  /// What the tip moves beyond J dq along dq, to the second order.
+  /// The second-order part of the tip's motion for the step dq, which comes on top of J dq.
   TipMotion curvature(const JointSteps& dq) const noexcept;
 
-  /// The same numbers, row by row; columns n and up are zero.
+  /// Copies the columns into an ordinary matrix; columns n and up are zero.
   void copy_to(Jacobian& out) const noexcept;
 
  private:

@@ -6,13 +6,13 @@
 #include "lane_choices.hpp"
 #include "lanes.hpp"
 
-/// Sine and cosine of one number or of a register of them, inlined: what `sin_cos` is made of.
+/// Inline sine and cosine of one number or of a register; portable::sin_cos uses them, too.
 // Polynomial coefficients: the minimax sets of FDLIBM 5.3 [Sun Microsystems 1993], which state an
 // approximation error below 2^-57 on the reduced intervals.
 namespace plumb::portable {
 
-/// x + kShift has no fractional bits left, |x| < 2^51: its last bits are the whole number nearest
-/// to x, ties to even, in two's complement.
+/// For |x| < 2^51, x + kShift has no fractional bits: its last bits are the integer nearest to x
+/// (ties to even) in two's complement.
 inline constexpr double kShift = 0x1.8p52;
 
 /// Real: double, or several of them.
@@ -23,7 +23,8 @@ struct Reduced {
   Real shifted;  // kShift + quadrant
 };
 
-/// Cody-Waite: pi/2 in two parts of 33 bits and a third, so the first products are exact.
+/// Cody-Waite reduction: pi/2 is split into two parts of 33 bits and a third, so that the first two
+/// products are exact.
 template <class Real>
 void reduce(const Real& x, Reduced<Real>& out) {
   constexpr double kTwoOverPi = 6.36619772367581382433e-01;
@@ -67,14 +68,15 @@ void cosine(const Real& x, const Real& tail, Real& out) {
 
 inline constexpr double kLargestAngle = 1e5;
 
-/// x; where it is too large no number, nor is then what is made of it.
+/// x, or NaN where |x| is too large; all that is computed from it is then NaN, too.
 inline Packed known_angle(const Packed& x) {
   return reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(x) |
                                   above(magnitude(x), kLargestAngle));
 }
 
-/// The quadrant swaps sine and cosine and turns their signs: all with bits, so that a lane costs
-/// the same whatever is in it. Half a turn negates both; a quarter more makes (c, -s) of (s, c).
+/// The quadrant decides whether sine and cosine change places and signs. This is done with bit
+/// masks, so a lane costs the same whatever it contains. Half a turn negates both; a further
+/// quarter turn changes (s, c) into (c, -s).
 inline void sin_cos_packed(const Packed& x, Packed& sin_out, Packed& cos_out) {
   Reduced<Packed> r;
   reduce(known_angle(x), r);

@@ -9,8 +9,9 @@
 
 namespace plumb::internal {
 
-/// A number of each of six joints, in whole registers: where six do not fill the last one it begins
-/// before the end of the one ahead, so that nothing is gathered, and repeats what stands there.
+/// One number for each of six joints, in whole registers. If six numbers do not fill the last
+/// register, it begins before the end of the previous one and repeats its last numbers, so that
+/// every register is loaded and stored whole.
 struct SixJoints {
   static constexpr std::size_t kRegisters = (6 + kPackedLanes - 1) / kPackedLanes;
 
@@ -21,7 +22,8 @@ struct SixJoints {
 
   SixJoints() = default;
 
-  /// As what was just written in registers of four and of two is read without waiting for it.
+  /// Loads numbers that were just written in registers of four and of two. The second register is
+  /// loaded in two halves, because a load across both writes would have to wait for them.
   explicit SixJoints(const double* from) {
     for (std::size_t r = 0; r < kRegisters; ++r) at[r] = load(from + first(r));
 #ifdef __AVX__
@@ -29,7 +31,7 @@ struct SixJoints {
 #endif
   }
 
-  /// By whole registers: of what was written long before.
+  /// Loads numbers that were written long before, in whole registers.
   static SixJoints constants(const double* from) {
     SixJoints out;
     for (std::size_t r = 0; r < kRegisters; ++r) out.at[r] = load(from + first(r));
@@ -40,7 +42,7 @@ struct SixJoints {
     for (std::size_t r = 0; r < kRegisters; ++r) plumb::store(at[r], to + first(r));
   }
 
-  /// Of the first four and of the last four.
+  /// The numbers of the first four joints, and of the last four.
   Lanes front() const {
 #ifdef __AVX__
     return at[0];
@@ -56,9 +58,9 @@ struct SixJoints {
 #endif
   }
 
-  /// That of joint i in every lane.
+  /// The number of joint i in every lane.
   template <std::size_t i>
-  Packed spread() const {
+  Packed broadcast() const {
     constexpr std::size_t r = i / kPackedLanes;
     return spread_lane<i - first(r)>(at[r]);
   }

@@ -7,20 +7,20 @@
 #include <limits>
 #include <utility>
 
-#include "room.hpp"
+#include "uninitialised.hpp"
 
 namespace plumb::internal {
 namespace {
 
 constexpr double kTiny = 1e-7;  // singular values below it are rounding, not geometry
 
-// Choices by masks: what compilers make of a condition may be a branch.
+// Choices are made by masks, because a compiler may turn a condition into a branch.
 std::uint64_t bits(double x) noexcept { return std::bit_cast<std::uint64_t>(x); }
 double negated_if_odd(std::uint64_t count, double x) noexcept {
   return std::bit_cast<double>(bits(x) ^ count << 63);
 }
 
-/// 1 / pivot in every lane; 0 where there is none. It stays in one kind of register.
+/// 1 / pivot in every lane, or 0 if the pivot is tiny. Computed in vector registers throughout.
 Lanes inverse_if_there(double pivot) noexcept {
   const Packed x = packed(pivot);
   const PackedBits magnitude =
@@ -29,16 +29,18 @@ Lanes inverse_if_there(double pivot) noexcept {
   return twice(reinterpret_cast<Packed>(reinterpret_cast<PackedBits>(1.0 / x) & ~tiny));
 }
 
-/// Entry of a column, read where it stands.
+/// Element of a column, read from memory.
 double entry(const TipMotion& column, std::size_t row) noexcept {
+  static_assert(sizeof(TipMotion) == 8 * sizeof(double));
   const std::size_t lane = row < 3 ? row : row + 1;
   double out;
   std::memcpy(&out, reinterpret_cast<const std::byte*>(&column) + lane * sizeof out, sizeof out);
   return out;
 }
 
-/// The column with the largest entry of this row, among those that are left. Its number stands in
-/// the last bits of what is compared, so entries that agree but for those are as good.
+/// The column with the largest element of this row among the remaining ones. The number of the
+/// column replaces the last bits of the compared number, so elements that differ only there count
+/// as equal.
 std::size_t choose(const std::array<TipMotion, 6>& columns, std::size_t row) noexcept {
   constexpr std::uint64_t kNumber = 7, kLast = kNumber >> 1;
   std::uint64_t largest = 0;
@@ -49,7 +51,7 @@ std::size_t choose(const std::array<TipMotion, 6>& columns, std::size_t row) noe
 
 }  // namespace
 
-/// Rows above k are done with: behind the third step nothing of a translation is read any more.
+/// Rows above k are finished, so after the third step no translation is read any more.
 void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
   const std::span<const TipMotion> columns = J.columns();
 #pragma GCC unroll 6
@@ -70,7 +72,7 @@ void SquareSystem::eliminate(const ScaledJacobian& J) noexcept {
     inverse_[k] = inverse[0];
     for (std::size_t j = k + 1; j < 6; ++j) {
       TipMotion& other = column_[j];
-      const Lanes share = spread(entry(other, k)) * inverse;
+      const Lanes share = broadcast(entry(other, k)) * inverse;
       factor_[k][j] = share[0];
       if (k < 2) other.translation = other.translation - translation * share;
       other.rotation = other.rotation - rotation * share;

@@ -6,14 +6,14 @@
 
 #include "lane_choices.hpp"
 #include "lanes.hpp"
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "six_joints.hpp"
 
-/// How TrainedDomain normalises, inlined.
+/// The inline functions of TrainedDomain.
 namespace plumb::internal {
 
-/// Farthest of those before and of these, from the middle of the box; what is NaN is infinitely
-/// far.
+/// The larger distance from the middle of the box, of `before` and |at|, lane by lane; NaN in `at`
+/// counts as infinite.
 inline Packed farther(const Packed& at, const Packed& before) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return larger(smaller(magnitude(at), packed(kInfinity)), before);
@@ -23,7 +23,8 @@ inline Packed clamped_to_box(const Packed& at) {
   return smaller(larger(at, packed(-1.0)), packed(1.0));
 }
 
-/// `farthest`: in half spans from the middle, at least 1.
+/// The weight of the trees. `farthest`: distance from the middle of the box in half spans, at
+/// least 1.
 inline double trust(const Packed& farthest, double fade_inverse) {
   double most = farthest[0];
   for (std::size_t lane = 1; lane < kPackedLanes; ++lane) most = std::max(most, farthest[lane]);

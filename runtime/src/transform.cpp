@@ -6,7 +6,8 @@
 namespace plumb {
 namespace {
 
-/// Unit quaternion (w, x, y, z), w >= 0, by the largest of its four squares [Shepperd 1978].
+/// The unit quaternion (w, x, y, z) with w >= 0, computed from its largest component [Shepperd
+/// 1978].
 std::array<double, 4> quaternion(const Matrix3& R) noexcept {
   const std::array<double, 4> squares{
       1.0 + R(0, 0) + R(1, 1) + R(2, 2), 1.0 + R(0, 0) - R(1, 1) - R(2, 2),

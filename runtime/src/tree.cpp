@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 
 #include <algorithm>
 

@@ -5,11 +5,11 @@
 
 #include "lane_order.hpp"
 #include "lanes.hpp"
-#include "plumb/runtime/elementary.hpp"
+#include "plumb/runtime/detail/elementary.hpp"
 
 namespace plumb::internal {
 
-/// A rotation by its columns; what is in their fourth lanes means nothing.
+/// A rotation matrix by its columns, whose fourth lanes are arbitrary.
 struct Turn {
   Lanes x, y, z;
 
@@ -23,7 +23,8 @@ struct Turn {
   Lanes operator*(const Lanes& v) const {
     return x * spread_lane<0>(v) + y * spread_lane<1>(v) + z * spread_lane<2>(v);
   }
-  /// From memory number by number: read as registers, what was written otherwise is waited for.
+  /// Reads R number by number: it may have been written in another size, and a read as registers
+  /// would then have to wait for these writes.
   Turn operator*(const Matrix3& R) const {
     const auto column = [&](const double* v) { return x * v[0] + y * v[1] + z * v[2]; };
     return Turn(std::array{column(R.data()), column(R.data() + 3), column(R.data() + 6)});
@@ -35,7 +36,7 @@ struct Turn {
     plumb::store(z, out[2].data());
   }
 
-  /// By whole registers: the last one ends where the matrix does.
+  /// Stores in whole registers, the last of which ends where the matrix does.
   void store(Matrix3& out) const {
     plumb::store(x, out.data());
     plumb::store(y, out.data() + 3);
@@ -45,16 +46,18 @@ struct Turn {
 
 inline constexpr double kSmallAngle = 1e-2;  // below it the series are exact to rounding
 
-/// Of a rotation by t: a = sin(t) / t, b = (1 - cos t) / t^2, c = (t - sin t) / t^3.
+/// The coefficients of a rotation by the angle t and of its twist: a = sin(t) / t,
+/// b = (1 - cos t) / t^2, c = (t - sin t) / t^3.
 struct ExpCoefficients {
-  Lanes all;  // the first three
+  Lanes all;  // a, b, c and an unused number
   double t2;  // t^2
 
   double b() const { return all[1]; }
   double c() const { return all[2]; }
 };
 
-/// The three series have the same form, so that they are summed together.
+/// The coefficients of a rotation whose squared angle is t2. For small angles the three series have
+/// the same form and are summed together.
 inline ExpCoefficients exp_coefficients(double t2) {
   if (t2 < kSmallAngle * kSmallAngle) {
     const Lanes first{1.0, 0.5, 1.0 / 6, 0.0}, second{1.0 / 6, 1.0 / 24, 1.0 / 120, 0.0};
@@ -68,15 +71,15 @@ inline ExpCoefficients exp_coefficients(double t2) {
   return {Lanes{sine / t, 2.0 * half.sin * half.sin / t2, (t - sine) / (t2 * t), 0.0}, t2};
 }
 
-/// 1 - b t^2 + b e e^T + a [e]x
+/// The rotation by the vector e: I (1 - b t^2) + b e e^T + a [e]x.
 inline Turn turn(const Lanes& e, const ExpCoefficients& k) {
   const Lanes a = spread_lane<0>(k.all), b = spread_lane<1>(k.all), be = b * e;
-  const auto rest = cross_columns(a * e, spread(1.0) - b * k.t2);
+  const auto rest = cross_columns(a * e, broadcast(1.0) - b * k.t2);
   return Turn(std::array{spread_lane<0>(be) * e + rest[0], middle_products(be, e) + rest[1],
                          be * spread_lane<2>(e) + rest[2]});
 }
 
-/// By a rotation vector [rad].
+/// The rotation by the rotation vector e [rad].
 inline Turn turn(const Lanes& e) {
   const Lanes squares = e * e;
   return turn(e, exp_coefficients(squares[0] + squares[1] + squares[2]));

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 
 /// The tree as one writes it down first: a node a heap object, as many compares as it takes,
 /// blending by recursion. The reference for speed and for what comes out.

@@ -89,6 +89,20 @@ TEST(Timings, ReadTheClockSeldomWhereACallIsShort) {
   EXPECT_EQ(fast.of(Part::kGuard, Way::kCold).calls_per_reading, 1);
 }
 
+/// The first calls take longer than a whole reading, as if another program had run meanwhile.
+TEST(Timings, ReadTheClockSeldomAlsoWhereTheFirstCallsAreDisturbed) {
+  const auto disturbed = [](std::size_t i, double) {
+    return i < 5 ? spin(10e3) : static_cast<double>(i);
+  };
+  const Timings found = timed(disturbed, Part::kGuard, 100000);
+  EXPECT_GT(found.of(Part::kGuard, Way::kWarm).calls_per_reading, 64);
+}
+
+TEST(Timings, ReadTheClockAsSeldomAsFewCallsAllow) {
+  const auto fast = [](std::size_t i, double) { return static_cast<double>(i); };
+  EXPECT_EQ(timed(fast, Part::kGuard, 100).of(Part::kGuard, Way::kWarm).calls_per_reading, 8);
+}
+
 TEST(Timings, OfTheCycleAsAChainAreCallByCall) {
   const Timings found = timed([](std::size_t, double) { return 1.0; }, Part::kCycle, 5000);
   EXPECT_EQ(found.of(Part::kCycle, Way::kChain).calls_per_reading, 1);

@@ -12,8 +12,8 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "plumb/runtime/detail/tree.hpp"
 #include "plumb/runtime/forward_model.hpp"
-#include "plumb/runtime/tree.hpp"
 #include "tests/bench/naive_tree.hpp"
 #include "tests/bench/sample_trees.hpp"
 

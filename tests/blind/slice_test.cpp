@@ -25,6 +25,30 @@ TEST(BlindSlice, PassesTheMarks) {
   EXPECT_GE(made, kCases * 98 / 100);
 }
 
+/// The last column of the table for 200 clean arms, of which `wrong` were said to lack something.
+std::string result_of_false_findings(int wrong) {
+  std::vector<Score> scores(200);
+  for (int i = 0; i < 200; ++i) {
+    Score& s = scores[i];
+    s.drawn.group = Group::kNothing;
+    s.made = true;
+    s.finding = i < wrong ? offline::Finding::kMissing : offline::Finding::kComplete;
+  }
+  const std::string table = table_of(marks_of(scores, 2.0));
+  const std::string row = "| nothing hidden, yet something named |";
+  const std::string line =
+      table.substr(table.find(row), table.find('\n', table.find(row)) - table.find(row));
+  return line.substr(line.rfind("| ", line.size() - 3) + 2, std::string::npos);
+}
+
+// The mark is 1 %, and two standard errors of 200 cases are 1.4 %.
+TEST(BlindTable, SaysMissedWhereAValueIsBeyondItsMark) {
+  EXPECT_EQ(result_of_false_findings(2), "passed |");
+  EXPECT_EQ(result_of_false_findings(3), "missed, within the allowance |");
+  EXPECT_EQ(result_of_false_findings(4), "missed, within the allowance |");
+  EXPECT_EQ(result_of_false_findings(5), "missed |");
+}
+
 /// A diagnoser that always says the same must not pass.
 TEST(BlindSlice, AGuessThatIsAlwaysTheSameMissesTheMarks) {
   std::vector<Score> scores;

@@ -227,6 +227,9 @@ TEST(CellMessage, OfPriors) {
   EXPECT_EQ(with("[fit]\nprior = { \"J1.d\" = 0 }"), Summary{"E-CELL-RANGE 6:20"});
   EXPECT_EQ(with("[fit]\nprior = { \"frame.x\" = 1 }"), Summary{"E-CELL-RANGE 6:23"});
   EXPECT_TRUE(with("[fit]\nprior = { \"J1.d\" = 0.1, \"J1.alpha\" = 0.02 }").empty());
+  EXPECT_TRUE(with("[fit]\nprior_mm = 0.2\nprior_mrad = 0").empty());
+  EXPECT_EQ(with("[fit]\nprior_mm = -1"), Summary{"E-CELL-RANGE 6:12"});
+  EXPECT_EQ(with("[fit]\nprior_mrad = \"wide\""), Summary{"E-CELL-TYPE 6:14"});
 }
 
 TEST(CellMessage, OfAllProblemsComesInTheOrderOfTheFile) {
@@ -243,6 +246,19 @@ TEST(CellMessage, NotesAssumedLimits) {
       "joints = [{}, { type = \"prismatic\" }, { q = [-90, 90] }]\n");
   ASSERT_EQ(summary(remarks), Summary{"N-CELL-LIMITS 4:10"});
   EXPECT_EQ(remarks[0].message, "no q limits for J1, J2: ±360° or ±10 m are assumed");
+}
+
+TEST(CellText, KnowsWhichLimitsAreAssumedAndWritesThemOutAsNotGiven) {
+  const Folder folder;
+  const auto file = folder.put("cell.toml",
+                               "schema = \"cell/1\"\n[robot]\ndh_convention = \"standard\"\n"
+                               "joints = [{}, { type = \"prismatic\" }, { q = [-90, 90] }]\n");
+  const Cell cell = read_cell(file);
+  const std::vector<bool> assumed{true, true, false};
+  EXPECT_EQ(cell.assumed_limits, assumed);
+  const Cell back = parse_cell(write_cell(cell), file);
+  EXPECT_EQ(back.assumed_limits, assumed);
+  EXPECT_EQ(back.nominal, cell.nominal);
 }
 
 TEST(CellMessage, WarnsOfNumbersInAnotherUnit) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <limits>
 
 #include "cell/measurements.hpp"
@@ -234,7 +235,40 @@ TEST(ArmMessage, OfStandardDeviations) {
   EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,y_mm,sx_um\n1,2,3,4,5\n")),
             Summary{"E-CSV-AXIS 1:25"});
   EXPECT_EQ(summary(of_arm("q1_deg,q2_deg,x_mm,sx_um\n1,2,3,5\n1,2,4,0\n1,2,5,-1\n")),
-            (Summary{"E-CSV-SIGMA 3:7", "E-CSV-SIGMA 4:7"}));
+            Summary{"E-CSV-SIGMA 4:7"});
+}
+
+Measurements of_sigmas(const std::string& rows) {
+  const Folder folder;
+  const auto file = folder.put("t.csv", "q1_deg,q2_deg,x_mm,y_mm,sx_um,sy_um\n" + rows);
+  return read_measurements({file}, {true, true}, Needs::kJointsAndPosition);
+}
+
+TEST(ArmMessage, OfAStandardDeviationOfZeroWhichIsReplacedByTheSmallestOfItsAxis) {
+  const auto m = of_sigmas("1,2,3,4,5,9\n2,2,4,4,0,8\n3,2,5,4,7,0\n");
+  EXPECT_EQ(summary(m.tables[0].remarks), Summary{"W-CSV-SIGMA 3:9"});
+  EXPECT_DOUBLE_EQ(m.sigma_m(1, 0), 5e-6);
+  EXPECT_DOUBLE_EQ(m.sigma_m(2, 1), 8e-6);
+  EXPECT_DOUBLE_EQ(m.sigma_m(2, 0), 7e-6);
+  EXPECT_EQ(of_sigmas("1,2,3,4,0,9\n2,2,4,4,0,8\n").sigma_m(0, 0), 8e-6);
+  const auto none = of_sigmas("1,2,3,4,0,0\n2,2,4,4,0,0\n");
+  EXPECT_EQ(none.sigma_m.rows(), 0);
+  EXPECT_EQ(summary(none.tables[0].remarks), Summary{"W-CSV-SIGMA 2:9"});
+  EXPECT_EQ(summary(of_sigmas("1,2,3,4,5,9\n").tables[0].remarks), Summary{});
+}
+
+TEST(RobotTable, GivesLimitsOfBothKindsOfJointsAndMayLeaveThemEmpty) {
+  const std::string text =
+      "joint,q_min_deg,q_max_deg,q_min_mm,q_max_mm\nJ1,-90,90,,\nJ2,,,0,1500\nJ3,,,,\n";
+  const Table table = parse_table(text, "dh.csv", TableOf::kRobot);
+  ASSERT_EQ(table.columns.size(), 5u);
+  EXPECT_TRUE(std::isnan(table.columns[1].values[1]));
+  EXPECT_DOUBLE_EQ(table.columns[4].values[1], 1.5);
+  // Elsewhere an empty cell and a quantity given twice stay mistakes.
+  EXPECT_EQ(problems_of([&] { parse_table(text, "m.csv"); }).empty(), false);
+  EXPECT_EQ(summary(problems_of(
+                [] { parse_table("q_min_deg,q_min_rad\n1,1\n", "dh.csv", TableOf::kRobot); })),
+            Summary{"E-CSV-DUPLICATE 1:11"});
 }
 
 TEST(ArmMessage, OfColumnsWhoseNameIsASlip) {

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/file.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <csignal>
 
 #include <thread>
 
+#include "program/bounded_file.hpp"
+#include "program/output_files.hpp"
 #include "support.hpp"
 
 namespace plumb::offline {
@@ -64,6 +71,57 @@ TEST(File, KeepsTheOldOneAndLeavesNoDraftWhenTheDiskIsFull) {
   EXPECT_NE(problems[0].message.find("File too large"), std::string::npos);
   EXPECT_EQ(read_file(file), "old");
   EXPECT_EQ(entries(folder.path()), 1);
+}
+
+TEST(File, AWriterThatIsKilledLeavesNothingBehind) {
+  const Folder folder;
+  const int nameless = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0644);
+  if (nameless < 0) GTEST_SKIP() << "this file system has no files without a name";
+  ::close(nameless);
+  const auto file = folder.put("cell.toml", "old");
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    // The signal of a file that grows too large kills at once, as kill -9 would.
+    const FullDisk full(1000);
+    std::signal(SIGXFSZ, SIG_DFL);
+    write_file_atomically(file, std::string(5000, 'x'));
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(writer, &status, 0), writer);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(entries(folder.path()), 1);
+  EXPECT_EQ(read_file(file), "old");
+}
+
+/// A process that is no more.
+pid_t gone() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST(File, TheNextWriterRemovesDraftsOfTheSameFileWhoseWritersAreGone) {
+  const Folder folder;
+  const std::string dead = std::to_string(gone()), alive = std::to_string(::getpid());
+  const auto draft = [&](const std::string& name, std::chrono::minutes age) {
+    const auto file = folder.put(name, "half");
+    fs::last_write_time(file, fs::file_time_type::clock::now() - age);
+    return file;
+  };
+  using std::chrono::minutes;
+  const auto stale = draft("a." + dead + "-17-0.tmp", minutes(5));
+  const auto fresh = draft("a." + dead + "-18-0.tmp", minutes(0));
+  const auto living = draft("a." + alive + "-17-0.tmp", minutes(5));
+  const auto other = draft("b." + dead + "-17-0.tmp", minutes(5));
+  const auto users = draft("a.tmp", minutes(5));
+  const auto named = draft("a.1-2-3.old.tmp", minutes(5));
+  write_file_atomically(folder.path() / "a", "new");
+  EXPECT_FALSE(fs::exists(stale));
+  for (const auto& kept : {fresh, living, other, users, named})
+    EXPECT_TRUE(fs::exists(kept)) << kept;
+  EXPECT_EQ(read_file(folder.path() / "a"), "new");
 }
 
 TEST(File, SaysWhyItCannotWrite) {
@@ -152,10 +210,52 @@ TEST(File, SaysWhyItCannotRead) {
             "E-READ: cannot read " + folder.path().string() + ": it is a directory");
 }
 
+TEST(File, LargerThanItsKindMayBeIsRefusedBeforeItIsRead) {
+  const Folder folder;
+  const auto file = folder.put("cell.toml", "");
+  fs::resize_file(file, kMostCellBytes + 1);  // a hole: takes no room on the disk
+  const auto codes = [](const fs::path& which, std::uintmax_t most) {
+    const auto problems = problems_of([&] { read_file_up_to(which, most); });
+    return problems.empty() ? std::string() : problems[0].code;
+  };
+  EXPECT_EQ(codes(file, kMostCellBytes), "E-READ-SIZE");
+  EXPECT_EQ(codes(file, kMostCellBytes + 1), "");
+  EXPECT_EQ(codes("/dev/zero", 1 << 20), "E-READ-SIZE");
+  EXPECT_EQ(codes("/dev/null", 1 << 20), "");
+  fs::resize_file(file, kMostFileBytes + 1);
+  EXPECT_EQ(problems_of([&] { read_file(file); }).at(0).code, "E-READ-SIZE");
+}
+
+TEST(File, APipeIsReadUpToItsBound) {
+  const Folder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto fill = [&](std::size_t bytes) {
+    return std::thread([=] { std::ofstream(pipe) << std::string(bytes, 'x'); });
+  };
+  std::signal(SIGPIPE, SIG_IGN);
+  std::thread few = fill(100000);
+  EXPECT_EQ(read_file_up_to(pipe, 100000).size(), 100000u);
+  few.join();
+  std::thread many = fill(100001);
+  EXPECT_EQ(problems_of([&] { read_file_up_to(pipe, 100000); }).size(), 1u);
+  many.join();
+}
+
 TEST(File, IsNamedShortlyBelowTheWorkingDirectory) {
   EXPECT_EQ(display_name(fs::current_path() / "a" / "b.csv"), "a/b.csv");
   EXPECT_EQ(display_name("/elsewhere/b.csv"), "/elsewhere/b.csv");
   EXPECT_EQ(display_name("b.csv"), "b.csv");
+}
+
+TEST(File, AFolderThatWritingMakesIsNamed) {
+  const Folder folder;
+  EXPECT_FALSE(folder_note(folder.path() / "a.csv", {}));
+  const auto note = folder_note(folder.path() / "new" / "deep" / "a.csv", {});
+  ASSERT_TRUE(note);
+  EXPECT_EQ(note->code, "N-WRITE-FOLDER");
+  EXPECT_NE(note->message.find((folder.path() / "new").string() + ":"), std::string::npos)
+      << note->message;
 }
 
 TEST(Sha256, AgreesWithTheVectorsOfFips180) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "program/printable.hpp"
+#include "program/utf8.hpp"
 namespace plumb::offline {
 namespace {
 
@@ -69,10 +71,10 @@ TEST(Render, ShowsTheNeighbourhoodOfTheCaretInALongLine) {
             "  --> tracker.csv:1:501\n"
             "   |\n"
             " 1 | …" +
-                std::string(50, 'a') + "x" + std::string(49, 'b') +
+                std::string(36, 'a') + "x" + std::string(35, 'b') +
                 "…\n"
                 "   | " +
-                std::string(51, ' ') + "^ add a unit suffix");
+                std::string(37, ' ') + "^ add a unit suffix");
 }
 
 TEST(Render, NeverReadsOutsideTheLineWhateverTheColumn) {
@@ -83,6 +85,64 @@ TEST(Render, NeverReadsOutsideTheLineWhateverTheColumn) {
       p.place->length = length;
       EXPECT_LT(render(p).size(), 1000u);
     }
+}
+
+/// What a hostile file may hold, each piece with how it is shown.
+const std::vector<std::pair<std::string, std::string>> kHostile{{"\x1b[31m", "\\x1b[31m"},
+                                                                {"\a", "\\x07"},
+                                                                {"\r", "\\x0d"},
+                                                                {"\x7f", "\\x7f"},
+                                                                {"\xc2\x9b", "\\u009b"},
+                                                                {"\x9b", "\\x9b"},
+                                                                {"\xe2\x80\xae", "\\u202e"},
+                                                                {"\xe2\x81\xa6", "\\u2066"},
+                                                                {"\xe2\x80\xa8", "\\u2028"},
+                                                                {"\xef\xbb\xbf", "\\ufeff"},
+                                                                {"\xd8\x9c", "\\u061c"},
+                                                                {"\xff", "\\xff"},
+                                                                {"\xe2\x80", "\\xe2\\x80"}};
+
+TEST(Printable, ShowsWhateverATerminalWouldObeyAndNothingElse) {
+  for (const auto& [raw, shown] : kHostile) {
+    EXPECT_EQ(printable_text("a" + raw + "/"), "a" + shown + "/");
+    EXPECT_EQ(printable_line("a" + raw + "/"), "a" + shown + "/");
+  }
+  const std::string ours = "Größe 3 µm ± 2°, 測定, 😀\n\ttable";
+  EXPECT_EQ(printable_text(ours), ours);
+  EXPECT_EQ(printable_line("a\n\tb"), "a\\n\\tb");
+  EXPECT_EQ(printable_text(std::string("a\0b", 3)), "a\\x00b");
+}
+
+TEST(Printable, EveryByteStringBecomesUtf8WithoutControls) {
+  unsigned state = 1;
+  for (int k = 0; k < 20000; ++k) {
+    std::string bytes;
+    for (int i = 0; i < 8; ++i) {
+      state = state * 1664525u + 1013904223u;
+      bytes += static_cast<char>(state >> 24);
+    }
+    const std::string shown = printable_line(bytes);
+    EXPECT_EQ(find_invalid_utf8(shown), std::string_view::npos);
+    for (const char c : shown) EXPECT_FALSE(static_cast<unsigned char>(c) < 0x20 || c == 0x7f);
+    EXPECT_EQ(printable_line(shown), shown);
+    EXPECT_EQ(find_invalid_utf8(valid_utf8(bytes)), std::string_view::npos);
+  }
+}
+
+TEST(Render, LetsNoPartOfAProblemReachTheTerminalRaw) {
+  for (const auto& [raw, shown] : kHostile) {
+    Problem p = unit_problem();
+    p.message += raw;
+    p.help += raw;
+    p.place->file += raw;
+    p.place->label += raw;
+    p.place->source += raw;
+    const std::string text = render(p);
+    EXPECT_EQ(text.find(raw), std::string::npos) << shown;
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+    EXPECT_NE(text.find(shown), std::string::npos) << shown;
+    EXPECT_EQ(find_invalid_utf8(text), std::string::npos) << shown;
+  }
 }
 
 TEST(Failure, SaysItsFirstProblemAndHowManyMore) {

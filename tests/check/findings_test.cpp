@@ -87,7 +87,7 @@ TEST(Check, FindsNothingInASoundCell) {
   EXPECT_EQ(check.floor.source, NoiseFloor::Source::kRepeats);
 }
 
-TEST(Check, AReadingBeyondTheLimitsIsAnErrorWithItsLineAndTheTurnThatWouldBeInside) {
+TEST(Check, AReadingBeyondTheLimitsIsAWarningWithItsLineAndTheTurnThatWouldBeInside) {
   Files files = files_of(1, {});
   auto lines = lines_of(files.csv);
   std::size_t header = 0;
@@ -98,12 +98,31 @@ TEST(Check, AReadingBeyondTheLimitsIsAnErrorWithItsLineAndTheTurnThatWouldBeInsi
   line.replace(begin, end - begin, std::to_string(q + 360.0));
   files.csv = joined(lines);
   const Check check = checked(files);
-  const Problem* problem = found(check, "E-CHECK-LIMITS");
+  const Problem* problem = found(check, "W-CHECK-LIMITS");
   ASSERT_NE(problem, nullptr);
   EXPECT_EQ(problem->place->line, static_cast<int>(header) + 6);
   EXPECT_NE(problem->message.find("a whole turn"), std::string::npos) << problem->message;
   EXPECT_NE(problem->message.find("J1 is beyond"), std::string::npos) << problem->message;
-  EXPECT_EQ(check.exit, Exit::kInput);
+  EXPECT_EQ(problem->severity, Severity::kWarning);
+  EXPECT_EQ(check.exit, Exit::kDone);
+}
+
+TEST(Check, AReadingBeyondLimitsThatNobodyStatedIsANoteAndTheDataAreUsable) {
+  const scrambled::Folder folder;
+  auto c = opened(files_of(1, {}), folder.path());
+  c.cell.nominal.joints[3].q_min = -0.5;
+  c.cell.nominal.joints[3].q_max = 0.5;
+  c.cell.assumed_limits.assign(6, false);
+  EXPECT_NE(found(check_cell(c.cell, c.measured), "W-CHECK-LIMITS"), nullptr);
+  c.cell.assumed_limits[3] = true;
+  const Check check = check_cell(c.cell, c.measured);
+  EXPECT_EQ(found(check, "W-CHECK-LIMITS"), nullptr);
+  const Problem* note = found(check, "N-CHECK-LIMITS");
+  ASSERT_NE(note, nullptr);
+  EXPECT_EQ(note->severity, Severity::kNote);
+  EXPECT_NE(note->message.find("J4"), std::string::npos) << note->message;
+  EXPECT_EQ(check.exit, Exit::kDone);
+  EXPECT_EQ(verdict(check).rfind("Usable: ", 0), 0U) << verdict(check);
 }
 
 TEST(Check, ACopiedPointIsSuspicious) {
@@ -276,6 +295,28 @@ TEST(Effects, AVerticalAxisCannotShowItsComplianceAndALyingOneCan) {
   c.cell.gravity = {9.81, 0.0, 0.0};
   EXPECT_GT(data_sense(c.cell, c.measured, rows).lever_m[0], 0.1);
   EXPECT_NE(effect(checked(files), "joint_compliance").why.find("not at J1"), std::string::npos);
+}
+
+TEST(Effects, ATimeOfDayCountsAsMuchAsSecondsDo) {
+  Files files = files_of(1, {});
+  const Check seconds = checked(files);
+  auto lines = lines_of(files.csv);
+  int minute = 0;
+  for (auto& line : lines) {
+    if (line.starts_with('#')) continue;
+    const auto last = line.rfind(',');
+    const bool header = line.substr(last + 1) == "t_s";
+    ASSERT_TRUE(header || minute > 0);
+    char text[40];
+    std::snprintf(text, sizeof text, "2026-03-04T%02d:%02d:00", 8 + minute / 60, minute % 60);
+    line = line.substr(0, last + 1) + (header ? "time" : text);
+    ++minute;
+  }
+  files.csv = joined(lines);
+  const Check clock = checked(files);
+  EXPECT_EQ(effect(clock, "drift").answer, effect(seconds, "drift").answer);
+  EXPECT_NE(effect(clock, "drift").why.find("1.3 h of time"), std::string::npos)
+      << effect(clock, "drift").why;
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST_F(CompareVerb, ARunThatIsNotThereOrDamagedIsExitThree) {
   EXPECT_EQ(box->plumb({"-C", "cell", "diff", "1", "77"}).exit, 3);
   const Ran runs = box->plumb({"-C", "cell", "runs", "--json"});
   EXPECT_EQ(runs.exit, 0);
-  EXPECT_EQ(runs.json().at("warnings").at(0).at("code"), "E-RUN-DAMAGED");
+  EXPECT_EQ(runs.json().at("warnings").at(0).at("code"), "W-RUN-DAMAGED");
   std::filesystem::remove_all(box->path() / "cell/runs/0077");
 }
 

@@ -78,18 +78,21 @@ TEST_F(DiagnoseVerb, SaysWhatIsLeftAndThatMoreCandidatesExist) {
   EXPECT_TRUE(result.at("unlikely").empty());
   const auto listed = result.at("candidates").size();
   ASSERT_GT(listed, 8U);
-  const std::string more = "and " + std::to_string(listed - 8) + " more: --json";
+  const std::string more = "and " + std::to_string(listed - 8) + " more: --all";
   EXPECT_NE(plumb({"diagnose"}).out.find(more), std::string::npos);
 }
 
 TEST_F(DiagnoseVerb, WhatItProposesCanBeTyped) {
   const Ran ran = plumb({"diagnose"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
-  for (const std::string proposal : {"plumb add ", "plumb plan --separate "}) {
-    const auto at = ran.out.find(proposal);
+  const std::string begin = "plumb -C cell ";
+  for (const std::string proposal : {"add ", "plan --separate "}) {
+    const auto at = ran.out.find(begin + proposal);
     ASSERT_NE(at, std::string::npos) << ran.out;
     std::vector<std::string> words;
-    std::istringstream in(ran.out.substr(at + 6, ran.out.find('\n', at) - at - 6));
+    const auto from = at + begin.size();
+    const auto end = std::min(ran.out.find('\n', at), ran.out.find("   #", at));
+    std::istringstream in(ran.out.substr(from, end - from));
     for (std::string word; in >> word;) words.push_back(word);
     words.push_back("--dry-run");
     const Ran typed = plumb(words);
@@ -139,13 +142,14 @@ TEST_F(DiagnoseVerb, AddMakesTheErrorFallAndDropTakesItBack) {
   refused({"add", "gravity_free", "--joints", "J3"}, 3, "E-ADD-TWICE");
   const Ran less = plumb({"drop", "gravity_free", "--joints", "J3"});
   EXPECT_EQ(less.exit, 0) << less.err;
-  EXPECT_NE(less.out.find("plumb add gravity_free --joints J3"), std::string::npos) << less.out;
+  EXPECT_NE(less.out.find("plumb -C cell add gravity_free --joints J3"), std::string::npos)
+      << less.out;
   EXPECT_TRUE(has("joints = [\"J2\"]")) << cell();
   const Ran gone = plumb({"drop", "gravity_free", "--json"});
   ASSERT_EQ(gone.exit, 0) << gone.err;
   EXPECT_NEAR(gone.json().at("result").at("after").at("mean_mm").get<double>(),
               result.at("before").at("mean_mm").get<double>(), 1e-9);
-  EXPECT_FALSE(has("gravity_free"));
+  EXPECT_FALSE(has("[effects.gravity_free]"));
 }
 
 TEST_F(DiagnoseVerb, AFormulaOfTheUsersOwnIsAddedFittedAndDropped) {
@@ -224,18 +228,20 @@ TEST_F(DiagnoseVerb, SeveralCyclesAreSeveralEffectsInOneGoAndOutAgain) {
       has("[[effects.gear_ripple]]\njoints = [\"J2\"]\ncycles_per_turn = 7.91\n"
           "[[effects.gear_ripple]]\njoints = [\"J2\"]\ncycles_per_turn = 17.49\n"))
       << cell();
-  EXPECT_NE(added.out.find("Added gear ripple of J2, 7.91 and 17.49 cycles a turn"),
+  EXPECT_NE(added.out.find("Added gear ripple, 7.91 and 17.49 cycles a turn (gear_ripple:J2)"),
             std::string::npos)
       << added.out;
-  EXPECT_NE(added.out.find("plumb drop gear_ripple --joints J2 --set " + waves), std::string::npos)
+  EXPECT_NE(added.out.find("plumb -C cell drop gear_ripple --joints J2 --set " + waves),
+            std::string::npos)
       << added.out;
   refused({"add", "gear_ripple", "--joints", "J2", "--set", "cycles_per_turn=3,17.49"}, 3,
-          "already has gear ripple of J2, 17.49");
+          "already has gear ripple, 17.49");
   refused({"drop", "gear_ripple", "--joints", "J2", "--set", "cycles_per_turn=7.91,3"}, 3,
-          "no gear ripple of J2, 3");
+          "no gear ripple, 3");
   const Ran gone = plumb({"drop", "gear_ripple", "--joints", "J2", "--set", waves});
   ASSERT_EQ(gone.exit, 0) << gone.err;
-  EXPECT_NE(gone.out.find("plumb add gear_ripple --joints J2 --set " + waves), std::string::npos)
+  EXPECT_NE(gone.out.find("plumb -C cell add gear_ripple --joints J2 --set " + waves),
+            std::string::npos)
       << gone.out;
   EXPECT_EQ(cell(), before);
 }
@@ -251,10 +257,12 @@ TEST_F(DiagnoseVerb, ProposesAllWavesOfARipple) {
   ASSERT_EQ(best.at("effect"), "gear_ripple") << json.out;
   ASSERT_GE(best.at("cycles_per_turn").size(), 2U) << json.out;
   const Ran ran = plumb({"diagnose"});
-  const auto at = ran.out.find("plumb add ");
+  const std::string begin = "plumb -C cell ";
+  const auto at = ran.out.find(begin + "add ");
   ASSERT_NE(at, std::string::npos) << ran.out;
   std::vector<std::string> words;
-  std::istringstream in(ran.out.substr(at + 6, ran.out.find('\n', at) - at - 6));
+  const auto from = at + begin.size();
+  std::istringstream in(ran.out.substr(from, ran.out.find('\n', at) - from));
   for (std::string word; in >> word;) words.push_back(word);
   words.push_back("--json");
   const Ran typed = plumb(words);

@@ -136,7 +136,8 @@ TEST_F(FitVerb, AnotherSeedOrRuleChangesTheSplitOnly) {
   const Json folds = held({"--held-out", "kfold:4"});
   EXPECT_EQ(folds.at("folds"), 4);
   EXPECT_EQ(folds.at("poses_held_out"), folds.at("poses_fit"));
-  EXPECT_EQ(box->plumb({"-C", "cell", "fit", "--held-out", "some"}).exit, 2);
+  for (const char* no_rule : {"some", "", " "})
+    EXPECT_EQ(box->plumb({"-C", "cell", "fit", "--held-out", no_rule}).exit, 2) << no_rule;
 }
 
 TEST_F(FitVerb, TheFirstLineForPeopleIsTheVerdict) {

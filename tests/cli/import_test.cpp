@@ -29,6 +29,10 @@ TEST(ImportVerb, APreviewWritesNothingAndAsksNothing) {
   EXPECT_EQ(ran.out.find("Understood 2 rows; separated by semicolon, decimal comma."), 0U);
   EXPECT_NE(ran.out.find("x_?"), std::string::npos) << ran.out;
   EXPECT_EQ(box.listing(), before);
+  const auto result =
+      box.plumb({"import", "tracker.txt", "--preview", "--json"}).json().at("result");
+  EXPECT_EQ(result.at("dry_run"), true) << "for programs a preview is a dry run";
+  EXPECT_TRUE(result.at("files").empty());
 }
 
 TEST(ImportVerb, ReplacesNothingWithoutForceAndKeepsTheFirstFileWhole) {
@@ -67,6 +71,58 @@ TEST(ImportVerb, BadFilesEndWithCodeThreeAndNothingWritten) {
     EXPECT_NE(ran.err.find("help:"), std::string::npos) << file << ran.err;
   }
   EXPECT_EQ(box.listing(), before);
+}
+
+TEST(ImportVerb, WithoutJointsOrPointsNothingIsWrittenAndTheNextTryWorks) {
+  const Sandbox box;
+  box.write("log.csv", "pose,S1,S2,Px,Py,Pz\nA,10,90,1000,2,3\nB,4,80,900,5,6\n");
+  const auto before = box.listing();
+  const Ran refused = box.plumb({"import", "log.csv"});
+  EXPECT_EQ(refused.exit, 3) << refused.out;
+  EXPECT_NE(refused.err.find("E-IMPORT-MISSING"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("columns not used: S1, S2, Px, Py, Pz"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(box.listing(), before);
+  EXPECT_EQ(box.plumb({"import", "log.csv", "--preview"}).exit, 0);
+  EXPECT_EQ(box.listing(), before);
+  const auto first = refused.err.find("--map \"", refused.err.find("E-IMPORT-MISSING")) + 7;
+  const std::string map = refused.err.substr(first, refused.err.find('"', first) - first);
+  const Ran done = box.plumb({"import", "log.csv", "--map", map});
+  EXPECT_EQ(done.exit, 0) << done.err;
+  EXPECT_EQ(box.csv("measurements.csv").columns.at("x_mm"),
+            (std::vector<std::string>{"1000", "900"}));
+}
+
+TEST(ImportVerb, OneMapServesTwoFiles) {
+  const Sandbox box;
+  box.write("joints.csv", "pose,S1\nA,10\nB,20\n");
+  box.write("tracker.csv", "pose,Xm\nA,1000\nB,900\n");
+  const Ran done = box.plumb(
+      {"import", "joints.csv", "tracker.csv", "--join", "pose", "--map", "S1=q1_deg,Xm=x_mm"});
+  ASSERT_EQ(done.exit, 0) << done.err;
+  EXPECT_EQ(box.csv("measurements.csv").columns.at("x_mm"),
+            (std::vector<std::string>{"1000", "900"}));
+  const Ran wrong = box.plumb({"import", "joints.csv", "tracker.csv", "--map", "S2=q1_deg"});
+  EXPECT_EQ(wrong.exit, 2);
+  EXPECT_NE(wrong.err.find("E-IMPORT-MAP"), std::string::npos) << wrong.err;
+}
+
+TEST(ImportVerb, OptionsThatCannotBeMeantAreRefused) {
+  const Sandbox box;
+  box.write("log.csv", "q1_deg,x_mm\n1,2\n");
+  EXPECT_EQ(box.plumb({"import", "log.csv", "--join", "pose"}).exit, 2);
+  EXPECT_EQ(box.plumb({"import", "log.csv", "--rot", "abc"}).exit, 2);
+  EXPECT_EQ(box.plumb({"import", "log.csv", "--date", "abc"}).exit, 2);
+}
+
+TEST(ImportVerb, AsksForTheOrderOfDayAndMonthWhereItMatters) {
+  const Sandbox box;
+  box.write("log.csv", "Time,q1_deg,x_mm\n03/04/2022 16:57,1,2\n04/04/2022 16:57,2,3\n");
+  const Ran asked = box.plumb({"import", "log.csv"});
+  EXPECT_EQ(asked.exit, 3);
+  EXPECT_NE(asked.err.find("E-IMPORT-DATE"), std::string::npos) << asked.err;
+  ASSERT_EQ(box.plumb({"import", "log.csv", "--date", "month-first"}).exit, 0);
+  EXPECT_EQ(box.csv("measurements.csv").numbers("t_s"), (std::vector<double>{0, 31 * 86400.0}));
 }
 
 }  // namespace

@@ -36,6 +36,48 @@ TEST_F(ModelVerbs, CompileFitsFirstAndAudits) {
   EXPECT_EQ(audit.at("bytes"), std::filesystem::file_size(box->path() / "cell/robot.plumb"));
 }
 
+TEST_F(ModelVerbs, TheRunIsANumberAsInEveryOtherVerb) {
+  EXPECT_EQ(compiled->at("result").at("run"), 1);
+  EXPECT_EQ(compiled->at("result").at("refit_all"), false);
+  const Json again =
+      box->plumb({"-C", "cell", "compile", "--refit-all", "-o", "r.plumb", "--json"}).json();
+  EXPECT_EQ(again.at("result").at("run"), 1);
+  EXPECT_EQ(again.at("result").at("refit_all"), true);
+  const Json deployed =
+      box->plumb({"-C", "cell", "deploy", "-o", "deployed", "--dry-run", "--json"}).json();
+  EXPECT_EQ(deployed.at("result").at("run"), 1);
+  ASSERT_EQ(box->plumb({"demo", "clean", "fresh"}).exit, 0);
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"-C", "fresh", "compile", "--dry-run", "--json"},
+           {"-C", "fresh", "deploy", "-o", "x", "--dry-run", "--json"}}) {
+    const Json result = box->plumb(words).json().at("result");
+    EXPECT_TRUE(result.at("run").is_null()) << result.at("run");
+    EXPECT_EQ(result.at("run_reason"), "--dry-run keeps nothing");
+  }
+}
+
+TEST_F(ModelVerbs, AnEffectThatNoModelCanHoldIsRefusedWhenItIsAdded) {
+  ASSERT_EQ(box->plumb({"demo", "clean", "big"}).exit, 0);
+  const std::string before = box->read("big/cell.toml");
+  const auto message = [](const Ran& ran) {
+    return ran.json().at("error").at("message").get<std::string>();
+  };
+  const Ran added = box->plumb({"-C", "big", "add", "joint_table", "--joints", "J2,J3", "--json"});
+  EXPECT_EQ(added.exit, 4) << added.err;
+  EXPECT_EQ(message(added),
+            "the model is not sound: effect 'joint_table' has too many parameters: 240, at most "
+            "128");
+  EXPECT_EQ(box->read("big/cell.toml"), before);
+  std::string text = before;
+  const std::string geometry = "geometry = true";
+  text.insert(text.find(geometry) + geometry.size(),
+              "\n[effects.joint_table]\njoints = [\"J2\", \"J3\"]");
+  box->write("big/cell.toml", text);
+  const Ran compiled_it = box->plumb({"-C", "big", "compile", "--json"});
+  EXPECT_EQ(compiled_it.exit, 4) << compiled_it.err;
+  EXPECT_EQ(message(compiled_it), message(added)) << "the same words";
+}
+
 TEST_F(ModelVerbs, InspectShowsWhatFitFound) {
   const Json fit = box->plumb({"-C", "cell", "fit", "--dry-run", "--json"}).json().at("result");
   const Ran ran = box->plumb({"inspect", "cell/robot.plumb", "--json"});

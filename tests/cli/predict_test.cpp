@@ -151,4 +151,194 @@ TEST(PredictAsMeasured, ARunOfOtherMeasurementsIsRefused) {
   EXPECT_EQ(ran.json().at("error").at("code"), "E-RUN-DATA");
 }
 
+/// The rows of a file in this order, without some columns.
+std::string reordered(const Csv& csv, const std::vector<std::size_t>& order,
+                      const std::vector<std::string>& without) {
+  std::string out;
+  const auto line = [&](auto text) {
+    std::string row;
+    for (const auto& name : csv.header)
+      if (std::find(without.begin(), without.end(), name) == without.end())
+        row += (row.empty() ? "" : ",") + text(name);
+    out += row + "\n";
+  };
+  line([](const std::string& name) { return name; });
+  for (const std::size_t i : order)
+    line([&](const std::string& name) { return csv.columns.at(name)[i]; });
+  return out;
+}
+
+/// Every third row, then every third of the others, backwards.
+std::vector<std::size_t> shuffled(std::size_t rows) {
+  std::vector<std::size_t> out;
+  for (std::size_t first : {2, 0, 1})
+    for (std::size_t i = first; i < rows; i += 3) out.insert(out.begin(), i);
+  return out;
+}
+
+std::vector<std::string> columns_like(const Csv& csv, const std::string& prefix) {
+  std::vector<std::string> out;
+  for (const auto& name : csv.header)
+    if (name.starts_with(prefix)) out.push_back(name);
+  return out;
+}
+
+/// A simulated arm with an effect that depends on more than the joints, and its fitted cell.
+class OtherOrder {
+ public:
+  OtherOrder(const std::vector<std::string>& simulated, const std::string& effects) {
+    EXPECT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+    std::vector<std::string> words{"-C",      "cell", "simulate",  "--force",
+                                   "--poses", "90",   "--repeats", "1"};
+    words.insert(words.end(), simulated.begin(), simulated.end());
+    const Ran made = box.plumb(words);
+    EXPECT_EQ(made.exit, 0) << made.err;
+    box.write("cell/cell.toml", with_effects(box.read("cell/cell.toml"), effects));
+    const Ran fit = box.plumb({"-C", "cell", "fit", "--held-out", "20%"});
+    EXPECT_EQ(fit.exit, 0) << fit.err;
+    EXPECT_EQ(box.plumb({"-C", "cell", "predict", "--as-measured", "-o", "own.csv"}).exit, 0);
+    own = box.csv("own.csv");
+    csv = box.csv("cell/measurements.csv");
+  }
+
+  /// Largest distance [mm] between what is said of these rows in another file and in their place.
+  double difference(const std::vector<std::size_t>& order,
+                    const std::vector<std::string>& without) {
+    box.write("other.csv", reordered(csv, order, without));
+    ran = box.plumb({"-C", "cell", "predict", "--as-measured", "--run", "1", "--data", "other.csv",
+                     "-o", "out.csv", "--force", "--json"});
+    EXPECT_EQ(ran.exit, 0) << ran.err << ran.out;
+    out = box.csv("out.csv");
+    double worst = 0.0;
+    for (const auto* column : {"px_mm", "py_mm", "pz_mm"}) {
+      const auto here = out.numbers(column), there = own.numbers(column);
+      for (std::size_t i = 0; i < order.size(); ++i)
+        worst = std::max(worst, std::abs(here[i] - there[order[i]]));
+    }
+    return worst;
+  }
+
+  std::size_t count(const std::string& status) const {
+    const auto& all = out.columns.at("status");
+    return static_cast<std::size_t>(std::count(all.begin(), all.end(), status));
+  }
+
+  std::string warning(const std::string& code) const {
+    const Json all = ran.json();
+    for (const auto& remark : all.at("warnings"))
+      if (remark.at("code") == code) return remark.dump();
+    return "";
+  }
+
+  static std::string with_effects(std::string text, const std::string& effects) {
+    const std::size_t at = text.find("geometry = true");
+    EXPECT_NE(at, std::string::npos);
+    return text.insert(at + std::string("geometry = true").size(), "\n" + effects + "\n");
+  }
+
+  Sandbox box;
+  Csv own, csv, out;
+  Ran ran;
+};
+
+TEST(PredictAsMeasured, LagComesFromTheColumnsInWhateverOrderTheRowsStand) {
+  OtherOrder arm({"--effect", "settling_lag:J2:20", "--directions"},
+                 "[effects.settling_lag]\njoints = [\"J2\", \"J3\"]");
+  const auto order = shuffled(arm.csv.rows());
+  EXPECT_LT(arm.difference(order, {"pose", "t_s"}), 1e-6);
+  EXPECT_EQ(arm.count("context-fallback"), 0u);
+  auto moves = columns_like(arm.csv, "dir_j");
+  for (const auto& name : columns_like(arm.csv, "travel_j")) moves.push_back(name);
+  moves.insert(moves.end(), {"pose", "t_s"});
+  EXPECT_GT(arm.difference(order, moves), 1e-3);
+  EXPECT_EQ(arm.count("ok"), 0u);
+  EXPECT_GT(arm.count("context-fallback"), 0u);
+  const std::string warning = arm.warning("W-PREDICT-INPUT");
+  EXPECT_NE(warning.find("settling_lag"), std::string::npos) << arm.ran.out;
+  EXPECT_NE(warning.find("dir_jN"), std::string::npos) << warning;
+}
+
+TEST(PredictAsMeasured, StepsAndDriftGoByTimeOrPoseNotByTheRowsOfAnotherFile) {
+  for (const std::string effects :
+       {"[[effects.step]]\nafter_row = 30\nof = \"tool\"", "[effects.drift]"}) {
+    OtherOrder arm({"--effect", effects[1] == '[' ? "step_reflector::20" : "drift::20"}, effects);
+    const auto order = shuffled(arm.csv.rows());
+    EXPECT_LT(arm.difference(order, {"pose"}), 1e-6) << effects;
+    EXPECT_LT(arm.difference(order, {"t_s"}), 1e-6) << effects;
+    EXPECT_EQ(arm.count("context-fallback"), 0u);
+    EXPECT_EQ(arm.warning("W-PREDICT-INPUT"), "");
+    arm.difference(order, {"pose", "t_s"});
+    EXPECT_EQ(arm.count("ok"), 0u);
+    EXPECT_NE(arm.warning("W-PREDICT-INPUT").find("t_s"), std::string::npos) << arm.ran.out;
+  }
+}
+
+TEST(PredictAsMeasured, RowsOfUnknownTimeAreAsAfterTheLastRowOfTheCell) {
+  OtherOrder arm({"--effect", "step_reflector::20"},
+                 "[[effects.step]]\nafter_row = 30\nof = \"tool\"");
+  std::vector<std::size_t> late;
+  for (std::size_t i = 40; i < arm.csv.rows(); ++i) late.push_back(i);
+  EXPECT_LT(arm.difference(late, {"pose", "t_s"}), 1e-6);
+  EXPECT_GT(arm.difference({1, 2, 3}, {"pose", "t_s"}), 1e-3);
+}
+
+TEST(PredictAsMeasured, JointsBeyondThePosesOfTheFitAreNotOkWithoutATree) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+  ASSERT_EQ(
+      box.plumb({"-C", "cell", "simulate", "--force", "--range", "30%", "--poses", "80"}).exit, 0);
+  ASSERT_EQ(box.plumb({"-C", "cell", "compile"}).exit, 0);
+  box.write("far.csv",
+            "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n150,-70,20,0,0,0\n0,-70,20,0,0,0\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"-C", "cell", "predict", "--as-measured"},
+        std::vector<std::string>{"predict", "cell/robot.plumb"}}) {
+    auto all = words;
+    all.insert(all.end(), {"--data", "far.csv", "-o", "out.csv", "--force"});
+    const Ran ran = box.plumb(all);
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    const auto status = box.csv("out.csv").columns.at("status");
+    EXPECT_EQ(status[0], "outside-domain");
+    EXPECT_EQ(status[1], "ok");
+    EXPECT_NE(ran.err.find("W-PREDICT-OUTSIDE"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("1 of 2 rows"), std::string::npos) << ran.err;
+  }
+}
+
+/// The joints of the clean demo's measurements, times a factor.
+std::string scaled_joints(const Sandbox& box, double factor) {
+  const Csv csv = box.csv("cell/measurements.csv");
+  std::string out = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
+  for (std::size_t i = 0; i < csv.rows(); ++i)
+    for (int j = 1; j <= 6; ++j)
+      out += std::to_string(csv.numbers("q" + std::to_string(j) + "_deg")[i] * factor) +
+             (j == 6 ? "\n" : ",");
+  return out;
+}
+
+TEST(Predict, AsksWhetherRadiansStandInColumnsOfDegrees) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
+  ASSERT_EQ(box.plumb({"-C", "cell", "compile"}).exit, 0);
+  const auto asks = [&](const std::string& rows, bool as_measured) {
+    box.write("rows.csv", rows);
+    std::vector<std::string> words{"-C", "cell", "predict", "--as-measured"};
+    if (!as_measured) words = {"predict", "cell/robot.plumb"};
+    words.insert(words.end(), {"--data", "rows.csv", "-o", "out.csv", "--force"});
+    const Ran ran = box.plumb(words);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    return ran.err.find("radians in q1_deg ...?") != std::string::npos;
+  };
+  const std::string radians = scaled_joints(box, 3.14159265358979 / 180.0);
+  std::string named = radians;
+  for (std::size_t at = 0; (at = named.find("_deg", at)) != std::string::npos;)
+    named.replace(at, 4, "_rad");
+  for (const bool as_measured : {false, true}) {
+    EXPECT_TRUE(asks(radians, as_measured));
+    EXPECT_FALSE(asks(named, as_measured));
+    EXPECT_FALSE(asks(scaled_joints(box, 1.0), as_measured));
+    EXPECT_FALSE(asks("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n0,0,0,0,0,0\n", as_measured));
+  }
+}
+
 }  // namespace

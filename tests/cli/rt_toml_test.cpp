@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bus_text/layout_toml.hpp"
+#include "rt/modbus_source.hpp"
 #include "rt/rt_config.hpp"
 
 namespace plumb::offline {
@@ -50,12 +51,12 @@ TEST(RtToml, IsReadWithoutAWordOfComplaintForAnyArmAndLink) {
       const Read got = read(write_rt_toml(cell, drivers::default_layout(joints, 0.004, 2)), cell);
       EXPECT_EQ(got.errors, "");
       EXPECT_EQ(got.config.serial, cell.serial);
-      using Kind = drivers::rt::SourceConfig::Kind;
-      EXPECT_EQ(got.config.source.kind, link == BusUse::kCan ? Kind::kCan : Kind::kModbus);
+      EXPECT_EQ(got.config.source->use(), link);
       if (link == BusUse::kCan) {
-        EXPECT_EQ(got.config.source.interface, "vcan3");
+        EXPECT_EQ(got.config.source->name(), "vcan3");
       } else {
-        EXPECT_EQ(got.config.source.address, "192.168.0.7");
+        const auto& modbus = dynamic_cast<const drivers::rt::ModbusSource&>(*got.config.source);
+        EXPECT_EQ(modbus.address, "192.168.0.7");
       }
     }
 }
@@ -71,7 +72,7 @@ TEST(RtToml, SaysWhatAnEmptyFileWouldMean) {
   EXPECT_EQ(a.priority, b.priority);
   EXPECT_EQ(a.cpu, b.cpu);
   EXPECT_EQ(a.give_up_s, b.give_up_s);
-  EXPECT_EQ(a.source.interface, b.source.interface);
+  EXPECT_EQ(a.source->name(), b.source->name());
   EXPECT_EQ(a.sink.kind, b.sink.kind);
   EXPECT_EQ(a.session.mode, drivers::CorrectionMode::kShadow);
   EXPECT_NEAR(a.session.target.speed_m_s, b.session.target.speed_m_s, 1e-9);

@@ -2,6 +2,8 @@
 #include "sandbox.hpp"
 
 #include <fcntl.h>
+#include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,15 +36,22 @@ struct Streams {
   std::string out, err;
 };
 
+std::vector<char*> arguments(const std::vector<std::string>& words) {
+  std::vector<char*> out{const_cast<char*>(PLUMB_PROGRAM)};
+  for (const auto& word : words) out.push_back(const_cast<char*>(word.c_str()));
+  out.push_back(nullptr);
+  return out;
+}
+
 pid_t start(const fs::path& folder, const Streams& streams, const std::vector<std::string>& words) {
-  std::vector<char*> argv{const_cast<char*>(PLUMB_PROGRAM)};
-  for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
+  std::vector<char*> argv = arguments(words);
   const pid_t child = ::fork();
   if (child != 0) return child;
   redirect(streams.out, STDOUT_FILENO);
   redirect(streams.err, STDERR_FILENO);
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
+  // Sentences stay in one line, so that tests find their words; a test may set another width.
+  ::setenv("COLUMNS", "10000", 0);
   ::execv(PLUMB_PROGRAM, argv.data());
   ::_exit(127);
 }
@@ -99,6 +108,33 @@ Ran Sandbox::plumb_interrupted(int ms, const std::vector<std::string>& words) co
   std::this_thread::sleep_for(std::chrono::milliseconds(ms));
   ::kill(child, SIGINT);
   return finish(child, streams);
+}
+
+Ran Sandbox::plumb_on_terminal(unsigned short columns,
+                               const std::vector<std::string>& words) const {
+  winsize size{};
+  size.ws_col = columns;
+  size.ws_row = 25;
+  std::vector<char*> argv = arguments(words);
+  int leader = -1;
+  const pid_t child = ::forkpty(&leader, nullptr, nullptr, &size);
+  if (child < 0) throw std::runtime_error("no pseudo-terminal");
+  if (child == 0) {
+    if (::chdir(path_.c_str()) != 0) ::_exit(126);
+    redirect("/dev/null", STDERR_FILENO);
+    ::unsetenv("COLUMNS");
+    ::setenv("NO_COLOR", "1", 1);
+    ::execv(PLUMB_PROGRAM, argv.data());
+    ::_exit(127);
+  }
+  Ran out;
+  char block[4096];
+  for (ssize_t n = 0; (n = ::read(leader, block, sizeof block)) > 0;)
+    out.out.append(block, static_cast<std::size_t>(n));
+  out.exit = end_of(child);
+  ::close(leader);
+  std::erase(out.out, '\r');
+  return out;
 }
 
 std::string Sandbox::read(const std::string& file) const { return text_of(path_ / file); }

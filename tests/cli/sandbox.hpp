@@ -44,6 +44,9 @@ class Sandbox {
   /// The same, with SIGINT after `ms` milliseconds.
   Ran plumb_interrupted(int ms, const std::vector<std::string>& words) const;
 
+  /// The same on a terminal of so many columns, without colour and without stderr.
+  Ran plumb_on_terminal(unsigned short columns, const std::vector<std::string>& words) const;
+
   std::string read(const std::string& file) const;
   void write(const std::string& file, const std::string& text) const;
   Csv csv(const std::string& file) const;

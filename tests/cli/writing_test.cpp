@@ -79,6 +79,50 @@ TEST_F(Writing, DryRunWritesNothing) {
   }
 }
 
+TEST_F(Writing, AFolderIsNoFileToWrite) {
+  fs::create_directory(box.path() / "there");
+  for (const std::string name : {"new/", "new/sub/", "there", "there/"})
+    for (const bool force : {false, true}) {
+      std::vector<std::string> words{"-C", "cell", "compile", "-o", name};
+      if (force) words.emplace_back("--force");
+      const Ran ran = box.plumb(words);
+      EXPECT_EQ(ran.exit, 2) << name << ran.err;
+      EXPECT_NE(ran.err.find("is a folder, and a file is to be written"), std::string::npos)
+          << ran.err;
+      EXPECT_FALSE(fs::exists(box.path() / "new")) << name;
+    }
+}
+
+TEST_F(Writing, ANewFolderIsSaidByEveryVerbAlike) {
+  int i = 0;
+  for (auto words : std::vector<std::vector<std::string>>{
+           {"-C", "cell", "compile", "-o", "robot.plumb"},
+           {"-C", "cell", "export", "-o", "arm.urdf"},
+           {"-C", "cell", "dbc", "-o", "bus.dbc"},
+           {"-C", "cell", "deploy", "-o", "deployed"},
+           {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "p.csv"},
+           {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "c.csv"}}) {
+    const std::string name = words.back(), folder = "gone" + std::to_string(i++);
+    words.back() = folder + "/sub/" + name;
+    words.emplace_back("--dry-run");
+    const Ran dry = box.plumb(words);
+    EXPECT_EQ(dry.exit, 0) << name << dry.err;
+    EXPECT_NE(
+        dry.err.find("note[N-WRITE-FOLDER]: there was no folder " + folder + ": it would be made"),
+        std::string::npos)
+        << name << dry.err;
+    words.pop_back();
+    const Ran ran = box.plumb(words);
+    EXPECT_EQ(ran.exit, 0) << name << ran.err;
+    EXPECT_NE(ran.err.find("there was no folder " + folder + ": it was made"), std::string::npos)
+        << name << ran.err;
+    EXPECT_TRUE(fs::exists(box.path() / folder / "sub" / name)) << name;
+    words.emplace_back("--force");
+    EXPECT_EQ(box.plumb(words).err.find("N-WRITE-FOLDER"), std::string::npos) << name;
+  }
+  EXPECT_EQ(box.plumb({"demo", "beam", "asked/for"}).err, "");
+}
+
 TEST_F(Writing, AFolderThatCannotBeMadeIsExitFive) {
   const auto before = box.listing();
   for (const auto& words : std::vector<std::vector<std::string>>{

@@ -15,7 +15,7 @@ constexpr double kSigma = 1e-5;
 constexpr int kPoses = 120;
 
 struct Mark {
-  Mover mover;
+  MotionSource source;
   int joint;
   double size_m;
 };
@@ -24,30 +24,30 @@ TEST(ChangePoints, AStepIsFoundWithinOnePoseAndGivenToWhatMovedInNinetyFiveOfAHu
   const int count = static_cast<int>(tests::scaled(100));
   std::printf("[ seeds    ] 1 .. %d of each mover\n", count);
   for (const Mark& mark :
-       {Mark{Mover::kTool, -1, 5 * kSigma}, Mark{Mover::kBase, -1, 5 * kSigma},
-        Mark{Mover::kJoint, 1, 6 * kSigma}, Mark{Mover::kJoint, 2, 8 * kSigma}}) {
+       {Mark{MotionSource::kTool, -1, 5 * kSigma}, Mark{MotionSource::kBase, -1, 5 * kSigma},
+        Mark{MotionSource::kJoint, 1, 6 * kSigma}, Mark{MotionSource::kJoint, 2, 8 * kSigma}}) {
     int near = 0, right = 0, covered = 0;
     double off = 0.0;
     for (int seed = 1; seed <= count; ++seed) {
       ResidualCase at(static_cast<std::uint64_t>(seed), kPoses);
       at.add_noise(kSigma);
       const int last = 20 + at.random.below(kPoses - 40);
-      const ArmState other = moved_state(at, mark.mover, mark.joint, mark.size_m);
+      const ArmState other = moved_state(at, mark.source, mark.joint, mark.size_m);
       at.add_change(other, [&](int i) { return i > last ? 1.0 : 0.0; });
       const Changes found = change_points(at.motions());
       if (found.steps.size() != 1 || !found.drifts.empty()) continue;
       const StepFound& step = found.steps[0];
       near += std::abs(step.before - last) <= 1 ? 1 : 0;
-      right += step.mover == mark.mover && step.joint == mark.joint ? 1 : 0;
+      right += step.source == mark.source && step.joint == mark.joint ? 1 : 0;
       covered += step.earliest <= last && last <= step.latest ? 1 : 0;
-      if (mark.mover == Mover::kTool && step.mover == mark.mover)
+      if (mark.source == MotionSource::kTool && step.source == mark.source)
         for (int k = 0; k < 3; ++k)
           off = std::max(off, std::abs(step.shift(k) - other.X_TG.p[k] + at.state.X_TG.p[k]));
-      if (mark.mover == Mover::kJoint && step.mover == mark.mover)
+      if (mark.source == MotionSource::kJoint && step.source == mark.source)
         off = std::max(off, std::abs(step.shift(0) - mark.size_m));
     }
     std::printf("[ mover %d  ] within 1 pose %d, right mover %d, covered %d of %d\n",
-                static_cast<int>(mark.mover), near, right, covered, count);
+                static_cast<int>(mark.source), near, right, covered, count);
     EXPECT_GE(near, 0.95 * count);
     EXPECT_GE(right, 0.95 * count);
     EXPECT_GE(covered, 0.9 * count);
@@ -100,7 +100,7 @@ TEST(ChangePoints, ASmoothDriftIsNoStep) {
   for (int seed = 1; seed <= count; ++seed) {
     ResidualCase at(static_cast<std::uint64_t>(seed), kPoses);
     at.add_noise(kSigma);
-    const ArmState other = moved_state(at, Mover::kBase, -1, 10 * kSigma);
+    const ArmState other = moved_state(at, MotionSource::kBase, -1, 10 * kSigma);
     at.add_change(other, [&](int i) { return static_cast<double>(i) / kPoses; });
     const Changes found = change_points(at.motions());
     drifts += found.drifts.size() == 1 ? 1 : 0;
@@ -119,9 +119,9 @@ TEST(ChangePoints, SeveralStepsAreFoundInTheirOrder) {
   for (int seed = 1; seed <= count; ++seed) {
     ResidualCase at(static_cast<std::uint64_t>(seed), 200);
     at.add_noise(kSigma);
-    at.add_change(moved_state(at, Mover::kTool, -1, 8 * kSigma),
+    at.add_change(moved_state(at, MotionSource::kTool, -1, 8 * kSigma),
                   [](int i) { return i > 59 ? 1.0 : 0.0; });
-    at.add_change(moved_state(at, Mover::kJoint, 1, 10 * kSigma),
+    at.add_change(moved_state(at, MotionSource::kJoint, 1, 10 * kSigma),
                   [](int i) { return i > 129 ? 1.0 : 0.0; });
     const Changes found = change_points(at.motions());
     all += found.steps.size() == 2 && std::abs(found.steps[0].before - 59) <= 1 &&
@@ -137,7 +137,7 @@ TEST(ChangePoints, AMissingAxisAndAHandfulOfPosesAreNoTrouble) {
   flat.add_noise(kSigma);
   flat.measured.has_axis = {true, true, false};
   flat.error.col(2).setZero();
-  ArmState other = moved_state(flat, Mover::kTool, -1, 10 * kSigma);
+  ArmState other = moved_state(flat, MotionSource::kTool, -1, 10 * kSigma);
   flat.add_change(other, [](int i) { return i > 50 ? 1.0 : 0.0; });
   flat.error.col(2).setZero();
   const Changes found = change_points(flat.motions());

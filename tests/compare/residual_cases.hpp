@@ -68,18 +68,19 @@ struct ResidualCase {
 };
 
 /// The state with something moved, so that the point moves by about `size_m`.
-inline ArmState moved_state(ResidualCase& at, Mover mover, int joint, double size_m) {
+inline ArmState moved_state(ResidualCase& at, MotionSource source, int joint, double size_m) {
   ArmState out = at.state;
   const auto random_axis = [&] {
     Eigen::Vector3d v(normal(at.random), normal(at.random), normal(at.random));
     return Eigen::Vector3d(v.normalized() * size_m);
   };
   const Eigen::Vector3d shift = random_axis();
-  if (mover == Mover::kTool)
+  if (source == MotionSource::kTool)
     for (int k = 0; k < 3; ++k) out.X_TG.p[k] += shift(k);
-  if (mover == Mover::kBase)
+  if (source == MotionSource::kBase)
     for (int k = 0; k < 3; ++k) out.X_MB.p[k] += shift(k);
-  if (mover == Mover::kJoint) out.arm.calibrated.joints[joint].theta += size_m;  // 1 m of lever
+  if (source == MotionSource::kJoint)
+    out.arm.calibrated.joints[joint].theta += size_m;  // 1 m of lever
   return out;
 }
 

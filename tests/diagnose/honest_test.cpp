@@ -9,12 +9,13 @@
 
 #include "diagnose/change_points.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/evidence.hpp"
-#include "diagnose/left_over.hpp"
-#include "diagnose/real_fall.hpp"
+#include "diagnose/rms_reduction.hpp"
 #include "diagnose/scan.hpp"
-#include "diagnose/verdict.hpp"
+#include "fit/few_poses.hpp"
+#include "fit/held_out_excess.hpp"
 #include "simulate/blind_case.hpp"
 
 namespace plumb::offline {
@@ -32,16 +33,16 @@ Diagnosis diagnosed(const BlindRequest& request) {
   return diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
 }
 
-/// A calibrated arm and the stage of all its poses.
+/// A calibrated arm and the whitened fit of all its poses.
 struct Looked {
   BlindCase blind;
   Cell cell;
   Calibration calibration;
-  Stage stage;
+  WhitenedFit whitened;
   explicit Looked(const BlindRequest& request) : blind(make_blind_case(request)), cell(blind.cell) {
     calibration = calibrate(cell, blind.measured.measured, rows());
-    stage = make_stage(cell, blind.measured.measured, calibration,
-                       without_outliers(rows(), calibration.outliers), {});
+    whitened = make_whitened_fit(cell, blind.measured.measured, calibration,
+                                 without_outliers(rows(), calibration.outliers), {});
   }
   Looked(const Looked&) = delete;
   std::vector<int> rows() const {
@@ -53,18 +54,18 @@ struct Looked {
 
 TEST(DiagnoseHonest, NeverOffersWhatTheModelHoldsEvenIfRefinementEndsThere) {
   Looked at(hiding("joint_compliance_soft:J2:5"));
-  const Scan before = scan(at.stage, {}, {});
+  const Scan before = scan(at.whitened, {}, {});
   const Found* soft = before.find(at.cell, "joint_compliance_soft:J2");
   ASSERT_NE(soft, nullptr);
   at.cell.effects.push_back(soft->entry);
-  for (const auto& found : scan(at.stage, {}, {}).library)
+  for (const auto& found : scan(at.whitened, {}, {}).library)
     for (const auto& entry : found.entries())
       EXPECT_FALSE(has_effect(at.cell.effects, entry)) << key_of(at.cell, entry);
 }
 
 TEST(DiagnoseHonest, ConstantsOfEveryCandidateHaveFewDigits) {
   const Looked at(hiding("drift::5"));
-  for (const auto& found : scan(at.stage, {}, {}).library)
+  for (const auto& found : scan(at.whitened, {}, {}).library)
     for (const auto& [key, value] : found.entry.options)
       if (const auto* number = std::get_if<double>(&value)) {
         EXPECT_NEAR(*number, std::stod(fmt::format("{:.5g}", *number)), 1e-12 * std::abs(*number))
@@ -75,11 +76,11 @@ TEST(DiagnoseHonest, ConstantsOfEveryCandidateHaveFewDigits) {
 TEST(DiagnoseHonest, ARefitThatBringsNothingIsNoFall) {
   const Looked at(hiding("gear_harmonics:J2:5"));
   const auto& measured = at.blind.measured.measured;
-  EXPECT_EQ(real_fall(at.cell, measured, at.rows(), at.calibration, at.calibration), 0.0);
+  EXPECT_EQ(rms_reduction(at.cell, measured, at.rows(), at.calibration, at.calibration), 0.0);
   Cell with = at.cell;
   with.effects.push_back({.name = "gear_harmonics", .joints = {1}, .options = {}, .place = {}});
   const Calibration better = calibrate(with, measured, at.rows());
-  EXPECT_GT(real_fall(at.cell, measured, at.rows(), at.calibration, better), 0.5);
+  EXPECT_GT(rms_reduction(at.cell, measured, at.rows(), at.calibration, better), 0.5);
 }
 
 TEST(DiagnoseHonest, WhatIsNotFiniteIsNeverEvidence) {
@@ -126,12 +127,12 @@ TEST(DiagnoseHonest, ALargeButTrueEffectIsFlaggedAndNotUnknown) {
 
 TEST(DiagnoseHonest, WhatIsLeftIsMeasuredAgainstWhatSoFewPosesMakeUnavoidable) {
   NoiseFloor floor;
-  EXPECT_FALSE(left_over(1e-4, floor, 300.0, 33.0).has_value()) << "no floor is known";
+  EXPECT_FALSE(held_out_excess(1e-4, floor, 1.0).has_value()) << "no floor is known";
   floor.source = NoiseFloor::Source::kSigma;
   floor.mean_m = 1e-4;
-  EXPECT_NEAR(left_over(2e-4, floor, 334.0, 33.0)->unavoidable, std::sqrt(1.11), 1e-12);
-  EXPECT_TRUE(left_over(1.5e-4, floor, 3000.0, 33.0)->lack_of_fit());
-  EXPECT_FALSE(left_over(1.5e-4, floor, 108.0, 33.0)->lack_of_fit());
+  EXPECT_NEAR(error_growth(334.0, 33.0), std::sqrt(1.11), 1e-12);
+  EXPECT_TRUE(held_out_excess(1.5e-4, floor, unavoidable_ratio(3000.0, 33.0))->lack_of_fit());
+  EXPECT_FALSE(held_out_excess(1.5e-4, floor, unavoidable_ratio(108.0, 33.0))->lack_of_fit());
 }
 
 TEST(DiagnoseHonest, SaysInTheSentenceThatSomethingIsLeft) {
@@ -140,11 +141,11 @@ TEST(DiagnoseHonest, SaysInTheSentenceThatSomethingIsLeft) {
   d.floor.source = NoiseFloor::Source::kSigma;
   d.floor.mean_m = 1e-5;
   d.before.mean = 3.1e-5;
-  d.left_over = LeftOver{.times = 3.1, .unavoidable = 1.05};
+  d.held_out_excess = HeldOutExcess{.times = 3.1, .unavoidable = 1.05};
   EXPECT_NE(verdict_text(cell, d).find("what is left is 3.1 times the noise floor"),
             std::string::npos)
       << verdict_text(cell, d);
-  d.left_over = LeftOver{.times = 1.1, .unavoidable = 1.05};
+  d.held_out_excess = HeldOutExcess{.times = 1.1, .unavoidable = 1.05};
   EXPECT_EQ(verdict_text(cell, d).find("left"), std::string::npos) << verdict_text(cell, d);
 }
 
@@ -158,6 +159,31 @@ TEST(DiagnoseHonest, NeverCallsARiseAFall) {
   d.candidates.front().alone.mean = 205e-6;
   EXPECT_EQ(verdict_text(cell, d).find("falls"), std::string::npos) << verdict_text(cell, d);
   EXPECT_NE(verdict_text(cell, d).find("does not fall (0.196 mm -> 0.205 mm)"), std::string::npos);
+  EXPECT_EQ(verdict_text(cell, d).find("Certain"), std::string::npos) << verdict_text(cell, d);
+  EXPECT_EQ(verdict_text(cell, d).find("Missing"), std::string::npos) << verdict_text(cell, d);
+}
+
+TEST(DiagnoseHonest, IsNotCertainOfACauseThatExplainsHardlyAnything) {
+  const Cell cell;
+  Diagnosis d;
+  d.finding = Finding::kMissing;
+  d.floor.source = NoiseFloor::Source::kSigma;
+  d.floor.mean_m = 16e-6;
+  d.before.mean = 201e-6;
+  d.candidates.emplace_back();
+  Candidate& best = d.candidates.front();
+  best.entry.name = "drift";
+  best.ln_bayes = 40.0;
+  const auto text = [&](double after_m) {
+    best.alone.mean = after_m;
+    return verdict_text(cell, d);
+  };
+  EXPECT_EQ(text(195e-6).find("Certain"), std::string::npos) << text(195e-6);
+  EXPECT_EQ(text(195e-6).find("Missing"), std::string::npos) << text(195e-6);
+  EXPECT_NE(text(195e-6).find("It explains 3 % of the error only"), std::string::npos);
+  EXPECT_NE(text(100e-6).find("Certain"), std::string::npos) << text(100e-6);
+  d.before.mean = 20e-6;  // nearly all of what is left is the noise
+  EXPECT_NE(text(19e-6).find("Certain"), std::string::npos) << text(19e-6);
 }
 
 TEST(DiagnoseHonest, NeverSaysZeroTimesTheUsualSize) {
@@ -177,25 +203,26 @@ TEST(DiagnoseHonest, NeverSaysZeroTimesTheUsualSize) {
 
 TEST(DiagnoseHonest, AnotherPayloadFromOnePoseOnIsNoSlippedEncoder) {
   Looked at(BlindRequest{});
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(at.stage.fit_poses()));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(at.whitened.fit_poses()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return at.stage.context[a].order < at.stage.context[b].order; });
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) {
+    return at.whitened.context[a].order < at.whitened.context[b].order;
+  });
   // The joint sagged and the payload changed behind half of the poses.
   const std::size_t half = order.size() / 2;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    at.stage.context[order[i]].payload_kg = i < half ? 0.0 : 20.0;
+    at.whitened.context[order[i]].payload_kg = i < half ? 0.0 : 20.0;
     if (i < half) continue;
     for (Eigen::Index line = 3 * order[i]; line < 3 * order[i] + 3; ++line)
-      at.stage.y(line) += 5e-4 * at.stage.joint[2](line);
+      at.whitened.y(line) += 5e-4 * at.whitened.joint[2](line);
   }
-  const auto U = at.stage.U.topRows(at.stage.fit_lines);
-  const Eigen::VectorXd kept = U.transpose() * at.stage.y.head(at.stage.fit_lines);
-  at.stage.y.head(at.stage.fit_lines) -= U * kept;
-  at.stage.Q = at.stage.y.head(at.stage.fit_lines).squaredNorm();
-  const double row = at.stage.context[order[half]].order;
+  const auto U = at.whitened.U.topRows(at.whitened.fit_lines);
+  const Eigen::VectorXd kept = U.transpose() * at.whitened.y.head(at.whitened.fit_lines);
+  at.whitened.y.head(at.whitened.fit_lines) -= U * kept;
+  at.whitened.Q = at.whitened.y.head(at.whitened.fit_lines).squaredNorm();
+  const double row = at.whitened.context[order[half]].order;
   int tried = 0;
-  for (const auto& point : change_points(at.stage, tried))
+  for (const auto& point : change_points(at.whitened, tried))
     if (!point.entry.joints.empty()) {
       EXPECT_GT(std::abs(std::get<double>(point.entry.options.at("after_row")) - row), 0.6)
           << key_of(at.cell, point.entry);

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "rt/run_loop.hpp"
+#include "plumb/drivers/run_loop.hpp"
 #include "tests/drivers/session_rig.hpp"
 #include "tests/drivers/watched_calls.hpp"
 
@@ -80,11 +80,11 @@ inline bool run_linked_loop(BusPort& plumb, BusPort& controller, const Watched& 
                             WatchedCalls& calls) {
   constexpr long kMostCycles = 60'000;
   SessionRig rig(full_correction());
-  const auto shared = std::make_unique<rt::RunShared>();
+  const auto shared = std::make_unique<RunShared>();
   const auto clock = std::make_unique<CycleClock<MonotonicTime>>(kBeat_ns);
-  using Loop = rt::RunLoop<MonotonicTime>;
-  const auto loop = std::make_unique<Loop>(*rig.session, plumb, *shared, *clock, MonotonicTime{},
-                                           rt::RunSettings{});
+  using Loop = RunLoop<MonotonicTime>;
+  const auto loop =
+      std::make_unique<Loop>(*rig.session, plumb, *shared, *clock, MonotonicTime{}, RunSettings{});
   const ControllerThread beside(rig, controller);
   const auto answered = [&] { return static_cast<long>(rig.session->report().counters.answered); };
   long cycle = 0;

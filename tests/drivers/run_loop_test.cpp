@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cycle's thread on a bus in memory, in scripted time; every heap call of this program is
 // counted.
-#include "rt/run_loop.hpp"
+#include "plumb/drivers/run_loop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace plumb::tests {
 namespace {
 
-using namespace drivers::rt;
+using namespace drivers;
 using Loop = RunLoop<ScriptedTime>;
 
 /// A run whose controller is SessionRig's, put on the bus before each tick.

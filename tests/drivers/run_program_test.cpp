@@ -50,6 +50,28 @@ TEST(Run, PlaysAFileToItsEndAndReplaysToTheBit) {
   EXPECT_GT(replayed.json()["result"]["frames"], 100);
 }
 
+TEST(Run, ACheckWritesNothingSoThatTheRunAfterItStarts) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
+  const std::vector<std::string> check{"run", folder.folder.string(), "--check"};
+  const RtRan checked = plumb_rt(check, folder.folder);
+  EXPECT_EQ(checked.exit, 0) << checked.err;
+  for (const auto* made : {"record.log", "corrected.csv"})
+    EXPECT_FALSE(std::filesystem::exists(folder.folder / made)) << made;
+  const RtRan ran = plumb_rt({"run", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const RtRan after = plumb_rt(check, folder.folder);
+  EXPECT_EQ(after.exit, 5) << "the answers are there already, and a run would not replace them";
+  EXPECT_NE(after.err.find("E-RT-SINK"), std::string::npos) << after.err;
+}
+
+TEST(Run, ACheckFindsARecordThatCannotBeMade) {
+  const Deployed folder(Deployed::csv("[log]\nrecord = \"gone/record.log\"\n"));
+  const RtRan checked = plumb_rt({"run", folder.folder.string(), "--check"}, folder.folder);
+  EXPECT_EQ(checked.exit, 5);
+  EXPECT_NE(checked.err.find("E-RT-RECORD"), std::string::npos) << checked.err;
+  EXPECT_NE(checked.err.find("No such file or directory"), std::string::npos) << checked.err;
+}
+
 TEST(Run, AReplayWithAnotherModeDiffers) {
   const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
   ASSERT_EQ(plumb_rt({"run", folder.folder.string()}, folder.folder).exit, 0);

@@ -92,8 +92,8 @@ class Running {
   rt::Deployment deployment_;
   ModelSlot slot_{*deployment_.model.loaded};
   MemoryBus bus_;
-  std::unique_ptr<rt::RunShared> shared_ = std::make_unique<rt::RunShared>();
-  rt::Service service_{deployment_, bus_, slot_, *shared_};
+  std::unique_ptr<RunShared> shared_ = std::make_unique<RunShared>();
+  rt::Service service_{deployment_, bus_, slot_, *shared_, rt::Service::Files::kMade};
 };
 
 void expect_refused(const Running& running, const std::string& file, const std::string& why) {

@@ -163,6 +163,25 @@ TEST(Calibrate, FewerCoordinatesThanParametersAreRefusedWithExitCodeFour) {
   }
 }
 
+TEST(Calibrate, WhereAnEffectIsTooMuchForThePosesItIsNamedAndNotThePosesBlamed) {
+  Cell cell = random_cell(1, 6, kStandard, ArmKind::kRevolute);
+  SimulationPlan plan = plan_with(1e-5, 1);
+  plan.poses = 20;
+  const Simulation s = simulate(cell, plan);
+  EXPECT_NO_THROW((void)calibrate(cell, s.measured, all_rows(s.measured)));
+  cell.effects.push_back(
+      {.name = "joint_table", .joints = {0, 1, 2, 3}, .options = {}, .place = {}});
+  try {
+    (void)calibrate(cell, s.measured, all_rows(s.measured));
+    FAIL() << "more parameters than coordinates were accepted";
+  } catch (const Failure& f) {
+    EXPECT_EQ(f.problems().front().code, "E-FIT-FEW");
+    EXPECT_NE(f.problems().front().message.find("the 480 more parameters of joint_table"),
+              std::string::npos)
+        << f.problems().front().message;
+  }
+}
+
 TEST(Calibrate, FixedParametersStayAtNominal) {
   Cell cell = random_cell(1, 6, kStandard, ArmKind::kRevolute);
   cell.fit.fixed = {"J2.a", "J3.alpha"};

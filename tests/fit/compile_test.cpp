@@ -106,6 +106,48 @@ TEST(Audit, OneSigmaAtTheToolIsWhatTheTrueErrorShows) {
   EXPECT_NEAR(std::sqrt(truth / predicted), 1.0, 0.2);
 }
 
+/// What the audit says of a cell with `entry` (none if its name is empty) and such data.
+Audit audit_of(const std::string& hidden, const EffectEntry& entry) {
+  Cell cell = random_cell(1, 6, format::Convention::kStandard, ArmKind::kRevolute);
+  if (!entry.name.empty()) cell.effects.push_back(entry);
+  SimulationPlan plan;
+  plan.poses = 120;
+  plan.truth.geometry_m = plan.truth.geometry_rad = 3e-4;
+  if (!hidden.empty()) plan.truth.effects = {hidden};
+  const Simulation simulation = simulate(cell, plan);
+  offline::Run run;
+  run.created = "2026-01-01T00:00:00Z";
+  run.cell_sha256 = std::string(64, '0');
+  run.fit = fit_all(cell, simulation.measured);
+  return audit(compile(cell, run));
+}
+
+// A bump or a drift of the tracker shows, by its own small motion, where the axes of the base
+// point, and so weakly that the tool would seem to be lost by centimetres.
+TEST(Audit, WhatHappenedToTheTrackerLeavesTheToolAsCertainAsWithoutIt) {
+  const double without = audit_of("", {}).sigma_tool_max_m;
+  const auto step = [](const char* of) {
+    EffectEntry out{.name = "step", .joints = {}, .options = {}, .place = {}};
+    out.options["after_row"] = 60.0;
+    out.options["of"] = std::string(of);
+    return out;
+  };
+  const EffectEntry drift{.name = "drift", .joints = {}, .options = {}, .place = {}};
+  const EffectEntry tracker{.name = "tracker", .joints = {}, .options = {}, .place = {}};
+  for (const auto& [hidden, entry] :
+       std::vector<std::pair<std::string, EffectEntry>>{{"step_base@at=0.5", step("base")},
+                                                        {"step_reflector@at=0.5", step("tool")},
+                                                        {"drift=300um", drift},
+                                                        {"", tracker},
+                                                        {"", step("base")},
+                                                        {"", step("tool")}}) {
+    const Audit with = audit_of(hidden, entry);
+    EXPECT_LT(with.sigma_tool_max_m, 1.6 * without) << hidden << " " << entry.name;
+    EXPECT_GT(with.sigma_tool_max_m, 0.6 * without) << hidden << " " << entry.name;
+    for (const auto& remark : with.remarks) EXPECT_NE(remark.code, "W-AUDIT-SIGMA") << hidden;
+  }
+}
+
 TEST(Audit, ACorrectionOverTheGuardsLimitIsAWarning) {
   Line line = whole_line({}, false);
   line.cell.deploy.max_correction_m = 1e-6;

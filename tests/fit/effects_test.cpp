@@ -10,7 +10,7 @@
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

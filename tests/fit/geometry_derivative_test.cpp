@@ -100,6 +100,58 @@ TEST(GeometryDerivative, EqualsCentralDifferencesForCompleteLinkTwistsAtZero) {
   }
 }
 
+format::Effect wave(std::vector<std::uint8_t> joints, double cycles, std::vector<double> sizes) {
+  format::Effect out;
+  out.name = "gear_ripple";
+  out.version = 1;
+  out.joints = std::move(joints);
+  out.constants = {cycles};
+  out.parameters = std::move(sizes);
+  return out;
+}
+
+/// Largest difference from central differences, of columns in this order.
+double worst_of(const ArmState& start, const std::vector<Parameter>& parameters,
+                const std::vector<double>& q) {
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  const auto at = [&](Eigen::Index i, double step) {
+    GeometryDerivative::Point point;
+    GeometryDerivative(start, parameters, step * Eigen::VectorXd::Unit(count, i))
+        .evaluate(q, {}, point);
+    return point;
+  };
+  const auto here = at(0, 0.0);
+  constexpr double kStep = 1e-6;
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto a = at(i, kStep), b = at(i, -kStep);
+    const Vector3 shift = (a.p_M - b.p_M) / (2 * kStep);
+    const Vector3 turn = rotation_vector(a.R_MG * b.R_MG.transpose()) / (2 * kStep);
+    worst = std::max(worst, (here.columns.col(i).head<3>() - shift).cwiseAbs().maxCoeff());
+    worst = std::max(worst, (here.columns.col(i).tail<3>() - turn).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+TEST(GeometryDerivative, EveryWaveHasItsColumnsWhicheverAreFittedAndInAnyOrder) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Cell cell = random_arm(seed);
+    Random random(seed);
+    ArmState start = random_state(cell, random);
+    const auto last = static_cast<std::uint8_t>(cell.joints() - 1);
+    start.arm.effects = {wave({0}, 7.0, {1e-4, -2e-4}), wave({0, last}, 3.5, {2e-4, 0, 1e-4, 3e-4}),
+                         wave({last}, 20.3, {0.0, 1e-4}), wave({0}, 11.0, {3e-4, 1e-4})};
+    std::vector<Parameter> parameters = effect_parameters(start.arm);
+    for (std::size_t i = parameters.size(); i > 1; --i)
+      std::swap(parameters[i - 1],
+                parameters[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+    parameters.resize(parameters.size() - 3);  // some are not fitted
+    std::vector<double> q;
+    for (int i = 0; i < cell.joints(); ++i) q.push_back(spread(random, 2.0));
+    EXPECT_LT(worst_of(start, parameters, q), 3e-8) << "seed " << seed;
+  }
+}
+
 TEST(CandidateParameters, BetaTakesThePlaceOfDWhereNeighboursAreParallel) {
   Cell cell = random_arm(3);
   cell.nominal.convention = format::Convention::kStandard;

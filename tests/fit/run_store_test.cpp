@@ -2,11 +2,15 @@
 #include "fit/run_store.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "fit/cell_data.hpp"
+#include "fit/run_checksum.hpp"
 #include "program/file.hpp"
 #include "simulate/simulate.hpp"
 
@@ -80,7 +84,128 @@ TEST_F(RunStore, ADamagedOrMissingRunIsAnInputErrorAndNeverTheCurrentOne) {
   std::ofstream(run.directory / "run.json") << "{\"schema\": \"run/1\"";
   EXPECT_THROW((void)load_run(cell_, run.number), Failure);
   EXPECT_THROW((void)load_run(cell_, 99), Failure);
-  EXPECT_FALSE(current_run(cell_, measured_).has_value());
+  EXPECT_THROW((void)current_run(cell_, measured_), Failure);
+  // A later sound run is found before the damaged one is met.
+  save_run(cell_, measured_, run.fit);
+  EXPECT_EQ(current_run(cell_, measured_)->number, 2);
+}
+
+std::string refusal(const Cell& cell, int number) {
+  try {
+    (void)load_run(cell, number);
+  } catch (const Failure& failure) {
+    return failure.problems().front().code + " " + failure.problems().front().message;
+  }
+  return "loaded";
+}
+
+TEST_F(RunStore, EveryChangedOrMissingByteOfARunIsRefusedNamingItsFile) {
+  const offline::Run run = save_run(cell_, measured_, fit_cell(cell_, measured_));
+  for (const char* name : {"run.json", "predictions.csv"}) {
+    const fs::path file = run.directory / name;
+    const std::string text = read_file(file);
+    const auto put = [&](const std::string& changed) { std::ofstream(file) << changed; };
+    for (std::size_t at = 0; at < text.size(); at += text.size() / 97 + 1) {
+      std::string changed = text;
+      changed[at] = changed[at] == '1' ? '2' : '1';
+      put(changed);
+      EXPECT_EQ(refusal(cell_, run.number).rfind("E-RUN-DAMAGED ", 0), 0u) << name << " " << at;
+      put(text.substr(0, at));
+      EXPECT_NE(refusal(cell_, run.number).find(name), std::string::npos) << name << " " << at;
+    }
+    put(text + "\n");
+    EXPECT_NE(refusal(cell_, run.number).find(name), std::string::npos);
+    put(text);
+    EXPECT_EQ(refusal(cell_, run.number), "loaded");
+  }
+}
+
+TEST_F(RunStore, WhatIsDamagedIsSaidInPlainWordsWithTheLine) {
+  const offline::Run run = save_run(cell_, measured_, fit_cell(cell_, measured_));
+  const fs::path file = run.directory / "run.json";
+  const std::string text = read_file(file);
+  const auto said_of = [&](const std::string& changed) {
+    std::ofstream(file) << changed;
+    try {
+      load_run(cell_, run.number);
+    } catch (const Failure& failure) {
+      const Problem& problem = failure.problems().front();
+      EXPECT_EQ(problem.code, "E-RUN-DAMAGED");
+      EXPECT_EQ(problem.message.find("exception"), std::string::npos) << problem.message;
+      EXPECT_EQ(problem.message.find("syntax"), std::string::npos) << problem.message;
+      EXPECT_NE(problem.help.find("plumb fit"), std::string::npos) << problem.help;
+      return problem.message;
+    }
+    return std::string("loaded");
+  };
+  const auto has = [](const std::string& message, const std::string& words) {
+    return message.find(words) != std::string::npos;
+  };
+  const auto third = text.find('\n', text.find('\n', text.find('\n') + 1) + 1);
+  const std::string cut = said_of(text.substr(0, third - 2));
+  EXPECT_TRUE(has(cut, "ends in the middle of line 3")) << cut;
+  const std::string changed = said_of(text.substr(0, third + 1) + "}}}" + text.substr(third + 1));
+  EXPECT_TRUE(has(changed, "line 4 is no JSON")) << changed;
+  EXPECT_TRUE(has(said_of(""), "is empty"));
+  auto json = nlohmann::ordered_json::parse(text);
+  json.erase("checksum");
+  json.erase("predictions_sha256");
+  auto lacks = json;
+  lacks.erase(std::next(lacks.begin(), 2));
+  const std::string lacking = said_of(lacks.dump(1));
+  EXPECT_TRUE(has(lacking, "lacks '")) << lacking;
+}
+
+TEST_F(RunStore, ARunWithoutCheckSumsOfAnEarlierVersionStillLoads) {
+  const offline::Run run = save_run(cell_, measured_, fit_cell(cell_, measured_));
+  const fs::path file = run.directory / "run.json";
+  EXPECT_TRUE(has_checksums(run.directory));
+  auto json = nlohmann::ordered_json::parse(read_file(file));
+  json.erase("checksum");
+  std::ofstream(file) << json.dump(1);
+  EXPECT_NE(refusal(cell_, run.number), "loaded");  // only one of the two was taken out
+  json.erase("predictions_sha256");
+  std::ofstream(file) << json.dump(1);
+  EXPECT_EQ(refusal(cell_, run.number), "loaded");
+  EXPECT_FALSE(has_checksums(run.directory));
+}
+
+TEST_F(RunStore, DraftsOfDeadProcessesGoAtTheNextRunAndOthersStay) {
+  const fs::path runs = folder_ / "runs";
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  ::waitpid(dead, nullptr, 0);
+  const auto draft = [&](pid_t maker) { return runs / (".draft-" + std::to_string(maker)); };
+  for (const pid_t maker : {dead, ::getppid(), ::getpid()}) {
+    fs::create_directories(draft(maker));
+    std::ofstream(draft(maker) / "predictions.csv.1.tmp") << "half";
+  }
+  const offline::Run run = save_run(cell_, measured_, fit_cell(cell_, measured_));
+  EXPECT_FALSE(fs::exists(draft(dead)));
+  EXPECT_FALSE(fs::exists(draft(::getpid())));
+  EXPECT_TRUE(fs::exists(draft(::getppid())));
+  EXPECT_EQ(std::distance(fs::directory_iterator(run.directory), fs::directory_iterator()), 2);
+}
+
+TEST_F(RunStore, AFullDiskLeavesNoDraftAndIsSaidOfTheRun) {
+  const Fit fit = fit_cell(cell_, measured_);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{}, now{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  now = before;
+  now.rlim_cur = 1000;
+  ::setrlimit(RLIMIT_FSIZE, &now);
+  Problem said;
+  try {
+    save_run(cell_, measured_, fit);
+  } catch (const Failure& failure) {
+    said = failure.problems().front();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(said.code, "E-WRITE");
+  EXPECT_EQ(said.message.find(".draft"), std::string::npos) << said.message;
+  EXPECT_TRUE(fs::is_empty(folder_ / "runs"));
+  EXPECT_EQ(save_run(cell_, measured_, fit).number, 1);
 }
 
 }  // namespace

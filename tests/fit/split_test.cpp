@@ -113,6 +113,33 @@ TEST(Split, IgnoredRowsAreNeitherFittedNorHeld) {
   for (int i : held_rows(split)) EXPECT_GE(i, 30);
 }
 
+TEST(Split, AutoTakesTheRowsThatAreMarkedAsHeldAndNoOthers) {
+  for (const int groups : {30, 100}) {
+    Measurements m = random_poses(groups, 5);
+    std::set<int> marked;
+    for (int i = 0; i < m.size(); ++i)
+      if (m.replicate_group[i] % 7 == 0) {
+        m.set[i] = SetMark::kHeld;
+        marked.insert(i);
+      }
+    const Split split = split_poses(m, {}, 1);
+    const auto held = held_rows(split);
+    EXPECT_EQ(std::set<int>(held.begin(), held.end()), marked);
+    EXPECT_EQ(split.folds, 0);
+    EXPECT_TRUE(split.marked);
+    for (const int i : fit_rows(split)) EXPECT_FALSE(marked.contains(i));
+  }
+  EXPECT_FALSE(split_poses(random_poses(100, 5), {}, 1).marked);
+}
+
+TEST(Split, ARuleThatIsStatedWinsOverMarks) {
+  Measurements m = random_poses(100, 5);
+  m.set[3] = SetMark::kHeld;
+  const Split split = split_poses(m, share(0.2), 1);
+  EXPECT_FALSE(split.marked);
+  EXPECT_GT(held_rows(split).size(), 10U);
+}
+
 TEST(Split, AColumnWithoutAHeldRowIsRefused) {
   const Measurements m = random_poses(100, 5);
   EXPECT_THROW(split_poses(m, {.kind = HeldOutRule::Kind::kColumn}, 1), Failure);

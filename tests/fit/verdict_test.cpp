@@ -43,6 +43,33 @@ TEST(Verdict, OnePoseFarBeyondToleranceIsNotGood) {
   EXPECT_FALSE(keeps(fit.held, kTolerance_m));
 }
 
+TEST(Verdict, RepeatsThatDifferByMoreThanTheModelMissesAreNoNoiseFloor) {
+  Fit fit = fit_with(stats(39e-6, 70e-6, 80e-6), 68e-6);
+  EXPECT_EQ(quality(fit, kTolerance_m), Quality::kRepeatsDisagree);
+  const std::string text = verdict(fit, kTolerance_m);
+  EXPECT_EQ(text.find("nothing more can be learnt"), std::string::npos) << text;
+  EXPECT_NE(text.find("repeats of a pose differ by more than the model misses"), std::string::npos);
+  EXPECT_TRUE(next_step(fit, kTolerance_m).starts_with("diagnose"));
+  fit.floor.source = NoiseFloor::Source::kSigma;
+  EXPECT_NE(verdict(fit, kTolerance_m).find("sigma is stated too large"), std::string::npos);
+}
+
+TEST(Verdict, ASigmaStatedTooLargeIsNotBlamedOnTheTracker) {
+  Fit fit = fit_with(stats(196e-6, 300e-6, 290e-6), 500e-6);
+  fit.floor.source = NoiseFloor::Source::kSigma;
+  EXPECT_EQ(quality(fit, kTolerance_m), Quality::kBeyondSigmaTooLarge);
+  EXPECT_EQ(beginning(fit), "Not good enough");
+  EXPECT_NE(verdict(fit, kTolerance_m).find("Correct sigma_um"), std::string::npos);
+  EXPECT_NE(next_step(fit, kTolerance_m).find("sigma_um"), std::string::npos);
+}
+
+TEST(Verdict, AtANoiseFloorBeyondToleranceTheReadingsOrSomethingThatMovedAreToBlame) {
+  const Fit fit = fit_with(stats(196e-6, 300e-6, 400e-6), 196e-6);
+  EXPECT_EQ(beginning(fit), "Limited by the measurement");
+  EXPECT_NE(verdict(fit, kTolerance_m).find("something moved between them"), std::string::npos);
+  EXPECT_TRUE(next_step(fit, kTolerance_m).starts_with("compare"));
+}
+
 TEST(Verdict, JointsThatNeverMovedAreNamed) {
   Fit fit = fit_with(stats(16e-6, 30e-6, 40e-6), 16e-6);
   fit.still = {"J2"};

@@ -31,12 +31,14 @@ Model telling_model(std::uint64_t seed) {
   if (out.nominal.joints.size() < 2) return telling_model(seed + kModels);
   out.effects.push_back(formula_model().effects[0]);
   out.effects[0].constants = {1.5, -2.5};
+  out.domain.context = ranges_model().domain.context;
   out.mechanics = {{out.nominal.joints.size(), {7.0, {0.1, 0.2, 0.3}}}, 3.0, {0.01, 0.02, 0.03}};
   return out;
 }
 
 /// The same with what schema 1 could say of trees.
 Model of_schema_one(Model model) {
+  model.domain.context.clear();
   for (Tree& tree : model.trees) {
     if (tree.bounds.empty()) continue;
     const std::size_t leaves = tree.leaves(), terms = 1 + model.nominal.joints.size();

@@ -170,12 +170,18 @@ Model formula_model() {
   return m;
 }
 
+Model ranges_model() {
+  Model m = formula_model();
+  m.domain.context = {{ContextInput::kPayload, "", 0.0, 4.5},
+                      {ContextInput::kPayload, "cz", 0.125, 0.125},
+                      {ContextInput::kTemperature, "temp_arm", 18.5, 27.25}};
+  return m;
+}
+
 std::vector<std::pair<std::string, Model>> golden_models() {
-  return {{"six_axis", six_axis_model()},
-          {"planar", planar_model()},
-          {"planar_2r", planar_2r_model()},
-          {"formula", formula_model()},
-          {"blended", blended_model()}};
+  return {{"six_axis", six_axis_model()},   {"planar", planar_model()},
+          {"planar_2r", planar_2r_model()}, {"formula", formula_model()},
+          {"blended", blended_model()},     {"ranges", ranges_model()}};
 }
 
 }  // namespace plumb::format

@@ -21,6 +21,9 @@ Model blended_model();
 /// And with a law of the user's own.
 Model formula_model();
 
+/// The same, with ranges of what it was told in the poses of its fit.
+Model ranges_model();
+
 /// File name without ending, and content.
 std::vector<std::pair<std::string, Model>> golden_models();
 

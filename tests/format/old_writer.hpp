@@ -132,12 +132,20 @@ void mechanics(std::unique_ptr<T>& pointer, const Mechanics& x) {
   pointer->payload_cz = x.payload_com_m[2];
 }
 
+/// Schema 1 was without ranges of context.
 template <class T>
 void domain(std::unique_ptr<T>& pointer, const Domain& x) {
   pointer = std::make_unique<T>();
   pointer->q_min = x.q_min;
   pointer->q_max = x.q_max;
   pointer->fade = x.fade;
+  if constexpr (requires { pointer->context; })
+    fill(pointer->context, x.context, [](auto& to, const auto& from) {
+      to.input = as<decltype(to.input)>(from.input);
+      to.name = from.name;
+      to.low = from.low;
+      to.high = from.high;
+    });
 }
 
 template <class T>

@@ -93,6 +93,34 @@ std::vector<Rule> provenance_rules() {
   };
 }
 
+/// Ranges of what the model was told in its fit.
+std::vector<Rule> range_rules() {
+  const auto with = [](ContextInput input, std::string name, double low, double high) {
+    return [=](Model& m) { m.domain.context = {{input, name, low, high}}; };
+  };
+  using enum ContextInput;
+  return {
+      {"NotFinite", "no range", with(kPayload, "", 0.0, kNaN)},
+      {"Infinite", "no range", with(kPayload, "", -kInf, 1.0)},
+      {"Beyond", "no range", with(kPayload, "", 0.0, 1e9)},
+      {"Backwards", "no range", with(kTemperature, "temp", 30.0, 20.0)},
+      {"NoTemperature", "unknown input", with(kTemperature, "", 20.0, 30.0)},
+      {"NoSuchLoad", "unknown input", with(kPayload, "qx", 0.0, 1.0)},
+      {"NoRangeOfADirection", "unknown input", with(kDirection, "", -1.0, 1.0)},
+      {"NoSuchInput", "unknown input", with(ContextInput{9}, "", -1.0, 1.0)},
+      {"Name", "control", with(kTemperature, "t\n", 20.0, 30.0)},
+      {"Twice", "two ranges",
+       [](Model& m) {
+         m.domain.context.assign(2, {kPayload, "cx", 0.0, 0.1});
+       }},
+      {"TooMany", "ranges of context",
+       [](Model& m) {
+         m.domain.context.resize(19, {kTemperature, "temp", 20.0, 30.0});
+       }},
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranges, SemanticRule, ::testing::ValuesIn(range_rules()), name_of);
 INSTANTIATE_TEST_SUITE_P(Effects, SemanticRule, ::testing::ValuesIn(effect_rules()), name_of);
 INSTANTIATE_TEST_SUITE_P(Guards, SemanticRule, ::testing::ValuesIn(guard_rules()), name_of);
 INSTANTIATE_TEST_SUITE_P(Provenance, SemanticRule, ::testing::ValuesIn(provenance_rules()),

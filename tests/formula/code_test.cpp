@@ -8,7 +8,7 @@
 #include "formula/compile_formula.hpp"
 #include "formula/degree.hpp"
 #include "plumb/format/formula.hpp"
-#include "plumb/runtime/formula_code.hpp"
+#include "plumb/runtime/detail/formula_code.hpp"
 #include "tests/formula/random_formula.hpp"
 
 namespace plumb::offline {

@@ -140,6 +140,19 @@ TEST(Import, UnderstandsUtf16AndLatin1AndSaysSo) {
   EXPECT_EQ(imported(wide).find("q1")->text.front(), "1.5");
 }
 
+TEST(Import, UnderstandsUtf16WithoutItsMarkInBothOrdersAndSaysSo) {
+  for (const bool big_endian : {false, true}) {
+    std::string wide;
+    for (char c : std::string("q1_deg;x_mm;Kraft \xB5\n1,5;2,25;3\n"))
+      (big_endian ? (wide += '\0') += c : (wide += c) += '\0');
+    const Imported data = imported(wide);
+    EXPECT_EQ(data.find("q1")->text.front(), "1.5") << big_endian;
+    EXPECT_EQ(data.remarks.front().code, "N-IMPORT-ENCODING") << big_endian;
+    EXPECT_NE(data.remarks.front().message.find("no byte-order mark"), std::string::npos);
+  }
+  EXPECT_EQ(refusal(std::string("q1_deg;x_mm\n1,5;2\0\0\0\n", 21)), "E-IMPORT-BINARY");
+}
+
 TEST(Import, ARowOfUnitsUnderTheHeaderCounts) {
   const Table t = table_of("Point;A1;A2;X;Y;Z\n-;deg;deg;m;m;m\np;1,5;2;0,5;1;2\n");
   EXPECT_NEAR(t.find("x")->values[0], 0.5, 1e-15);

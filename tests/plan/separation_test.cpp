@@ -11,7 +11,7 @@
 
 #include "fit/calibrate.hpp"
 #include "plan/pose_plan.hpp"
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

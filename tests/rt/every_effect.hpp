@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "plumb/runtime/effect_library.hpp"
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::tests {
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <numeric>
 
+#include "plumb/runtime/detail/tree.hpp"
 #include "plumb/runtime/forward_model.hpp"
-#include "plumb/runtime/tree.hpp"
 #include "tests/runtime/literal_tree.hpp"
 #include "tests/runtime/random_tree.hpp"
 

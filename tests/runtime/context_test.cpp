@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plumb/runtime/context_inputs.hpp"
-#include "plumb/runtime/last_move.hpp"
+#include "plumb/runtime/detail/last_move.hpp"
 
 namespace plumb {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against the long double functions of the C library.
-#include "plumb/runtime/elementary.hpp"
+#include "plumb/runtime/detail/elementary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "plumb/runtime/effect_library.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
 #include "tests/rt/warm_arm.hpp"
 #include "tests/runtime/slot_hammer.hpp"
 

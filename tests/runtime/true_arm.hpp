@@ -46,7 +46,7 @@ class TrueArm {
 
   Transformd pose(const Joints& q) const {
     Transformd X = transform(chain_.forward(q));
-    const auto& [low, high, fade] = model_.domain;
+    const auto& [low, high, fade, context] = model_.domain;
     std::vector<double> u;
     for (std::size_t i = 0; i < low.size(); ++i)
       u.push_back((2 * q[i] - low[i] - high[i]) / (high[i] - low[i]));

@@ -51,7 +51,7 @@ TEST(Independence, TheSimulatorLinksNothingOfTheRuntime) {
 
 TEST(Independence, APlantedIncludeIsSeen) {
   EXPECT_TRUE(is_foreign(included("#include \"plumb/runtime/chain.hpp\"")));
-  EXPECT_TRUE(is_foreign(included("  # include <plumb/runtime/effects/gear.hpp>")));
+  EXPECT_TRUE(is_foreign(included("  # include <plumb/runtime/detail/effects/gear.hpp>")));
   EXPECT_TRUE(is_foreign(included("#include \"../../runtime/src/x.hpp\"")));
   EXPECT_TRUE(is_foreign(included("#include \"fit/arm_state.hpp\"")));
   EXPECT_FALSE(is_foreign(included("#include \"plumb/format/model.hpp\"")));

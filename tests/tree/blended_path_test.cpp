@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tests/runtime/random_tree.hpp"
 #include "tests/tree/tree_data.hpp"
 #include "tree/active_bound.hpp"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "plumb/runtime/tree.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "tests/tree/tree_data.hpp"
 #include "tree/growth.hpp"
 

@@ -33,7 +33,7 @@ struct Driven {
 Driven drive(const CalibratedTwin& twin, const std::vector<Fault>& faults,
              const std::vector<Readings>& along, const std::vector<std::string>& names) {
   const Path path = generated_path(twin.cell(), kStations, 0.5, 7);
-  drivers::BusLayout layout = twin.cell().deploy.bus.value();
+  drivers::BusLayout layout = *twin.cell().deploy.bus;
   layout.can_format = drivers::CanFrame::Format::kFd;
   drivers::name_temperatures(names, layout);
   Loop loop(twin.cell(), twin.model(), path, FaultPlan(faults), layout, {}, {});

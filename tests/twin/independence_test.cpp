@@ -38,7 +38,7 @@ TEST(Independence, TheTwinUsesNoMathematicsOfTheRuntimeOrTheFit) {
 
 TEST(Independence, APlantedIncludeIsSeen) {
   EXPECT_TRUE(is_foreign(included("#include \"plumb/runtime/chain.hpp\"")));
-  EXPECT_TRUE(is_foreign(included("#include <plumb/runtime/effects/gear.hpp>")));
+  EXPECT_TRUE(is_foreign(included("#include <plumb/runtime/detail/effects/gear.hpp>")));
   EXPECT_TRUE(is_foreign(included("#include \"fit/parameter.hpp\"")));
   EXPECT_FALSE(is_foreign(included("#include \"plumb/runtime/transform.hpp\"")));
   EXPECT_FALSE(is_foreign(included("// fit/parameter.hpp")));

@@ -177,6 +177,66 @@ std::string refusal(const std::string& urdf, const std::string& tip = "") {
   return "accepted";
 }
 
+std::string link(const std::string& name) { return "<link name=\"" + name + "\"/>"; }
+std::string joint(const std::string& name, const std::string& parent, const std::string& child,
+                  const std::string& inside = "", const std::string& type = "continuous") {
+  return fmt::format(
+      "<joint name=\"{}\" type=\"{}\"><parent link=\"{}\"/><child link=\"{}\"/>{}</joint>", name,
+      type, parent, child, inside);
+}
+std::string robot(const std::string& inside) { return "<robot name=\"a\">" + inside + "</robot>"; }
+
+TEST(Urdf, WhatIsNestedOrChainedTooDeepIsRefusedBeforeAnyParserRecurses) {
+  std::string nested, chain = link("l0");
+  for (int i = 0; i < 50000; ++i) nested += "<a>";
+  for (int i = 0; i < 50000; ++i) nested += "</a>";
+  EXPECT_EQ(refusal(robot(link("l") + nested)), "E-URDF-SIZE");
+  EXPECT_EQ(refusal(nested.substr(0, nested.size() / 2)), "E-URDF-SIZE");
+  for (int i = 0; i < 50000; ++i)
+    chain += link(fmt::format("l{}", i + 1)) + joint(fmt::format("j{}", i), fmt::format("l{}", i),
+                                                     fmt::format("l{}", i + 1), "", "fixed");
+  EXPECT_EQ(refusal(robot(chain)), "E-URDF-SIZE");
+  // What only looks deep is not: comments, quoted brackets, elements that close themselves.
+  std::string flat = link("l") + link("m") + joint("j", "l", "m");
+  for (int i = 0; i < 500; ++i) flat += "<!-- <a> --><gazebo x=\"&lt;a>\"/>";
+  EXPECT_EQ(refusal(robot(flat)), "accepted");
+}
+
+TEST(Urdf, ALinkWithTwoParentsOrItsOwnAncestorEndsInAMessage) {
+  const std::string links = link("r") + link("a") + link("b");
+  EXPECT_NE(
+      refusal(robot(links + joint("i", "r", "a") + joint("j", "a", "b") + joint("k", "b", "a")),
+              "b"),
+      "");
+}
+
+TEST(Urdf, AMimicJointStandsInTheWayOnlyOnTheWayToTheTip) {
+  const std::string hand = link("l") + link("m") + link("finger") + joint("j", "l", "m") +
+                           joint("f", "m", "finger", "<mimic joint=\"j\"/>");
+  EXPECT_EQ(refusal(robot(hand), "m"), "accepted");
+  const tests::TemporaryFolder folder;
+  try {
+    (void)read_urdf(folder.put("a.urdf", robot(hand)), "finger", format::Convention::kStandard);
+    FAIL() << "accepted";
+  } catch (const Failure& f) {
+    EXPECT_NE(f.problems().front().help.find("<mimic>"), std::string::npos);
+    EXPECT_NE(f.problems().front().help.find("--tip"), std::string::npos);
+  }
+}
+
+TEST(Urdf, LimitsThatTheFileDoesNotGiveAreAssumed) {
+  const std::string limit = "<limit lower=\"-0.1\" upper=\"1.5\" effort=\"1\" velocity=\"1\"/>";
+  const tests::TemporaryFolder folder;
+  const Cell cell = read_urdf(
+      folder.put("a.urdf",
+                 robot(link("l") + link("m") + link("n") + link("o") + joint("j", "l", "m") +
+                       joint("k", "m", "n", limit, "prismatic") + joint("i", "n", "o", limit))),
+      "", format::Convention::kStandard);
+  EXPECT_EQ(cell.assumed_limits, (std::vector<bool>{true, false, true}));
+  EXPECT_DOUBLE_EQ(cell.nominal.joints[1].q_min, -0.1);
+  EXPECT_DOUBLE_EQ(cell.nominal.joints[1].q_max, 1.5);
+}
+
 TEST(Urdf, WhatIsNoSerialArmIsRefusedByName) {
   EXPECT_EQ(refusal("<robot"), "E-URDF");
   EXPECT_EQ(refusal("<robot name=\"a\"><link name=\"l\"/></robot>"), "E-URDF-JOINT");

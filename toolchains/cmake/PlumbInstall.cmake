@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-# Install and export: find_package(Plumb) gives Plumb::format, Plumb::runtime, Plumb::c and, on Linux, Plumb::drivers.
+# Install and export: find_package(Plumb) gives Plumb::format, Plumb::runtime, Plumb::robot, Plumb::c
+# and, on Linux, Plumb::drivers.
 include(CMakePackageConfigHelpers)
 
 set(plumb_package ${CMAKE_INSTALL_LIBDIR}/cmake/Plumb)
-install(TARGETS plumb_format plumb_runtime plumb_c EXPORT PlumbTargets
+install(TARGETS plumb_format plumb_runtime plumb_robot plumb_c EXPORT PlumbTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
 install(DIRECTORY model_format/include/ runtime/include/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT runtime)

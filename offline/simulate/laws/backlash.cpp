@@ -6,18 +6,18 @@
 
 namespace plumb::offline::sim {
 
-// Teeth lie on the flank that the torque chooses; the change is smooth, off centre by friction, and
-// one flank yields more than the other:
+// The torque decides which tooth flanks are in contact. The change is smooth, friction shifts it
+// away from zero torque, and one flank yields more than the other:
 //   s = tanh((x - x0) / w),  dq = size (s + a (1 + s) / 2),  x = torque / largest torque
 // Plateaus: -size and size (1 + a).
 MadeLaw make_backlash(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 80e-6;
+  constexpr double kUsualPlay_rad = 80e-6;
   const VectorXd torque = largest_torque(world);
   std::vector<bool> loaded;
   for (int j = 0; j < torque.size(); ++j) loaded.push_back(torque(j) > 0.0);
   std::vector<JointError> out;
   for (const auto& at :
-       sized_joints(effect, world, loaded, loaded, kUsual_rad, "gravity does not turn it")) {
+       sized_joints(effect, world, loaded, loaded, kUsualPlay_rad, "gravity does not turn it")) {
     Random random = joint_random(world, "backlash", at.joint);
     const double width = random.uniform(0.04, 0.12);
     const double centre = world.richness * random.uniform(-0.03, 0.03);

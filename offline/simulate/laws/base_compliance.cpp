@@ -9,8 +9,8 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsualTip_m = 0.15e-3;
-constexpr double kSoftening = 0.1;
+constexpr double kUsualBaseTip_m = 0.15e-3;
+constexpr double kBaseSoftening = 0.1;
 
 double largest_moment(const World& world) {
   double most = 0.0;
@@ -23,19 +23,20 @@ double largest_moment(const World& world) {
 
 }  // namespace
 
-// The floor plate turns about the base origin, softer one way than the other, softer under load:
+// The floor plate turns about the base origin. It is more compliant in one direction than in the
+// other, and more under load:
 //   turn = size A m (1 - s + s |m|), m = moment / largest moment, A = diag(1, c) in turned axes
 MadeLaw make_base_compliance(const HiddenEffect& effect, const World& world) {
   const double most = largest_moment(world);
   if (most <= 0.0) refuse(effect, "it has no weight");
-  const double size = effect.size.value_or(kUsualTip_m / world.arm.reach());
+  const double size = effect.size.value_or(kUsualBaseTip_m / world.arm.reach());
   Random random(world.seed, "base compliance");
   const double other = random.uniform(0.5, 0.9);
   const double bearing = random.uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::AngleAxisd turned(bearing, Vector3d::UnitZ());
   const Eigen::Matrix3d A = turned.toRotationMatrix() * Vector3d(1.0, other, 0.3).asDiagonal() *
                             turned.toRotationMatrix().transpose();
-  const double soft = kSoftening * world.richness;
+  const double soft = kBaseSoftening * world.richness;
   ArmBending out;
   out.bend = [=](const Moment& now, Deflection& deflection) {
     const Vector3d m = now.loads.moment(0, Vector3d::Zero()) / most;

@@ -6,14 +6,14 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kSoftening = 0.08;     // share of the largest angle that is not linear in torque
-constexpr double kUsualTip_m = 0.2e-3;  // of one joint, arm stretched
+constexpr double kJointSoftening = 0.08;  // share of the largest angle that is not linear in torque
+constexpr double kUsualJointTip_m = 0.2e-3;  // of one joint, arm stretched
 
 /// Softening spring: dq = size * ((1 - s) x + s x |x|), x = torque / largest torque.
 struct Spring {
   SizedJoint at;        // size [rad] at the largest torque
   double torque = 1.0;  // largest at the reference poses [N m]
-  double softening = kSoftening;
+  double softening = kJointSoftening;
 };
 
 class JointCompliance : public Law {
@@ -54,9 +54,10 @@ std::unique_ptr<Law> make_joint_compliance(const HiddenEffect& effect, const Wor
     loaded.push_back(torque(j) > 0.0);
   }
   std::vector<Spring> springs;
-  for (const auto& at : sized_joints(effect, world, loaded, loaded, kUsualTip_m / world.arm.reach(),
-                                     "gravity does not turn it")) {
-    springs.push_back({at, torque(at.joint), kSoftening * world.richness});
+  for (const auto& at :
+       sized_joints(effect, world, loaded, loaded, kUsualJointTip_m / world.arm.reach(),
+                    "gravity does not turn it")) {
+    springs.push_back({at, torque(at.joint), kJointSoftening * world.richness});
   }
   return std::make_unique<JointCompliance>(std::move(springs));
 }

@@ -7,9 +7,9 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kSoftening = 0.06;
+constexpr double kCrossSoftening = 0.06;
 
-// The neighbour that gravity turns most.
+// The neighbouring joint with the largest gravity torque.
 int loaded_neighbour(const VectorXd& torque, int joint) {
   const double before = joint > 0 ? torque(joint - 1) : 0.0;
   const double behind = joint + 1 < torque.size() ? torque(joint + 1) : 0.0;
@@ -18,7 +18,7 @@ int loaded_neighbour(const VectorXd& torque, int joint) {
 
 }  // namespace
 
-// A joint gives way to the torque of another one, y, as where a common casting twists:
+// A joint is deflected by the torque y of another joint, for example where a common casting twists:
 //   dq = +- size ((1 - s) y + s y |y|), y = torque / largest torque
 MadeLaw make_cross_compliance(const HiddenEffect& effect, const World& world) {
   constexpr double kUsual_rad = 60e-6;
@@ -30,7 +30,7 @@ MadeLaw make_cross_compliance(const HiddenEffect& effect, const World& world) {
     const int from = joint_number(effect, "from", world, loaded_neighbour(torque, at.joint));
     if (torque(from) <= 0.0) refuse(effect, "gravity does not turn the other joint");
     if (from == at.joint) refuse(effect, "the other joint is the same");
-    const double most = torque(from), soft = kSoftening * world.richness;
+    const double most = torque(from), soft = kCrossSoftening * world.richness;
     const double sign = joint_random(world, "cross", at.joint).below(2) == 0 ? -1.0 : 1.0;
     out.push_back({at,
                    [=](const Moment& now) {

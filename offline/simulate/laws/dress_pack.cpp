@@ -7,19 +7,19 @@
 
 namespace plumb::offline::sim {
 
-// Hoses that wind up around a wrist joint and rub: stiffer the further they are wound, and with a
-// memory of the side the joint comes from:
+// Hoses that wind up around a wrist joint and rub. They are stiffer the further they are wound, and
+// the friction depends on the direction from which the joint came:
 //   x = (q - middle) / half range
 //   dq = -size (0.35 x + 0.65 x^3 + 0.3 (1 + |x|) sgn(d) (1 - exp(-travel / 4 deg)))
 MadeLaw make_dress_pack(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 150e-6;
+  constexpr double kUsualPull_rad = 150e-6;
   constexpr double kTravel_rad = 4.0 * std::numbers::pi / 180.0;
   constexpr double kRubbing = 0.3, kLinear = 0.35;
   constexpr int kFromEnd = 3;
   std::vector<JointError> out;
   for (const auto& at :
        sized_joints(effect, world, turning(world), only(world, world.arm.joints() - kFromEnd),
-                    kUsual_rad, "it slides")) {
+                    kUsualPull_rad, "it slides")) {
     const double low = world.q_min(at.joint), high = world.q_max(at.joint);
     out.push_back({at,
                    [=](const Moment& now) {

@@ -7,15 +7,15 @@
 
 namespace plumb::offline::sim {
 
-// A wrong number of increments a turn, the code wheel a little dished:
+// An encoder with a wrong number of increments per turn and a slightly dished code wheel:
 //   dq = +- size ((q - middle) + 0.03 (q - middle)^2); size: error a radian
 MadeLaw make_encoder_scale(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 60e-6;
+  constexpr double kUsualEccentricity_rad = 60e-6;
   constexpr double kDish = 0.03;
   constexpr int kUsualJoint = 2;
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
-                                     kUsual_rad, "it slides")) {
+                                     kUsualEccentricity_rad, "it slides")) {
     const double dish = kDish * world.richness;
     const double middle = 0.5 * (world.q_min(at.joint) + world.q_max(at.joint));
     const double sign = joint_random(world, "encoder scale", at.joint).below(2) == 0 ? -1.0 : 1.0;
@@ -30,14 +30,14 @@ MadeLaw make_encoder_scale(const HiddenEffect& effect, const World& world) {
   return joint_law(std::move(out));
 }
 
-// A code wheel beside its axis by e radii, read at one side:
+// A code wheel whose centre is e radii beside its axis, with a single reading head:
 //   dq = atan2(e sin a, 1 + e cos a), a = q + phase; size: e
 MadeLaw make_encoder_eccentricity(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 120e-6;
+  constexpr double kUsualEccentricity_rad = 120e-6;
   constexpr int kUsualJoint = 2;
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
-                                     kUsual_rad, "it slides")) {
+                                     kUsualEccentricity_rad, "it slides")) {
     Random random = joint_random(world, "eccentricity", at.joint);
     const double phase = random.uniform(-std::numbers::pi, std::numbers::pi);
     out.push_back({at,

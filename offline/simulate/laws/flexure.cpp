@@ -8,8 +8,8 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsualTip_m = 0.15e-3;  // of one link's rotation, arm stretched
-constexpr double kUsualLength = 0.15;    // of the reach: shorter links hardly bend
+constexpr double kUsualLinkTip_m = 0.15e-3;  // of one link's rotation, arm stretched
+constexpr double kUsualLength = 0.15;        // of the reach: shorter links hardly bend
 
 struct Link {
   SizedJoint at;  // size: largest rotation of its end at the reference poses [rad]
@@ -90,7 +90,7 @@ std::unique_ptr<Law> make_link_flexure(const HiddenEffect& effect, const World& 
     usual.push_back(beams[i].length > kUsualLength * reach);
   }
   std::vector<Link> links;
-  for (const auto& at : sized_joints(effect, world, possible, usual, kUsualTip_m / reach,
+  for (const auto& at : sized_joints(effect, world, possible, usual, kUsualLinkTip_m / reach,
                                      "the link behind it is too short")) {
     TaperedBeam& beam = beams[at.joint];
     beam.EI = largest_rotation(world, at.joint, beam) / at.size;

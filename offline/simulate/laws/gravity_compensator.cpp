@@ -9,7 +9,8 @@
 namespace plumb::offline::sim {
 namespace {
 
-/// Spring between a pin on the column and a pin on the link, lengths over the crank's:
+/// A spring between a pin on the column and a pin on the link. All lengths are divided by that of
+/// the crank:
 ///   L^2 = 1 + p^2 + 2 p cos psi,  torque ~ p sin psi (1 - L0 / L)
 struct SpringCrank {
   double pivot = 2.0;  // p
@@ -32,13 +33,13 @@ struct SpringCrank {
 
 }  // namespace
 
-// The joint yields to the torque of its balancing spring, which the model does not know.
+// The joint is deflected by the torque of its balancing spring, which the model does not contain.
 MadeLaw make_gravity_compensator(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 120e-6;
+  constexpr double kUsualSpring_rad = 120e-6;
   constexpr int kUsualJoint = 1;
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
-                                     kUsual_rad, "it slides")) {
+                                     kUsualSpring_rad, "it slides")) {
     Random random = joint_random(world, "gravity compensator", at.joint);
     SpringCrank spring;
     spring.pivot = random.uniform(1.6, 3.0);

@@ -10,7 +10,7 @@ namespace {
 
 using Shares = std::array<double, 3>;  // of the first, second and third harmonic
 constexpr Shares kShare{1.0, 0.6, 0.08};
-constexpr double kLoadShare = 0.15;  // growth of the amplitude at the largest torque
+constexpr double kHarmonicsLoadShare = 0.15;  // growth of the amplitude at the largest torque
 constexpr double kUsualSize_rad = 100e-6;
 
 /// dq = size (1 + m torque / largest torque) sum_h share_h sin(h q + phase_h).
@@ -19,7 +19,7 @@ struct Gear {
   Shares phase{};
   double torque = 0.0;  // largest at the reference poses [N m]; 0: no load
   Shares share = kShare;
-  double load_share = kLoadShare;
+  double load_share = kHarmonicsLoadShare;
 };
 
 class GearHarmonics : public Law {

@@ -27,14 +27,14 @@ struct Table {
 
 }  // namespace
 
-// Periodic error of a joint without a pattern: twelve harmonics that fall off slowly, and one worn
-// tooth. Size: height of the worn tooth.
+// An irregular periodic error of a joint: twelve slowly decreasing harmonics and one worn tooth.
+// The size is the height of the worn tooth.
 MadeLaw make_joint_table(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 100e-6;
+  constexpr double kUsualTable_rad = 100e-6;
   constexpr int kUsualJoint = 1;
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
-                                     kUsual_rad, "it slides")) {
+                                     kUsualTable_rad, "it slides")) {
     Random random = joint_random(world, "joint table", at.joint);
     Table table;
     for (int h = 1; h <= kHarmonics; ++h) {

@@ -22,10 +22,10 @@ VectorXd largest_payload_torque(const World& world) {
 
 }  // namespace
 
-// The controller knows how the bare arm bends, but not what it carries:
+// The controller compensates the deflection of the bare arm, but not that by the payload:
 //   dq = size ((1 - s) x + s x^3), x = payload torque / its largest
 MadeLaw make_payload_compliance(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 60e-6;
+  constexpr double kUsualPayloadYield_rad = 60e-6;
   constexpr double kProgressive = 0.08;
   if (world.most_payload_kg <= 0.0) refuse(effect, "it carries nothing");
   const VectorXd torque = largest_payload_torque(world);
@@ -35,8 +35,8 @@ MadeLaw make_payload_compliance(const HiddenEffect& effect, const World& world) 
     loaded.push_back(!world.arm.slides(j) && torque(j) > floor);
   }
   std::vector<JointError> out;
-  for (const auto& at :
-       sized_joints(effect, world, loaded, loaded, kUsual_rad, "the payload does not turn it")) {
+  for (const auto& at : sized_joints(effect, world, loaded, loaded, kUsualPayloadYield_rad,
+                                     "the payload does not turn it")) {
     const double most = torque(at.joint), cubic = kProgressive * world.richness;
     out.push_back({at,
                    [=](const Moment& now) {

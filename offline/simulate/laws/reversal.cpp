@@ -7,9 +7,9 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsualSize_rad = 100e-6;
+constexpr double kUsualReversal_rad = 100e-6;
 constexpr double kFrictionShare = 0.3;
-constexpr double kTravel_rad = std::numbers::pi / 180.0;  // until the other flank carries
+constexpr double kTravel_rad = std::numbers::pi / 180.0;  // until the other flank is loaded
 
 /// Hysteresis with memory and friction that grows with load:
 ///   b <- b + (-size sgn(d) - b) (1 - exp(-travel / q_c)) at every move, dq = b (1 + 0.3 |x|)
@@ -69,7 +69,7 @@ std::unique_ptr<Law> make_reversal(const HiddenEffect& effect, const World& worl
   std::vector<bool> turns;
   for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
   return std::make_unique<Reversal>(
-      sized_joints(effect, world, turns, turns, kUsualSize_rad, "it slides"), world);
+      sized_joints(effect, world, turns, turns, kUsualReversal_rad, "it slides"), world);
 }
 
 }  // namespace plumb::offline::sim

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kSlowest = 0.5;
 constexpr double kFastest = 40.0;
-constexpr double kFromHarmonics = 0.25;  // kept away from 1 and 2 cycles a turn
+constexpr double kFromHarmonics = 0.25;  // distance kept from 1 and 2 cycles a turn
 constexpr double kSideband = 0.06;
 constexpr double kLoadShare = 0.15;
 
-// Log-uniform, hardly ever whole.
+// Draws the cycles a turn from a log-uniform distribution. The number is hardly ever an integer.
 double draw_cycles(Random& random) {
   for (;;) {
     const double k = std::exp(random.uniform(std::log(kSlowest), std::log(kFastest)));
@@ -29,12 +29,12 @@ double draw_phase(Random& random) { return random.uniform(-std::numbers::pi, std
 // Tooth mesh at k cycles a joint turn, stronger under load, its strength turning with the output:
 //   dq = size ((1 + m x) sin(k q + p0) + b sin((k - 1) q + p1) + b sin((k + 1) q + p2))
 MadeLaw make_gear_ripple(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 100e-6;
+  constexpr double kUsualRipple_rad = 100e-6;
   constexpr int kUsualJoint = 1;
   const VectorXd torque = largest_torque(world);
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
-                                     kUsual_rad, "it slides")) {
+                                     kUsualRipple_rad, "it slides")) {
     Random random = joint_random(world, "gear ripple", at.joint);
     const double k = number(effect, "cycles", draw_cycles(random));
     const double p0 = draw_phase(random), p1 = draw_phase(random), p2 = draw_phase(random);

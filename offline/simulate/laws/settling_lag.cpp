@@ -8,16 +8,16 @@
 
 namespace plumb::offline::sim {
 
-// Joints were read before the arm stood still; all move for as long as the one with the longest
-// way, and a controller brakes for long moves more than for short ones:
+// The joints were read before the arm was at rest. All joints move as long as the one with the
+// longest way, and a controller brakes harder at the end of long moves than of short ones:
 //   dq_j = -size step_j / max_k |step_k| (1 - exp(-|step_j| / s))
-// A pose read again keeps the joint values of its stop, and their error.
+// A repeated reading of a pose has the joint values of the same stop, with the same error.
 MadeLaw make_settling_lag(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 100e-6;
+  constexpr double kUsualLag_rad = 100e-6;
   constexpr double kLongMove_rad = 20.0 * std::numbers::pi / 180.0;
   std::vector<JointError> out;
   for (const auto& at :
-       sized_joints(effect, world, turning(world), turning(world), kUsual_rad, "it slides")) {
+       sized_joints(effect, world, turning(world), turning(world), kUsualLag_rad, "it slides")) {
     out.push_back({at,
                    [=](const Moment& now) {
                      const VectorXd step = now.visit.q - now.visit.before;

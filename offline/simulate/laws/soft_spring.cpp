@@ -6,7 +6,8 @@
 
 namespace plumb::offline::sim {
 
-// A gear that is soft until its teeth have seated: stiffness grows with torque, without a corner.
+// A gear that is compliant until its teeth are in contact: its stiffness increases smoothly with
+// the torque.
 //   d dq/dx = 1 + r / cosh^2(x / x1), so dq = size (x + r x1 tanh(x / x1)) / (1 + r x1 tanh(1 /
 //   x1))
 // x = torque / largest torque; size at x = 1.

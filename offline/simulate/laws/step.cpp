@@ -7,17 +7,17 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsual_m = 0.5e-3;
-constexpr double kUsual_rad = 200e-6;
+constexpr double kUsualStep_m = 0.5e-3;
+constexpr double kUsualStepAngle_rad = 200e-6;
 constexpr double kEarliest = 0.25, kLatest = 0.75;  // of the session
 
-/// When something was bumped: half way between two poses.
+/// The time of a bump, half way between two poses.
 struct Bump {
   double at_s = 0.0;
-  int row = 0;  // the first one after it
+  int row = 0;  // the first row after the bump
 };
 
-// Never between two readings of one pose.
+// Chooses the time of the bump. It is never between two readings of one pose.
 Bump bump_of(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "bump");
   const double at = number(effect, "at", random.uniform(kEarliest, kLatest));
@@ -37,7 +37,7 @@ Bump bump_of(const HiddenEffect& effect, const World& world) {
   return bump;
 }
 
-/// What a bump leaves behind, at every visit after it.
+/// The change that a bump causes, at every visit after it.
 class Step : public Law {
  public:
   Step(Bump bump, MadeLaw after) : bump_(bump), after_(std::move(after)) {}
@@ -63,10 +63,10 @@ class Step : public Law {
 
 }  // namespace
 
-// The reflector slipped in its nest: its place in the tool frame is another one.
+// The reflector slipped in its nest, so its position in the tool frame changed.
 MadeLaw make_step_reflector(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "step reflector");
-  const Vector3d shift = effect.size.value_or(kUsual_m) * random.direction();
+  const Vector3d shift = effect.size.value_or(kUsualStep_m) * random.direction();
   const Vector3d mm = shift * 1e3;
   return std::make_unique<Step>(
       bump_of(effect, world), arm_law({[=](const Moment&, Deflection& out) {
@@ -75,10 +75,11 @@ MadeLaw make_step_reflector(const HiddenEffect& effect, const World& world) {
                                        {{"of", "tool"}, {"shift_mm", {mm.x(), mm.y(), mm.z()}}}}));
 }
 
-// Someone pushed the tracker: base and tracker stand otherwise to each other; base frame.
+// Someone pushed the tracker, so the pose of the base relative to it changed. Stated in the base
+// frame.
 MadeLaw make_step_base(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "step base");
-  const double size = effect.size.value_or(kUsual_m);
+  const double size = effect.size.value_or(kUsualStep_m);
   const Vector3d d = size * random.direction();
   const Vector3d e = 0.5 * size / world.arm.reach() * random.direction();
   const Vector3d mm = d * 1e3, urad = e * 1e6;
@@ -90,12 +91,12 @@ MadeLaw make_step_base(const HiddenEffect& effect, const World& world) {
                 {"rotation_urad", {urad.x(), urad.y(), urad.z()}}}}));
 }
 
-// An encoder slipped on its shaft.
+// An encoder slipped on its shaft, so the zero position of the joint changed.
 MadeLaw make_step_encoder(const HiddenEffect& effect, const World& world) {
   constexpr int kUsualJoint = 2;
   std::vector<JointError> out;
   for (const auto& at : sized_joints(effect, world, turning(world), only(world, kUsualJoint),
-                                     kUsual_rad, "it slides")) {
+                                     kUsualStepAngle_rad, "it slides")) {
     out.push_back({at, [=](const Moment&) { return at.size; }, {{"of", at.name}}});
   }
   return std::make_unique<Step>(bump_of(effect, world), joint_law(std::move(out)));

@@ -8,17 +8,18 @@ namespace plumb::offline::sim {
 namespace {
 
 constexpr double kWarm_K = 10.0;
-constexpr double kUsual_m = 0.25e-3;
+constexpr double kUsualGrowth_m = 0.25e-3;
 constexpr double kTiltShare = 0.15;
 
 }  // namespace
 
-// Links grow with their own zones, the column tilts with what it is warmer than the air:
+// Every link expands with the temperature of its zone, and the column tilts in proportion to its
+// temperature above the air:
 //   link_i <- link_i (1 + alpha_i T_i),  base turn = tilt (T_0 - T_air)
-// Size: growth of the stretched arm when all of it is 10 K warmer.
+// The size is the expansion of the stretched arm when all of it is 10 K warmer.
 MadeLaw make_thermal_growth(const HiddenEffect& effect, const World& world) {
   const double reach = world.arm.reach();
-  const double size = effect.size.value_or(kUsual_m);
+  const double size = effect.size.value_or(kUsualGrowth_m);
   Random random(world.seed, "thermal growth");
   std::vector<double> alpha;
   for (int i = 0; i < world.arm.joints(); ++i) {

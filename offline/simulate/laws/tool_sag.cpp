@@ -7,20 +7,21 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsual_m = 60e-6;
-constexpr double kOwnShare = 0.15;  // of the tool's own weight in the heaviest load
+constexpr double kUsualSag_m = 60e-6;
+constexpr double kOwnShare = 0.15;  // share of the tool's own weight in the heaviest load
 constexpr double kTurn_per_m = 2.0;
 
 }  // namespace
 
-// The tool hangs on a soft coupling: it sags and turns where gravity points, the more it carries:
+// The tool is mounted on a compliant coupling. It sags and turns in the direction of gravity, the
+// more it carries:
 //   shift = size w C g_T,  turn = 2 / m size w (axis x g_T),  w = 0.15 + 0.85 payload / heaviest
 MadeLaw make_tool_sag(const HiddenEffect& effect, const World& world) {
-  const double size = effect.size.value_or(kUsual_m);
+  const double size = effect.size.value_or(kUsualSag_m);
   Random random(world.seed, "tool sag");
   const Vector3d along = random.direction();
   const double stiff = random.uniform(0.2, 0.6);
-  // Softest across one axis of the coupling.
+  // The coupling is most compliant across one of its axes.
   const Eigen::Matrix3d C = Eigen::Matrix3d::Identity() - (1.0 - stiff) * along * along.transpose();
   const double heaviest = std::max(world.most_payload_kg, 1e-9);
   const Vector3d down = world.masses.gravity.normalized();

@@ -9,13 +9,13 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsual_m = 40e-6;
+constexpr double kUsualWalk_m = 40e-6;
 constexpr double kSmallestRange_m = 1e-3;
 constexpr double kTypicalRange_m = 4.0;
 
 struct Errors {
   double offset_m = 0.0, scale = 0.0;
-  double azimuth_rad = 0.0, elevation_rad = 0.0;  // twice a turn
+  double azimuth_rad = 0.0, elevation_rad = 0.0;  // amplitudes, two periods a turn
   double azimuth_phase = 0.0, elevation_phase = 0.0;
 };
 
@@ -35,10 +35,11 @@ Vector3d error_M(const Errors& errors, const Vector3d& p) {
 
 }  // namespace
 
-// Size: radial offset; the others are drawn so that each moves a point at 4 m about as much.
+// The size is the radial offset. The other errors are drawn so that each moves a point at 4 m about
+// as far.
 MadeLaw make_tracker(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "tracker errors");
-  const double size = effect.size.value_or(kUsual_m);
+  const double size = effect.size.value_or(kUsualWalk_m);
   const double at_range = size / kTypicalRange_m;
   Errors errors;
   errors.offset_m = size;

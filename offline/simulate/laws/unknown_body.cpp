@@ -9,14 +9,14 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kUsual_m = 80e-6;
-constexpr double kShortest = 0.12, kLongest = 0.3;  // period over the session
+constexpr double kUsualShift_m = 80e-6;
+constexpr double kShortest = 0.12, kLongest = 0.3;  // period as a share of the session
 
 double periodic(double time_s, double period_s, double phase) {
   return std::sin(2.0 * std::numbers::pi * time_s / period_s + phase);
 }
 
-/// A period that stays the same in another session of the same arm.
+/// A periodic motion. Its period is the same in another session of the same arm.
 class Periodic : public Law {
  public:
   Periodic(double period_s, MadeLaw law) : period_s_(period_s), law_(std::move(law)) {}
@@ -36,12 +36,13 @@ double draw_period(const HiddenEffect& effect, const World& world, Random& rando
 
 }  // namespace
 
-// The hall is heated in turns and the floor breathes: base twist = (d, e) sin(2 pi t / P + p).
+// The heating of the hall switches on and off, and the floor moves with it:
+//   base twist = (d, e) sin(2 pi t / P + p)
 MadeLaw make_room_sway(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "room sway");
   const double period = draw_period(effect, world, random);
   const double phase = random.uniform(-std::numbers::pi, std::numbers::pi);
-  const double size = effect.size.value_or(kUsual_m);
+  const double size = effect.size.value_or(kUsualShift_m);
   const Vector3d d = size * random.direction();
   const Vector3d e = 0.5 * size / world.arm.reach() * random.direction();
   const Vector3d um = d * 1e6;
@@ -58,12 +59,13 @@ MadeLaw make_room_sway(const HiddenEffect& effect, const World& world) {
   return std::make_unique<Periodic>(period, arm_law(std::move(out)));
 }
 
-// A cooling circuit that switches: the reflector moves on the tool, tool shift = d sin(2 pi t / P).
+// A cooling circuit switches on and off, and the reflector moves on the tool:
+//   tool shift = d sin(2 pi t / P)
 MadeLaw make_tool_wander(const HiddenEffect& effect, const World& world) {
   Random random(world.seed, "tool wander");
   const double period = draw_period(effect, world, random);
   const double phase = random.uniform(-std::numbers::pi, std::numbers::pi);
-  const Vector3d d = effect.size.value_or(kUsual_m) * random.direction();
+  const Vector3d d = effect.size.value_or(kUsualShift_m) * random.direction();
   const Vector3d um = d * 1e6;
   ArmBending out;
   out.bend = [=](const Moment& now, Deflection& deflection) {

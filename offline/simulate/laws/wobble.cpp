@@ -8,8 +8,8 @@
 namespace plumb::offline::sim {
 namespace {
 
-constexpr double kRunout_m = 0.2;     // radial runout over tilt
-constexpr double kUsual_rad = 40e-6;  // tilt
+constexpr double kRunout_m = 0.2;           // radial runout over tilt
+constexpr double kUsualWobble_rad = 40e-6;  // tilt
 constexpr int kUsualJoint = 1;
 
 /// Tilt and runout across the axis before the joint turns, once and twice a turn, each direction
@@ -83,7 +83,7 @@ MadeLaw make_axis_wobble(const HiddenEffect& effect, const World& world) {
   for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
   if (kUsualJoint < world.arm.joints()) usual[kUsualJoint] = true;
   std::vector<Wobble> joints;
-  for (const auto& at : sized_joints(effect, world, turns, usual, kUsual_rad, "it slides")) {
+  for (const auto& at : sized_joints(effect, world, turns, usual, kUsualWobble_rad, "it slides")) {
     joints.push_back(draw(at, {world.seed, "wobble " + std::to_string(at.joint)}));
   }
   return std::make_unique<AxisWobble>(std::move(joints), world);

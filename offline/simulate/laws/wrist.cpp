@@ -6,11 +6,11 @@
 
 namespace plumb::offline::sim {
 
-// Bevel gears that drive through one another: wrong couplings of the last three joints, and a
-// little of their teeth:
+// Wrong couplings of the last three joints, whose bevel gears drive through one another, with a
+// small error of the teeth:
 //   dq5 = k45 (q4 + 0.05 sin 2 q4),  dq6 = k46 q4 + k56 (q5 + 0.05 sin 2 q5);  size: k45
 MadeLaw make_wrist_coupling(const HiddenEffect& effect, const World& world) {
-  constexpr double kUsual_rad = 60e-6;
+  constexpr double kUsualWristCoupling_rad = 60e-6;
   constexpr double kTeeth = 0.05;
   constexpr int kWristJoints = 3;
   const int n = world.arm.joints();
@@ -19,7 +19,7 @@ MadeLaw make_wrist_coupling(const HiddenEffect& effect, const World& world) {
     if (world.arm.slides(j)) refuse(effect, "a wrist joint slides");
   }
   Random random(world.seed, "wrist coupling");
-  const double k45 = effect.size.value_or(kUsual_rad);
+  const double k45 = effect.size.value_or(kUsualWristCoupling_rad);
   const double k46 = k45 * random.uniform(-1.0, 1.0), k56 = k45 * random.uniform(-1.0, 1.0);
   const double teeth = kTeeth * world.richness;
   const auto through = [=](double q) { return q + teeth * std::sin(2.0 * q); };

@@ -13,32 +13,32 @@
 
 namespace plumb::drivers {
 
-/// What plumb-rt goes through; the number is on the bus.
+/// The states of plumb-rt; their numbers are sent on the bus.
 enum class SessionState : std::uint8_t {
   kInit = 0,
   kSync = 1,    // compares the controller's poses with the nominal model
   kShadow = 2,  // computes and reports, sends no correction
   kActive = 3,
-  kHold = 4,   // the correction ramps out: an input is lost, or an enable is off
-  kFault = 5,  // ramped out, until an operator acknowledges
+  kHold = 4,   // the correction ramps out because an input is lost or an enable is off
+  kFault = 5,  // the correction is ramped out until an operator acknowledges
 };
 
 enum class CorrectionMode : std::uint8_t { kShadow = 0, kLimited = 1, kFull = 2 };
 
-/// What the controller says of itself. If a value of the message is none that can be, all of it
-/// counts as the safe side.
+/// The state of the controller as it reports it. If one value of the message is impossible, all
+/// members have their safe values, which are the defaults below.
 struct ControllerState {
   bool drives_on = false;
   bool automatic = false;  // operating mode automatic
   bool protective_stop = true;
-  bool correction_enabled = false;  // the cell's own enable
-  bool acknowledge = false;         // an operator's acknowledgement: counts on its rising edge
-  std::uint8_t tool = 0;            // active tool, frame, payload as the controller numbers them
+  bool correction_enabled = false;  // the enable signal of the cell
+  bool acknowledge = false;         // acknowledgement by an operator; its rising edge counts
+  std::uint8_t tool = 0;            // active tool, frame and payload, in the controller's numbers
   std::uint8_t frame = 0;
   std::uint8_t payload = 0;
 };
 
-/// The value "flags" of kController.
+/// Bits of the value "flags" of message kController.
 enum ControllerFlag : unsigned {
   kDrivesOn = 1,
   kAutomatic = 2,
@@ -52,14 +52,14 @@ struct SessionStatus {
   CorrectionMode mode = CorrectionMode::kShadow;
   Status status = Status::kNoModel;
   bool has_output = false;
-  std::uint16_t refused = 0;  // counters, the lower bits of them
+  std::uint16_t refused = 0;  // lower 16 bits of the guard's counters
   std::uint16_t limited = 0;
   std::uint16_t stale = 0;
 };
 
-/// Positions [m] and rotation vectors [rad] in the base frame; joints [rad] or [m]. An offset is
-/// added to the position, and its rotation is about the axes of the base frame: R = exp(r) R_D. One
-/// with a value that is not finite adds nothing.
+/// Conversion to and from messages. Positions [m] and rotation vectors [rad] are in the base frame,
+/// joints in [rad] or [m]. An offset (d, r) to a desired pose D gives p = p_D + d and
+/// R = exp(r) R_D; an offset with a value that is not finite changes nothing.
 BusMessage pose_message(MessageKind kind, const Transformd& pose, std::uint16_t counter);
 std::optional<Transformd> pose_in(const BusMessage& message);  // none: not finite
 BusMessage offset_message(const Transformd& desired, const Transformd& corrected,
@@ -71,9 +71,10 @@ ControllerState controller_in(const BusMessage& message);
 BusMessage status_message(const SessionStatus& status, std::uint16_t counter);
 SessionStatus status_in(const BusMessage& message);
 
-/// 1 to 2^23 - 1, exact in every number the bus has: stands for a robot's serial number and, taken
-/// of its SHA-256 in hexadecimal, for a model file. Not of the file itself: that ends in a check
-/// sum of the same polynomial, which makes all files alike.
+/// A number from 1 to 2^23 - 1, which every number format on the bus holds exactly. It identifies a
+/// robot by its serial number, and a model file by its SHA-256 in hexadecimal. It is not taken of
+/// the file itself: a file ends in a checksum of the same polynomial, so all files would have the
+/// same fingerprint.
 std::uint32_t fingerprint(std::string_view text);
 BusMessage robot_message(std::uint32_t fingerprint, std::uint16_t counter);
 BusMessage signature_message(std::uint32_t model, std::uint32_t robot, std::uint16_t counter);

@@ -8,31 +8,31 @@
 
 namespace plumb::drivers {
 
-/// What is said on the bus. Which values a message has, their names, units, scales and places is
-/// the business of the layout (bus_layout.hpp); what they mean, of bus_content.hpp.
+/// The kinds of messages on the bus. The layout (bus_layout.hpp) defines the names, units, scales
+/// and places of their values; bus_content.hpp defines what the values mean.
 enum class MessageKind : std::uint8_t {
   kJoints,      // controller: measured joint positions
   kCommanded,   // controller: commanded joint positions of the target; optional
   kTarget,      // controller: desired tool pose in the base frame
-  kActual,      // controller: the tool pose it shows for its measured joints (SYNC compares it)
+  kActual,      // controller: the tool pose it shows for its measured joints; SYNC compares it
   kController,  // controller: drives, mode, stop, enable, tool, frame, payload
-  kRobot,       // controller: who it is
+  kRobot,       // controller: fingerprint of the robot's serial number
   kContext,     // controller: payload, temperatures, process time; optional
-  kCorrected,   // plumb-rt: the tool pose to go to instead of the target
-  kOffset,      // plumb-rt: the same as a difference from the target (layout: offset mode)
+  kCorrected,   // plumb-rt: the tool pose to move to instead of the target
+  kOffset,      // plumb-rt: the same as a difference from the target, if the layout asks for it
   kStatus,      // plumb-rt: state, mode, status, counters
-  kSignature,   // plumb-rt: which model runs
+  kSignature,   // plumb-rt: fingerprints of the running model and of its robot
 };
 inline constexpr std::size_t kMessageKinds = 11;
 
-inline constexpr std::size_t kMaxMessageValues = 14;  // what one frame of CAN FD can hold
+inline constexpr std::size_t kMaxMessageValues = 14;  // as many as one frame of CAN FD can hold
 
-/// One message, complete and checked, with its values in SI (m, rad, kg, degC, s); NaN: not known.
+/// One complete and checked message, with its values in m, rad, kg, degC and s; NaN means unknown.
 struct BusMessage {
   MessageKind kind = MessageKind::kJoints;
-  std::uint8_t size = 0;      // of values
-  std::uint16_t counter = 0;  // of the cycle that sent it; 8 bits of it survive classic CAN
-  std::int64_t time_ns = 0;   // reception, CLOCK_MONOTONIC; age is judged by it alone
+  std::uint8_t size = 0;      // number of values
+  std::uint16_t counter = 0;  // cycle counter of the sender; classic CAN carries its lower 8 bits
+  std::int64_t time_ns = 0;   // time of reception, CLOCK_MONOTONIC; the age is judged by it alone
   std::array<double, kMaxMessageValues> values = unknown();
 
   static constexpr std::array<double, kMaxMessageValues> unknown() {

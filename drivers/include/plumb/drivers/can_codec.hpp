@@ -13,45 +13,47 @@
 
 namespace plumb::drivers {
 
-inline constexpr std::size_t kMaxCanFrames = 7;  // of one message
+inline constexpr std::size_t kMaxCanFrames = 7;  // per message
 
-/// What a frame was worth.
+/// The result of decoding a frame or a block of registers.
 enum class Heard : std::uint8_t {
-  kNotOurs,   // no identifier of the layout
-  kPart,      // of a message that is not complete yet
-  kComplete,  // the message is in `out`
-  kRepeated,  // a counter that was complete before or overtaken, or a part that is there already
-  kCorrupt,   // check sum, length, format or padding
-  kNothing,   // Modbus: the block holds no message, as its owner left it
+  kNotOurs,   // the identifier is not in the layout
+  kPart,      // part of a message that is not complete yet
+  kComplete,  // the message is complete and in `out`
+  kRepeated,  // its counter was complete before or was overtaken, or this part is known already
+  kCorrupt,   // the checksum, length, format or padding is wrong
+  kNothing,   // Modbus: the sender left no message in the block
 };
 
-/// Messages to frames and back, by the layout.
+/// Converts messages to CAN frames and back, according to the layout.
 ///
-/// A message of several frames counts once all of them carry one counter; a frame of another
-/// counter begins anew. Every frame carries a counter and a check sum that covers its identifier.
+/// A message of several frames is complete when all of them have arrived with the same counter; a
+/// frame with another counter begins a new message. Every frame carries a counter and a checksum
+/// that covers its identifier.
 ///
-/// Counters run in cycles. One that lies less than kOvertaken behind the last complete message, or
-/// the one begun, and comes within that many cycles, was overtaken on its way: kRepeated. Any other
-/// is new, so a sender that restarts is heard. Parts wait for the others for half a round of the
-/// counter at most: beyond, the same counter means another cycle.
+/// Counters count the cycles of the sender. A frame whose counter lies less than kOvertaken behind
+/// the last complete message, or behind the one begun, and that arrives within as many cycles, was
+/// overtaken on its way and is kRepeated. Any other counter is new, so that a sender may restart.
+/// The parts of a message wait for each other for at most half a round of the counter, because
+/// after that the same counter may belong to another cycle.
 ///
 /// Heap: only in the constructor. Thread: one. Cost: fixed. Errors: by value.
 class CanCodec {
  public:
   static constexpr int kOvertaken = 32;  // cycles
 
-  /// Copies what it needs. The layout has no faults (find_faults).
+  /// Copies what it needs. Precondition: find_faults finds none in the layout.
   explicit CanCodec(const BusLayout& layout);
 
-  /// The frames of `message`, in the order to send them; none if the layout has no such message.
-  /// Values beyond the range of the wire saturate; NaN has a code of its own. Valid until the next
-  /// call.
+  /// The frames of `message`, in the order of sending; none if the layout has no such message.
+  /// Values beyond the range of the wire saturate; NaN has its own code. The frames are valid until
+  /// the next call.
   std::span<const CanFrame> encode(const BusMessage& message) noexcept;
 
-  /// Takes one frame that came. A message has the time of its earliest frame.
+  /// Decodes one received frame. A message gets the time of its earliest frame.
   Heard hear(const CanFrame& frame, BusMessage& out) noexcept;
 
-  /// Counters that never came, and messages begun but not completed.
+  /// Number of counters never received, and of messages begun but not completed.
   std::uint64_t skipped() const noexcept { return skipped_; }
   std::uint64_t incomplete() const noexcept { return incomplete_; }
 
@@ -64,17 +66,17 @@ class CanCodec {
     std::array<double, kMaxMessageValues> scale{};
     int step = 1;  // cycles from one message to the next
 
-    std::uint32_t parts = 0;  // bit i: frame i is there, of `counter`
+    std::uint32_t parts = 0;  // bit i: frame i of message `counter` has arrived
     std::uint16_t counter = 0;
     std::int64_t begun_ns = 0;
     std::array<std::int32_t, kMaxMessageValues> counts{};
 
-    bool heard = false;  // a complete message, of counter `last`
+    bool heard = false;  // a complete message has arrived, the last one with counter `last`
     std::uint16_t last = 0;
     std::int64_t last_ns = 0;
   };
   struct Part {
-    std::size_t index = 0;  // of the frame in its message
+    std::size_t index = 0;  // index of the frame in its message
     std::uint16_t counter = 0;
     std::int64_t time_ns = 0;
     std::array<std::int32_t, kMaxMessageValues> counts{};

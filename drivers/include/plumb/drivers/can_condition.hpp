@@ -8,28 +8,31 @@
 
 namespace plumb::drivers {
 
-/// What the controller of the bus and the kernel told. All monotone.
+/// Counters of the errors that the bus controller and the kernel reported. They only grow.
 struct CanErrorCounters {
-  std::uint64_t warnings = 0;          // error counter of the controller at 96 or more
-  std::uint64_t passives = 0;          // at 128 or more: it signals errors no longer
-  std::uint64_t bus_offs = 0;          // at 256: it takes no part
-  std::uint64_t restarts = 0;          // back after bus-off
-  std::uint64_t arbitration_lost = 0;  // someone with a lower identifier went first
+  std::uint64_t warnings = 0;          // the controller's error counter reached 96
+  std::uint64_t passives = 0;          // it reached 128: the controller no longer signals errors
+  std::uint64_t bus_offs = 0;          // it reached 256: the controller left the bus
+  std::uint64_t restarts = 0;          // the controller returned after bus-off
+  std::uint64_t arbitration_lost = 0;  // a frame with a lower identifier was sent first
   std::uint64_t transmit_timeouts = 0;
-  std::uint64_t not_acknowledged = 0;    // alone on the bus, or the cable is off
-  std::uint64_t controller_overran = 0;  // frames lost before the kernel saw them
+  std::uint64_t not_acknowledged = 0;    // no one else is on the bus, or the cable is off
+  std::uint64_t controller_overran = 0;  // frames lost before the kernel received them
   std::uint64_t interface_downs = 0;
 };
 
-/// Whether the bus can be used, from error frames and failed system calls.
+/// Decides from error frames and failed system calls whether the bus can be used.
 ///
-///     down   interface down or gone, until a frame goes or comes
-///            bus-off, until a restart, error-active, or a frame from the wire
-///            a full queue while error-passive (no one acknowledges), until a frame goes
-///     degraded   error-warning or error-passive, until error-active
+///     state      cause                                      until
+///     down       the interface is down or gone              a frame is sent or received
+///                bus-off                                    a restart, error-active, or a frame
+///                                                           from the wire
+///                the queue is full while error-passive,     a frame is sent
+///                that is, no one acknowledges
+///     degraded   error-warning or error-passive             error-active
 class CanCondition {
  public:
-  /// An error frame of linux/can/error.h: its identifier without flags, and its 8 bytes.
+  /// Takes an error frame (linux/can/error.h): its identifier without flags, and its 8 bytes.
   void hear(std::uint32_t classes, const std::array<std::uint8_t, 8>& data) noexcept;
 
   void interface_down(std::int64_t now_ns) noexcept;

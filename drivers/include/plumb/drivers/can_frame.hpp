@@ -7,7 +7,7 @@
 
 namespace plumb::drivers {
 
-/// A data frame as it goes over a CAN bus; no remote or error frames.
+/// A data frame of a CAN bus; remote and error frames are not represented.
 struct CanFrame {
   static constexpr std::size_t kMostBytes = 64;  // 8 in a classic frame
 
@@ -18,7 +18,7 @@ struct CanFrame {
   Id id_kind = Id::kStandard;
   Format format = Format::kClassic;
   std::uint8_t length = 0;   // bytes of data: 0 .. 8, in FD also 12, 16, 20, 24, 32, 48, 64
-  std::int64_t time_ns = 0;  // reception, CLOCK_MONOTONIC
+  std::int64_t time_ns = 0;  // time of reception, CLOCK_MONOTONIC
   std::array<std::uint8_t, kMostBytes> data{};
 };
 

@@ -11,28 +11,28 @@
 
 namespace plumb::drivers {
 
-/// What the kernel tells of a CAN interface.
+/// The properties of a CAN interface as the kernel reports them.
 struct CanInterface {
   std::string name;
   std::string kind;  // "can": a controller; "vcan", "vxcan": no wire and no bit rate
   bool up = false;
-  bool carrier = false;                        // not bus-off
-  bool fd = false;                             // CAN FD frames fit (MTU 72)
-  std::optional<std::uint32_t> bit_rate = {};  // [bit/s]; none: not set, or there is none
+  bool carrier = false;                        // false if bus-off
+  bool fd = false;                             // the interface carries CAN FD frames (MTU 72)
+  std::optional<std::uint32_t> bit_rate = {};  // [bit/s]; none if not set or not applicable
   std::optional<std::uint32_t> data_bit_rate = {};
-  std::optional<std::uint32_t> restart_ms = {};  // 0: stays bus-off
+  std::optional<std::uint32_t> restart_ms = {};  // restart after bus-off; 0: no restart
 };
 
-/// All CAN interfaces of this machine, by their index; asks the kernel (rtnetlink). Slow, needs no
-/// rights. None if it does not answer.
+/// All CAN interfaces of this machine, ordered by index, from the kernel (rtnetlink). Slow; needs
+/// no privileges. Empty if the kernel does not answer.
 std::vector<CanInterface> read_can_interfaces();
 
-/// Nothing if there is no CAN interface of this name.
+/// The CAN interface of this name, or none.
 std::optional<CanInterface> read_can_interface(const std::string& name);
 
-/// Why this layout cannot be spoken over this interface: down, classic only, another bit rate, and,
-/// as findings that are skipped instead of denied, what only deserves a word: no automatic restart.
-/// Empty: it fits.
+/// Why this layout cannot be used over this interface: it is down, carries classic frames only, or
+/// has another bit rate. A missing automatic restart is only a remark and has Grant::kSkipped
+/// instead of kDenied. Empty if all is well.
 std::vector<Finding> misfits(const BusLayout& layout, const CanInterface& interface);
 
 }  // namespace plumb::drivers

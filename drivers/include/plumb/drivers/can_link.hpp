@@ -16,64 +16,66 @@
 
 namespace plumb::drivers {
 
-/// One identifier to listen to, exactly.
+/// One identifier to receive; it must match exactly.
 struct CanFilter {
   std::uint32_t id = 0;
   CanFrame::Id id_kind = CanFrame::Id::kStandard;
 };
 
 struct CanLinkOptions {
-  CanFrame::Format format = CanFrame::Format::kClassic;  // kFd: classic frames as well
+  CanFrame::Format format = CanFrame::Format::kClassic;  // kFd includes classic frames
   enum class DataPhase : std::uint8_t { kSwitched, kOneRate } data_phase = DataPhase::kSwitched;
 
-  /// What the socket may hold, as the kernel counts: somewhat over 1 kB a frame. Little to send, so
-  /// that what waits in vain does not come out old later.
+  /// Sizes of the socket's buffers as the kernel counts them, somewhat over 1 kB per frame. The
+  /// send buffer is small, so that frames which had to wait are not sent when they are old.
   int receive_bytes = 256 << 10;
   int send_bytes = 16 << 10;
 };
 
-/// All monotone.
+/// Counters of a CAN link. They only grow.
 struct CanLinkCounters {
   std::uint64_t received = 0;
   std::uint64_t sent = 0;
-  std::uint64_t malformed = 0;   // size, length, identifier or format that no data frame has
-  std::uint64_t remote = 0;      // remote frames: ignored
-  std::uint64_t overflowed = 0;  // lost in the receive queue
-  std::uint64_t not_sent = 0;    // no room, down, or not a frame of this link
+  std::uint64_t malformed = 0;   // frames with an impossible size, length, identifier or format
+  std::uint64_t remote = 0;      // remote frames, which are ignored
+  std::uint64_t overflowed = 0;  // frames lost in the receive queue
+  std::uint64_t not_sent = 0;    // no room, link down, or a frame that this link cannot send
   std::uint64_t clock_jumps = 0;
 };
 
 struct CanOpening;
 
-/// Frames over one CAN interface, through a raw SocketCAN socket.
+/// Sends and receives frames over one CAN interface, through a raw SocketCAN socket.
 ///
-/// Our own frames do not come back, but other programs of this machine see them (candump).
-/// receive() and send() never block, never allocate, take no lock of ours and make at most
+/// Our own frames do not come back to us, but other programs of this machine (candump) see them.
+/// receive() and send() never block, never allocate, take no lock of their own and make at most
 /// kMostFramesACall + 1 system calls. Thread: one; recover() may run in another.
 class CanLink {
  public:
-  /// Frames that receive() looks at in one call before it says there is none: a flood of what we
-  /// do not want must not hold up the cycle.
+  /// The most frames that receive() examines in one call before it returns false, so that a flood
+  /// of unwanted frames cannot delay the cycle.
   static constexpr int kMostFramesACall = 64;
 
-  /// Slow. Listens to these identifiers and no others. An interface that is missing, down, or does
-  /// not carry the format is refused: nothing was sent then.
+  /// Opens a link that receives these identifiers and no others. Slow. An interface that is
+  /// missing, is down, or does not carry the format is refused; nothing has then been sent.
   static CanOpening open(std::string_view interface, std::span<const CanFilter> listen,
                          const CanLinkOptions& options);
 
-  /// Takes over a socket that carries struct can_frame and canfd_frame, one a datagram: a pair of
-  /// AF_UNIX sockets (SOCK_SEQPACKET, SOCK_DGRAM) does. It is asked for nothing but frames.
+  /// Takes over a socket that carries one struct can_frame or canfd_frame per datagram, for example
+  /// one of a pair of AF_UNIX sockets (SOCK_SEQPACKET, SOCK_DGRAM). No option is set on it.
   CanLink(int socket, const CanLinkOptions& options) noexcept;
   ~CanLink();
   CanLink(CanLink&& other) noexcept;
   CanLink& operator=(CanLink&&) = delete;
 
-  /// The next data frame in the order of arrival, as it came, time included (receive_time.hpp);
-  /// false: none. Remote and error frames, and what is no frame, are counted and skipped.
+  /// The next received data frame in the order of arrival, with its time of reception
+  /// (receive_time.hpp). False: there is none. Remote frames, error frames and malformed frames are
+  /// counted and skipped.
   bool receive(CanFrame& frame) noexcept;
 
-  /// False: not sent, and counted. Of a length, format and identifier that this link has; the
-  /// kernel does not round lengths, nor do we. While the controller is bus-off nothing is queued.
+  /// False: not sent, and counted as such. Length, format and identifier must be possible on this
+  /// link; neither the kernel nor this function rounds lengths. While the controller is bus-off
+  /// nothing is queued.
   bool send(const CanFrame& frame) noexcept;
 
   LinkState state() const noexcept { return condition_.state(); }
@@ -81,10 +83,11 @@ class CanLink {
   const CanErrorCounters& errors() const noexcept { return condition_.errors(); }
   std::uint64_t reconnects() const noexcept { return condition_.reconnects(); }
 
-  /// Binds again to the interface if it went and came back under another index (an adapter that
-  /// was unplugged). An interface that only went down and up needs no help. For state() kDown, from
-  /// a thread that may wait: bind() takes a lock that whoever sets up any network holds. Changes
-  /// the socket, not this object, so the cycle goes on beside it. Allocates. False: not there.
+  /// Binds the socket again if the interface disappeared and returned under another index, as after
+  /// an adapter was unplugged. An interface that only went down and up needs no help. To be called
+  /// in state() kDown from a thread that may wait, because bind() takes a lock that is also held
+  /// while any network is set up. It changes the socket and not this object, so the cycle may run
+  /// at the same time. Allocates. False: the interface is not there.
   bool recover() const;
 
  private:
@@ -98,7 +101,7 @@ class CanLink {
 
   int socket_ = -1;
   CanLinkOptions options_;
-  std::array<char, 16> interface_ = {};  // empty: a socket of others
+  std::array<char, 16> interface_ = {};  // empty if the socket was taken over
   std::vector<CanFilter> listen_;
   CanCondition condition_;
   ReceiveTime time_;

@@ -14,27 +14,29 @@ namespace plumb::drivers {
 
 struct CanPortOpening;
 
-/// The messages of a layout over one CAN interface, from one end: as plumb-rt (hears what the
-/// controller sends), or as the controller.
+/// Exchanges the messages of a layout over one CAN interface, either as plumb-rt, which receives
+/// what the controller sends, or as the controller.
 ///
-/// A frame with an identifier that only we send, received, is someone else's: foreign_senders. A
-/// frame whose length, check sum or values are wrong, and what is no frame at all, is corrupt.
+/// A received frame with one of our own identifiers was sent by someone else and counts in
+/// foreign_senders. Frames with a wrong length, checksum or value, and malformed frames, count as
+/// corrupt.
 ///
-/// receive() takes no more than kMostFramesACall frames and then says that there is none, so a
-/// flood of frames without a message does not hold up the cycle; of a flood of messages the caller
-/// takes as many as it likes. Heap: only when made. Thread: one; recover() may run in another.
+/// receive() examines at most kMostFramesACall frames and then returns false, so that a flood of
+/// frames without a message cannot delay the cycle. How many messages of a flood are taken is up to
+/// the caller. Heap: only in the constructor. Thread: one; recover() may run in another.
 class CanPort final : public BusPort {
  public:
   static constexpr int kMostFramesACall = 64;
 
-  /// Slow. The layout has no faults (find_faults).
+  /// Opens a port. Slow. Precondition: find_faults finds none in the layout.
   static CanPortOpening open(std::string_view interface, const BusLayout& layout, Sender self);
 
   CanPort(CanLink link, const BusLayout& layout, Sender self);
 
   bool receive(BusMessage& message) noexcept override;
 
-  /// All frames of the message, or false. What was begun and not completed the other end drops.
+  /// Sends all frames of the message. False: not all were sent; the receiver then discards the
+  /// incomplete message.
   bool send(const BusMessage& message) noexcept override;
 
   LinkState state() const noexcept override { return link_.state(); }
@@ -42,7 +44,7 @@ class CanPort final : public BusPort {
 
   const CanLink& link() const noexcept { return link_; }
 
-  /// For state() kDown; see CanLink.
+  /// Binds again after an interface came back; to be called in state() kDown, see CanLink.
   bool recover() const { return link_.recover(); }
 
  private:
@@ -71,11 +73,12 @@ struct CanPortOpening {
   std::optional<CanPort> port;
 };
 
-/// What a link has to listen to for this layout: what the other end sends, and our own identifiers,
-/// which no one else may use.
+/// The identifiers that a link must receive for this layout: those of the other end, and our own,
+/// so that another sender of them is noticed.
 std::vector<CanFilter> can_filters(const BusLayout& layout);
 
-/// A data phase of its own only if the layout has another bit rate for it.
+/// The options of a link for this layout. The data phase is switched to a bit rate of its own only
+/// if the layout has a different one for it.
 CanLinkOptions can_link_options(const BusLayout& layout);
 
 }  // namespace plumb::drivers

@@ -11,16 +11,16 @@ namespace plumb::drivers {
 
 /// The steps that open a CAN interface, in the order in which they are taken.
 enum class CanStepKind : std::uint8_t {
-  kSocket,     // the kernel speaks CAN, and lets us
-  kInterface,  // it is there, and a CAN interface
+  kSocket,     // the kernel supports CAN and grants a socket
+  kInterface,  // the interface exists and is a CAN interface
   kUp,
-  kFormat,  // it carries the frames that the layout asks for
+  kFormat,  // the interface carries the frames that the layout asks for
   kOptions,
   kFilters,
   kBind,
 };
 
-/// The last step that was taken: granted, all went well; else, this one was denied.
+/// The last step that was taken. If it was granted all steps succeeded, else this one was denied.
 struct CanStep {
   CanStepKind kind = CanStepKind::kSocket;
   Grant grant = Grant::kSkipped;
@@ -29,10 +29,11 @@ struct CanStep {
   CanFrame::Format format = CanFrame::Format::kClassic;
 };
 
-/// The step in words.
+/// Describes the step in words.
 Finding describe(const CanStep& step);
 
-/// The command that sets an interface up as the layout asks; rates of 0 stand for any.
+/// The shell command that sets up an interface in this format and with these bit rates [bit/s]; 0
+/// means the default of BusLayout.
 std::string set_up_command(const std::string& interface, CanFrame::Format format, double bit_rate,
                            double data_bit_rate);
 

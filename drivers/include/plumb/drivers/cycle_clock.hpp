@@ -10,42 +10,43 @@
 
 namespace plumb::drivers {
 
-/// One beat of the cycle.
+/// One tick of the cycle's clock.
 struct Tick {
-  std::int64_t time_ns = 0;     // the point of the grid
-  std::int64_t latency_ns = 0;  // how much later the thread ran
-  std::int64_t elapsed_ns = 0;  // since the tick before on the grid: (1 + missed) periods
-  std::uint64_t missed = 0;     // points of the grid skipped since the tick before
-  int error = 0;                // errno if the clock could not sleep: stop, or the cycle runs free
+  std::int64_t time_ns = 0;     // point of the grid
+  std::int64_t latency_ns = 0;  // delay from that point until the thread ran
+  std::int64_t elapsed_ns = 0;  // time on the grid since the last tick: (1 + missed) periods
+  std::uint64_t missed = 0;     // points of the grid skipped since the last tick
+  int error = 0;                // errno if the clock could not sleep; the caller must then stop,
+                                // or the cycle would run without waiting
 };
 
-/// Monotone counters of a clock; read them from the thread that waits.
+/// Counters of a clock, which only grow; read them from the thread that waits.
 struct ClockCounters {
   std::uint64_t ticks = 0;
   std::uint64_t missed = 0;      // points of the grid skipped
   std::uint64_t overruns = 0;    // waits that began after their point: the cycle took too long
-  std::uint64_t late_wakes = 0;  // sleeps that ended a whole period late: the thread was held up
-  std::uint64_t regrids = 0;     // the clock went backwards
+  std::uint64_t late_wakes = 0;  // sleeps that ended a whole period late: the thread was delayed
+  std::uint64_t regrids = 0;     // new grids, because the clock went backwards
 };
 
-/// Ticks at absolute times on a fixed grid, so that no delay adds up.
+/// Ticks at absolute times on a fixed grid, so that delays do not accumulate.
 ///
 ///     grid    |-------|-------|-------|-------|
 ///     cycle   ===     ===========     ===     ===     the third point fell into a cycle: missed
 ///
-/// Overrun: a point that passed before wait() began, and every point slept past by a whole period
-/// or more, is counted and skipped. The grid stays, and two cycles never start closer than the
-/// latency of the first: ten seconds stopped give one tick with missed = n, not n cycles in a
-/// burst. A signal does not shorten the wait. If the clock went back past the last tick, the grid
-/// is laid anew from then on.
+/// A point that passed before wait() began, or whose sleep ended a whole period late or more, is
+/// counted and skipped. The grid stays as it is, so after a stop of ten seconds there is one tick
+/// with missed = n, not a burst of n cycles, and two cycles start at least one period less the
+/// latency of the first apart. A signal does not shorten the wait. If the clock went back past the
+/// last tick, a new grid begins.
 ///
-/// wait(): one thread; no allocation; a clock read and a sleep (system calls).
+/// wait() is for one thread, allocates nothing, reads a clock and sleeps (system calls).
 template <TimeSource Time = MonotonicTime>
 class CycleClock {
  public:
   static constexpr std::int64_t kShortestPeriod_ns = 10'000;
 
-  /// period_ns below kShortestPeriod_ns counts as that. The grid begins now.
+  /// The grid begins now. A period below kShortestPeriod_ns is raised to it.
   explicit CycleClock(std::int64_t period_ns, Time time = {}) noexcept
       : period_ns_(std::max(period_ns, kShortestPeriod_ns)),
         time_(time),
@@ -61,7 +62,7 @@ class CycleClock {
   std::int64_t period_ns() const noexcept { return period_ns_; }
   const ClockCounters& counters() const noexcept { return counters_; }
 
-  /// Latency of every sleep, those included whose tick was then skipped.
+  /// Latencies of all sleeps, including those whose tick was then skipped.
   const LatencyHistogram& latency() const noexcept { return latency_; }
 
  private:
@@ -77,7 +78,7 @@ class CycleClock {
     return now_ns;
   }
 
-  /// Points at or before `now_ns` are gone.
+  /// Skips all points at or before `now_ns`.
   void skip(std::int64_t now_ns, Tick& tick) const noexcept {
     tick.missed += static_cast<std::uint64_t>((now_ns - next_ns(tick)) / period_ns_ + 1);
   }
@@ -90,7 +91,8 @@ class CycleClock {
     last_ns_ = now_ns;
   }
 
-  /// Returns the time at the end. A sleep that ended a period late skips its point.
+  /// Sleeps until the next point and returns the time afterwards. If the sleep ended a period late,
+  /// its point is skipped.
   std::int64_t sleep(Tick& tick) noexcept {
     const std::int64_t point_ns = next_ns(tick);
     const int error = time_.sleep_until_ns(point_ns);

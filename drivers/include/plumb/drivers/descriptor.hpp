@@ -7,7 +7,7 @@
 
 namespace plumb::drivers {
 
-/// A file descriptor that is closed with its owner.
+/// Owns a file descriptor and closes it in the destructor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) noexcept : number_(number) {}

@@ -11,12 +11,12 @@ enum class Grant : std::uint8_t { kGranted, kDenied, kSkipped };
 /// "granted", "denied", "skipped".
 const char* to_string(Grant grant) noexcept;
 
-/// One thing that was asked of the machine, in words.
+/// One thing that was requested of the machine, and the result, in words.
 struct Finding {
   std::string what = {};
   Grant grant = Grant::kSkipped;
-  std::string why = {};     // what was seen; for a denial, the system's own reason
-  std::string remedy = {};  // one line that can be pasted; empty if nothing is to be done
+  std::string why = {};     // what was found; for a denial, the system's own reason
+  std::string remedy = {};  // one line that can be pasted into a shell; empty if nothing to do
 };
 
 }  // namespace plumb::drivers

@@ -7,10 +7,10 @@
 
 namespace plumb::drivers {
 
-/// How often which latency occurred, from 1 ns to centuries, in a fixed 8 kB.
+/// A histogram of latencies from 1 ns to centuries, of a fixed size of 8 kB.
 ///
-/// 16 bins per power of two: a bin is at most 1/16 of its value wide, and below 16 ns it is 1 ns.
-/// The worst is kept exactly. Negative latencies count as 0.
+/// There are 16 bins per power of two: a bin is at most 1/16 of its value wide, and 1 ns wide below
+/// 16 ns. The largest latency is kept exactly. Negative latencies count as 0.
 ///
 /// One thread. No allocation; add() costs the same for every value.
 class LatencyHistogram {
@@ -22,12 +22,12 @@ class LatencyHistogram {
 
   std::uint64_t count() const noexcept { return count_; }
 
-  /// The largest ever added [ns]; 0 before the first.
+  /// The largest latency ever added [ns]; 0 before the first.
   std::int64_t worst_ns() const noexcept { return worst_ns_; }
 
-  /// The smallest latency [ns] that `share` (0 .. 1) of all did not exceed, rounded up to the edge
-  /// of its bin and never above the worst. 0 before the first; a share that is NaN counts as 1.
-  /// Cost: one pass over the bins; not for the cycle.
+  /// The smallest latency [ns] that a fraction `share` (0 .. 1) of all latencies did not exceed,
+  /// rounded up to the edge of its bin and never above the worst. 0 before the first latency; NaN
+  /// counts as a share of 1. Cost: one pass over the bins, too slow for the cycle.
   std::int64_t percentile_ns(double share) const noexcept;
 
   /// Bin i counts the latencies from lower_ns(i) to lower_ns(i + 1) - 1.

@@ -8,13 +8,14 @@
 
 namespace plumb::drivers {
 
-/// The newest value of one thread for another: what was not taken in time is overwritten.
+/// Passes the newest value of one thread to another. A value not taken in time is overwritten.
 ///
 ///     writer's slot --put()--> middle slot --take()--> reader's slot      three slots change
 ///     places
 ///
-/// put(): one thread; take(): one thread, the same or another. Wait-free: a copy and one exchange;
-/// no allocation, no system call. A value is never seen half, and never twice.
+/// put() is for one thread, take() for one thread, the same or another. Both are wait-free (a copy
+/// and one atomic exchange), without allocation or system call. A value is never read in part or
+/// twice.
 template <class T>
 class Mailbox {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -25,7 +26,7 @@ class Mailbox {
     writer_ = middle_.exchange(writer_ | kFresh, std::memory_order_acq_rel) & kIndex;
   }
 
-  /// False: nothing new since the last take.
+  /// Takes the newest value. False: there is none since the last take.
   bool take(T& out) noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     reader_ = middle_.exchange(reader_, std::memory_order_acq_rel) & kIndex;

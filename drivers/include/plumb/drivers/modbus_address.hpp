@@ -12,25 +12,26 @@
 
 namespace plumb::drivers {
 
-/// Modbus TCP. `host` is an address in numbers, IPv4 or IPv6: names need a name server, which a
-/// factory may not have and which may take seconds. A server also takes the name of an interface.
+/// The address of a Modbus TCP link. `host` is a numeric IPv4 or IPv6 address, because a name would
+/// need a name server, which a factory may not have and which may take seconds. For a server it may
+/// also be the name of a network interface.
 struct TcpAddress {
   std::string host = "127.0.0.1";
   std::uint16_t port = 502;
 };
 
-/// Modbus RTU on a serial device or a pseudo-terminal, 8 data bits.
+/// The address of a Modbus RTU link: a serial device or a pseudo-terminal, with 8 data bits.
 struct SerialLine {
   enum class Parity : char { kNone = 'N', kEven = 'E', kOdd = 'O' };
   std::string device;
   int baud = 115200;
-  Parity parity = Parity::kEven;  // what the Modbus serial line specification asks for
+  Parity parity = Parity::kEven;  // required by the Modbus serial line specification
   int stop_bits = 1;
 };
 
 using ModbusAddress = std::variant<TcpAddress, SerialLine>;
 
-/// An address as the kernel takes it.
+/// An address in the form that the kernel uses.
 struct SocketAddress {
   sockaddr_storage storage{};
   socklen_t size = 0;
@@ -40,31 +41,33 @@ struct SocketAddress {
   int family() const noexcept { return storage.ss_family; }
 };
 
-/// None: `host` is not an address in numbers.
+/// The socket address of a numeric host; none if `host` is not numeric.
 std::optional<SocketAddress> socket_address(const std::string& host, std::uint16_t port);
 
-/// The first address of a network interface, IPv4 before IPv6. None: no such interface, or bare.
+/// The first address of a network interface, IPv4 before IPv6. None if there is no such interface
+/// or it has no address.
 std::optional<SocketAddress> interface_address(const std::string& name, std::uint16_t port);
 
-bool is_wildcard(const SocketAddress& address) noexcept;  // every interface of the machine
+bool is_wildcard(const SocketAddress& address) noexcept;  // stands for every interface
 bool is_loopback(const SocketAddress& address) noexcept;
 std::uint16_t port_of(const SocketAddress& address) noexcept;
 
-/// Equal but for the port. An IPv4 address equals itself mapped into IPv6.
+/// True if both addresses are equal except for the port. An IPv4 address equals its mapping into
+/// IPv6.
 bool same_host(const SocketAddress& a, const SocketAddress& b) noexcept;
 
-/// "192.168.0.7:502", "[::1]:502"
+/// The address as text, for example "192.168.0.7:502" or "[::1]:502".
 std::string text_of(const SocketAddress& address);
 
-/// "tcp 192.168.0.7:502", "serial /dev/ttyUSB0 115200 8E1"
+/// The address as text, for example "tcp 192.168.0.7:502" or "serial /dev/ttyUSB0 115200 8E1".
 std::string text_of(const ModbusAddress& address);
 
-/// Why a link cannot be started: words for the program's message.
+/// Why a link cannot be started, in words for the program's message.
 struct LinkFault {
-  std::string key;   // of the settings: "host", "port", "device", "unit", ...
+  std::string key;   // the setting at fault: "host", "port", "device", "unit", ...
   std::string what;  // one sentence without a full stop
   std::string help;
-  int error = 0;  // errno, if the system said no
+  int error = 0;  // errno, if the system refused
 };
 
 }  // namespace plumb::drivers

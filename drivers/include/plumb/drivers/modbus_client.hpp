@@ -16,43 +16,46 @@ struct ModbusClientSettings {
   Sender self = Sender::kPlumb;
   std::uint8_t unit = 1;  // 0 .. 255; serial: 1 .. 247
 
-  double poll_period_s = 0;         // 0: half the shortest period among the messages to read
-  double response_timeout_s = 0.1;  // for a whole answer, and for a connection
-  double first_back_off_s = 0.01;   // before a connection is tried again; doubles
+  double poll_period_s = 0;         // 0: half the shortest period of the messages to read
+  double response_timeout_s = 0.1;  // for a complete answer, and for a connection
+  double first_back_off_s = 0.01;   // wait before the next attempt to connect; doubles each time
   double longest_back_off_s = 0.5;
   double stale_after_s = 0.1;       // a message of the cycle that waited longer is not written
-  double read_back_period_s = 0.1;  // how often what was written last is read again
+  double read_back_period_s = 0.1;  // how often the last written message is read back
 };
 
-/// Speaks to a controller that is the Modbus server: polls its messages, writes ours.
+/// A Modbus client for a controller that is the Modbus server: it polls the controller's messages
+/// and writes ours.
 ///
-/// Reads the blocks of the other side, over TCP as many as fit in one request (block by block once
-/// a server refused the registers between them), as often as their messages ask for. A counter seen
-/// before is no news and is not delivered. Writes the newest message of
-/// each kind, then, now and then and after every connection, reads it back: libmodbus and this
-/// client check every field of an answer, but only reading shows what a register holds.
+/// It reads the blocks of the other side as often as the periods of their messages require. Over
+/// TCP one request reads as many blocks as fit; once a server has refused the registers between
+/// them, each block is read by itself. A message whose counter was seen before is not delivered
+/// again. It writes the newest message of each kind and reads it back from time to time and after
+/// every connection. Although libmodbus and this client check every field of an answer, only
+/// reading shows what a register contains.
 ///
-/// An answer that is late, cut short, too long or of another transaction, unit, protocol, function
-/// or address ends the connection: whatever is still under way is lost with it, and cannot pass
-/// for the next answer. Connections are tried again for ever, ever more slowly, up to a bound. An
-/// exception answer is sound: the link stays, as LinkState::kDegraded.
+/// An answer that is late, incomplete, too long, or belongs to another transaction, unit, protocol,
+/// function or address ends the connection, so that a late answer cannot be taken for the next one.
+/// Connecting is repeated without end, at intervals that grow up to a bound. An exception answer is
+/// a valid answer: the link stays up, as LinkState::kDegraded.
 ///
-/// Threads: start() and stop() from one; it has its own thread between. That thread has no
-/// real-time priority and takes no signals.
+/// Threads: start() and stop() must be called from one thread; between them the client has its own
+/// thread, without real-time priority and with all signals blocked.
 class ModbusClient {
  public:
   ModbusClient(const BusLayout& layout, const ModbusClientSettings& settings);
-  ~ModbusClient();  // stops
+  ~ModbusClient();  // calls stop()
   ModbusClient(const ModbusClient&) = delete;
   ModbusClient& operator=(const ModbusClient&) = delete;
 
-  /// Checks the settings and starts. The server need not be there yet. None: running.
+  /// Checks the settings and starts the thread. The server need not be there yet. Returns the
+  /// fault, or none if the thread runs.
   std::optional<LinkFault> start();
 
-  /// Returns when the thread has ended: within a response timeout.
+  /// Stops the thread and returns when it has ended, within a response timeout.
   void stop();
 
-  /// For a ModbusPort.
+  /// What a ModbusPort needs to be constructed.
   ModbusExchange& exchange() noexcept;
 
  private:

@@ -11,33 +11,35 @@
 
 namespace plumb::drivers {
 
-/// Messages to holding registers and back, by the layout: the values as int32 in two registers
-/// each, then a 16-bit counter, then CRC-32P4 in two.
+/// Converts messages to holding registers and back, according to the layout. A block consists of
+/// the values as int32 in two registers each, then a 16-bit counter, then CRC-32P4 in two
+/// registers.
 ///
-/// The check sum covers the block's first address as four bytes, low byte first, then the registers
-/// before it, each as on the wire: high byte first.
+/// The checksum covers the block's first address as four bytes, low byte first, then the registers
+/// before the checksum, each high byte first as on the wire.
 ///
 /// Heap: only in the constructor. Thread: one. Cost: fixed. Errors: by value.
 class ModbusCodec {
  public:
   explicit ModbusCodec(const BusLayout& layout);
 
-  /// Registers of a message: where and how many; {0, 0} if the layout has no such message.
+  /// The registers of a message: the first and how many. {0, 0} if the layout has no such message.
   struct Block {
     std::uint16_t first = 0;
     std::uint16_t count = 0;
   };
   Block block(MessageKind kind) const noexcept;
 
-  /// Fills the block of `message.kind`; false if the span is not of its size.
+  /// Fills the block of `message.kind`. False if the span does not have the size of the block.
   bool encode(const BusMessage& message, std::span<std::uint16_t> registers) const noexcept;
 
-  /// Makes the block of an encoded message one that holds none: its check sum is inverted.
+  /// Marks an encoded block as containing no message, by inverting its checksum.
   static void withdraw(std::span<std::uint16_t> registers) noexcept;
 
-  /// The message in a block that was read; its time is the caller's to set. A counter that was
-  /// decoded last is kRepeated, a kind that the layout lacks kNotOurs. A block of zeros
-  /// before the first message was not written yet, and one that was withdrawn holds none: kNothing.
+  /// Decodes a block that was read; the caller must set the time of the message. The result is
+  /// kRepeated if its counter equals the last one decoded, and kNotOurs if the layout has no such
+  /// message. It is kNothing for a withdrawn block, and for a block of zeros before the first
+  /// message, which was not written yet.
   Heard decode(MessageKind kind, std::span<const std::uint16_t> registers,
                BusMessage& out) noexcept;
 

@@ -12,7 +12,7 @@
 
 namespace plumb::drivers {
 
-/// A counter that one thread counts and any thread reads.
+/// A counter that one thread increments and any thread may read.
 class Count {
  public:
   void operator++() noexcept {
@@ -24,32 +24,33 @@ class Count {
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// Counters of a Modbus link. All monotone; counted by the link's thread, but `not_sent`.
+/// Counters of a Modbus link, which only grow. The link's thread counts all of them except
+/// `not_sent`.
 struct ModbusCounters {
-  Count received;         // sound messages
+  Count received;         // valid messages
   Count sent;             // client: written and confirmed; server: read by the peer at least once
-  Count corrupt;          // blocks whose check sum did not fit
-  Count repeated;         // server: a block written again with the same counter
+  Count corrupt;          // blocks with a wrong checksum
+  Count repeated;         // server: a block was written again with the same counter
   Count stale;            // messages of the cycle dropped because they had waited too long
   Count not_sent;         // counted by the cycle's thread: there was no peer
-  Count transactions;     // requests answered as they should be
-  Count refusals;         // client: exception answers got; server: exception answers given
-  Count timeouts;         // client: no whole answer in time; server: no whole request in time
-  Count bad_frames;       // answers or requests that were not what they must be
-  Count connects;         // client: connections made (serial: that were answered); server: taken
-  Count disconnects;      // connections given up, whatever for
+  Count transactions;     // requests that were answered correctly
+  Count refusals;         // exception answers: received by a client, sent by a server
+  Count timeouts;         // client: no complete answer in time; server: no complete request
+  Count bad_frames;       // answers or requests with a wrong form
+  Count connects;         // client: connections made (serial: answered); server: accepted
+  Count disconnects;      // connections closed, for whatever reason
   Count foreign_peers;    // server: connections refused by the allow-list
   Count crowded_out;      // server: connections refused because there were too many
-  Count foreign_senders;  // client: our registers held what we did not write; server: a second
-                          // connection wrote the controller's registers
+  Count foreign_senders;  // client: our registers contained what we did not write; server: a
+                          // second connection wrote to the controller's registers
 };
 
-/// What the cycle's thread and a Modbus link's thread share: one mailbox a message and direction,
-/// the link's state and its counters.
+/// The data shared by the cycle's thread and the thread of a Modbus link: one mailbox per message
+/// and direction, the state of the link and its counters.
 struct ModbusExchange {
   using Mailboxes = std::array<Mailbox<BusMessage>, kMessageKinds>;
-  Mailboxes from_peer;  // put by the link's thread, taken by the cycle's
-  Mailboxes to_peer;    // and back
+  Mailboxes from_peer;  // filled by the link's thread, emptied by the cycle's
+  Mailboxes to_peer;    // filled by the cycle's thread, emptied by the link's
   std::atomic<LinkState> state{LinkState::kDown};
   ModbusCounters counters;
 };

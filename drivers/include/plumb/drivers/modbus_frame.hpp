@@ -40,25 +40,25 @@ inline void set_word(std::span<std::uint8_t> bytes, std::size_t i, std::uint16_t
   bytes[i + 1] = static_cast<std::uint8_t>(word & 0xff);
 }
 
-/// Header of Modbus TCP: transaction, protocol (0), length of what follows it, unit.
+/// Header of a Modbus TCP frame: transaction, protocol (0), number of bytes that follow, unit.
 struct MbapHeader {
   std::uint16_t transaction = 0;
   std::uint8_t unit = 0;
   std::uint16_t pdu_size = 0;  // 1 .. kMostPdu
 };
-/// Fills the first kMbapHeader bytes.
+/// Writes the header into the first kMbapHeader bytes of `frame`.
 void put_header(const MbapHeader& header, std::span<std::uint8_t> frame) noexcept;
 
-/// Cuts a stream of bytes into Modbus TCP frames. Any bytes may come; it holds one frame at most.
+/// Divides a stream of arbitrary bytes into Modbus TCP frames. It stores one frame at most.
 class ModbusFramer {
  public:
   enum class Cut : std::uint8_t {
-    kPart,    // no whole frame yet
-    kFrame,   // header() and pdu() are its own until the next call
-    kBroken,  // no Modbus TCP: the stream cannot be trusted again
+    kPart,    // the frame is not complete yet
+    kFrame,   // a frame is complete; header() and pdu() are valid until the next call
+    kBroken,  // this is not Modbus TCP; nothing more of the stream can be used
   };
 
-  /// Where to receive into; never empty after next() has said kPart.
+  /// The memory to receive into; never empty after next() has returned kPart.
   std::span<std::uint8_t> room() noexcept { return std::span(bytes_).subspan(used_); }
   void filled(std::size_t count) noexcept { used_ += count; }
 
@@ -69,7 +69,7 @@ class ModbusFramer {
     return std::span(bytes_).subspan(kMbapHeader, header_.pdu_size);
   }
 
-  /// Bytes of a frame that is not whole.
+  /// True if the beginning of an incomplete frame is stored.
   bool part() const noexcept { return used_ > taken_; }
 
  private:

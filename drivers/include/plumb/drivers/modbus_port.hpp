@@ -9,17 +9,18 @@
 
 namespace plumb::drivers {
 
-/// The cycle's end of a Modbus link, client or server, for plumb-rt or for a controller.
+/// The cycle's end of a Modbus link, which may be a client or a server, of plumb-rt or a
+/// controller.
 ///
-/// Only the newest message of a kind is kept, both ways. receive() gives the kinds in turn.
-/// send() leaves the message with the link's thread; false: there is no peer now. Should one come
-/// before the message is stale (settings of the link), it still gets it.
+/// Only the newest message of each kind is kept, in both directions. receive() returns the kinds in
+/// turn. send() hands the message to the link's thread. It returns false if there is no peer now; a
+/// peer that connects before the message is stale (settings of the link) still receives it.
 ///
-/// Wait-free; no allocation; the only call is a read of the clock. Thread: one.
+/// Wait-free, without allocation; the only system call is a read of the clock. Thread: one.
 class ModbusPort final : public BusPort {
  public:
-  /// `exchange`: of a ModbusClient or ModbusServer that lives longer. `self`: who we are; messages
-  /// of the other side are not sent.
+  /// `exchange`: of a ModbusClient or ModbusServer, which must outlive the port. `self`: our side;
+  /// messages that belong to the other side are not sent.
   ModbusPort(ModbusExchange& exchange, const BusLayout& layout, Sender self);
 
   bool receive(BusMessage& message) noexcept override;

@@ -12,7 +12,7 @@
 
 namespace plumb::drivers {
 
-/// The registers of a server: which there are, who may write them, and what they hold.
+/// The registers of a server: which of them exist, who may write them, and their values.
 ///
 /// Heap: only in the constructor. Thread: one, that of the link.
 class ModbusRegisters {
@@ -20,17 +20,19 @@ class ModbusRegisters {
   ModbusRegisters(const BusLayout& layout, Sender self, std::int64_t stale_after_ns,
                   ModbusExchange& exchange);
 
-  /// first .. first + count - 1 lie between the layout's first register and its last; those of no
-  /// message are 0.
+  /// True if registers first .. first + count - 1 lie between the first and the last register of
+  /// the layout. Registers that belong to no message are 0.
   bool readable(std::uint16_t first, std::uint16_t count) const noexcept;
-  /// They all belong to messages of the peer.
+  /// True if all these registers belong to messages of the peer.
   bool writable(std::uint16_t first, std::uint16_t count) const noexcept;
 
-  /// readable(first, count) holds. Ours are renewed first; the result is good until the next call.
+  /// Reads registers, after our own messages were brought up to date. Precondition: readable(first,
+  /// count). The result is valid until the next call.
   std::span<const std::uint16_t> read(std::uint16_t first, std::uint16_t count,
                                       std::int64_t now_ns) noexcept;
 
-  /// writable(first, 1) holds. Delivers a message when the last register of its block is written.
+  /// Writes a register. Precondition: writable(address, 1). When the last register of a block is
+  /// written, its message is delivered.
   void write(std::uint16_t address, std::uint16_t value, std::int64_t now_ns) noexcept;
 
  private:
@@ -40,8 +42,8 @@ class ModbusRegisters {
     std::uint16_t first = 0;
     std::uint16_t count = 0;
     std::int64_t stale_after_ns = 0;
-    std::int64_t time_ns = 0;  // ours: when the cycle sent it
-    bool sound = false;        // ours: there is one, and its check sum fits
+    std::int64_t time_ns = 0;  // ours only: when the cycle sent it
+    bool sound = false;        // ours only: there is a message and its checksum is right
   };
 
   std::span<std::uint16_t> block(const Message& message) noexcept;
@@ -51,7 +53,7 @@ class ModbusRegisters {
   ModbusCodec codec_;
   ModbusExchange* exchange_;
   std::vector<std::uint16_t> values_;
-  std::vector<bool> peers_;  // whose messages have the register
+  std::vector<bool> peers_;  // true if a message of the peer contains the register
   std::size_t begin_ = kAddresses;
   std::size_t end_ = 0;
   std::vector<Message> ours_;

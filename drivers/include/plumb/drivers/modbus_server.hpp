@@ -17,50 +17,54 @@ namespace plumb::drivers {
 struct ModbusServerSettings {
   enum class Wildcard : std::uint8_t { kRefused, kAllowed };
 
-  ModbusAddress at = TcpAddress{};  // host: an address of this machine or an interface ("eth1")
-  Wildcard wildcard = Wildcard::kRefused;  // 0.0.0.0 and ::
+  ModbusAddress at = TcpAddress{};         // host: an address or interface ("eth1") of this machine
+  Wildcard wildcard = Wildcard::kRefused;  // whether host may be 0.0.0.0 or ::
   std::vector<std::string> peers = {};     // addresses that may connect; empty: this machine only
   Sender self = Sender::kPlumb;
-  std::uint8_t unit = 1;  // TCP: 0 and 255 are answered too
+  std::uint8_t unit = 1;  // over TCP the units 0 and 255 are answered, too
 
   std::size_t most_connections = 4;
   double request_timeout_s = 0.1;  // from a request's first byte to its last
-  double idle_timeout_s = 5.0;     // without a whole request
-  double stale_after_s = 0.1;      // a message of ours older than this loses its check sum
-  double writer_hold_s = 0.5;      // after a write, other connections may not write for so long
+  double idle_timeout_s = 5.0;     // longest time without a complete request
+  double stale_after_s = 0.1;      // a message of ours that is older loses its checksum
+  double writer_hold_s = 0.5;      // how long after a write other connections may not write
 };
 
-/// For controllers that poll: the layout's messages as holding registers (input registers show the
-/// same). Functions 3, 4, 6, 16 and 23, nothing else.
+/// A Modbus server for controllers that poll. It offers the messages of the layout as holding
+/// registers, and the same as input registers. It serves functions 3, 4, 6, 16 and 23 only.
 ///
-/// The peer reads every register of the layout and writes those of its own messages; a message
-/// counts when its last register (of the check sum) is written. Ours are put in just before they
-/// are read. A message that the cycle did not renew keeps its values and counter and loses its
-/// check sum; before the first one the block is zeros, which no check sum fits.
+/// The peer may read every register of the layout and write those of its own messages. A message is
+/// taken when the last register of its checksum is written. Our messages are put into the registers
+/// just before they are read. A message that the cycle did not renew keeps its values and counter
+/// but loses its checksum. Before the first message the block is zeros, to which no checksum fits.
 ///
-/// TCP is parsed here, byte for byte and fuzzed, not by libmodbus: foreign peers are refused
-/// at once, connections and requests are bounded, and a connection ends when its framing breaks,
-/// when a request drips, when nothing comes, or when answers are not taken. RTU is framed by
-/// libmodbus; other units' requests are left alone, and so are broadcasts.
+/// TCP is parsed by code of our own, which is fuzzed, and not by libmodbus. Foreign peers are
+/// refused at once, and the number of connections and the time of a request are limited. A
+/// connection ends if its framing is broken, a request arrives too slowly, nothing arrives, or the
+/// peer does not read its answers. RTU frames are parsed by libmodbus; requests to other units and
+/// broadcasts are ignored.
 ///
-/// Threads: start() and stop() from one; it has its own thread between, as ModbusClient.
+/// Threads: start() and stop() must be called from one thread; between them the server has its own
+/// thread, as ModbusClient has.
 class ModbusServer {
  public:
   ModbusServer(const BusLayout& layout, const ModbusServerSettings& settings);
-  ~ModbusServer();  // stops
+  ~ModbusServer();  // calls stop()
   ModbusServer(const ModbusServer&) = delete;
   ModbusServer& operator=(const ModbusServer&) = delete;
 
-  /// Checks the settings, binds or opens, and starts. None: running.
+  /// Checks the settings, binds the address or opens the device, and starts the thread. Returns the
+  /// fault, or none if the thread runs.
   std::optional<LinkFault> start();
 
-  /// Returns when the thread has ended: within a few milliseconds; RTU: a request timeout.
+  /// Stops the thread and returns when it has ended: within a few milliseconds, with RTU within a
+  /// request timeout.
   void stop();
 
   /// The TCP port it listens on, also if 0 was asked for.
   std::uint16_t port() const noexcept;
 
-  /// For a ModbusPort.
+  /// What a ModbusPort needs to be constructed.
   ModbusExchange& exchange() noexcept;
 
  private:

@@ -11,20 +11,20 @@
 
 namespace plumb::drivers {
 
-/// Answers requests of a server's peers. No I/O, no allocation: any bytes are a request that is
-/// served or refused with an exception answer.
+/// Answers the requests of a server's peers, without I/O or allocation. Any sequence of bytes is a
+/// request, which is either served or refused with an exception answer.
 class ModbusService {
  public:
   ModbusService(ModbusRegisters& registers, ModbusCounters& counters, std::int64_t writer_hold_ns)
       : registers_(&registers), counters_(&counters), writer_hold_ns_(writer_hold_ns) {}
 
-  /// The answer to `pdu`, 1 .. kMostPdu bytes, of connection `peer` (any number but 0). It is good
+  /// The answer to `pdu`, 1 .. kMostPdu bytes, from connection `peer` (any number but 0). Valid
   /// until the next call.
   std::span<const std::uint8_t> answer(std::span<const std::uint8_t> pdu, std::uint64_t peer,
                                        std::int64_t now_ns) noexcept;
   std::span<const std::uint8_t> refuse(std::uint8_t function, ModbusException why) noexcept;
 
-  /// The connection is gone: its right to write is free.
+  /// To be called when a connection has ended: another one may then write.
   void leave(std::uint64_t peer) noexcept;
 
  private:
@@ -36,7 +36,7 @@ class ModbusService {
   Bytes served(std::size_t size) noexcept;
   Bytes registers_answer(std::uint8_t function, std::uint16_t first, std::uint16_t count,
                          std::int64_t now_ns) noexcept;
-  /// Why a connection may not write these registers; none: it may, and is their writer from now on.
+  /// Why a connection may not write these registers. None if it may; it then counts as the writer.
   std::optional<ModbusException> objection(std::uint16_t first, std::uint16_t count,
                                            std::uint64_t peer, std::int64_t now_ns) noexcept;
   void store(std::uint16_t first, Bytes words, std::int64_t now_ns) noexcept;

@@ -5,7 +5,7 @@
 
 namespace plumb::drivers {
 
-/// The two clocks, read together.
+/// Readings of CLOCK_MONOTONIC and CLOCK_REALTIME at the same moment.
 struct ClockReading {
   std::int64_t monotonic_ns = 0;
   std::int64_t date_ns = 0;  // CLOCK_REALTIME
@@ -13,25 +13,25 @@ struct ClockReading {
   static ClockReading now() noexcept;
 };
 
-/// When a frame came, on CLOCK_MONOTONIC.
+/// Finds the time of reception of a frame on CLOCK_MONOTONIC.
 ///
-/// The kernel stamps frames with the date, which can be set. So a stamp is believed only as far as
-/// CLOCK_MONOTONIC bears it out: not before the queue was last seen empty, not after now. If the
-/// date was set since then, or there is no stamp, the frame is as old as it can be: from the moment
-/// the queue was last empty. Data may so look older than it is by a cycle, and never newer by more
-/// than kSlack_ns.
+/// The kernel stamps frames with the date (CLOCK_REALTIME), which can be set. Therefore a stamp is
+/// limited by CLOCK_MONOTONIC: it cannot lie before the queue was last seen empty, nor after now.
+/// If the date was set since then, or there is no stamp, the oldest possible time is used, which is
+/// the moment when the queue was last seen empty. A frame may thus appear up to a cycle too old,
+/// but never too new by more than kSlack_ns.
 class ReceiveTime {
  public:
-  /// A date that moves no more than this, and a thousandth of the time that passed (NTP slews by
-  /// half of that), was not set.
+  /// The date counts as set if it deviates from CLOCK_MONOTONIC by more than this plus a thousandth
+  /// of the elapsed time; NTP slews by at most half of that.
   static constexpr std::int64_t kSlack_ns = 1'000'000;
 
   explicit ReceiveTime(ClockReading now) noexcept : last_(now), empty_ns_(now.monotonic_ns) {}
 
-  /// Nothing was there; `before` was read before looking.
+  /// The queue was found empty; `before` was read before looking.
   void saw_empty(ClockReading before) noexcept;
 
-  /// A frame was there with this stamp (0: none); `after` was read after taking it.
+  /// Time of a frame that was taken with this stamp (0: none); `after` was read after taking it.
   std::int64_t of_frame(std::int64_t stamp_ns, ClockReading after) noexcept;
 
   std::uint64_t jumps() const noexcept { return jumps_; }
@@ -41,7 +41,7 @@ class ReceiveTime {
 
   ClockReading last_;
   std::int64_t empty_ns_;
-  bool doubtful_ = false;  // the date was set, and what queued before is not all taken
+  bool doubtful_ = false;  // the date was set while frames may have been in the queue
   std::uint64_t jumps_ = 0;
 };
 

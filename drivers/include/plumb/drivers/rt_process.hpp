@@ -10,28 +10,28 @@
 
 namespace plumb::drivers {
 
-/// What a real-time process asks for; 0, -1 or null skips a step.
+/// The settings of a real-time process; 0, -1 or null skips the step.
 struct RtRequest {
   int priority = 80;                     // SCHED_FIFO, 1 .. 99
-  std::span<const int> processors = {};  // the calling thread's; empty: as they are
-  std::size_t heap_bytes = 8 << 20;      // touched and kept
-  std::size_t stack_bytes = 128 << 10;   // touched
+  std::span<const int> processors = {};  // for the calling thread; empty: unchanged
+  std::size_t heap_bytes = 8 << 20;      // heap to touch and keep
+  std::size_t stack_bytes = 128 << 10;   // stack to touch
   enum class Lock : std::uint8_t { kNone, kAll } lock = Lock::kAll;
-  std::int32_t idle_latency_us = 0;  // longest wake-up from idle allowed; -1: not asked
+  std::int32_t idle_latency_us = 0;  // longest wake-up from idle; -1 skips the step
   const char* idle_latency_file = "/dev/cpu_dma_latency";
 };
 
-/// Makes this process, and the calling thread, a real-time one.
+/// Makes this process, and the calling thread in particular, a real-time one.
 ///
-/// Every step is tried, and none stops the others: what was denied stands in steps(), and whether
-/// to go on is up to the caller. Whether SCHED_FIFO is granted is found by asking for it; no file
-/// tells. Memory and heap settings are the process's; stack, processors, slack and priority the
-/// calling thread's: construct it in the thread that will run the cycle, before others are started,
-/// after the model is loaded.
+/// Every step is tried, whatever became of the others. steps() tells which were denied; whether to
+/// go on is up to the caller. Whether SCHED_FIFO is granted is found by requesting it, because no
+/// file tells. Memory and heap settings apply to the process; stack, processors, timer slack and
+/// priority to the calling thread. Construct it in the thread that will run the cycle, after the
+/// model is loaded and before other threads are started.
 ///
-/// The processors are kept from deep idle states until this object goes; all else stays.
-/// Slow (touches memory, a dozen system calls); throws nothing and needs no memory but what it
-/// touches.
+/// The destructor allows the processors deep idle states again; all other settings remain.
+/// Slow: it touches memory and makes a dozen system calls. Throws nothing, and allocates nothing
+/// but the memory it touches.
 class RtProcess {
  public:
   explicit RtProcess(const RtRequest& request) noexcept;
@@ -44,7 +44,7 @@ class RtProcess {
     return steps_[static_cast<std::size_t>(kind)];
   }
 
-  /// No step was denied.
+  /// True if no step was denied.
   bool complete() const noexcept;
 
  private:

@@ -11,29 +11,31 @@
 
 namespace plumb::drivers {
 
-/// For each temperature sensor of a model, as the model counts them, which temperature of the
-/// context message it is; -1: the message has it not.
+/// For each temperature sensor, in the model's order, the index of its temperature in message
+/// context; -1 if the message does not contain it.
 using SensorPlaces = std::array<std::int8_t, format::kMaxTemperatures>;
 
-/// A message whose temperatures have no names has them as the model counts.
+/// The places if the temperatures of the message have no names: they are then in the model's order.
 constexpr SensorPlaces sensors_in_order() noexcept {
   SensorPlaces out{};
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = static_cast<std::int8_t>(k);
   return out;
 }
 
-/// The temperatures of message context; "t1", "t2", .. are no names.
+/// The signal names of the temperatures in message context. "t1", "t2", .. do not count as names,
+/// see are_named().
 std::vector<std::string> temperature_names(const BusLayout& layout);
 bool are_named(const std::vector<std::string>& temperatures);
 
-/// Gives the first of them these names.
+/// Gives these names to the first temperatures of message context.
 void name_temperatures(const std::vector<std::string>& names, BusLayout& layout);
 
-/// By name where the layout has names. Load phase.
+/// The places by name if the temperatures of the layout are named, else in order. For the load
+/// phase.
 SensorPlaces sensor_places(const BusLayout& layout, const format::Model& model);
 
-/// The sensors that the model reads and the message does not bring; the model then goes by its
-/// fallback.
+/// Names of the sensors that the model reads but the message does not contain; the model uses their
+/// fallbacks.
 std::vector<std::string> sensors_missing(const BusLayout& layout, const format::Model& model);
 
 }  // namespace plumb::drivers

@@ -29,79 +29,81 @@ struct SessionSettings {
   TargetLimits target = {};
   InputSettings inputs = {};
   double cycle_s = 0.004;
-  double answer_s = 0.02;    // the oldest target that is answered
-  double rearm_s = 0.5;      // for which the inputs must have been good before a correction begins
-  double foreign_s = 1.0;    // for which another sender of our identifiers counts
-  double status_s = 0.02;    // from one status to the next
-  double signature_s = 0.2;  // from one signature to the next
+  double answer_s = 0.02;    // an older target is not answered
+  double rearm_s = 0.5;      // how long the inputs must be good before a correction begins
+  double foreign_s = 1.0;    // how long another sender of our identifiers counts as present
+  double status_s = 0.02;    // period of the status
+  double signature_s = 0.2;  // period of the signature
   CycleSettings cycle = {};
   SensorPlaces sensors = sensors_in_order();
 };
 
-/// What a cycle is told besides its messages.
+/// The inputs of a cycle besides its messages.
 struct SessionTick {
   std::int64_t now_ns = 0;
-  std::uint64_t foreign_senders = 0;                                // of the port's counters
-  enum class Run : std::uint8_t { kGoOn, kStop } run = Run::kGoOn;  // kStop: ramp out and stay so
+  std::uint64_t foreign_senders = 0;                                // the port's counter of them
+  enum class Run : std::uint8_t { kGoOn, kStop } run = Run::kGoOn;  // kStop: ramp out for good
 };
 
-/// What is to be sent, in this order.
+/// The messages to send, in this order.
 struct SessionOutput {
   std::array<BusMessage, 3> messages;
   std::size_t size = 0;
 
-  /// Of an output that stays: a range-for over a temporary one would outlive it.
+  /// The messages in use. Deleted for temporary outputs, which a range-for would outlive.
   std::span<const BusMessage> sent() const& noexcept { return std::span(messages).first(size); }
   std::span<const BusMessage> sent() const&& = delete;
 };
 
-/// Monotone.
+/// Counters of a session. They only grow.
 struct SessionCounters {
   std::uint64_t cycles = 0;
-  std::uint64_t targets = 0;   // accepted
-  std::uint64_t answered = 0;  // with a corrected target or an offset
+  std::uint64_t targets = 0;   // targets accepted
+  std::uint64_t answered = 0;  // targets answered with a corrected pose or an offset
   std::uint64_t repeated = 0;
   std::uint64_t out_of_order = 0;
   std::uint64_t no_pose = 0;
   std::uint64_t too_far = 0;
   std::uint64_t too_fast = 0;
-  std::uint64_t too_old = 0;  // waited too long to be answered
-  std::uint64_t holds = 0;    // times ACTIVE was left for HOLD
+  std::uint64_t too_old = 0;  // targets that had waited too long to be answered
+  std::uint64_t holds = 0;    // transitions from ACTIVE to HOLD
   std::uint64_t faults = 0;
 };
 
-/// What there is to know of a session; a copy is all of it.
+/// The state of a session for display. It refers to nothing, so it may be copied and kept.
 struct SessionReport {
   SessionState state = SessionState::kInit;
-  FaultCause cause = FaultCause::kNone;  // of the last FAULT
+  FaultCause cause = FaultCause::kNone;  // cause of the last FAULT
   CorrectionMode mode = CorrectionMode::kShadow;
   Status status = Status::kNoModel;
-  Lost lost = {};  // what stands against a correction now
+  Lost lost = {};  // what now prevents a correction
   bool has_output = false;
   double target_age_s = 0.0, joints_age_s = 0.0, controller_age_s = 0.0, robot_age_s = 0.0;
-  double wanted_m = 0.0, wanted_rad = 0.0;    // the correction of the model, by the guard
-  double applied_m = 0.0, applied_rad = 0.0;  // what is on the target
+  double wanted_m = 0.0, wanted_rad = 0.0;    // size of the correction as the guard limits it
+  double applied_m = 0.0, applied_rad = 0.0;  // size of the correction that is sent
   SyncCounters sync;
   SessionCounters counters;
   GuardCounters guard;
 };
 
-/// What plumb-rt does, from message to message: the states of session_transition.hpp around the
-/// cycle of the runtime. hear() every message of a cycle, then step() once.
+/// The logic of plumb-rt, from received messages to sent ones: the states of session_transition.hpp
+/// around the cycle of the runtime. In every cycle call hear() for each message, then step() once.
 ///
 ///     messages --> order, limits --> Cycle: solve, guard --> share of the mode --> answer
 ///                  pose check, inputs --> state ------------^
 ///
-/// Answers: in ACTIVE and HOLD, and in FAULT until one went out without a correction, each accepted
-/// target that is new in the cycle (the newest, if several came) is answered once, under its
-/// counter: with the corrected pose or the offset. A target that is too old, no pose, or beyond its
-/// limits is not answered; neither is anything before the guard has an output. Status and signature
-/// go out at their periods in every state; the counter of the status is plumb-rt's heart-beat.
+/// In ACTIVE and HOLD, and in FAULT until one answer without a correction was sent, each new
+/// accepted target (the newest, if several arrived in a cycle) is answered once with the corrected
+/// pose or the offset, under the counter of the target. A target that is too old, is no pose, or
+/// exceeds its limits is not answered, nor is any target before the guard has an output. Status and
+/// signature are sent at their periods in every state; the counter of the status is plumb-rt's
+/// heart-beat.
 ///
-/// Corrections only begin, end and change by the guard's ramps and slew limits.
+/// A correction begins, changes and ends only by the guard's ramps and slew limits.
 ///
-/// No system call, no allocation. Thread: one; the slot's loader may run beside it. Cost: fixed for
-/// given model and number of messages. The same calls give the same output, to the bit.
+/// No system call, no allocation. Thread: one; the loader of the slot may run at the same time.
+/// Cost: fixed for a given model and number of messages. The same calls give the same output, to
+/// the bit.
 class Session {
  public:
   /// The slot must outlive the session.
@@ -110,15 +112,15 @@ class Session {
   void hear(const BusMessage& message) noexcept;
   SessionOutput step(const SessionTick& tick) noexcept;
 
-  /// From the next step on; no step in the correction.
+  /// Changes the mode from the next step on; the correction does not jump.
   void set_mode(CorrectionMode mode) noexcept { settings_.mode = mode; }
 
-  /// Nothing of a correction is on the target, or nobody is told of any.
+  /// True if no correction is sent: it is zero, or targets are not answered.
   bool at_rest() const noexcept { return !answering() || at_zero(); }
 
   SessionState state() const noexcept { return state_; }
 
-  /// Number of the model that the last step went by: the fingerprint of its file.
+  /// Number of the model that the last step used: the fingerprint of its file.
   std::uint32_t model() const noexcept { return cycle_.model().number(); }
 
   const SessionReport& report() const noexcept { return report_; }
@@ -149,21 +151,21 @@ class Session {
   CorrectionShare share_;
   CycleTime time_;
   SessionState state_ = SessionState::kInit;
-  BusMessage target_;               // the newest accepted one
-  Transformd X_BD_;                 // its pose
-  Transformd X_BC_;                 // what it is corrected to
-  bool target_came_ = false;        // in this cycle, and not too old
-  bool target_misbehaved_ = false;  // in this cycle
-  bool acknowledged_ = false;       // in this cycle
-  bool acknowledge_was_on_ = true;  // until seen off
-  bool has_output_ = false;         // of the guard
-  bool owes_zero_ = false;          // the last answer had a correction in it
-  double permitted_s_ = 0.0;        // for how long the inputs have been good
-  double foreign_age_s_ = std::numeric_limits<double>::infinity();  // since another sender was seen
+  BusMessage target_;               // the newest accepted target
+  Transformd X_BD_;                 // pose of the target
+  Transformd X_BC_;                 // corrected pose of the target
+  bool target_came_ = false;        // a target arrived in this cycle and is not too old
+  bool target_misbehaved_ = false;  // a target of this cycle exceeded its limits
+  bool acknowledged_ = false;       // an acknowledgement began in this cycle
+  bool acknowledge_was_on_ = true;  // true until the signal was seen off
+  bool has_output_ = false;         // the guard has an output
+  bool owes_zero_ = false;          // the last answer contained a correction
+  double permitted_s_ = 0.0;        // how long the inputs have been good
+  double foreign_age_s_ = std::numeric_limits<double>::infinity();  // time since another sender
   std::uint64_t foreign_senders_ = 0;
   double status_due_s_ = 0.0;
   double signature_due_s_ = 0.0;
-  std::uint16_t counter_ = 0;  // of the status
+  std::uint16_t counter_ = 0;  // counter of the status
   std::uint16_t signature_counter_ = 0;
   Lost lost_ = {};
   SessionReport report_;

@@ -7,9 +7,9 @@
 
 namespace plumb::drivers {
 
-/// What a context message that is new in this cycle tells the model, each reading as old as its
-/// message; nothing if none came, and of a value that is not known. Temperatures as the model
-/// counts them. Pure; heap: none; cost: fixed.
+/// The readings of a context message that arrived in this cycle, each as old as the message; there
+/// are none if no message arrived or a value is unknown. Temperatures are in the model's order.
+/// Pure. Heap: none. Cost: fixed.
 ContextReadings context_in(const SessionInbox& inbox, const SensorPlaces& sensors) noexcept;
 
 }  // namespace plumb::drivers

@@ -5,24 +5,24 @@
 #include <cstdint>
 
 #include "plumb/drivers/bus_message.hpp"
-#include "plumb/runtime/age.hpp"
+#include "plumb/runtime/detail/age.hpp"
 
 namespace plumb::drivers {
 
-/// The last message of every kind, whether it is new in this cycle, and how old it is.
+/// Keeps the last message of every kind, whether it is new in this cycle, and its age.
 ///
-/// Ages count cycles as well as the clock: no jump of a clock makes a message young, and one that
-/// waited in a queue is as old as its reception.
+/// An age grows in every cycle, so a jump of the clock cannot make a message younger. A message
+/// that waited in a queue is aged from its reception.
 ///
 /// Heap: none. Thread: one. Cost: fixed.
 class SessionInbox {
  public:
   void hear(const BusMessage& message) noexcept;
 
-  /// Once a cycle, after the messages of it: by how much all grew older [s].
+  /// To be called once a cycle, after its messages: lets all messages grow older by ageing_s [s].
   void step(std::int64_t now_ns, double ageing_s) noexcept;
 
-  /// After the cycle: nothing is new any more.
+  /// To be called after the cycle: no message counts as new any more.
   void close() noexcept { came_.fill(false); }
 
   const BusMessage& last(MessageKind kind) const noexcept { return last_[at(kind)]; }

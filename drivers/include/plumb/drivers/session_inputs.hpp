@@ -9,20 +9,20 @@
 
 namespace plumb::drivers {
 
-/// What stands against a correction; bits, several at once.
+/// The reasons that prevent a correction, as bits; several may be set at once.
 enum class Lost : std::uint16_t {
   kNothing = 0,
-  kTarget = 1 << 0,      // no sound target for too long
+  kTarget = 1 << 0,      // no valid target for too long
   kJoints = 1 << 1,      // no joint state for too long
-  kController = 1 << 2,  // nothing heard of the controller's state for too long
-  kDrives = 1 << 3,      // off
-  kManual = 1 << 4,      // operating mode is not automatic
-  kStop = 1 << 5,        // protective stop
-  kDisabled = 1 << 6,    // the cell's own enable is off
-  kTool = 1 << 7,        // another than expected is active
-  kFrame = 1 << 8,
-  kPayload = 1 << 9,
-  kMotion = 1 << 10,  // a target was beyond its limits of step or speed
+  kController = 1 << 2,  // no message of the controller's state for too long
+  kDrives = 1 << 3,      // the drives are off
+  kManual = 1 << 4,      // the operating mode is not automatic
+  kStop = 1 << 5,        // a protective stop is active
+  kDisabled = 1 << 6,    // the enable signal of the cell is off
+  kTool = 1 << 7,        // another tool than the expected one is active
+  kFrame = 1 << 8,       // another frame than the expected one is active
+  kPayload = 1 << 9,     // another payload than the expected one is active
+  kMotion = 1 << 10,     // a target exceeded its limits of step or speed
 };
 inline constexpr int kLostBits = 11;
 
@@ -37,21 +37,23 @@ constexpr bool has(Lost set, Lost one) noexcept {
 const char* to_string(Lost one) noexcept;
 
 struct InputSettings {
-  double limit_s = 0.1;                   // age of target, joints, controller; also of the status
-  double robot_s = 1.0;                   // age of the robot's name and of the actual pose
-  std::optional<std::uint8_t> tool = {};  // the controller's numbers; none: any
+  double limit_s = 0.1;                   // longest age of target, joints, controller and status
+  double robot_s = 1.0;                   // longest age of messages robot and actual
+  std::optional<std::uint8_t> tool = {};  // expected number at the controller; none: any
   std::optional<std::uint8_t> frame = {};
   std::optional<std::uint8_t> payload = {};
 };
 
-/// For how long a message may not come before the session goes without it [s]; infinite: for ever.
-/// `status` counts too: the receiver at the other end waits as long for it. Pure; any thread.
+/// How long a message may be absent before the session treats it as lost [s]; infinite if it is
+/// never treated so. This includes `status`, for which the receiver at the other end waits as long.
+/// Pure; any thread.
 double longest_silence_s(MessageKind kind, const InputSettings& settings = {}) noexcept;
 
-/// What the messages say against a correction now. Pure.
+/// The reasons in the messages that now prevent a correction. Pure.
 Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcept;
 
-/// Joints, actual pose, controller and robot came recently: there is a controller to speak to.
+/// True if joints, actual pose, controller and robot arrived recently, so that a controller is
+/// there.
 bool is_heard(const SessionInbox& inbox, const InputSettings& settings) noexcept;
 
 }  // namespace plumb::drivers

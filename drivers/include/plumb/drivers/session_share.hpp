@@ -7,28 +7,30 @@
 
 namespace plumb::drivers {
 
-/// What mode `limited` lets through.
+/// The settings of mode `limited`: the correction is scaled, then limited to a length [m].
 struct ShareSettings {
   double limited_scale = 0.5;
   double limited_m = 0.5e-3;
 };
 
-/// How much of the guard's correction goes out, by the mode: nothing, a part, or all.
+/// Sends nothing, a part or all of the guard's correction, depending on the mode.
 ///
-/// The share moves to that of the mode over the model's ramp, and what goes out follows at the
-/// model's slew limits, so that no change of mode is a step. Once arrived, mode full is the guard's
-/// correction to the bit. `limited` scales and then shortens, translation and rotation alike.
+/// After a change of mode the share ramps to its new value over the model's ramp time, and the
+/// output follows at the model's slew limits, so that it does not jump. At the end of the ramp,
+/// mode full sends the guard's correction to the bit. `limited` scales and then shortens the
+/// correction, translation and rotation alike.
 ///
 /// Heap: none. Thread: one. Cost: fixed.
 class CorrectionShare {
  public:
   explicit CorrectionShare(const ShareSettings& settings) noexcept : settings_(settings) {}
 
-  /// X_BD: the target; X_BG: what the guard made of it. dt_s: 0 .. two cycles. Returns X_BC.
+  /// Returns the pose X_BC to send. X_BD: the target; X_BG: the output of the guard for it; dt_s:
+  /// time since the last step, 0 .. two cycles.
   Transformd step(const Transformd& X_BD, const Transformd& X_BG, CorrectionMode mode,
                   const format::GuardLimits& limits, double dt_s) noexcept;
 
-  /// Nothing goes out: what begins later begins at zero.
+  /// Sets the output to zero, from where the next correction begins.
   void reset() noexcept { *this = CorrectionShare(settings_); }
 
   double translation_m() const noexcept { return translation_.norm(); }
@@ -44,8 +46,8 @@ class CorrectionShare {
   void move_share(CorrectionMode mode, double step) noexcept;
 
   ShareSettings settings_;
-  double scale_ = 0.0;  // of the guard's correction, 0 .. 1
-  double cap_ = 0.0;    // 0 .. 1: from limited_m (0) to no cap of our own (1)
+  double scale_ = 0.0;  // scale of the guard's correction, 0 .. 1
+  double cap_ = 0.0;    // limit of its length, from limited_m (0) to no limit (1)
   Vector3 translation_ = Vector3::Zero();
   Vector3 rotation_ = Vector3::Zero();
 };

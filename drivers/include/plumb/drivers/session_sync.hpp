@@ -11,39 +11,40 @@
 namespace plumb::drivers {
 
 struct SyncSettings {
-  int poses = 50;             // that must agree, one after the other
-  double position_m = 50e-6;  // agreement
+  int poses = 50;             // consecutive poses that must agree
+  double position_m = 50e-6;  // largest difference of poses that agree
   double rotation_rad = 50e-6;
-  int mismatches = 3;      // in a row that are a fault: one may be a controller's slip of a cycle
-  double moved = 1e-3;     // [rad] or [m] of a joint from which on a pose is another one
-  double within_s = 0.05;  // between the two messages of a pose
+  int mismatches = 3;      // consecutive mismatches that are a fault; a controller may slip a cycle
+  double moved = 1e-3;     // motion of a joint [rad] or [m] from which on a pose is a distinct one
+  double within_s = 0.05;  // longest time between the two messages of a pose
 };
 
-/// Monotone, but for `agreed`, `distinct` and `mismatched_in_row`, which begin anew with restart().
+/// Counters that only grow, except that restart() resets `agreed`, `distinct`, `mismatched_in_row`
+/// and the worst differences.
 struct SyncCounters {
   std::uint64_t compared = 0;
   std::uint64_t mismatched = 0;
-  int agreed = 0;    // in a row, counted up to SyncSettings::poses
-  int distinct = 0;  // of those, in which the arm had moved; standing still is allowed, see below
+  int agreed = 0;    // consecutive poses that agreed, counted up to SyncSettings::poses
+  int distinct = 0;  // those of them before which the arm had moved (it may stand still, see below)
   int mismatched_in_row = 0;
-  double last_m = 0.0;  // of the last pose compared
+  double last_m = 0.0;  // difference of the last pose compared
   double last_rad = 0.0;
-  double worst_m = 0.0;  // since restart()
+  double worst_m = 0.0;  // largest difference since restart()
   double worst_rad = 0.0;
 };
 
-/// Is what the controller takes for its arm what the model takes for the nominal arm?
+/// Checks that the controller computes with the arm that the model contains as the nominal one.
 ///
-/// The pose it shows (kActual) is compared with N(q) for the joints of the same counter. Another
-/// tool, another user frame or the controller's own absolute-accuracy option shows here, before
-/// anything is corrected twice.
+/// The pose that the controller shows (kActual) is compared with N(q) for the joints with the same
+/// counter. Another tool, another user frame or the controller's own absolute-accuracy option is
+/// detected here, before anything is corrected twice.
 ///
-/// An arm may stand still while it is compared: another frame or tool shows at any one pose, and
-/// comparing goes on for as long as the session lives, so that what shows only elsewhere is met
-/// where it shows. `distinct` says how much the poses of SYNC were worth.
+/// The arm may stand still meanwhile, because another frame or tool is visible at any pose. Poses
+/// are compared for the whole life of the session, so differences that appear only elsewhere are
+/// found when the arm gets there. `distinct` tells how many different poses SYNC was based on.
 ///
-/// Heap: none. Thread: one. Cost: one nominal forward for a complete pair. Errors: what is no pose
-/// and no joint state is not compared.
+/// Heap: none. Thread: one. Cost: one nominal forward kinematics for a complete pair. Errors: none;
+/// invalid poses and joint states are not compared.
 class SyncCheck {
  public:
   explicit SyncCheck(const SyncSettings& settings) noexcept : settings_(settings) {}
@@ -58,7 +59,7 @@ class SyncCheck {
  private:
   using Values = std::array<double, kMaxMessageValues>;
 
-  /// How many joint states are kept for an actual pose that comes later than its own.
+  /// Number of joint states kept, for actual poses that arrive later than their joints.
   static constexpr std::size_t kKept = 8;
 
   bool paired(const BusMessage& joints) const noexcept;
@@ -69,7 +70,7 @@ class SyncCheck {
   SyncSettings settings_;
   std::array<BusMessage, kKept> joints_;  // a ring; size 0: none
   std::size_t next_ = 0;
-  BusMessage actual_;  // not compared yet; size 0: none
+  BusMessage actual_;  // an actual pose not compared yet; size 0: none
   Values q_distinct_ = BusMessage::unknown();
   SyncCounters counters_;
 };

@@ -10,39 +10,39 @@
 
 namespace plumb::drivers {
 
-/// How a desired target may move. Beyond it is a planner's mistake, or a damaged message that a
-/// check sum let through.
+/// Limits of the motion of a desired target. A target beyond them comes from a planner's mistake,
+/// or from damage that the checksum did not detect.
 struct TargetLimits {
   double speed_m_s = 2.0;
   double speed_rad_s = 2.0 * std::numbers::pi;
-  double step_m = 0.05;  // from one target to the next that came
+  double step_m = 0.05;  // largest step between two targets received in succession
   double step_rad = 10.0 * std::numbers::pi / 180.0;
-  double period_s = 0.004;  // from one target to the next that is sent
-  double gap_s = 0.1;       // of silence, after which a target has none before it
+  double period_s = 0.004;  // period at which targets are sent
+  double gap_s = 0.1;       // after a longer silence a target is not compared with the previous one
 };
 
 enum class TargetVerdict : std::uint8_t {
   kAccepted,
-  kRepeated,    // the counter before: said again
-  kOutOfOrder,  // an earlier counter: overtaken on the way
-  kNoPose,      // a value is not known, or no number
-  kTooFar,      // from the one before
-  kTooFast,
+  kRepeated,    // it has the same counter as the previous target
+  kOutOfOrder,  // it has an earlier counter: it was overtaken on the way
+  kNoPose,      // a value is unknown or not finite
+  kTooFar,      // the step from the previous target is too large
+  kTooFast,     // the motion since the previous target is too fast
 };
 
 /// Judges desired targets one by one.
 ///
-/// A target that is too far or too fast is not to be answered, but the next is judged against it: a
-/// target that jumped and stays there is accepted from then on. Speed is the distance by the time
-/// between two receptions, or between their counters if that is longer: targets that were held up
-/// and come in a burst are not fast.
+/// A target that is too far or too fast must not be answered, but the next one is judged against
+/// it: a target that jumped and stays there is accepted from then on. The speed is the distance
+/// divided by the time between the receptions, or by the time between the counters if that is
+/// longer, so that targets which were delayed and arrive in a burst are not taken for fast ones.
 ///
 /// Heap: none. Thread: one. Cost: fixed.
 class TargetGate {
  public:
   explicit TargetGate(const TargetLimits& limits) noexcept : limits_(limits) {}
 
-  /// X_BD: the pose, if the verdict is one of kAccepted, kTooFar, kTooFast.
+  /// Sets X_BD to the pose of the target if the verdict is kAccepted, kTooFar or kTooFast.
   TargetVerdict judge(const BusMessage& target, Transformd& X_BD) noexcept;
 
   void restart() noexcept { has_last_ = false; }

@@ -10,9 +10,9 @@ namespace plumb::drivers {
 /// Why a session went to FAULT.
 enum class FaultCause : std::uint8_t {
   kNone,
-  kPoseMismatch,   // the controller's poses are not those of the model's nominal arm
+  kPoseMismatch,   // the controller's poses differ from those of the model's nominal arm
   kOtherRobot,     // the robot on the bus is not the one of the model
-  kForeignSender,  // someone else sends our identifiers
+  kForeignSender,  // another sender uses our identifiers
 };
 
 /// Stable lower-case words: "init", "pose-mismatch", "shadow".
@@ -20,20 +20,21 @@ const char* to_string(SessionState state) noexcept;
 const char* to_string(FaultCause cause) noexcept;
 const char* to_string(CorrectionMode mode) noexcept;
 
-/// What a cycle knows when it asks where to go.
+/// The facts of a cycle on which the next state depends.
 struct SessionFacts {
-  FaultCause fault = FaultCause::kNone;  // that holds now
-  bool heard = false;                    // joints, actual pose, controller and robot came recently
-  bool synced = false;                   // enough poses agreed, and the robot is the model's
-  bool permitted = false;     // every input that allows a correction has done so for a while
-  bool lost = true;           // one of them does not allow it now
-  bool at_zero = true;        // there is no correction on the target
-  bool acknowledged = false;  // an operator's acknowledgement began with this cycle
+  FaultCause fault = FaultCause::kNone;  // the fault that is present now
+  bool heard = false;         // joints, actual pose, controller and robot arrived recently
+  bool synced = false;        // enough poses agreed, and the robot is the model's
+  bool permitted = false;     // all inputs have allowed a correction for SessionSettings::rearm_s
+  bool lost = true;           // at least one input does not allow a correction now
+  bool at_zero = true;        // the correction on the target is zero
+  bool acknowledged = false;  // an operator's acknowledgement began in this cycle
   bool stopping = false;      // plumb-rt was told to end
   CorrectionMode mode = CorrectionMode::kShadow;
 };
 
-/// The state of the next cycle. One transition a cycle at most; the first row that holds:
+/// The state of the next cycle. There is at most one transition per cycle, by the first row whose
+/// condition is true:
 ///
 ///     from      to       when
 ///     not FAULT FAULT    a fault holds
@@ -51,7 +52,7 @@ struct SessionFacts {
 /// Pure; any thread.
 SessionState next_state(SessionState state, const SessionFacts& facts) noexcept;
 
-/// The correction is taken to zero in every state but these.
+/// True in the states in which a correction is computed; in all others it is taken to zero.
 constexpr bool computes(SessionState state) noexcept {
   return state == SessionState::kShadow || state == SessionState::kActive;
 }

@@ -6,8 +6,9 @@
 
 namespace plumb::drivers {
 
-/// What a cycle clock asks of time, in [ns] since some fixed instant.
-/// sleep_until_ns returns 0 at or after that time, or an errno: EINTR if a signal came first.
+/// The source of time of a CycleClock, in [ns] since some fixed instant.
+/// sleep_until_ns returns 0 at or after the given time, or an errno: EINTR if a signal arrived
+/// first.
 template <class T>
 concept TimeSource = requires(T source, std::int64_t time_ns) {
   { source.now_ns() }
@@ -16,8 +17,8 @@ concept TimeSource = requires(T source, std::int64_t time_ns) {
   noexcept->std::same_as<int>;
 };
 
-/// CLOCK_MONOTONIC: not moved when the date is set. One clock read, one sleep: a system call each
-/// at most.
+/// CLOCK_MONOTONIC, which does not change when the date is set. Each function makes at most one
+/// system call.
 struct MonotonicTime {
   static std::int64_t now_ns() noexcept;
   static int sleep_until_ns(std::int64_t time_ns) noexcept;

@@ -7,7 +7,7 @@
 #include "plumb/format/limits.hpp"
 #include "plumb/format/model.hpp"
 
-/// What makes a formula's stack code safe to run without a look at it.
+/// The check that makes a formula's stack code safe to run without further checks.
 namespace plumb::format {
 
 constexpr std::uint16_t instruction(FormulaOp op, unsigned operand = 0) {
@@ -20,7 +20,7 @@ constexpr bool is_operation(std::uint16_t code) {
   return (code & 0xFFU) <= static_cast<unsigned>(FormulaOp::kClamp);
 }
 
-/// How many numbers an operation takes from the stack; each puts one on it.
+/// How many numbers an operation takes from the stack. Every operation pushes one result.
 constexpr int taken(FormulaOp op) {
   if (op == FormulaOp::kClamp) return 3;
   if (op >= FormulaOp::kAdd) return 2;
@@ -29,16 +29,16 @@ constexpr int taken(FormulaOp op) {
 
 enum class FormulaFault : std::uint8_t {
   kNone,
-  kMissing,    // an effect 'formula' without one, or anything of one with another effect
-  kTooLong,    // more code, literals or parameters than the limits
-  kOperation,  // unknown
-  kOperand,    // a literal, parameter, joint or sensor that is not there
-  kStack,      // takes what is not there, grows too high, or does not end with one number
-  kTarget,     // moves what is not there
-  kNumbers     // not finite, or another count of parameters
+  kMissing,    // an effect 'formula' has no formula, or another effect has one
+  kTooLong,    // the code, literals, parameters or text exceed their limits
+  kOperation,  // an operation is unknown
+  kOperand,    // a literal, parameter, joint or sensor does not exist
+  kStack,      // the stack underflows, grows too high, or does not end with one number
+  kTarget,     // the joint, component or frame to move does not exist
+  kNumbers     // a number is not finite, or the number of parameters is wrong
 };
 
-/// How many numbers of its kind an instruction may choose from.
+/// The number of values that the operand of an instruction may take, from 0 on.
 inline std::size_t choices(FormulaOp op, const Effect& effect, std::size_t joints) noexcept {
   switch (op) {
     case FormulaOp::kLiteral:
@@ -62,8 +62,8 @@ inline std::size_t choices(FormulaOp op, const Effect& effect, std::size_t joint
   }
 }
 
-/// Proves that the code stays inside its stack and its tables. Code has no jumps, so it then ends
-/// and gives one number. Cost: one pass.
+/// Checks that the code stays inside its stack and its tables. There are no jumps, so code that
+/// passes ends and leaves one number. Cost: one pass over the code.
 inline FormulaFault find_formula_fault(const Effect& effect, std::size_t joints) noexcept {
   const Formula& f = effect.formula;
   const bool wanted = effect.name == "formula";

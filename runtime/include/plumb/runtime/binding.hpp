@@ -15,12 +15,14 @@ enum class BindingFault : std::uint8_t {
   kSensors   // its temperature sensors are counted in another order
 };
 
-/// Names and limits of joints may differ; what the controller computes with may not. Sensors may
-/// be more or fewer, in the same order.
+/// Finds out whether `next` may replace `running`. The serial number and everything the controller
+/// computes with (nominal chain, base, tool) must be equal; names and limits of joints may differ.
+/// One model may have more temperature sensors than the other, if the common ones are in the same
+/// order.
 /// Heap: none. Thread: any. Cost: grows with joints and sensors; load phase. Errors: none.
 BindingFault find_binding_fault(const format::Model& running, const format::Model& next) noexcept;
 
-/// Plain English, for example "made for another robot".
+/// The fault in plain English, for example "made for another robot: the serial differs".
 const char* to_string(BindingFault fault) noexcept;
 
 }  // namespace plumb

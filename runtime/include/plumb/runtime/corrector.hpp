@@ -5,6 +5,7 @@
 #include <span>
 
 #include "plumb/format/model.hpp"
+#include "plumb/runtime/detail/known_range.hpp"
 #include "plumb/runtime/forward_model.hpp"
 
 namespace plumb {
@@ -13,15 +14,15 @@ struct JointSteps;
 struct TipMotion;
 }  // namespace internal
 
-/// Where a seed comes from. More than six joints need the commanded ones.
+/// Where a seed comes from. An arm with more than six joints needs commanded joint positions.
 enum class SeedKind : std::uint8_t { kCommanded, kLastSolution, kMeasured };
 
 struct Correction {
-  Transformd X_BC;  // what to send to the controller: N(q); the target if refused
+  Transformd X_BC;  // pose to send to the controller, N(q); the target itself if refused
   std::array<double, kMaxJoints> q{};  // joint positions that bring the true arm to the target
-  double residual_m = 0.0;             // remaining controllable error: position
-  double residual_rad = 0.0;           // and orientation
-  int steps = 0;                       // kInverseSteps, or kOtherSteps
+  double residual_m = 0.0;             // remaining position error that the arm could remove
+  double residual_rad = 0.0;           // remaining orientation error, likewise
+  int steps = 0;                       // steps taken: kInverseSteps or kOtherSteps
   Status status = Status::kNoModel;
 };
 
@@ -30,33 +31,41 @@ struct Correction {
 /// The controller knows only its nominal chain N. From a seed q, a fixed number of steps
 /// q <- q + J(q)^+ (x_d - T(q)), then x_c = N(q). A cell measured in position only corrects the
 /// position; the orientation in T is then the controller's own, that of N(q).
-/// J is the derivative of the calibrated chain, not of N: for the same price the steps converge
-/// faster, also where J_N^+ is large.
-///   six joints    kInverseSteps. All but the last also take back what the tip moves to the second
-///                 order, which the columns of J tell, so that they converge cubically. The first
-///                 takes J_N for J: its elimination also gives the sign of det J_N at the seed.
-///                 Effects and tree are worked out at the seed and at the last two steps; in
-///                 between those of the seed stand for them, and in the second step so does the
-///                 turn from the true orientation to the controller's own
-///   other arms    kOtherSteps of Newton. Effects and tree are worked out at the first, the fifth
-///                 and the last. Fewer than six joints: the controllable part of the target,
-///                 position before orientation. More: the shortest steps from the seed
+/// J is the derivative of the calibrated chain, not of N: this costs the same and converges faster,
+/// also where J_N^+ is large.
+///   six joints    kInverseSteps steps. All but the last also subtract the second-order motion of
+///                 the tip, which follows from the columns of J, so they converge cubically
+///                 (Chebyshev's method). The first step uses J_N instead of J, because its
+///                 elimination also gives the sign of det J_N at the seed. Effects and tree are
+///                 evaluated at the seed and at the last two steps; the steps between use the
+///                 values of the seed. The second step also uses the seed's rotation between the
+///                 true orientation and the controller's
+///   other arms    kOtherSteps steps of Newton's method. Effects and tree are evaluated at the
+///                 first, the fifth and the last. Arms with fewer than six joints meet the part of
+///                 the target that they can control, position before orientation; arms with more
+///                 take the shortest steps from the seed
 ///
-/// Refused (Status < 0), the first of these that holds:
-///   kNotFinite           an input is not finite, no rotation, or a joint beyond 1e4
-///   kSeedNotCommanded    more than six joints, and the seed is not the commanded one
-///   kNearSingular        at the solution the smallest singular value of J_N is under its limit;
-///                        lengths are divided by length_scale_m. Fewer than six joints: the
-///                        smallest that is not structurally zero, of J_N and of its position rows
-///   kOtherConfiguration  six joints: det J_N has another sign at the solution than at the seed.
-///                        Not defined for other arms
-///   kFarFromSeed         |q_i - seed_i| exceeds max_seed_distance (sliding: times length_scale_m)
-///   kNotConverged        before the last step the residual exceeded 1 um or 1 urad; six joints:
-///                        or the tool was a quarter turn or more from its target
-/// Then X_BC is the target itself (identity if that is no pose) and q the seed.
-/// Joint limits are not looked at.
+/// A target is refused (Status < 0) with the first of these that applies:
+///   kNotFinite           an input is not finite, the target's matrix is no rotation, or a joint
+///                        position exceeds 1e4
+///   kSeedNotCommanded    the arm has more than six joints, and the seed is not commanded
+///   kNearSingular        at the solution the smallest singular value of J_N is below its limit,
+///                        with lengths divided by length_scale_m. Arms with fewer than six joints:
+///                        the smallest that is not zero at every pose, of J_N or its position rows
+///   kOtherConfiguration  det J_N has another sign at the solution than at the seed. Six joints
+///                        only; not defined for other arms
+///   kFarFromSeed         |q_i - seed_i| exceeds max_seed_distance (prismatic joints: times
+///                        length_scale_m)
+///   kNotConverged        before the last step the residual exceeded 1 um or 1 urad or, with six
+///                        joints, the tool was a quarter turn or more from its target
+/// X_BC is then the target itself (the identity if the target is no pose), and q is the seed.
+/// Joint limits are not checked.
 ///
-/// Pure: no state, no allocation, fixed cost for a given model, any thread.
+/// Outside the joint and context ranges that the model was fitted with (KnownRange), whether it has
+/// a tree or not, the status is kOutsideDomain. A little beyond them the correction is unchanged;
+/// farther out it fades smoothly to zero, where X_BC is the target.
+///
+/// Pure: no state, no allocation, fixed cost for a given model; callable from any thread.
 /// Refers to the model's memory: the model must outlive it.
 class Corrector {
  public:
@@ -72,8 +81,9 @@ class Corrector {
   const Chain& nominal() const noexcept { return nominal_; }
   const format::GuardLimits& limits() const noexcept { return limits_; }
 
-  /// Corrects the desired tool pose X_BD. seed: shape (n,), [rad] or [m]. context: what is known
-  /// now of direction, payload, temperatures; it stays the same over the steps.
+  /// Corrects the desired tool pose X_BD. seed: joint positions to start from, shape (n,), [rad] or
+  /// [m]. context: what is known now about direction, payload and temperatures; it is the same for
+  /// all steps.
   Correction solve(const Transformd& X_BD, std::span<const double> seed, SeedKind kind,
                    const Context& context = {}) const noexcept;
 
@@ -106,13 +116,16 @@ class Corrector {
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,
                const Derivative& N, int seed_sign) const noexcept;
 
+  void fade(const Transformd& X_BD, double weight, Transformd& X_BC) const noexcept;
+
   ForwardModel true_arm_;
   Chain nominal_;
-  JointPositions unit_{};    // of the steps: 1 rad, or length_scale_m where a joint slides
+  KnownRange known_;
+  JointPositions unit_{};    // unit of each joint's step: 1 rad; length_scale_m if prismatic
   double per_length_ = 1.0;  // 1 / length_scale_m
   format::GuardLimits limits_{};
-  int position_rank_ = 3;  // generic rank of the nominal Jacobian's position rows
-  int pose_rank_ = 6;      // and of all its rows
+  int position_rank_ = 3;  // generic rank of the position rows of the nominal Jacobian
+  int pose_rank_ = 6;      // generic rank of all its rows
 };
 
 }  // namespace plumb

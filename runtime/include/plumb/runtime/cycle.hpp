@@ -6,53 +6,57 @@
 #include <span>
 #include <type_traits>
 
-#include "plumb/runtime/age.hpp"
 #include "plumb/runtime/context_inputs.hpp"
+#include "plumb/runtime/detail/age.hpp"
+#include "plumb/runtime/detail/last_move.hpp"
 #include "plumb/runtime/guard.hpp"
-#include "plumb/runtime/last_move.hpp"
 #include "plumb/runtime/model_slot.hpp"
 
 namespace plumb {
 
-/// How long the cycle goes by what it last heard, and when a joint counts as moved.
+/// How long the cycle may use its last inputs, and when a joint counts as moved.
 struct CycleSettings {
-  double target_limit_s = 0.1;  // twelve lost frames of a 125 Hz bus
+  double target_limit_s = 0.1;  // this is twelve lost frames of a 125 Hz bus
   double joints_limit_s = 0.1;
   ContextLimits context = {};
-  double dead_band = 5e-4;  // [rad]; times length_scale_m for sliding joints
+  double dead_band = 5e-4;  // [rad]; for prismatic joints times length_scale_m
 };
 
 enum class Arrival : std::uint8_t { kNothingNew, kArrived };
 
-/// What came since the last cycle. What did not arrive is not looked at: the one before stands.
+/// The inputs that arrived since the last cycle. Members that did not arrive are not read; the
+/// previous value stays valid.
 struct CycleInput {
-  std::int64_t now_ns = 0;  // any clock that runs on; jumps are harmless
+  std::int64_t now_ns = 0;  // time on any clock that advances; jumps do no harm
   Arrival target = Arrival::kNothingNew;
   Transformd X_BD = {};  // desired tool pose, base frame [m]
   Arrival joints = Arrival::kNothingNew;
-  std::array<double, kMaxJoints> q_measured = Context::unknown();   // [rad] or [m]; NaN: not known
-  std::array<double, kMaxJoints> q_commanded = Context::unknown();  // of X_BD; NaN: not supplied
+  std::array<double, kMaxJoints> q_measured = Context::unknown();   // [rad] or [m]; NaN: unknown
+  std::array<double, kMaxJoints> q_commanded = Context::unknown();  // for X_BD; NaN: not given
   ContextReadings context = {};
 };
 
 struct CycleOutput {
-  GuardOutput output;     // what goes to the robot controller
-  Correction correction;  // what the inverse said, before the guard
+  GuardOutput output;     // to be sent to the robot controller
+  Correction correction;  // result of the inverse, before the guard
 };
 
 /// The whole state of the cycle in one object of known size.
 ///
-/// One step: take the model, age the inputs, solve once, guard.
-///   seed       commanded joints if they came, else the last solution, else the measured joints;
-///              the last solution counts until a step is refused, so the arm is found again
-///   direction  from the commanded joints if they came, else from the measured ones
-///   stale      no sound target, or no sound joint state, for longer than its limit: the correction
-///              ramps out on top of the last target, status kStale; back in when it arrives
-///   a target that arrives and is no pose: the last output is held, and it does not count as fresh
-///   a model of the slot that is new: taken at the beginning of the step, absorbed by the guard
+/// One step takes the model from the slot, ages the inputs, solves once and applies the guard.
+///   seed       the commanded joints if they arrived, else the last solution, else the measured
+///              joints. A refused step discards the last solution, so that the next solve starts
+///              where the arm really is
+///   direction  of motion: from the commanded joints if they arrived, else from the measured ones
+///   stale      no valid target, or no valid joint state, has arrived for longer than its limit.
+///              The correction ramps out on top of the last target, with status kStale, and ramps
+///              in again when the input returns
+///   bad target one that arrives but is no pose: the last output is held, and the target does not
+///              count as fresh
+///   new model  taken from the slot at the beginning of the step; the guard blends it in
 ///
-/// Heap: none. Thread: one; the slot's loader may run beside it. Cost: fixed for a given model.
-/// Errors: by status only; always returns, always finite, whatever the bits of the input are.
+/// Heap: none. Thread: one; the loader of the slot may run at the same time. Cost: fixed for a
+/// given model. Errors: by status only; the output is finite whatever the bits of the input are.
 class Cycle {
  public:
   /// The slot must outlive the cycle.
@@ -63,7 +67,7 @@ class Cycle {
   /// From the next step on the correction ramps out to zero (kOff) or back in.
   void enable(Guard::Enable on) noexcept { guard_.enable(on); }
 
-  /// Of the last step; the same thread.
+  /// State after the last step; to be read from the thread that steps.
   const GuardCounters& counters() const noexcept { return guard_.counters(); }
   const Context& context() const noexcept { return context_; }
   const LoadedModel& model() const noexcept { return *model_; }
@@ -97,7 +101,7 @@ class Cycle {
   CycleTime time_;
   Age target_age_;
   Age joints_age_;
-  Transformd X_BD_;  // the last sound target
+  Transformd X_BD_;  // the last valid target
   Joints q_measured_ = Context::unknown();
   Joints q_commanded_ = Context::unknown();
   Joints q_solution_{};

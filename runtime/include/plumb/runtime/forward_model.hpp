@@ -6,35 +6,35 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/chain.hpp"
-#include "plumb/runtime/effect_set.hpp"
-#include "plumb/runtime/hard_trees.hpp"
+#include "plumb/runtime/detail/crisp_trees.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
+#include "plumb/runtime/detail/tree.hpp"
 #include "plumb/runtime/status.hpp"
-#include "plumb/runtime/tree.hpp"
 
 namespace plumb {
 
 class Columns;  // a pose in registers
 
-/// Where the true arm is, as far as the model knows.
+/// The pose of the true arm as the model predicts it.
 struct Prediction {
   Transformd X_BT;  // tool pose in the base frame, tree included
-  Vector3 tree_B;   // what the tree added to the position [m]
-  Status status;    // kOk, kOutsideDomain or kContextFallback; kNotFinite leaves X_BT at identity
+  Vector3 tree_B;   // part of the position that comes from the tree [m]
+  Status status;    // kOk, kOutsideDomain or kContextFallback; if kNotFinite, X_BT is the identity
 };
 
-/// How the arm at one pose departs from its calibrated chain: effects and tree. It changes little
-/// from pose to pose, so that near by it may stand for what it would be there.
+/// The deviation of the arm from its calibrated chain at one pose, by effects and tree. It changes
+/// little between neighbouring poses, so the deviation of one may be used at the next.
 struct Deviation {
-  using Column = std::array<double, 4>;  // x, y, z and a number that means nothing
+  using Column = std::array<double, 4>;  // x, y, z and an arbitrary fourth number
 
-  Motion<double> motion;                     // of joints and tip, by the effects
-  alignas(32) std::array<Column, 3> turn_B;  // the tip's part of it that turns, as a rotation;
-                                             // of an arm with effects
-  alignas(32) Column tree_B;                 // [m]
+  Motion<double> motion;                     // motion of joints and tip by the effects
+  alignas(32) std::array<Column, 3> turn_B;  // motion.turn_B as a rotation matrix; set only if the
+                                             // model has effects
+  alignas(32) Column tree_B;                 // displacement by the tree [m]
   Status status;
 };
 
-/// The true arm T(q): calibrated chain, effects, local linear model tree.
+/// The true arm T(q): calibrated chain, effects and local linear model tree.
 /// Refers to the model's memory: the model must outlive it.
 class ForwardModel {
  public:
@@ -44,30 +44,32 @@ class ForwardModel {
   int joints() const noexcept { return chain_.joints(); }
   const Chain& chain() const noexcept { return chain_; }
 
-  /// q: joint positions [rad] or [m], shape (n,). Cost: fixed for a given model. Any thread.
-  /// Refused with kNotFinite when one is not finite or beyond 1e4. Effects move joint i to
-  /// q_i + dq_i, then the tip by their twists.
+  /// Predicts the tool pose. q: joint positions [rad] or [m], shape (n,). Effects move joint i to
+  /// q_i + dq_i, then the tip by their twists. Refused with kNotFinite if a joint position is not
+  /// finite or exceeds 1e4. Cost: fixed for a given model. Any thread.
   Prediction predict(std::span<const double> q, const Context& context = {}) const noexcept;
 
-  /// The same, with the frame behind every joint of the calibrated chain: joint effects move it,
-  /// the twists and the tree do not.
+  /// The same, and the frame after every joint. Effects on joints move these frames; twists of the
+  /// tip and the tree do not.
   Prediction predict(std::span<const double> q, const Context& context,
                      ChainFrames& frames) const noexcept;
 
-  /// The same in three parts: the first holds while the context does; the last costs no more than
-  /// the chain alone, and takes what the second said of this pose or of one near by. p_BT: where
-  /// the tool is; axes: of the chain as above, its orientation not yet `turned`. Refused: all zero,
-  /// the orientation the identity.
-  void prepare(const Context& context, EffectSet::Scene& out) const noexcept;
-  void find_deviation(std::span<const double> q, EffectSet::Scene& scene,
+  /// The same in three parts. prepare() is needed once for a context. find_deviation() evaluates
+  /// effects and tree at q. locate() costs no more than the chain alone and uses a deviation that
+  /// was found at this pose or near it. p_BT: position of the tool; axes: of the chain, with the
+  /// tip's orientation before turned(). After a refusal all are zero and the orientation is the
+  /// identity.
+  void prepare(const Context& context, EffectSet::Workspace& out) const noexcept;
+  void find_deviation(std::span<const double> q, EffectSet::Workspace& workspace,
                       Deviation& out) const noexcept;
   Status locate(std::span<const double> q, const Deviation& deviation, ChainAxes& axes,
                 Vector3& p_BT) const noexcept;
 
-  /// What the effects make of the chain's orientation.
+  /// The orientation of the tool: that of the chain, R_BT, rotated by the effects.
   Matrix3 turned(const Matrix3& R_BT, const Deviation& deviation) const noexcept;
 
-  /// What the tree says at q [m], base frame: bounded, zero well outside the trained domain.
+  /// The tree's displacement of the tool at q [m], base frame; bounded, and zero far outside the
+  /// trained domain.
   Vector3 tree_error(std::span<const double> q) const noexcept;
 
  private:
@@ -76,8 +78,9 @@ class ForwardModel {
   bool acceptable(std::span<const double> q) const noexcept;
   void find_deviation(std::span<const double> q, const Context& context,
                       Deviation& out) const noexcept;
-  void deviate(std::span<const double> q, EffectSet::Scene& scene, Deviation& out) const noexcept;
-  void add_effects(std::span<const double> q, EffectSet::Scene& scene,
+  void deviate(std::span<const double> q, EffectSet::Workspace& workspace,
+               Deviation& out) const noexcept;
+  void add_effects(std::span<const double> q, EffectSet::Workspace& workspace,
                    Deviation& out) const noexcept;
   void add_tree(std::span<const double> q, Deviation& out) const noexcept;
   bool bend(std::span<const double> q, const Deviation& deviation,
@@ -88,15 +91,15 @@ class ForwardModel {
   void trees_at(std::span<const double> u, Deviation::Column& out) const noexcept;
 
   EffectSet effects_;
-  TreeView walked_;  // the first that is not empty
+  TreeView walked_;  // the first tree that is not empty
   TrainedDomain domain_;
   std::array<TreeView, format::kTreeAxes> trees_;
-  HardTrees hard_trees_;  // they, if `all_hard_`
+  CrispTrees crisp_trees_;  // all three trees, if `all_crisp_`
   Chain chain_;
   bool has_tree_ = false;
-  bool all_hard_ = false;
-  bool six_hard_trees_ = false;  // all hard, HardTrees' usual ones, and no walk serves them all
-  bool one_walk_ = false;        // the others differ from `walked_` in their numbers only
+  bool all_crisp_ = false;        // all trees are crisp and split along the axes
+  bool six_crisp_trees_ = false;  // CrispTrees::has_fast_path()
+  bool one_walk_ = false;         // all trees have the same nodes, so one walk finds their leaves
 };
 
 }  // namespace plumb

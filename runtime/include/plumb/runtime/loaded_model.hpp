@@ -7,18 +7,19 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/corrector.hpp"
-#include "plumb/runtime/effect_set.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb {
 
-/// A model that may run: what a reader returned, its effects known to this library, with the
-/// corrector that refers to it. Never changes; stays where it is until nobody uses it.
+/// A model that is ready to run: the result of read_model, whose effects this library knows, and
+/// the corrector that refers to it. It never changes and is never moved.
 ///
-/// Load phase: `make` and the destructor use the heap, on any thread that may. Cycle: the rest.
+/// `make` and the destructor belong to the load phase: they use the heap, on any thread. All else
+/// may be called in the cycle.
 class LoadedModel {
  public:
-  /// Null if find_effect_fault(model) finds something. The model comes from read_model. `number`:
-  /// what the caller knows it by.
+  /// Null if find_effect_fault(model) finds a fault. The model must come from read_model. `number`:
+  /// an identification of the caller's choice, which number() returns.
   static std::unique_ptr<const LoadedModel> make(format::Model model, std::uint32_t number = 0) {
     if (find_effect_fault(model).kind != EffectFault::Kind::kNone) return nullptr;
     return std::unique_ptr<const LoadedModel>(new LoadedModel(std::move(model), number));

@@ -8,18 +8,18 @@
 
 namespace plumb {
 
-/// Where one loader thread hands models to one cycle thread, while both run.
+/// Hands models from one loader thread to one cycle thread while both run.
 ///
 ///     loader   publish(new) ........... settled() false ... settled() true: free the old one
 ///     cycle    ... old ... old ... take() = new: acknowledged ... new ... new ...
 ///
-/// One model is under way at a time, so at most two exist, and a model is never freed under the
-/// cycle: taking the new one is the acknowledgement that the old one is done with.
-/// The slot owns nothing: the loader keeps both models until settled(), and everything until the
-/// cycle's thread has ended.
+/// Only one model is handed over at a time, so at most two exist. By taking the new model the cycle
+/// acknowledges that it no longer uses the old one, so a model in use is never freed.
+/// The slot owns nothing: the loader must keep both models until settled(), and the last one until
+/// the cycle's thread has ended.
 ///
-/// Heap: none. Cost: two loads and a store at most; wait-free on both sides; plain loads and
-/// stores, so no helper of a compiler's library is called on any machine.
+/// Heap: none. Cost: at most two loads and a store; wait-free on both sides. Only plain atomic
+/// loads and stores are used, which no machine implements by a call into the compiler's library.
 class ModelSlot {
  public:
   /// Binds the slot to the robot of the first model.
@@ -30,11 +30,11 @@ class ModelSlot {
 
   enum class [[nodiscard]] Published : std::uint8_t{
       kDone,
-      kBusy,       // the cycle has not yet taken the one before: try again later
-      kOtherRobot  // find_binding_fault says why; it never reaches the cycle
+      kBusy,       // the cycle has not yet taken the previous model: try again later
+      kOtherRobot  // refused; find_binding_fault tells why
   };
 
-  /// Loader thread, load phase.
+  /// Loader thread: offers `next` to the cycle. Belongs to the load phase.
   Published publish(const LoadedModel& next) noexcept {
     if (!settled()) return Published::kBusy;
     const LoadedModel& running = *offered_.load(std::memory_order_relaxed);
@@ -44,7 +44,7 @@ class ModelSlot {
     return Published::kDone;
   }
 
-  /// Loader thread: the cycle runs on the model published last, and on no other any more.
+  /// Loader thread: true if the cycle uses the model published last, and no other any more.
   bool settled() const noexcept {
     return taken_.load(std::memory_order_acquire) == offered_.load(std::memory_order_relaxed);
   }

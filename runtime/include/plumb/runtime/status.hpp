@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-/// 0 ok; > 0 degraded but valid; < 0 refused: the correction decays to zero.
+/// 0: ok. > 0: valid, but degraded. < 0: refused, and the correction decays to zero.
 enum class [[nodiscard]] Status : std::int8_t{
     kOk = 0,
     kOutsideDomain = 1,    // outside the trained joint domain: the tree has faded, physics only

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "plumb/format/model.hpp"
-#include "plumb/runtime/elementary.hpp"
+#include "plumb/runtime/detail/elementary.hpp"
 
 namespace plumb {
 
@@ -15,7 +15,7 @@ using Mat3 = Eigen::Matrix<S, 3, 3>;
 using Vector3 = Vec3<double>;
 using Matrix3 = Mat3<double>;
 
-/// Sum in a fixed order, so the bits do not depend on vectorisation.
+/// Dot product, summed in a fixed order so that the bits do not depend on vectorisation.
 template <class A, class B>
 auto dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
@@ -53,7 +53,7 @@ Mat3<S> times_transposed(const Mat3<S>& a, const Mat3<S>& b) {
 }
 
 /// Pose X_AB of frame B in frame A: a point p_B is at R p_B + p in A [m].
-/// A product reads as a chain: X_AC = X_AB * X_BC.
+/// In a product neighbouring letters are equal: X_AC = X_AB * X_BC.
 template <class S>
 struct Transform {
   Mat3<S> R = Mat3<S>::Identity();
@@ -78,13 +78,14 @@ struct Transform {
 
 using Transformd = Transform<double>;
 
-/// Exp of a twist (d, e): rotation exp([e]x), translation V(e) d. Exact for any |e|, also zero.
+/// Exponential of a twist (d, e): rotation exp([e]x), translation V(e) d. Exact for any |e|, also
+/// 0.
 Transformd exp(const format::Twist& xi) noexcept;
 
 /// A B, each column summed in a fixed order.
 Matrix3 product(const Matrix3& A, const Matrix3& B) noexcept;
 
-/// Exp of a rotation vector [rad].
+/// Rotation matrix of a rotation vector [rad].
 Matrix3 rotation_of(const Vector3& e) noexcept;
 
 /// Rotation vector of R [rad], |r| <= pi; the inverse of exp for pure rotations.
@@ -92,7 +93,7 @@ Vector3 rotation_vector(const Matrix3& R) noexcept;
 
 Transformd from_pose(const format::Pose& pose) noexcept;
 
-/// Quaternion with w >= 0.
+/// The quaternion of the result has w >= 0.
 format::Pose to_pose(const Transformd& X) noexcept;
 
 /// Elementary motions along and about the frame axes; angle [rad], length [m].

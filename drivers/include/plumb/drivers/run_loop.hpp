@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "plumb/drivers/run_shared.hpp"
+#include "plumb/drivers/session.hpp"
+
+namespace plumb::drivers {
+
+struct RunSettings {
+  std::int64_t give_up_ns = 0;  // the run ends if the bus is down for so long; 0: never
+  enum class Answers : std::uint8_t { kToPort, kRecordOnly } answers = Answers::kToPort;
+};
+
+/// The loop of the cycle's thread. In every cycle it waits for the clock, takes the received
+/// messages, steps the session, sends its messages and records all of this.
+///
+/// Times, including those of messages, are truncated to whole microseconds, the resolution of the
+/// record. A replay of the record therefore gives the same results to the bit.
+///
+/// Heap, locks: none. System calls: those of the clock and of the port. Thread: one.
+template <TimeSource Time = MonotonicTime>
+class RunLoop {
+ public:
+  enum class Next : std::uint8_t { kGoOn, kDone, kBusLost, kClockFailed };
+
+  /// The most messages taken in one cycle; further ones wait for the next cycle.
+  static constexpr int kMostMessages = 64;
+
+  RunLoop(Session& session, BusPort& port, RunShared& shared, CycleClock<Time>& clock, Time time,
+          const RunSettings& settings) noexcept
+      : session_(session),
+        port_(port),
+        shared_(shared),
+        clock_(clock),
+        time_(time),
+        settings_(settings),
+        snapshot_every_(std::max<std::int64_t>(1, kSnapshot_ns / clock.period_ns())) {}
+
+  Next cycle() noexcept {
+    const Tick tick = clock_.wait();
+    if (tick.error != 0) return Next::kClockFailed;
+    const std::int64_t begin_ns = tick.time_ns + tick.latency_ns;
+    drain();
+    step(begin_ns);
+    work_.add(time_.now_ns() - begin_ns);
+    shared_.beats.store(++cycles_, std::memory_order_relaxed);
+    if (cycles_ % static_cast<std::uint64_t>(snapshot_every_) == 0) publish(begin_ns);
+    return next(tick);
+  }
+
+  /// Publishes a snapshot. cycle() does so periodically; to be called once more at the end of a
+  /// run, from the same thread.
+  void publish(std::int64_t now_ns) noexcept {
+    snapshot_.now_ns = now_ns;
+    snapshot_.session = session_.report();
+    snapshot_.port = port_.counters();
+    snapshot_.link = port_.state();
+    snapshot_.clock = clock_.counters();
+    snapshot_.wake = clock_.latency();
+    snapshot_.work = work_;
+    snapshot_.model = session_.model();
+    shared_.snapshots.put(snapshot_);
+  }
+
+ private:
+  using What = RecordEntry::What;
+  static constexpr std::int64_t kSnapshot_ns = 50'000'000, kMicro_ns = 1'000;
+
+  static std::int64_t whole_us(std::int64_t time_ns) noexcept {
+    return time_ns - time_ns % kMicro_ns;
+  }
+
+  void drain() noexcept {
+    BusMessage message;
+    for (int i = 0; i < kMostMessages && port_.receive(message); ++i) {
+      message.time_ns = whole_us(message.time_ns);
+      write_down(What::kReceived, message);
+      session_.hear(message);
+    }
+  }
+
+  void step(std::int64_t now_ns) noexcept {
+    using Run = SessionTick::Run;
+    const SessionTick tick{
+        .now_ns = whole_us(now_ns),
+        .foreign_senders = port_.counters().foreign_senders,
+        .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn};
+    const SessionOutput out = session_.step(tick);
+    stopping_ = tick.run == Run::kStop;
+    shared_.record.put(
+        {.what = What::kTick, .tick = tick, .model = session_.model(), .message = {}});
+    for (BusMessage message : out.sent()) {
+      message.time_ns = tick.now_ns;
+      write_down(send(message) ? What::kSent : What::kNotSent, message);
+    }
+  }
+
+  bool send(const BusMessage& message) noexcept {
+    return settings_.answers == RunSettings::Answers::kRecordOnly || port_.send(message);
+  }
+
+  void write_down(What what, const BusMessage& message) noexcept {
+    shared_.record.put({.what = what, .tick = {}, .model = 0, .message = message});
+  }
+
+  Next next(const Tick& tick) noexcept {
+    if (stopping_ && session_.at_rest()) return Next::kDone;
+    down_ns_ = port_.state() == LinkState::kDown ? down_ns_ + tick.elapsed_ns : 0;
+    const bool given_up = settings_.give_up_ns > 0 && down_ns_ >= settings_.give_up_ns;
+    return given_up ? Next::kBusLost : Next::kGoOn;
+  }
+
+  Session& session_;
+  BusPort& port_;
+  RunShared& shared_;
+  CycleClock<Time>& clock_;
+  Time time_;
+  RunSettings settings_;
+  std::int64_t snapshot_every_;
+  std::uint64_t cycles_ = 0;
+  std::int64_t down_ns_ = 0;
+  bool stopping_ = false;
+  LatencyHistogram work_;
+  RunSnapshot snapshot_;
+};
+
+}  // namespace plumb::drivers

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rt/bus_source.hpp"
+
+namespace plumb::drivers::rt {
+
+/// A file of targets, without a robot. It carries what Modbus carries.
+class CsvSource final : public BusSource {
+ public:
+  std::filesystem::path file;
+
+  static std::shared_ptr<const BusSource> read(TomlTable& source,
+                                               const std::filesystem::path& folder);
+  BusUse use() const noexcept override { return BusUse::kModbus; }
+  std::string name() const override { return "csv"; }
+  std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
+};
+
+}  // namespace plumb::drivers::rt

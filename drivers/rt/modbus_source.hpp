@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "rt/bus_source.hpp"
+
+namespace plumb::drivers::rt {
+
+/// Modbus over TCP or a serial line; either end asks.
+class ModbusSource final : public BusSource {
+ public:
+  enum class Role : std::uint8_t { kClient, kServer } role = Role::kClient;  // ours
+  std::string interface;              // server: a network interface to listen on
+  std::string address = "127.0.0.1";  // TCP: of the controller, or to listen on
+  int port = 502;
+  int unit = 1;
+  std::vector<std::string> peers;  // server: addresses that may connect
+  std::string device;              // RTU; empty: TCP
+  int baud = 115200;
+
+  static std::shared_ptr<const BusSource> read(TomlTable& source,
+                                               const std::filesystem::path& folder);
+  BusUse use() const noexcept override { return BusUse::kModbus; }
+  std::string name() const override { return "modbus"; }
+  std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
+};
+
+}  // namespace plumb::drivers::rt

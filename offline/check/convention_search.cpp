@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/convention_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "cell/random.hpp"
+#include "cell/setups.hpp"
+#include "cell/units.hpp"
+#include "check/arm_sweep.hpp"
+#include "check/given_frame.hpp"
+#include "check/linear_placement.hpp"
+#include "check/regularised_fit.hpp"
+#include "check/unit_guess.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/parameter.hpp"
+#include "plumb/runtime/chain.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kSweepPoses = 40;        // for the loose look at thousands of readings
+constexpr int kPlacedPoses = 100;      // for the close look at some
+constexpr int kFewestPoses = 10;       // the loose look has 15 unknowns
+constexpr std::size_t kShort = 24;     // readings looked at closely
+constexpr std::size_t kFitted = 8;     // readings whose geometry is fitted
+constexpr double kClearly = 10.0;      // a reading must leave that much less than the labels
+constexpr double kAlike = 1.3;         // readings that leave no more than that are equally good
+constexpr double kReadingFits = 0.01;  // of the cloud's size: no sensible arm leaves more
+constexpr double kOdd = 2.0;           // an arm of more than 23 m or less than 5 cm
+constexpr double kReasonable_m = 2e-4;
+constexpr double kReasonableShare = 1e-4;  // of the size: what may be left of a fitted arm
+
+std::vector<int> random_rows(const Measurements& measured, int most) {
+  std::vector<int> rows;
+  for (int i = 0; i < measured.size(); ++i)
+    if (measured.set[i] != SetMark::kIgnore) rows.push_back(i);
+  Random random(1);
+  for (int i = 0; i + 1 < static_cast<int>(rows.size()) && i < most; ++i)
+    std::swap(rows[i], rows[i + random.below(static_cast<int>(rows.size()) - i)]);
+  if (static_cast<int>(rows.size()) > most) rows.resize(most);
+  return rows;
+}
+
+struct Lead {
+  Convention convention;  // its lengths as labelled
+  double slide_ratio = 1.0;
+  LinearPlacement loose;
+};
+
+class ConventionSearch {
+ public:
+  ConventionSearch(const Cell& cell, const Measurements& measured)
+      : cell_(cell),
+        measured_(measured),
+        labels_(labelled_convention(cell, measured)),
+        few_(random_rows(measured, kSweepPoses)),
+        some_(random_rows(measured, kPlacedPoses)) {}
+
+  Detection work() {
+    if (!can_work()) return std::move(out_);
+    sweep(0);
+    judge();
+    if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits) {
+      leads_.clear();
+      sweep(2);
+      judge();
+    }
+    conclude();
+    return std::move(out_);
+  }
+
+ private:
+  static double relative(double rms, double size) { return size > 0.0 ? rms / size : 1e300; }
+
+  bool can_work() {
+    out_.present.convention = out_.best.convention = labels_;
+    int axes = 0;
+    for (const bool has : measured_.has_axis) axes += has ? 1 : 0;
+    const auto spread = [&](const auto& columns) {
+      return (columns.rowwise() - columns.colwise().mean().eval()).norm();
+    };
+    if (static_cast<int>(few_.size()) < kFewestPoses)
+      out_.why_not = fmt::format("{} poses are too few to tell conventions apart: {} are needed",
+                                 few_.size(), kFewestPoses);
+    else if (axes < 2)
+      out_.why_not = "one measured axis is too little to tell conventions apart";
+    else if (!(spread(measured_.q) > 0.0))
+      out_.why_not = "every row has the same joint positions";
+    else if (!(spread(measured_.p_M) > 0.0))
+      out_.why_not = "every row has the same measured point";
+    return out_.why_not.empty();
+  }
+
+  const Cell& cell_as(Convention c) {
+    c.reversed = labels_.reversed;
+    c.mirror = Mirror::kNone;
+    c.turn_unit = labels_.turn_unit;
+    const auto key = fmt::format("{} {} {} {} {}", static_cast<int>(c.dh), c.length_unit,
+                                 c.angle_unit, fmt::join(c.quarter_turns, ","), c.frame_inverted);
+    auto found = cells_.find(key);
+    if (found == cells_.end()) found = cells_.emplace(key, read_as(cell_, labels_, c)).first;
+    return found->second;
+  }
+
+  // ---- the loose look at everything
+
+  void sweep(int most_turned) {
+    const Measurements few = pick(measured_, few_);
+    LinearPlacer placer(few.p_M, few.has_axis);
+    double largest = 0.0;
+    bool any_slides = false;
+    for (int j = 0; j < cell_.joints(); ++j) {
+      const bool turns = cell_.nominal.joints[j].type == format::JointType::kRevolute;
+      if (turns) largest = std::max(largest, few.q.col(j).cwiseAbs().maxCoeff());
+      any_slides = any_slides || !turns;
+    }
+    const std::vector<double> none{0.0};
+    Convention c = labels_;
+    for (const auto dh : {format::Convention::kStandard, format::Convention::kModified})
+      for (const auto& table : plausible_table_units(cell_.nominal, labels_.angle_unit))
+        for (const auto& turn : plausible_turn_units(largest, labels_.turn_unit))
+          for (const double slide : any_slides ? length_ratios() : none) {
+            c.dh = dh;
+            c.angle_unit = table;
+            c.turn_unit = turn;
+            sweep_directions(c, slide, few, placer, most_turned);
+          }
+  }
+
+  void sweep_directions(Convention c, double slide, const Measurements& few, LinearPlacer& placer,
+                        int most_turned) {
+    RowsN q = read_as(few, cell_, labels_, c).q;
+    for (int j = 0; j < cell_.joints(); ++j)
+      if (cell_.nominal.joints[j].type == format::JointType::kPrismatic) q.col(j) *= slide;
+    ArmSweep(cell_as(c).nominal, q, most_turned)
+        .run([&](const std::vector<bool>& reversed, const std::vector<int>& turns,
+                 const std::vector<Transformd>& X_BT) {
+          ++out_.tried;
+          c.reversed = reversed;
+          c.quarter_turns = turns;
+          offer({c, slide, placer.place(X_BT)}, placer);
+        });
+  }
+
+  /// Keeps the kShort leads with the least misfit.
+  void offer(Lead lead, const LinearPlacer& placer) {
+    const auto worse = [](const Lead& a, const Lead& b) { return a.loose.misfit < b.loose.misfit; };
+    const auto hopeless = [&] {
+      return leads_.size() == kShort && lead.loose.misfit >= leads_.front().loose.misfit;
+    };
+    if (hopeless()) return;
+    placer.tighten(lead.loose);
+    if (hopeless()) return;
+    leads_.push_back(std::move(lead));
+    std::push_heap(leads_.begin(), leads_.end(), worse);
+    if (leads_.size() <= kShort) return;
+    std::pop_heap(leads_.begin(), leads_.end(), worse);
+    leads_.pop_back();
+  }
+
+  // ---- the close look at some
+
+  struct Candidate {
+    Reading reading;
+    RegularisedFit placed;
+  };
+
+  Candidate placed(const Convention& c, Eigen::Matrix3d M, const Eigen::Vector3d& target_T) {
+    const Cell& cell = cell_as(c);
+    const Measurements some = read_as(pick(measured_, some_), cell_, labels_, c);
+    if (c.mirror != Mirror::kNone) M.col(1) *= -1.0;  // as kNegateY does to the points
+    std::vector<int> rows(some_.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    Candidate out;
+    out.placed = robust_placement(cell, some, rows, state_near(cell, some, rows, M, target_T));
+    auto& r = out.reading;
+    r.convention = c;
+    r.changes = changes(labels_, c);
+    r.placed_m = r.fitted_m = out.placed.rms_m;
+    r.size_m = std::sqrt((some.p_M.rowwise() - some.p_M.colwise().mean().eval()).squaredNorm() /
+                         static_cast<double>(some.size()));
+    return out;
+  }
+
+  void fit(Candidate& candidate) {
+    const auto& c = candidate.reading.convention;
+    const Measurements some = read_as(pick(measured_, some_), cell_, labels_, c);
+    std::vector<int> rows(some_.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    candidate.reading.fitted_m =
+        regularised_fit(cell_as(c), some, rows, candidate.placed.state).rms_m;
+  }
+
+  /// The reading of a lead, with its length units resolved.
+  Candidate look_closely(const Lead& lead, bool mirrored) {
+    Convention c = lead.convention;
+    const auto units = explain_ratios({labels_.length_unit, labels_.slide_unit, labels_.point_unit},
+                                      lead.loose.ratio, lead.slide_ratio, reach(cell_.nominal));
+    c.length_unit = units.table;
+    c.slide_unit = units.slide;
+    c.point_unit = units.point;
+    if (mirrored) c.mirror = Mirror::kNegateY;
+    const double shorter = unit_ratio(units.table, labels_.length_unit);
+    return placed(c, lead.loose.M, lead.loose.target_T * shorter);
+  }
+
+  static double unit_ratio(const std::string& meant, const std::string& labelled) {
+    return unit_of(meant)->to_si(1.0) / unit_of(labelled)->to_si(1.0);
+  }
+
+  Candidate as_labelled() {
+    LinearPlacement loose;
+    for (const Lead& lead : leads_)
+      if (lead.convention == labels_ && (lead.slide_ratio == 1.0 || lead.slide_ratio == 0.0))
+        loose = lead.loose;
+    if (loose.ratio == 0.0) {
+      const Measurements few = pick(measured_, few_);
+      LinearPlacer placer(few.p_M, few.has_axis);
+      const Chain chain(cell_.nominal);
+      std::vector<Transformd> X_BT;
+      for (int i = 0; i < few.size(); ++i)
+        X_BT.push_back(
+            chain.forward({few.q.row(i).data(), static_cast<std::size_t>(few.q.cols())}));
+      loose = placer.place(X_BT);
+      placer.tighten(loose);
+    }
+    Candidate out = placed(labels_, loose.M, loose.target_T);
+    if (relative(out.reading.placed_m, out.reading.size_m) > kReadingFits) place_as_fit_does(out);
+    return out;
+  }
+
+  /// Points on one circle or in one plane leave the loose map undetermined, and with it the start
+  /// of frame and target: fit's own start decides for the labels, if it is better.
+  void place_as_fit_does(Candidate& candidate) {
+    const Measurements some = pick(measured_, some_);
+    std::vector<int> rows(static_cast<std::size_t>(some.size()));
+    std::iota(rows.begin(), rows.end(), 0);
+    RegularisedFit other = placed_from_the_labels(cell_, some, rows);
+    if (!(other.rms_m < candidate.placed.rms_m)) return;
+    candidate.reading.placed_m = candidate.reading.fitted_m = other.rms_m;
+    candidate.placed = std::move(other);
+  }
+
+  void judge() {
+    std::vector<Candidate> all{as_labelled()};
+    std::sort(leads_.begin(), leads_.end(),
+              [](const Lead& a, const Lead& b) { return a.loose.misfit < b.loose.misfit; });
+    const bool flat = std::count(measured_.has_axis.begin(), measured_.has_axis.end(), true) < 3;
+    for (const Lead& lead : leads_) {
+      const bool mirrored = lead.loose.left_handed && !flat;
+      Candidate candidate = look_closely(lead, mirrored);
+      if (candidate.reading.convention != labels_) all.push_back(std::move(candidate));
+    }
+    const auto misfit = [](const Candidate& c) {
+      return relative(c.reading.placed_m, c.reading.size_m);
+    };
+    std::stable_sort(all.begin() + 1, all.end(),
+                     [&](const Candidate& a, const Candidate& b) { return misfit(a) < misfit(b); });
+    if (all.size() > kFitted + 1) all.resize(kFitted + 1);
+    for (auto& candidate : all) fit(candidate);
+    out_.present = all.front().reading;
+    out_.table.clear();
+    for (const auto& candidate : all) out_.table.push_back(candidate.reading);
+    choose();
+  }
+
+  void choose() {
+    const auto left = [](const Reading& r) { return relative(r.fitted_m, r.size_m); };
+    std::stable_sort(out_.table.begin(), out_.table.end(),
+                     [&](const Reading& a, const Reading& b) { return left(a) < left(b); });
+    const double least = left(out_.table.front());
+    out_.best = out_.table.front();
+    for (const auto& r : out_.table)
+      if (left(r) <= kAlike * least && r.changes < out_.best.changes - 1e-9) out_.best = r;
+    const double reasonable = kReasonable_m + kReasonableShare * out_.present.size_m;
+    const bool clearly =
+        kClearly * left(out_.best) < left(out_.present) && out_.present.fitted_m > reasonable;
+    const bool odd = oddity(reach(cell_.nominal)) > kOdd;
+    if (!(clearly || odd) || left(out_.best) > kReadingFits) out_.best = out_.present;
+    out_.same.clear();
+    for (const auto& r : out_.table)
+      if (r.convention != out_.best.convention && left(r) <= kAlike * left(out_.best))
+        out_.same.push_back(r);
+  }
+
+  /// A frame given in the cell can tell which axes are wrong, and may itself be the inverse.
+  void conclude() {
+    if (!cell_.measurement.fit_frame)
+      out_.best.convention = with_given_frame(cell_, measured_, some_, labels_, out_.best);
+    out_.best.changes = changes(labels_, out_.best.convention);
+    out_.changed = out_.best.convention != labels_;
+  }
+
+  const Cell& cell_;
+  const Measurements& measured_;
+  Convention labels_;
+  std::vector<int> few_, some_;
+  std::vector<Lead> leads_;
+  std::map<std::string, Cell> cells_;
+  Detection out_;
+};
+
+}  // namespace
+
+Detection detect_convention(const Cell& cell, const Measurements& measured) {
+  if (cell.measurement.setups.empty() || measured.setup.empty())
+    return ConventionSearch(cell, measured).work();
+  const OneSetup one = one_setup(cell, measured, largest_setup(cell, measured));
+  return ConventionSearch(one.cell, one.measured).work();
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/gravity_sense.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "effects/registry.hpp"
+#include "fit/outliers.hpp"
+#include "fit/parameter_subset.hpp"
+#include "fit/weights.hpp"
+#include "plumb/runtime/chain.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kGravityMostRows = 400;
+constexpr int kSpare = 30;             // residuals beyond the parameters, at least
+constexpr double kExplains = 0.5;      // of what the geometry leaves
+constexpr double kBeatsGears = 0.5;    // of what errors of once a turn leave
+constexpr double kBetter = 0.25;       // of what the cell's direction leaves
+constexpr double kGravitySure = 10.0;  // standard deviations
+constexpr double kHint = 4.0;          // what speaks against it, at least
+constexpr double kOpposes = 0.2;       // of the surest joint
+constexpr double kGravityDegree = M_PI / 180.0;
+constexpr double kUpright = 2.0 * kGravityDegree;
+
+/// Fit of the residuals by the moments of one direction.
+struct Yielding {
+  double left = 1e300;    // sum of squares
+  Eigen::VectorXd times;  // coefficient of each joint over its standard deviation; 0: none
+};
+
+class GravityTest {
+ public:
+  GravityTest(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+              const Calibration& fitted)
+      : state_(fitted.state), some_(pick(measured, rows)), joints_(cell.joints()) {
+    FitData data;
+    data.measured = &some_;
+    data.sigma_m = Rows3::Ones(some_.size(), 3);
+    for (int i = 0; i < some_.size(); ++i) data.rows.push_back(i);
+    const Solution here = evaluate(data, state_, fitted.parameters);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(here.jacobian);
+    const auto count = static_cast<Eigen::Index>(fitted.parameters.size());
+    basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(here.jacobian.rows(), count);
+    residual_ = without_geometry(here.residual);
+  }
+
+  double all() const { return residual_.squaredNorm(); }
+  bool can_tell() const { return residual_.size() >= basis_.cols() + joints_ + kSpare; }
+
+  /// d: a direction in the base frame, of length 1.
+  Yielding along(const Vector3& d) const {
+    const Eigen::MatrixXd A = without_geometry(
+        turns([&](int, int, const Vector3& z, const Vector3& r) { return z.dot(r.cross(d)); }));
+    std::vector<int> used;
+    for (int j = 0; j < joints_; ++j)
+      if (A.col(j).norm() > 1e-6) used.push_back(j);
+    Eigen::MatrixXd B(A.rows(), static_cast<Eigen::Index>(used.size()));
+    for (std::size_t k = 0; k < used.size(); ++k)
+      B.col(static_cast<Eigen::Index>(k)) = A.col(used[k]);
+    Yielding out{.left = all(), .times = Eigen::VectorXd::Zero(joints_)};
+    if (used.empty()) return out;
+    Eigen::MatrixXd N = B.transpose() * B;
+    N.diagonal() *= 1.0 + 1e-9;
+    const Eigen::MatrixXd inverse = N.inverse();
+    const Eigen::VectorXd k = inverse * (B.transpose() * residual_);
+    out.left = (residual_ - B * k).squaredNorm();
+    const auto freedom = static_cast<double>(residual_.size() - basis_.cols() -
+                                             static_cast<Eigen::Index>(used.size()));
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      out.times(used[i]) = k(at) / std::sqrt(out.left / freedom * inverse(at, at));
+    }
+    return out;
+  }
+
+  /// Sum of squares that errors of once a turn leave, which eccentric gears have: they look like
+  /// gravity in some direction.
+  double left_by_gears() const {
+    Eigen::MatrixXd B(residual_.size(), 2 * joints_);
+    const auto angle = [&](int i, int j) { return some_.q(i, j); };
+    B << without_geometry(
+        turns([&](int i, int j, const Vector3&, const Vector3&) { return std::sin(angle(i, j)); })),
+        without_geometry(turns(
+            [&](int i, int j, const Vector3&, const Vector3&) { return std::cos(angle(i, j)); }));
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(B);
+    return (residual_ - B * qr.solve(residual_)).squaredNorm();
+  }
+
+ private:
+  template <class Columns>
+  Eigen::MatrixXd without_geometry(const Columns& v) const {
+    return v - basis_ * (basis_.transpose() * v);
+  }
+
+  /// What it does to the points if joint j turns by size(row, j, its axis, the point seen from it):
+  /// column j.
+  template <class Size>
+  Eigen::MatrixXd turns(const Size& size) const {
+    const Chain chain(state_.arm.calibrated);
+    const Vector3 target(state_.X_TG.p[0], state_.X_TG.p[1], state_.X_TG.p[2]);
+    const Transformd X_MB = from_pose(state_.X_MB);
+    ChainFrames frames;
+    Eigen::MatrixXd out(residual_rows(), joints_);
+    for (int i = 0; i < some_.size(); ++i) {
+      const auto q = some_.q.row(i);
+      chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
+      const Vector3 point = frames.tip * target;
+      for (int j = 0; j < joints_; ++j) {
+        const Vector3 z = frames.joint[static_cast<std::size_t>(j)].R.col(2);
+        const Vector3 lever = point - frames.joint[static_cast<std::size_t>(j)].p;
+        const double turn = chain.revolute(j) ? size(i, j, z, lever) : 0.0;
+        const Vector3 moved = X_MB.R * (z.cross(lever) * turn);
+        Eigen::Index line = i * (out.rows() / some_.size());
+        for (int k = 0; k < 3; ++k)
+          if (some_.has_axis[static_cast<std::size_t>(k)]) out(line++, j) = moved(k);
+      }
+    }
+    return out;
+  }
+
+  Eigen::Index residual_rows() const { return basis_.rows(); }
+
+  const ArmState& state_;
+  Measurements some_;
+  int joints_;
+  Eigen::MatrixXd basis_;
+  Eigen::VectorXd residual_;
+};
+
+/// True if two or more joints say so for sure, and none clearly the opposite.
+bool all_yield(const Yielding& y, double sign) {
+  const double against = std::max(kHint, kOpposes * y.times.cwiseAbs().maxCoeff());
+  int sure = 0;
+  for (const double t : y.times) {
+    if (sign * t < -against) return false;
+    sure += sign * t > kGravitySure ? 1 : 0;
+  }
+  return sure >= 2;
+}
+
+/// The direction under which the joints yield, if it is another one than g; else 0.
+Vector3 contradicted_by(const GravityTest& test, const Vector3& g) {
+  const double enough = std::min(kExplains * test.all(), kBeatsGears * test.left_by_gears());
+  const Yielding given = test.along(g);
+  if (given.left < kExplains * test.all())
+    return given.left < enough && all_yield(given, -1.0) ? Vector3(-g) : Vector3(Vector3::Zero());
+  Vector3 best = Vector3::Zero();
+  double least = std::min(enough, kBetter * given.left);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 axis = Vector3::Unit(k);
+    const Yielding y = test.along(axis);
+    if (y.left >= least) continue;
+    least = y.left;
+    best.setZero();
+    if (all_yield(y, 1.0)) best = axis;
+    if (all_yield(y, -1.0)) best = -axis;
+  }
+  return best;
+}
+
+std::string in_file(const Vector3& g) {
+  const auto plain = [](double x) { return x == 0.0 ? 0.0 : x; };  // no -0
+  return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", plain(g.x()), plain(g.y()), plain(g.z()));
+}
+
+std::optional<Problem> standing(const Cell& cell, const Vector3& g) {
+  const double angle = std::acos(std::clamp(-g.z(), -1.0, 1.0));
+  if (angle < kUpright) return std::nullopt;
+  std::string how;
+  if (angle > M_PI - kUpright)
+    how = "upwards in the base frame: the arm hangs head down, from a ceiling";
+  else if (std::abs(angle - M_PI_2) < kUpright)
+    how = "sideways in the base frame: the arm is mounted on a wall, or moves in an upright plane";
+  else
+    how = fmt::format("{:.0f} deg off -z of the base: the arm is tilted by as much",
+                      angle / kGravityDegree);
+  return Problem{
+      Severity::kNote, "N-CHECK-GRAVITY",
+      fmt::format("gravity = {} points {}",
+                  in_file(Vector3(cell.gravity[0], cell.gravity[1], cell.gravity[2])), how),
+      std::nullopt, "if it stands upright on the floor: gravity = [0, 0, -9.81]"};
+}
+
+bool only_geometry(const Cell& cell) {
+  return cell.effects.size() == 1 && is_geometry(cell.effects.front().name);
+}
+
+}  // namespace
+
+std::vector<Problem> gravity_findings(const Cell& cell, const Measurements& measured,
+                                      const std::vector<int>& rows, const Calibration& fitted) {
+  const Vector3 full(cell.gravity[0], cell.gravity[1], cell.gravity[2]);
+  if (!(full.norm() > 0.0))
+    return {{Severity::kNote, "N-CHECK-GRAVITY",
+             "gravity = [0, 0, 0] switches the weight of the arm off: no effect of a load can be "
+             "found",
+             std::nullopt, "if it stands upright on the floor: gravity = [0, 0, -9.81]"}};
+  const Vector3 g = full.normalized();
+  if (only_geometry(cell) && measured.setup.empty() && !fitted.parameters.empty()) {
+    const GravityTest test(
+        cell, measured, thinned(without_outliers(rows, fitted.outliers), kGravityMostRows), fitted);
+    const Vector3 other = test.can_tell() ? contradicted_by(test, g) : Vector3(Vector3::Zero());
+    if (other.norm() > 0.0)
+      return {{Severity::kWarning, "W-CHECK-GRAVITY",
+               fmt::format("the joints yield as if gravity pointed along {}, not along {} as "
+                           "cell.toml says",
+                           in_file(other * full.norm()), in_file(full)),
+               std::nullopt, "if the arm stands so: gravity = " + in_file(other * full.norm())}};
+  }
+  const auto note = standing(cell, g);
+  return note ? std::vector<Problem>{*note} : std::vector<Problem>{};
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/row_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cell/table_place.hpp"
+#include "check/data_findings.hpp"
+#include "check/regularised_fit.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/parameter.hpp"
+#include "fit/parameter_subset.hpp"
+#include "fit/quantile.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::size_t kFaultFewestRows = 30;   // of a file
+constexpr std::size_t kFaultMostRows = 20000;  // of a file
+constexpr std::size_t kFewestOfPart = 15;      // rows that an arm is fitted to
+constexpr int kMostOfPart = 100;
+constexpr int kFewestFaulty = 3;              // rows in a run
+constexpr int kMostFaults = 3;                // of a file
+constexpr double kNothingToExplain = 0.3e-3;  // [m] RMS
+constexpr double kPartFits = 0.0015;          // of the reach, RMS
+constexpr double kLeastScatter_m = 10e-6;
+constexpr double kTimesBetter = 20.0;      // the median of the repaired rows
+constexpr double kLikeOthers = 3.0;        // times the median of the others
+constexpr double kMostlyLikeOthers = 6.0;  // times it, for four fifths of them
+constexpr double kNextBest = 3.0;          // times: any other explanation leaves more
+constexpr double kElsewhere = 10.0;        // medians: rows so far off may have another fault
+constexpr double kElsewhereLeast_m = 5e-3;
+constexpr double kNoPartner_m = 1e3;  // error of a row that the shift takes beyond the file
+constexpr double kDegrees = 180.0 / M_PI;
+
+/// One way in which rows may have been written otherwise.
+struct Fault {
+  enum class Kind { kSign, kTurnUnit, kPointUnit, kShift } kind = Kind::kSign;
+  int joint = 0;        // of kSign
+  int shift = 0;        // of kShift: the point belongs to the joints so many rows further down
+  double factor = 1.0;  // of the units: what the numbers must be multiplied by
+  std::string is = {}, says = {};  // of the units: the one they are in, and the one of the heading
+};
+
+/// Rows first ... last, and their median errors [m].
+struct FaultyRun {
+  Fault fault;
+  int first = 0, last = -1;
+  double before = 0.0, after = 0.0, others = 0.0;
+  int count() const { return last - first + 1; }
+};
+
+/// The rows of one file.
+class RowFaults {
+ public:
+  RowFaults(const Cell& cell, const Measurements& of_file, const std::string& point_unit,
+            const std::string& turn_unit)
+      : cell_(cell), now_(of_file) {
+    for (int j = 0; j < cell.joints(); ++j)
+      faults_.push_back({.kind = Fault::Kind::kSign, .joint = j});
+    for (const int shift : {-1, 1, -2, 2})
+      faults_.push_back({.kind = Fault::Kind::kShift, .shift = shift});
+    for (const auto& [unit, metres] : kLengths)
+      for (const auto& [says, labelled] : kLengths)
+        if (says == point_unit && unit != says)
+          faults_.push_back({.kind = Fault::Kind::kPointUnit,
+                             .factor = metres / labelled,
+                             .is = unit,
+                             .says = says});
+    const bool degrees = turn_unit == "deg";
+    faults_.push_back({.kind = Fault::Kind::kTurnUnit,
+                       .factor = degrees ? kDegrees : 1.0 / kDegrees,
+                       .is = degrees ? "rad" : "deg",
+                       .says = turn_unit});
+  }
+
+  std::vector<FaultyRun> find(double left_m) {
+    std::vector<FaultyRun> out;
+    const auto arm = arm_of_a_part();
+    if (!arm) {
+      if (auto all = shifted_file(left_m)) out.push_back(*all);
+      return out;
+    }
+    while (static_cast<int>(out.size()) < kMostFaults) {
+      const auto run = surest(*arm);
+      if (!run) break;
+      now_ = repaired(run->fault, run->first, run->last);
+      out.push_back(*run);
+    }
+    return out;
+  }
+
+ private:
+  static constexpr std::array<std::pair<const char*, double>, 5> kLengths{
+      {{"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 25.4e-3}, {"m", 1.0}}};
+
+  int size() const { return now_.size(); }
+
+  /// An arm near nominal that fits these rows of `some`, or nothing.
+  std::optional<RegularisedFit> arm_of(const Measurements& some,
+                                       const std::vector<int>& rows) const {
+    if (rows.size() < kFewestOfPart) return std::nullopt;
+    const auto thin = thinned(rows, kMostOfPart);
+    RegularisedFit out =
+        regularised_fit(cell_, some, thin, placed_from_the_labels(cell_, some, thin).state);
+    if (out.rms_m > kPartFits * reach(cell_.nominal)) return std::nullopt;
+    return out;
+  }
+
+  std::optional<ArmState> arm_of_a_part() const {
+    constexpr std::array<std::pair<double, double>, 7> kParts{{{0.0, 1.0 / 2},
+                                                               {1.0 / 2, 1.0},
+                                                               {0.0, 1.0 / 3},
+                                                               {1.0 / 3, 2.0 / 3},
+                                                               {2.0 / 3, 1.0},
+                                                               {0.0, 1.0 / 4},
+                                                               {3.0 / 4, 1.0}}};
+    for (const auto& [from, to] : kParts) {
+      std::vector<int> rows;
+      for (int i = static_cast<int>(from * size()); i < static_cast<int>(to * size()); ++i)
+        rows.push_back(i);
+      if (const auto fit = arm_of(now_, rows)) return fit->state;
+    }
+    return std::nullopt;
+  }
+
+  /// The rows first ... last as they would be without that fault; rows without a partner stay.
+  Measurements repaired(const Fault& fault, int first, int last) const {
+    Measurements out = now_;
+    for (int i = first; i <= last; ++i) {
+      if (fault.kind == Fault::Kind::kSign) out.q(i, fault.joint) *= -1.0;
+      if (fault.kind == Fault::Kind::kPointUnit) out.p_M.row(i) *= fault.factor;
+      if (fault.kind == Fault::Kind::kShift && has_partner(fault, i))
+        out.q.row(i) = now_.q.row(i + fault.shift);
+      for (int j = 0; fault.kind == Fault::Kind::kTurnUnit && j < cell_.joints(); ++j)
+        if (cell_.nominal.joints[static_cast<std::size_t>(j)].type == format::JointType::kRevolute)
+          out.q(i, j) *= fault.factor;
+    }
+    return out;
+  }
+
+  bool has_partner(const Fault& fault, int row) const {
+    return row + fault.shift >= 0 && row + fault.shift < size();
+  }
+
+  static std::vector<double> errors_of(const ArmState& arm, const Measurements& some) {
+    const Eigen::VectorXd e = residuals(some, predict_points(arm, some.q)).rowwise().norm();
+    return {e.data(), e.data() + e.size()};
+  }
+
+  std::vector<double> errors_without(const ArmState& arm, const Fault& fault) const {
+    auto out = errors_of(arm, repaired(fault, 0, size() - 1));
+    for (int i = 0; i < size(); ++i)
+      if (!has_partner(fault, i)) out[static_cast<std::size_t>(i)] = kNoPartner_m;
+    return out;
+  }
+
+  /// The run of rows with the largest sum of log likelihood ratios [Kadane].
+  static std::pair<FaultyRun, double> likeliest(const Fault& fault,
+                                                const std::vector<double>& as_is,
+                                                const std::vector<double>& without,
+                                                double scatter) {
+    FaultyRun best{.fault = fault};
+    double most = 0.0, sum = 0.0;
+    int first = 0;
+    for (std::size_t i = 0; i < as_is.size(); ++i) {
+      sum += std::log(std::hypot(as_is[i], scatter) / std::hypot(without[i], scatter));
+      if (sum > most) {
+        most = sum;
+        best.first = first;
+        best.last = static_cast<int>(i);
+      }
+      if (sum > 0.0) continue;
+      sum = 0.0;
+      first = static_cast<int>(i) + 1;
+    }
+    return {best, most};
+  }
+
+  std::optional<FaultyRun> surest(const ArmState& arm) const {
+    const auto as_is = errors_of(arm, now_);
+    // Half of the rows or fewer may be of the part that the arm was fitted to.
+    const double scatter = std::max(kLeastScatter_m, quantile(as_is, 0.2));
+    FaultyRun best;
+    double most = 0.0;
+    for (const Fault& fault : faults_) {
+      const auto [run, gain] = likeliest(fault, as_is, errors_without(arm, fault), scatter);
+      if (gain <= most) continue;
+      best = run;
+      most = gain;
+    }
+    if (best.count() < kFewestFaulty || best.count() == size()) return std::nullopt;
+    return confirmed(best, arm, scatter);
+  }
+
+  /// The repaired file fitted again: the run must then be like the rest, and nothing else explain
+  /// it.
+  std::optional<FaultyRun> confirmed(FaultyRun run, const ArmState& arm, double scatter) const {
+    const Measurements better = repaired(run.fault, run.first, run.last);
+    const auto first_errors = errors_of(arm, better);
+    std::vector<int> near;
+    for (int i = 0; i < size(); ++i)
+      if (first_errors[static_cast<std::size_t>(i)] < kElsewhere * scatter + kElsewhereLeast_m)
+        near.push_back(i);
+    const auto fit = arm_of(better, near);
+    if (!fit) return std::nullopt;
+    const auto after = errors_of(fit->state, better), before = errors_of(fit->state, now_);
+    std::vector<double> others;
+    for (const int i : near)
+      if (i < run.first || i > run.last) others.push_back(after[static_cast<std::size_t>(i)]);
+    if (others.size() < kFewestOfPart) return std::nullopt;
+    run.others = std::max(kLeastScatter_m, quantile(others, 0.5));
+    trim(run, after);
+    if (run.count() < kFewestFaulty) return std::nullopt;
+    run.after = quantile(of(after, run), 0.5);
+    run.before = quantile(of(before, run), 0.5);
+    const double ordinary = std::max(run.after, run.others);
+    if (run.after > kLikeOthers * run.others || run.before < kTimesBetter * ordinary ||
+        quantile(of(after, run), 0.8) > kMostlyLikeOthers * run.others)
+      return std::nullopt;
+    for (const Fault& other : faults_)
+      if (!same(other, run.fault) &&
+          quantile(of(errors_without(fit->state, other), run), 0.5) < kNextBest * ordinary)
+        return std::nullopt;
+    return run;
+  }
+
+  /// Rows at the ends of a run that the repair does not bring near the others have another fault.
+  static void trim(FaultyRun& run, const std::vector<double>& after) {
+    const auto is_off = [&](int row) {
+      return after[static_cast<std::size_t>(row)] > kMostlyLikeOthers * run.others;
+    };
+    while (run.first <= run.last && is_off(run.last)) --run.last;
+    while (run.first <= run.last && is_off(run.first)) ++run.first;
+  }
+
+  static bool same(const Fault& a, const Fault& b) {
+    return a.kind == b.kind && a.joint == b.joint && a.shift == b.shift && a.factor == b.factor;
+  }
+
+  static std::vector<double> of(const std::vector<double>& errors, const FaultyRun& run) {
+    return {errors.begin() + run.first, errors.begin() + run.last + 1};
+  }
+
+  /// No part fits as it is: perhaps all do, each row with the joints of another one.
+  std::optional<FaultyRun> shifted_file(double left_m) const {
+    std::vector<FaultyRun> found;
+    for (const Fault& fault : faults_) {
+      if (fault.kind != Fault::Kind::kShift) continue;
+      FaultyRun run{.fault = fault,
+                    .first = std::max(0, -fault.shift),
+                    .last = std::min(size(), size() - fault.shift) - 1};
+      std::vector<int> rows;
+      for (int i = run.first; i <= run.last; ++i) rows.push_back(i);
+      const Measurements better = repaired(fault, run.first, run.last);
+      const auto fit = arm_of(better, rows);
+      if (!fit) continue;
+      run.after = run.others =
+          std::max(kLeastScatter_m, quantile(of(errors_of(fit->state, better), run), 0.5));
+      run.before = left_m;
+      found.push_back(run);
+    }
+    std::sort(found.begin(), found.end(),
+              [](const FaultyRun& a, const FaultyRun& b) { return a.after < b.after; });
+    if (found.empty() || found[0].before < kTimesBetter * found[0].after) return std::nullopt;
+    if (found.size() > 1 && found[1].after < kNextBest * found[0].after) return std::nullopt;
+    return found[0];
+  }
+
+  const Cell& cell_;
+  Measurements now_;  // repaired as far as it goes
+  std::vector<Fault> faults_;
+};
+
+/// Headings of the columns with these names, those of them that the file has.
+std::string headings(const Table& table, const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (const auto& name : names)
+    if (const Column* column = table.find(name)) out.push_back(column->header);
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+std::string unit_of_column(const Table& table, const std::vector<std::string>& names,
+                           const char* usual) {
+  for (const auto& name : names)
+    if (const Column* column = table.find(name)) return column->unit;
+  return usual;
+}
+
+/// All that one reading of the instrument gives.
+const std::vector<std::string>& reading_names() {
+  static const std::vector<std::string> names{"x",  "y",  "z",  "qw", "qx", "qy", "qz",
+                                              "rx", "ry", "rz", "sx", "sy", "sz"};
+  return names;
+}
+
+const std::vector<std::string>& point_names() {
+  static const std::vector<std::string> names{"x", "y", "z"};
+  return names;
+}
+
+std::vector<std::string> turning_names(const Cell& cell) {
+  std::vector<std::string> out;
+  for (int j = 0; j < cell.joints(); ++j)
+    if (cell.nominal.joints[static_cast<std::size_t>(j)].type == format::JointType::kRevolute)
+      out.push_back(fmt::format("q{}", j + 1));
+  return out;
+}
+
+std::string what_is_wrong(const Cell& cell, const Fault& fault) {
+  switch (fault.kind) {
+    case Fault::Kind::kSign:
+      return fmt::format("{} counts the other way than in the other rows",
+                         cell.nominal.joints[static_cast<std::size_t>(fault.joint)].name);
+    case Fault::Kind::kTurnUnit:
+      return fmt::format("the joint angles are in {}, not in {} as their headings say", fault.is,
+                         fault.says);
+    case Fault::Kind::kPointUnit:
+      return fmt::format("the measured points are in {}, not in {} as their headings say", fault.is,
+                         fault.says);
+    case Fault::Kind::kShift:
+      break;
+  }
+  return fmt::format("each measured point belongs to the joint positions {} {}",
+                     std::abs(fault.shift) == 1 ? "one row" : "two rows",
+                     fault.shift < 0 ? "above" : "below");
+}
+
+std::string how_to_mend(const Cell& cell, const Table& table, const Fault& fault,
+                        const std::string& lines) {
+  const std::string points = headings(table, point_names());
+  switch (fault.kind) {
+    case Fault::Kind::kSign:
+      return fmt::format("change the sign of {} in {}",
+                         headings(table, {fmt::format("q{}", fault.joint + 1)}), lines);
+    case Fault::Kind::kTurnUnit:
+      return fmt::format("multiply {} by {:.9g} in {}", headings(table, turning_names(cell)),
+                         fault.factor, lines);
+    case Fault::Kind::kPointUnit:
+      return fmt::format("multiply {} by {:.9g} in {}", points, fault.factor, lines);
+    case Fault::Kind::kShift:
+      break;
+  }
+  return fmt::format("move {} of {} {} by {}, and delete the rows that are left without a point",
+                     headings(table, reading_names()), lines, fault.shift < 0 ? "up" : "down",
+                     std::abs(fault.shift) == 1 ? "one row" : "two rows");
+}
+
+/// `places` are the rows of the table that were looked at.
+Problem described(const Cell& cell, const Table& table, const std::vector<int>& places,
+                  const FaultyRun& run) {
+  const int first = places[static_cast<std::size_t>(run.first)];
+  const int last = places[static_cast<std::size_t>(run.last)];
+  const std::string lines =
+      fmt::format("lines {} to {}", table.lines[static_cast<std::size_t>(first)],
+                  table.lines[static_cast<std::size_t>(last)]);
+  const bool all = run.count() + std::abs(run.fault.shift) >= static_cast<int>(places.size());
+  const std::string name = run.fault.kind == Fault::Kind::kSign
+                               ? fmt::format("q{}", run.fault.joint + 1)
+                           : run.fault.kind == Fault::Kind::kTurnUnit ? turning_names(cell).front()
+                           : table.find("x") != nullptr               ? "x"
+                                                                      : "y";
+  const Column* column = table.find(name);
+  return {Severity::kWarning, "W-CHECK-ROWS",
+          fmt::format("in {} {}: repaired, these {} rows miss the arm by {:.2g} mm instead of "
+                      "{:.3g} mm (medians){}",
+                      lines, what_is_wrong(cell, run.fault), run.count(), run.after * 1e3,
+                      run.before * 1e3,
+                      all ? "" : fmt::format(", and the others by {:.2g} mm", run.others * 1e3)),
+          column != nullptr
+              ? std::optional<Place>(place_in_row(table, first, *column, "from here on"))
+              : std::nullopt,
+          how_to_mend(cell, table, run.fault, lines)};
+}
+
+}  // namespace
+
+std::vector<Problem> row_fault_findings(const Cell& cell, const Measurements& measured,
+                                        const std::vector<int>& rows, const ArmState& placed) {
+  std::vector<Problem> out;
+  if (!measured.setup.empty() || measured.tables.empty() ||
+      std::count(measured.has_axis.begin(), measured.has_axis.end(), true) < 2)
+    return out;
+  for (std::size_t t = 0; t < measured.tables.size(); ++t) {
+    std::vector<int> of_file, places;
+    for (const int row : rows)
+      if (const RowPlace at = row_place(measured, row);
+          at.table == static_cast<int>(t) && of_file.size() < kFaultMostRows) {
+        of_file.push_back(row);
+        places.push_back(at.row);
+      }
+    if (of_file.size() < kFaultFewestRows) continue;
+    const Measurements some = pick(measured, of_file);
+    const Eigen::VectorXd left = residuals(some, predict_points(placed, some)).rowwise().norm();
+    if (left.norm() < kNothingToExplain * std::sqrt(static_cast<double>(left.size()))) continue;
+    const Table& table = measured.tables[t];
+    RowFaults faults(cell, some, unit_of_column(table, point_names(), "mm"),
+                     unit_of_column(table, turning_names(cell), "deg"));
+    const double middle = quantile({left.data(), left.data() + left.size()}, 0.5);
+    for (const FaultyRun& run : faults.find(middle))
+      out.push_back(described(cell, table, places, run));
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

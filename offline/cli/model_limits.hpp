@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "plumb/format/model.hpp"
+
+/// What no model file can hold, said where an effect is added and in the words of `plumb compile`.
+/// Both throw Failure (kNumbersSayNo, E-MODEL-UNSOUND).
+namespace plumb::offline::cli {
+
+/// An effect of more than kMaxEffectParameters parameters. Before the fit, which would be long.
+void check_effect_sizes(const std::vector<format::Effect>& bound);
+
+/// More than kMaxParameters fitted parameters. Which of them these poses tell is known only after
+/// the fit.
+void check_parameter_count(const format::Model& compiled);
+
+}  // namespace plumb::offline::cli

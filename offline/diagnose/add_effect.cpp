@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/add_effect.hpp"
+
+#include "diagnose/constants.hpp"
+#include "diagnose/effect_list.hpp"
+#include "diagnose/found_list.hpp"
+#include "diagnose/model_parts.hpp"
+#include "diagnose/rms_reduction.hpp"
+#include "diagnose/unless_refused.hpp"
+#include "effects/registry.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// One wave of many may come and go; what does so again stays away.
+void take_out(Selection& s, const EffectEntry& weak) {
+  const std::string key = s.key(weak);
+  if (!is_wave(weak.name) || ++s.dropped[key] > 2) s.ban(key);
+  forget(s.added, weak);
+}
+
+void add_if_it_fits(Selection& s, const Found& found) {
+  const ForwardStart& start = s.start();
+  FittedModel next = s.fitted_somehow(with_found(s.cell().effects, found));
+  s.could_be_fitted(found.entry);
+  if (rms_reduction(start.cell, start.measured, start.fit, s.calibration(), next.calibration) <
+      kRealShare) {
+    s.ban(s.key(found.entry));
+    s.look_again();
+    return;
+  }
+  WhitenedFit whitened = s.whitened_fit_of(next);
+  const auto weak = lost(*next.cell, whitened, next.calibration, start.cell.effects, found.entry);
+  if (weak) {
+    next = s.fitted_somehow(without_effect(next.cell->effects, *weak));
+    whitened = s.whitened_fit_of(next);
+  }
+  s.added.push_back(found);
+  if (weak) take_out(s, *weak);
+  s.look_at(std::move(next), std::move(whitened));
+}
+
+}  // namespace
+
+void add_effect(Selection& s, const Found& found) {
+  if (s.start().tell) s.start().tell(s.key(found.entry));
+  if (!unless_refused([&] { add_if_it_fits(s, found); })) s.set_aside(found.entry);
+}
+
+}  // namespace plumb::offline

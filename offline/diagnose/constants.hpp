@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+#include "plumb/format/limits.hpp"
+
+/// Every number that a diagnosis decides by, and where each comes from:
+///
+///   study    chosen on seeds 1, 2 and 3 of the blind study (docs/blind-study.md) by 2026-11-21;
+///            which of the three set which number was not recorded. Seed 2028, which its table
+///            shows, had no say
+///   outside  set after an outside test with simulators of its own (842 cases, 2026-11-22 and 23)
+///   odds     a scale of odds, stated rather than tuned [Kass & Raftery 1995]
+///   arms     the size that such an error has in industrial arms
+///   data     the least from which the number can be estimated at all
+///   cost     bounds the time of a diagnosis
+///
+/// What only keeps the arithmetic sound (ridges, ranks, tiny denominators) stands where it is used;
+/// what one effect needs (group_share, tightened after seed 2027) stands with the effect.
+namespace plumb::offline {
+
+// Evidence [nats: ln of a Bayes factor].
+
+/// An effect is supported beyond this, the search paid for: odds of 20 to 1. odds; kept by study.
+inline constexpr double kSupported = 3.0;
+/// One explanation is clearly ahead of another: 22,000 to 1. study.
+inline constexpr double kAhead_nats = 10.0;
+/// A pattern also explains so much more of what is left than the library's best. study.
+inline constexpr double kAhead_share = 0.05;
+/// "Certain": 22,000 to 1. odds.
+inline constexpr double kCertain_nats = 10.0;
+/// "Very likely": 150 to 1. odds.
+inline constexpr double kVeryLikely_nats = 5.0;
+/// Candidates this near to each other have the same evidence: 1.6 to 1. odds.
+inline constexpr double kSameEvidence = 0.5;
+/// A further wave of a joint pays so much beyond what its search costs: as kSupported. odds.
+inline constexpr double kWavePays = 3.0;
+/// Widths of the prior in typical sizes, half a decade apart: sizes are known to a decade. arms.
+inline constexpr std::array kPriorWidths = {0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
+
+// Mean square of the residuals, over that of the noise.
+
+/// Clearly above the noise: 1.5 times its size. study.
+inline constexpr double kAboveNoise = 2.25;
+/// At the noise, the sampling error of the repeats apart. study.
+inline constexpr double kAtNoise = 1.15;
+/// An effect reaches the noise if it takes away so much of what is left. study.
+inline constexpr double kNearlyAll = 0.75;
+
+// Errors that fall.
+
+/// Share of the held-out RMS, over the folds, that a candidate must promise. study.
+inline constexpr double kClearShare = 0.01;
+/// Share of the fitted RMS that its refit must keep: half of that promise. outside.
+inline constexpr double kRealShare = 0.005;
+/// Less of the error on unseen poses than this is little. outside.
+inline constexpr double kLittleShare = 0.1;
+/// So many noise floors are left mostly by something else. outside.
+inline constexpr double kFarAboveFloor = 3.0;
+/// The error on unseen poses may end so much above its smallest value along the steps. outside.
+inline constexpr double kMostRise = 1.05;
+/// A single step may not raise it beyond this. outside.
+inline constexpr double kLeap = 1.5;
+/// Times the median error: a reading beyond is gross, not the model's. outside.
+inline constexpr double kGross = 6.0;
+
+// One effect beside another.
+
+/// Of the motion of the strongest effect: less may be what the strongest one's law leaves. study.
+inline constexpr double kRemainder = 0.15;
+/// A rival is followed if it explains so much of what the chosen effect explains. study.
+inline constexpr double kNearlyAsMuch = 0.5;
+/// Mutual reproduction of their motions beyond which two candidates are confounded. study.
+inline constexpr double kConfounded = 0.8;
+/// Share of the motion, either way, beyond which two candidates are one and the same. study.
+inline constexpr double kSameMotion = 0.9999;
+
+// Sizes.
+
+/// Times the typical size: hardly any arm has an effect that large. study.
+inline constexpr double kMostTimesUsual = 20.0;
+/// Standard deviations that are taken off before a size is called large. odds.
+inline constexpr double kSureSigma = 3.0;
+/// RMS motion [m] of a parameter whose size the arm decides. arms.
+inline constexpr double kTypicalMotion_m = 0.1e-3;
+/// Sizes of patterns: of an angle, a shift of the point, and a turn of the tool or base. arms.
+inline constexpr double kAngle_rad = 100e-6, kShift_m = 50e-6, kTurn_rad = 30e-6;
+/// Of a step [m or rad]: as its law in the library says. arms.
+inline constexpr double kTypicalStep = 300e-6;
+
+// Folds and noise.
+
+/// Below so many fit poses there are more folds, so that each leaves enough to fit. study.
+inline constexpr int kManyPoses = 100;
+inline constexpr int kFoldCount = 6, kManyFoldCount = 10;
+/// Degrees of freedom with which a stated sigma is believed: good to some 35 %. study.
+inline constexpr double kStatedDof = 4.0;
+/// No tracker is better [m]. arms.
+inline constexpr double kSmallestSigma_m = 0.1e-6;
+/// Coordinates beyond the parameters below which nothing can be told. data.
+inline constexpr double kFewestFreeLines = 20.0;
+
+// Waves of a joint [cycles a turn].
+
+/// Slow waves: up to the last one, in such steps or finer where the joint turns far. arms.
+inline constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
+/// Fast ones: strain wave gears have twice as many waves as their ratio, seldom above 100. arms.
+inline constexpr double kFastest = 200.0;
+/// Of the motor, in cycles of its own turn: eccentric, once, and twice a turn. arms.
+inline constexpr std::array kMotorWaves = {0.5, 1.0, 2.0};
+/// A joint that moves less shows no wave [rad]. data.
+inline constexpr double kLeastRange_rad = 0.2;
+/// Of a joint that turns on and on [rad]; a finer grid is of no use. cost.
+inline constexpr double kMostRange_rad = 8.0 * std::numbers::pi;
+/// Steps of the grid between two waves that the range can tell apart; 2 is a whole wave more over
+/// the range. study.
+inline constexpr double kLeastSteps = 1.6;
+/// Waves of one joint. cost.
+inline constexpr std::size_t kMostWaves = 12;
+
+// Patterns and steps.
+
+/// Harmonics of another joint's angle. cost.
+inline constexpr int kHarmonics = 3;
+/// Half periods of the series over time. cost.
+inline constexpr int kHalfPeriods = 40;
+/// Encoders are at rest below it [rad or m]. data.
+inline constexpr double kNoMove = 1e-5;
+/// A joint that moves less shows no harmonic [rad]. data.
+inline constexpr double kLeastForHarmonics_rad = 0.2;
+/// Poses on either side of a step. data.
+inline constexpr Eigen::Index kFewestBesideStep = 4;
+
+// How far a search goes.
+
+/// Additions of one selection, and effects that are taken out and looked for again. cost.
+inline constexpr int kMostSteps = 60;
+inline constexpr std::size_t kMostExchanges = 4;
+/// Effects of a model; some are left to the user. cost.
+inline constexpr std::size_t kMostEffects = format::kMaxEffects - 4;
+/// Effects of one explanation, and rivals of the chosen effect that are followed. cost.
+inline constexpr int kLongestExplanation = 3, kRivalsFollowed = 5;
+/// Refinements of a constant; they end where neighbours are nearer than the factor. cost.
+inline constexpr int kRefinements = 12;
+inline constexpr double kFinestFactor = 1.05;
+/// So many poses tell what lowers a held-out error by 1 %: its evidence is then above 100 nats.
+/// Small waves add up, and each is looked for with more. cost.
+inline constexpr Eigen::Index kScanPoses = 4000, kWavePoses = 10000;
+/// Times as many poses are worth thinning out. cost.
+inline constexpr double kWorthThinning = 1.5;
+/// The best are judged again on all poses. cost.
+inline constexpr std::size_t kScoredAgain = 16;
+/// Candidates in the list, and those of it that are compared for confounding. cost.
+inline constexpr std::size_t kListed = 12, kCompared = 8;
+
+}  // namespace plumb::offline

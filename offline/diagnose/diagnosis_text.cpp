@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/diagnosis_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cell/formula_reader.hpp"
+#include "diagnose/confounding.hpp"
+#include "diagnose/constants.hpp"
+#include "diagnose/effect_sentence.hpp"
+#include "diagnose/scan.hpp"
+#include "effects/registry.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::size_t kWavesShown = 2;
+
+std::string mm(double metres) { return fmt::format("{:.3f} mm", metres * 1e3); }
+
+std::string floor_words(const NoiseFloor& floor) {
+  if (floor.source == NoiseFloor::Source::kNone) return "noise floor unknown";
+  return "noise floor " + mm(floor.mean_m);
+}
+
+std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
+  std::string size = mm(unknown.rms_m);
+  if (unknown.rms_rad > 0.0) size = fmt::format("{:.0f} µrad, {}", unknown.rms_rad * 1e6, size);
+  std::string out =
+      fmt::format("{} {} ({:.0f} % of what the model leaves, {} RMS)", unknown.pattern.subject,
+                  unknown.pattern.words, 100.0 * unknown.share, size);
+  if (unknown.instead && unknown.instead->possible)
+    out += fmt::format("; the {} that imitates it would be {:.0f} times its usual size",
+                       in_words(cell, unknown.instead->entry), unknown.instead->times);
+  else if (unknown.instead)
+    out +=
+        fmt::format("; the {} that imitates it would need a sign or a size that its law rules out",
+                    in_words(cell, unknown.instead->entry));
+  return out;
+}
+
+enum class Held { kSay, kSaid };
+
+/// @param said  Whether the held-out error stands in the same sentence already.
+std::string complete_words(const Diagnosis& d, const ErrorStats& held, Held said) {
+  const std::string error =
+      said == Held::kSay ? fmt::format("held-out error {}, ", mm(held.mean)) : "";
+  if (d.floor.source == NoiseFloor::Source::kNone)
+    return fmt::format("nothing more is supported by these poses; held-out error {}",
+                       mm(held.mean));
+  const std::string floor = floor_words(d.floor);
+  if (d.full)
+    return fmt::format(
+        "more is supported, but a model holds no more effects; held-out error {}, {:.1f} times the "
+        "{}: a local tree may learn the rest",
+        mm(held.mean), held.mean / d.floor.mean_m, floor);
+  const std::string out = "nothing more is supported by these poses";
+  if (d.held_out_excess && d.held_out_excess->lack_of_fit())
+    return fmt::format(
+        "{}; but what is left is {:.1f} times the {}: something that these poses do not name. A "
+        "local tree may learn it, or more poses may show it",
+        out, d.held_out_excess->times, floor);
+  if (d.held_out_excess && d.held_out_excess->few_poses())
+    return fmt::format(
+        "{}; {}{} (so few poses leave up to {:.1f} times that even "
+        "to a model that is right)",
+        out, error, floor, d.held_out_excess->unavoidable);
+  return fmt::format("{}; {}{}", out, error, floor);
+}
+
+std::string digits(double m) { return fmt::format("{:.3f}", m * 1e3); }
+
+/// What an effect does to the error of poses that it has not seen: it need not fall.
+std::string fall_words(double before_m, double after_m) {
+  if (falls(before_m, after_m))
+    return fmt::format("{} -> {} on unseen poses", digits(before_m), mm(after_m));
+  return fmt::format("the error on unseen poses does not fall ({} -> {})", mm(before_m),
+                     mm(after_m));
+}
+
+/// A candidate that does nearly what the first does, and that the evidence hardly sets apart.
+const std::string* near_rival(const Cell& cell, const Diagnosis& d) {
+  for (const auto& key : d.candidates.front().confounded_with)
+    if (is_near_rival(cell, d, key)) return &key;
+  return nullptr;
+}
+
+/// The first candidate explains hardly any of what is missing. As long as the true cause is not in
+/// the model, its remains look like small effects, and evidence for these may deceive.
+bool explains_little(const Diagnosis& d) {
+  const double after_m = d.candidates.front().alone.mean;
+  return d.floor.source != NoiseFloor::Source::kNone && after_m > kFarAboveFloor * d.floor.mean_m &&
+         after_m > (1.0 - kLittleShare) * d.before.mean;
+}
+
+std::string sure_words(const Cell& cell, const Diagnosis& d) {
+  const Candidate& best = d.candidates.front();
+  if (explains_little(d))
+    return fmt::format(
+        "It explains {:.0f} % of the error only: most of it has another cause, and "
+        "what that leaves may be mistaken for this.",
+        100.0 * (1.0 - best.alone.mean / d.before.mean));
+  std::string out = best.ln_bayes >= kCertain_nats      ? "Certain"
+                    : best.ln_bayes >= kVeryLikely_nats ? "Very likely"
+                                                        : "Likely";
+  if (!best.plausible) out += ", but of an unlikely size: something else may be behind it";
+  if (const std::string* rival = near_rival(cell, d))
+    out += fmt::format("{} these poses hardly tell it from {}", best.plausible ? ", but" : ";",
+                       key_in_words(*rival));
+  return out + ".";
+}
+
+std::string missing_words(const Cell& cell, const Diagnosis& d) {
+  const Candidate& best = d.candidates.front();
+  if (!falls(d.before.mean, best.alone.mean))
+    return fmt::format(
+        "Doubtful: perhaps {}. The fitted poses speak for it, but {}, {}. More poses would tell.",
+        effect_sentence(cell, best.entry, best.cycles), fall_words(d.before.mean, best.alone.mean),
+        floor_words(d.floor));
+  return fmt::format("{}: {}. Adding it: {}, {}. {}", explains_little(d) ? "Perhaps" : "Missing",
+                     effect_sentence(cell, best.entry, best.cycles),
+                     fall_words(d.before.mean, best.alone.mean), floor_words(d.floor),
+                     sure_words(cell, d));
+}
+
+/// Effects that were added although hardly any arm has them that large.
+std::string unlikely_words(const Cell& cell, const Diagnosis& d) {
+  std::string out;
+  for (const auto& one : d.unlikely)
+    out += fmt::format("; supported, but of an unlikely size: {}, {:.0f} times the usual one",
+                       in_words(cell, one.entry), one.times);
+  return out;
+}
+
+std::string tie_words(const Cell& cell, const Diagnosis& d) {
+  const Candidate& first = d.candidates.front();
+  return fmt::format("one of them serves, but these poses cannot tell {} from {}: measure {}",
+                     in_words(cell, first.entry, first.cycles), in_words(cell, *d.tied),
+                     separating_measurement(first.entry, *d.tied));
+}
+
+std::string title_of(const std::string& effect) {
+  const int law = find_effect_law(effect);
+  return law >= 0 ? effect_info(law).title : effect;
+}
+
+/// The title of the law, or of the entry where its law has words for that.
+std::string title_of(const Cell& cell, const EffectEntry& entry) {
+  const EffectDescriptor* effect = find_descriptor(entry.name);
+  if (effect == nullptr || effect->entry_title == nullptr) return title_of(entry.name);
+  return effect->entry_title(
+      entry, entry.joints.empty() ? "" : cell.nominal.joints[entry.joints.front()].name);
+}
+
+}  // namespace
+
+bool falls(double before_m, double after_m) {
+  return digits(after_m) != digits(before_m) && after_m < before_m;
+}
+
+bool is_near_rival(const Cell& cell, const Diagnosis& d, const std::string& key) {
+  return std::any_of(d.candidates.begin(), d.candidates.end(), [&](const Candidate& other) {
+    return key == key_of(cell, other.entry) &&
+           d.candidates.front().ln_bayes - other.ln_bayes < kCertain_nats;
+  });
+}
+
+std::string waves_words(const std::vector<double>& cycles) {
+  if (cycles.size() > kWavesShown)
+    return fmt::format("{} waves, the largest at {:.3g} cycles a turn", cycles.size(),
+                       cycles.front());
+  std::string out;
+  for (std::size_t i = 0; i < cycles.size(); ++i)
+    out += fmt::format("{}{:g}", i == 0 ? "" : i + 1 == cycles.size() ? " and " : ", ", cycles[i]);
+  return out + " cycles a turn";
+}
+
+std::string in_words(const Cell& cell, const EffectEntry& entry) {
+  std::vector<double> cycles;
+  if (has_option(entry, OptionKey::kCyclesPerTurn))
+    cycles = {number_option(entry, OptionKey::kCyclesPerTurn, 0.0)};
+  return in_words(cell, entry, cycles);
+}
+
+std::string in_words(const Cell& cell, const EffectEntry& entry,
+                     const std::vector<double>& cycles) {
+  if (is_formula(entry.name) && entry.options.contains("target"))
+    return fmt::format("formula {}", formula_label(formula_text(entry)));
+  const std::string waves = cycles.empty()                ? ""
+                            : cycles.size() > kWavesShown ? fmt::format(", {} waves", cycles.size())
+                                                          : ", " + waves_words(cycles);
+  return fmt::format("{}{} ({})", title_of(cell, entry), waves, command_name(cell, entry));
+}
+
+std::string key_in_words(std::string key) {
+  std::replace(key.begin(), key.end(), ',', '+');
+  return fmt::format("{} ({})", title_of(key.substr(0, key.find(':'))), key);
+}
+
+std::string command_name(const Cell& cell, const EffectEntry& entry) {
+  std::string out = entry.name;
+  for (std::size_t i = 0; i < entry.joints.size(); ++i)
+    out += (i == 0 ? ":" : "+") + cell.nominal.joints[entry.joints[i]].name;
+  return out;
+}
+
+std::string verdict_text(const Cell& cell, const Diagnosis& d) {
+  switch (d.finding) {
+    case Finding::kMissing:
+      return missing_words(cell, d);
+    case Finding::kUnknown:
+      return fmt::format(
+          "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
+          unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
+    case Finding::kUndecidable:
+      if (d.tied)
+        return fmt::format(
+            "Undecidable: {} and {} explain these poses equally well. With either: {}, {}. To tell "
+            "them apart, measure {}.",
+            in_words(cell, d.candidates.front().entry, d.candidates.front().cycles),
+            in_words(cell, *d.tied), fall_words(d.before.mean, d.candidates.front().alone.mean),
+            floor_words(d.floor), separating_measurement(d.candidates.front().entry, *d.tied));
+      if (d.floor.source == NoiseFloor::Source::kNone)
+        return fmt::format(
+            "Undecidable: nothing is supported, but without a noise floor nobody "
+            "knows whether {} is good: repeat some poses, or state sigma_um.",
+            mm(d.before.mean));
+      return fmt::format("Undecidable: {} poses cannot tell what is missing.", d.poses_fit);
+    default:
+      return "Complete: " + complete_words(d, d.before, Held::kSay) + ".";
+  }
+}
+
+std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
+  if (!d.finding_after) return {};
+  const std::string fall = d.added.empty()
+                               ? "Nothing was added"
+                               : fmt::format("{} {} added: held-out error {} -> {}", d.added.size(),
+                                             d.added.size() == 1 ? "effect" : "effects",
+                                             mm(d.before.mean), mm(d.after.mean));
+  switch (*d.finding_after) {
+    case Finding::kUnknown:
+      return fmt::format("{}; {}: {}.", fall,
+                         d.unknown_after->instead ? "but something unknown is behind it"
+                                                  : "unknown structure is left",
+                         unknown_words(cell, *d.unknown_after));
+    case Finding::kUndecidable:
+      if (d.tied && !d.added.empty()) return fmt::format("{}; {}.", fall, tie_words(cell, d));
+      return fall + "; what is left cannot be judged without a noise floor.";
+    default:
+      return fmt::format("{}; {}{}.", fall,
+                         complete_words(d, d.after, d.added.empty() ? Held::kSay : Held::kSaid),
+                         unlikely_words(cell, d));
+  }
+}
+
+}  // namespace plumb::offline

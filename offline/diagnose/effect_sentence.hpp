@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+
+namespace plumb::offline {
+
+/// What an arm with this effect does, without a full stop: "J2 and J3 yield under gravity (masses
+/// not given)".
+std::string effect_sentence(const Cell& cell, const EffectEntry& entry,
+                            const std::vector<double>& cycles);
+
+}  // namespace plumb::offline

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/forward_selection.hpp"
+
+#include <algorithm>
+
+#include "cell/effects_edit.hpp"
+#include "diagnose/add_effect.hpp"
+#include "diagnose/behind_oversized.hpp"
+#include "diagnose/candidates.hpp"
+#include "diagnose/constants.hpp"
+#include "diagnose/doubt_strongest.hpp"
+#include "diagnose/exchange.hpp"
+#include "diagnose/found_list.hpp"
+#include "diagnose/fresh_waves.hpp"
+#include "diagnose/unless_refused.hpp"
+#include "effects/effect_option.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// The strongest waves come first.
+Found as_many_as_fit(const Selection& s, Found found) {
+  const std::size_t room = kMostEffects - std::min(kMostEffects, s.cell().effects.size());
+  if (found.cycles.size() > room) found.cycles.resize(room);
+  return found;
+}
+
+/// What the selection ends with by itself: unknown structure, a full model, or nothing more.
+void select(Selection& s, ForwardSelection& out) {
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (s.look().unknown() && !s.leaves_as_remainder(*s.look().pattern)) {
+      out.unknown = unknown_structure(s.whitened(), *s.look().pattern);
+      return;
+    }
+    const Found* best =
+        s.look().supported([&](const Found& f) { return !s.leaves_as_remainder(f); });
+    out.full = best != nullptr && s.cell().effects.size() >= kMostEffects;
+    if (out.full) return;
+    if (best != nullptr)
+      add_effect(s, as_many_as_fit(s, with_fresh_waves(s, *best)));
+    else if (!exchange(s) && !doubt_strongest(s))
+      return;
+  }
+}
+
+bool same(const std::vector<EffectEntry>& a, const std::vector<EffectEntry>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_effect);
+}
+
+/// A model on the way: most were fitted when they were the present one.
+Calibration calibration_of(const Selection& s, const std::vector<EffectEntry>& effects) {
+  if (same(effects, s.cell().effects)) return s.calibration();
+  for (const auto& model : s.seen())
+    if (same(effects, model.cell->effects)) return model.calibration;
+  return s.fitted_somehow(effects).calibration;
+}
+
+/// The effects one by one, each with the model as it was then.
+std::vector<ForwardStep> steps(Selection& s) {
+  std::vector<ForwardStep> out;
+  auto effects = s.start().cell.effects;
+  for (const auto& found : s.added) {
+    effects = with_found(std::move(effects), found);
+    const bool last = out.size() + 1 == s.added.size();
+    EffectEntry entry = found.entry;
+    if (!found.cycles.empty()) set_option(entry, OptionKey::kCyclesPerTurn, found.cycles.front());
+    out.push_back({entry, found.cycles, found.ln_bayes(), last ? s.cell().effects : effects, {}});
+  }
+  if (out.empty()) return out;
+  if (!unless_refused([&] { s.refit_fully(); })) s.not_refitted_from_the_start();
+  // The models on the way are only looked at once all is chosen.
+  for (auto& step : out) step.calibration = calibration_of(s, step.effects);
+  return out;
+}
+
+}  // namespace
+
+ForwardSelection forward_selection(const ForwardStart& start, const Calibration& calibration,
+                                   WhitenedFit whitened, const Scan& first) {
+  Selection selection(start, calibration, std::move(whitened), first);
+  ForwardSelection out;
+  select(selection, out);
+  if (!out.unknown) out.unknown = behind_oversized(selection, out.unlikely);
+  out.steps = steps(selection);
+  out.not_judged = selection.not_judged();
+  return out;
+}
+
+}  // namespace plumb::offline

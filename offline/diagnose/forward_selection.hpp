@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/scan.hpp"
+
+namespace plumb::offline {
+
+/// An effect that was added, and the model with it.
+struct ForwardStep {
+  EffectEntry entry;
+  std::vector<double> cycles;  // of a ripple: all its waves
+  double ln_bayes = 0.0;
+  std::vector<EffectEntry> effects;  // the whole list
+  Calibration calibration;
+};
+
+/// Forward selection from one fitted model: the best supported effect is added, all is refitted
+/// jointly, what lost its evidence is dropped, until nothing more is supported.
+struct ForwardSelection {
+  std::vector<ForwardStep> steps;
+  bool full = false;  // more is supported, but a model holds no more effects
+  std::optional<UnknownStructure>
+      unknown;                          // left at the end, or what an oversized effect stands for
+  std::vector<Oversized> unlikely;      // of the steps: large, but nothing else explains as much
+  std::vector<std::string> not_judged;  // models that could not be refitted, in words
+};
+
+/// What a selection works on; the cell's own effects are the start. The measurements must outlive
+/// the selection.
+struct ForwardStart {
+  Cell cell;
+  const Measurements& measured;
+  std::vector<int> fit;  // rows
+  std::vector<std::string> not_testable;
+  std::function<void(const std::string&)> tell;  // progress; may be empty
+};
+
+/// `first` is the scan of `whitened`, the calibration's.
+ForwardSelection forward_selection(const ForwardStart& start, const Calibration& calibration,
+                                   WhitenedFit whitened, const Scan& first);
+
+}  // namespace plumb::offline

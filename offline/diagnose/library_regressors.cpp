@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "diagnose/constants.hpp"
+#include "diagnose/few_digits.hpp"
+#include "diagnose/regressor.hpp"
+#include "effects/registry.hpp"
+#include "fit/dual.hpp"
+#include "fit/effect_binding.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
+
+struct Bound {
+  const WhitenedFit& whitened;
+  format::Effect effect;
+  int law = -1;
+  EffectShape shape;
+
+  Bound(const WhitenedFit& s, const EffectEntry& entry)
+      : whitened(s),
+        effect(bind_effect(*s.cell, *s.measured, entry)),
+        law(find_effect_law(entry.name)) {
+    shape = {.arm_joints = s.joints(),
+             .joints = effect.joints,
+             .constants = effect.constants,
+             .formula = effect.formula.code.empty() ? nullptr : &effect.formula};
+    for (const auto& need : effect.context)
+      if (need.input == format::ContextInput::kTemperature)
+        shape.sensors.add(static_cast<std::uint8_t>(
+            std::find(s.sensors.begin(), s.sensors.end(), need.name) - s.sensors.begin()));
+  }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(effect.parameters.size()); }
+
+  Situation at(Eigen::Index i) const {
+    return {.q = whitened.q(i),
+            .chain = whitened.chain,
+            .frames = whitened.frames[i],
+            .loads = whitened.loads[i],
+            .context = whitened.context[i]};
+  }
+};
+
+/// Calls visit(pose, first parameter, motion) with derivatives by up to eight parameters.
+template <class Visit>
+void differentiate(const Bound& bound, const Visit& visit) {
+  for (Eigen::Index first = 0; first < bound.count(); first += Dual::kLanes) {
+    std::vector<Dual> theta(bound.effect.parameters.begin(), bound.effect.parameters.end());
+    const Eigen::Index lanes = std::min<Eigen::Index>(Dual::kLanes, bound.count() - first);
+    for (Eigen::Index l = 0; l < lanes; ++l) theta[first + l].d(l) = 1.0;
+    for (Eigen::Index i = 0; i < bound.whitened.poses(); ++i) {
+      Motion<Dual> motion;
+      apply_effect<Dual>(bound.law, theta, bound.shape, bound.at(i), motion);
+      for (Eigen::Index l = 0; l < lanes; ++l) visit(i, first + l, l, motion);
+    }
+  }
+}
+
+void joint_columns(const Bound& bound, Regressor& out) {
+  const int joint = bound.effect.joints.front();
+  out.joint = joint;
+  out.columns.resize(bound.whitened.poses(), bound.count());
+  differentiate(bound, [&](Eigen::Index i, Eigen::Index c, Eigen::Index lane, const auto& motion) {
+    out.columns(i, c) = motion.dq[joint].d(lane);
+  });
+}
+
+void motion_columns(const Bound& bound, Regressor& out) {
+  const WhitenedFit& s = bound.whitened;
+  out.columns.setZero(s.poses() * s.axes, bound.count());
+  differentiate(bound, [&](Eigen::Index i, Eigen::Index c, Eigen::Index lane, const auto& motion) {
+    Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
+    const Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
+    d = s.R_MB[i] * (d + cross<double>(e, s.arm_B[i]));
+    Eigen::Index line = i * s.axes;
+    for (int k = 0; k < 3; ++k)
+      if (s.measured->has_axis[k]) {
+        double sum = d(k) / s.sigma[line];
+        for (int j = 0; j < s.joints(); ++j) sum += s.joint[j](line) * motion.dq[j].d(lane);
+        out.columns(line++, c) = sum;
+      }
+  });
+}
+
+/// RMS motion of the measured point [m] per unit of a column.
+double motion_of(const WhitenedFit& s, const Regressor& regressor, Eigen::Index c) {
+  double sum = 0.0;
+  if (regressor.joint < 0)
+    sum = regressor.columns.col(c).squaredNorm();
+  else
+    sum =
+        (regressor.columns.col(c).array().square() * s.joint_square[regressor.joint].array()).sum();
+  return std::sqrt(sum / static_cast<double>(std::max<Eigen::Index>(1, s.poses()))) * s.sigma_m;
+}
+
+double stated_typical(const WhitenedFit& s, const Bound& bound, const EffectParameter& info,
+                      Eigen::Index c) {
+  const StatedSize stated = descriptor_of(bound.effect.name).stated_size;
+  if (stated == StatedSize::kJointStiffness) {
+    const auto joints = static_cast<Eigen::Index>(bound.effect.joints.size());
+    const int joint = bound.effect.joints[c * joints / bound.count()];
+    const auto& stiffness = s.cell->mechanics[joint].stiffness_Nm_per_rad;
+    if (stiffness && info.typical == 0.0) return 1.0 / *stiffness;
+  }
+  if (stated == StatedSize::kLinkStiffness) {
+    const auto& link = s.cell->mechanics[bound.effect.joints[c / 2]];
+    const auto& yields = c % 2 == 0 ? link.EI_Nm2 : link.GJ_Nm2;
+    if (yields) return 1.0 / *yields;
+  }
+  return info.typical;
+}
+
+/// Divides by typical sizes; columns that move nothing are left out.
+void scale(const Bound& bound, Regressor& out) {
+  const WhitenedFit& s = bound.whitened;
+  format::Model model;
+  model.effects = {bound.effect};
+  std::vector<Eigen::Index> moving;
+  std::vector<double> typical;
+  for (Eigen::Index c = 0; c < bound.count(); ++c) {
+    const double motion = motion_of(s, out, c);
+    if (!(motion > kNoMotion_m)) continue;
+    const EffectParameter& info = effect_parameter(model, 0, static_cast<int>(c));
+    double size = stated_typical(s, bound, info, c);
+    if (size == 0.0) size = kTypicalMotion_m / motion;
+    moving.push_back(c);
+    typical.push_back(size);
+    out.positive.push_back(info.low == 0.0 && info.high > 0.0);
+  }
+  Eigen::MatrixXd kept(out.columns.rows(), static_cast<Eigen::Index>(moving.size()));
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    kept.col(static_cast<Eigen::Index>(i)) = out.columns.col(moving[i]) * typical[i];
+  out.columns = std::move(kept);
+  out.typical =
+      Eigen::Map<Eigen::VectorXd>(typical.data(), static_cast<Eigen::Index>(typical.size()));
+  out.members.assign(moving.begin(), moving.end());
+}
+
+EffectEntry entry_of(const EffectDescriptor& effect, std::vector<int> joints = {}) {
+  return {
+      .name = std::string(effect.name), .joints = std::move(joints), .options = {}, .place = {}};
+}
+
+std::vector<int> turning(const WhitenedFit& s) {
+  std::vector<int> out;
+  for (int j = 0; j < s.joints(); ++j)
+    if (s.chain.revolute(j)) out.push_back(j);
+  return out;
+}
+
+double session_of(const WhitenedFit& s) {
+  double low = 1e300, high = -1e300;
+  for (const auto& c : s.context) {
+    const double now = c.time_s == c.time_s ? c.time_s : c.order;
+    low = std::min(low, now);
+    high = std::max(high, now);
+  }
+  return high - low;
+}
+
+std::vector<EffectEntry::Value> shares_of(double whole, std::span<const double> shares) {
+  std::vector<EffectEntry::Value> out;
+  for (const double share : shares) out.emplace_back(three_digits(share * whole));
+  return out;
+}
+
+/// The values of one option that are tried.
+std::vector<EffectEntry::Value> values_of(const WhitenedFit& s, const EffectEntry& entry,
+                                          const GridAxis& axis) {
+  switch (axis.kind) {
+    case GridAxis::Values::kSensors:
+      return std::vector<EffectEntry::Value>(s.sensors.begin(), s.sensors.end());
+    case GridAxis::Values::kOfSession:
+      return shares_of(session_of(s), axis.values);
+    case GridAxis::Values::kOfLargestTorque: {
+      const double torque = largest_torque(s, entry.joints.front());
+      if (!(torque > 0.0)) return {};
+      return shares_of(torque, axis.values);
+    }
+    default:
+      return std::vector<EffectEntry::Value>(axis.values.begin(), axis.values.end());
+  }
+}
+
+/// The entry with every combination of the values of its options that are tried.
+std::vector<EffectEntry> on_grid(const WhitenedFit& s, const EffectEntry& entry,
+                                 std::span<const GridAxis> grid) {
+  std::vector<EffectEntry> out{entry};
+  for (const GridAxis& axis : grid) {
+    const auto values = values_of(s, entry, axis);
+    std::vector<EffectEntry> combined;
+    for (const EffectEntry& one : out) {
+      if (axis.also_without) combined.push_back(one);
+      for (const auto& value : values) {
+        combined.push_back(one);
+        set_option(combined.back(), axis.key, value);
+      }
+    }
+    out = std::move(combined);
+  }
+  return out;
+}
+
+/// One entry for each joint, or pair of joints, for which the law is tried.
+std::vector<EffectEntry> entries_of(const WhitenedFit& s, const EffectDescriptor& effect) {
+  std::vector<EffectEntry> out;
+  switch (effect.candidate_joints) {
+    case CandidateJoints::kLoadedPairs:
+      for (int i : turning(s))
+        for (int j : turning(s))
+          if (i != j && largest_torque(s, j) > 0.0) out.push_back(entry_of(effect, {i, j}));
+      break;
+    case CandidateJoints::kSecond:
+      if (s.joints() > 1 && s.chain.revolute(1)) out.push_back(entry_of(effect, {1}));
+      break;
+    case CandidateJoints::kEach:
+      for (int j : turning(s)) out.push_back(entry_of(effect, {j}));
+      break;
+    case CandidateJoints::kNone:
+      out.push_back(entry_of(effect));
+  }
+  return out;
+}
+
+bool listed(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+double largest_torque(const WhitenedFit& s, int joint) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < s.loads.size(); ++i)
+    out = std::max(out, std::abs(s.loads[i].torque(joint, s.chain, s.frames[i])));
+  return out;
+}
+
+Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entry) {
+  const Bound bound(whitened, entry);
+  Regressor out;
+  out.entry = entry;
+  const EffectDescriptor& effect = descriptor_of(entry.name);
+  const bool one_joint = entry.joints.size() < 2 || effect.joints == JointList::kOrderedPair;
+  if (effect.turns_listed_joint_only && one_joint)
+    joint_columns(bound, out);
+  else
+    motion_columns(bound, out);
+  scale(bound, out);
+  return out;
+}
+
+void visit_library(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,
+                   const RegressorVisitor& visit) {
+  for (const EffectDescriptor* effect : effect_descriptors()) {
+    if (effect->search != Search::kGrid || listed(not_testable, effect->name)) continue;
+    for (const auto& entry : entries_of(whitened, *effect))
+      for (const auto& tried : on_grid(whitened, entry, effect->grid)) {
+        const Regressor regressor = library_regressor(whitened, tried);
+        if (regressor.columns.cols() > 0) visit(regressor);
+      }
+  }
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/regressor_score.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/constants.hpp"
+#include "diagnose/evidence_scale.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kRidge = 1e-9;  // a fold may be all that says something about a parameter
+
+Products products_of_joint(const WhitenedFit& s, const Regressor& regressor, const Segment& at) {
+  const auto S = regressor.columns.middleRows(at.begin, at.size());
+  const auto square = s.joint_square[regressor.joint].segment(at.begin, at.size());
+  Products out;
+  const Eigen::MatrixXd weighed = square.asDiagonal() * S;
+  out.XX = S.transpose() * weighed;
+  out.UX = s.joint_U[regressor.joint].middleRows(at.begin, at.size()).transpose() * S;
+  out.Xy = S.transpose() * s.joint_y[regressor.joint].segment(at.begin, at.size());
+  return out;
+}
+
+Products products_of_motions(const WhitenedFit& s, const Regressor& regressor, const Segment& at) {
+  const Eigen::Index first = at.begin * s.axes, count = at.size() * s.axes;
+  const auto X = regressor.columns.middleRows(first, count);
+  Products out;
+  out.XX = X.transpose() * X;
+  out.UX = s.U.middleRows(first, count).transpose() * X;
+  out.Xy = X.transpose() * s.y.segment(first, count);
+  return out;
+}
+
+Products sum_of(const std::vector<Products>& all) {
+  Products out = all.front();
+  for (std::size_t f = 1; f < all.size(); ++f) {
+    out.XX += all[f].XX;
+    out.UX += all[f].UX;
+    out.Xy += all[f].Xy;
+  }
+  return out;
+}
+
+Products active_of(const Products& all, const std::vector<Eigen::Index>& active) {
+  return {all.XX(active, active), all.UX(Eigen::all, active), all.Xy(active)};
+}
+
+}  // namespace
+
+Eigen::MatrixXd motions(const WhitenedFit& s, const Regressor& regressor) {
+  if (regressor.joint < 0) return regressor.columns;
+  Eigen::MatrixXd out(s.poses() * s.axes, regressor.columns.cols());
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    out.row(i) = regressor.columns.row(i / s.axes) * s.joint[regressor.joint](i);
+  return out;
+}
+
+double times_noise(const WhitenedFit& whitened) {
+  if (!whitened.noise.known) return 1.0;
+  const auto free =
+      static_cast<double>(std::max<Eigen::Index>(1, whitened.fit_lines - whitened.rank));
+  return whitened.Q / free / whitened.noise.variance;
+}
+
+double at_noise(const WhitenedFit& whitened) {
+  return kAtNoise + 2.0 * std::sqrt(2.0 / std::max(1.0, whitened.noise.dof));
+}
+
+bool reaches_noise(const WhitenedFit& whitened, const RegressorScore& scored) {
+  const double before = times_noise(whitened);
+  return before > kAboveNoise && scored.explained > kNearlyAll &&
+         before * (1.0 - scored.explained) < at_noise(whitened);
+}
+
+EvidenceScale evidence_scale(const WhitenedFit& whitened) {
+  EvidenceScale out;
+  out.lines = static_cast<double>(std::max<Eigen::Index>(1, whitened.fit_lines - whitened.rank));
+  out.variance = whitened.noise.known ? whitened.noise.variance : whitened.Q / out.lines;
+  out.variance = std::max(out.variance, 1e-12);
+  out.dof = whitened.noise.known ? whitened.noise.dof : 0.0;
+  return out;
+}
+
+Scorer::Scorer(const WhitenedFit& whitened)
+    : whitened_(whitened), scale_(evidence_scale(whitened)) {
+  const Eigen::Index p = whitened.rank;
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(p, p);
+  for (const auto& at : whitened.folds) {
+    const auto U = whitened.U.middleRows(at.begin * whitened.axes, at.size() * whitened.axes);
+    const auto y = whitened.y.segment(at.begin * whitened.axes, at.size() * whitened.axes);
+    Fold fold;
+    fold.UU = Eigen::MatrixXd::Zero(p, p);
+    fold.UU.selfadjointView<Eigen::Lower>().rankUpdate(U.transpose());
+    fold.UU = fold.UU.selfadjointView<Eigen::Lower>();
+    fold.Uy = U.transpose() * y;
+    fold.yy = y.squaredNorm();
+    fold.without = (I * (1.0 + kRidge) - fold.UU).llt().solve(I);
+    const Eigen::VectorXd a = -(fold.without * fold.Uy);
+    fold.error = fold.yy - 2.0 * a.dot(fold.Uy) + a.dot(fold.UU * a);
+    folds_.push_back(std::move(fold));
+  }
+}
+
+/// The column that its sign forbids most, or -1.
+static Eigen::Index most_negative(const Regressor& regressor,
+                                  const std::vector<Eigen::Index>& active,
+                                  const Eigen::VectorXd& theta) {
+  Eigen::Index worst = -1;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (regressor.positive.empty() || !regressor.positive[active[i]] || theta(at) >= 0.0) continue;
+    if (worst < 0 || theta(at) < theta(worst)) worst = at;
+  }
+  return worst;
+}
+
+RegressorScore Scorer::score(const Regressor& regressor) const {
+  RegressorScore out;
+  for (const auto& at : whitened_.folds)
+    out.folds.push_back(regressor.joint >= 0 ? products_of_joint(whitened_, regressor, at)
+                                             : products_of_motions(whitened_, regressor, at));
+  const Products all = sum_of(out.folds);
+  const Eigen::MatrixXd whole = all.XX - all.UX.transpose() * all.UX;
+  for (Eigen::Index c = 0; c < all.Xy.size(); ++c) out.active.push_back(c);
+  out.theta.setZero(all.Xy.size());
+  while (!out.active.empty()) {
+    const Eigen::MatrixXd gram = whole(out.active, out.active);
+    const Eigen::VectorXd v = all.Xy(out.active);
+    out.evidence = evidence(gram, v, whitened_.Q, scale_);
+    if (out.evidence.ln_bayes <= kImpossible) out.active.clear();
+    if (out.active.empty()) break;
+    const double ridge = scale_.variance / std::pow(out.evidence.width, 2);
+    const Eigen::VectorXd theta =
+        (gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).ldlt().solve(v);
+    const Eigen::Index worst = most_negative(regressor, out.active, theta);
+    if (worst < 0) {
+      out.theta(out.active) = theta;
+      break;
+    }
+    out.active.erase(out.active.begin() + worst);
+  }
+  // What its sign holds at 0 was tried as well.
+  out.evidence.ln_bayes -=
+      std::log(2.0) *
+      static_cast<double>(all.Xy.size() - static_cast<Eigen::Index>(out.active.size()));
+  if (out.active.empty()) out.evidence.ln_bayes = kImpossible;
+  const double seen = out.theta.dot(whole * out.theta), moved = out.theta.dot(all.XX * out.theta);
+  out.explained = whitened_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / whitened_.Q : 0.0;
+  out.absorbed = moved > 0.0 ? std::clamp(1.0 - seen / moved, 0.0, 1.0) : 0.0;
+  return out;
+}
+
+Products Scorer::products(const Regressor& regressor) const {
+  const Segment all{0, whitened_.fit_poses()};
+  return regressor.joint >= 0 ? products_of_joint(whitened_, regressor, all)
+                              : products_of_motions(whitened_, regressor, all);
+}
+
+Scorer::Without Scorer::without(std::size_t f) const {
+  return {-(folds_[f].without * folds_[f].Uy), {}};
+}
+
+Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) const {
+  const Products all = active_of(sum_of(scored.folds), scored.active);
+  const Products held = active_of(scored.folds[f], scored.active);
+  const double left =
+      std::max(scale_.variance, whitened_.Q * (1.0 - scored.explained) / scale_.lines);
+  const double ridge = left / std::pow(scored.evidence.width, 2);
+  const Eigen::Index b = all.Xy.size();
+  const Fold& fold = folds_[f];
+  const Eigen::MatrixXd B = all.UX - held.UX;
+  const Eigen::MatrixXd AB = fold.without * B;
+  const Eigen::MatrixXd S =
+      all.XX - held.XX - B.transpose() * AB + ridge * Eigen::MatrixXd::Identity(b, b);
+  const Eigen::VectorXd theta = S.ldlt().solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
+  Without out{-(fold.without * fold.Uy) - AB * theta, Eigen::VectorXd::Zero(scored.theta.size())};
+  out.regressor(scored.active) = theta;
+  return out;
+}
+
+Gain Scorer::gain(const RegressorScore& scored) const {
+  double before = 0.0, after = 0.0, sum = 0.0, squares = 0.0;
+  double share = 0.0, share_squares = 0.0;  // of the folds' RMS
+  for (std::size_t f = 0; f < folds_.size(); ++f) {
+    const Fold& fold = folds_[f];
+    const Products& held = scored.folds[f];
+    const auto [a, theta] = without(f, scored);
+    const double error = fold.yy - 2.0 * (a.dot(fold.Uy) + theta.dot(held.Xy)) +
+                         a.dot(fold.UU * a) + 2.0 * a.dot(held.UX * theta) +
+                         theta.dot(held.XX * theta);
+    const double better = fold.error - error;
+    before += fold.error;
+    after += error;
+    sum += better;
+    squares += better * better;
+    const double fall = 1.0 - std::sqrt(std::max(0.0, error) / std::max(fold.error, 1e-300));
+    share += fall;
+    share_squares += fall * fall;
+  }
+  const auto K = static_cast<double>(folds_.size());
+  const double mean = sum / K;
+  const double se = std::sqrt(std::max(0.0, squares / K - mean * mean) / std::max(1.0, K - 1.0));
+  Gain out;
+  if (before <= 0.0) return out;
+  out.share = 1.0 - std::sqrt(std::max(0.0, after) / before);
+  const double spread = std::max(0.0, share_squares / K - share / K * share / K);
+  out.share_se = std::sqrt(spread / std::max(1.0, K - 1.0));
+  out.clear = out.share > kClearShare && mean > se;
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnose/evidence.hpp"
+#include "diagnose/regressor.hpp"
+
+namespace plumb::offline {
+
+/// Products of a regressor with itself, the model and the residual over one segment of poses.
+struct Products {
+  Eigen::MatrixXd XX;  // (b, b)
+  Eigen::MatrixXd UX;  // (rank, b)
+  Eigen::VectorXd Xy;  // (b,)
+};
+
+/// How far a held-out error falls, fold by fold inside the fit poses.
+struct Gain {
+  double share = 0.0;     // of the RMS
+  double share_se = 0.0;  // standard error of that, over the folds
+  bool clear = false;     // more than 1 %, and more than one standard error
+};
+
+/// A regressor scored at a whitened fit.
+struct RegressorScore {
+  std::vector<Products> folds;
+  Evidence evidence;
+  double explained = 0.0;            // share of the residual's sum of squares
+  double absorbed = 0.0;             // share of the motion that the model can imitate
+  Eigen::VectorXd theta;             // fitted size of each column, 1 = typical
+  std::vector<Eigen::Index> active;  // columns that are not held at 0 by their sign
+};
+
+/// Mean square of the residuals over that of the noise; 1 if the noise is unknown.
+double times_noise(const WhitenedFit& whitened);
+
+/// As good as these poses can tell, in such terms: the noise is known as well as repeats make it.
+double at_noise(const WhitenedFit& whitened);
+
+/// Whether a regressor takes residuals that are clearly above the noise down to it. What does that
+/// is an effect, however small beside others.
+bool reaches_noise(const WhitenedFit& whitened, const RegressorScore& scored);
+
+/// Scores regressors at one whitened fit. Cost of a regressor: its columns times (rank + columns) a
+/// pose; a held-out gain costs no pass over the poses.
+class Scorer {
+ public:
+  explicit Scorer(const WhitenedFit& whitened);
+
+  RegressorScore score(const Regressor& regressor) const;
+
+  /// Over all fit poses.
+  Products products(const Regressor& regressor) const;
+
+  /// K-fold gain: model and regressor refitted without each fold, all from products.
+  Gain gain(const RegressorScore& scored) const;
+
+  /// Sizes fitted without one fold: of the model's columns U, and of the regressor's.
+  struct Without {
+    Eigen::VectorXd model, regressor;
+  };
+  Without without(std::size_t fold) const;
+  Without without(std::size_t fold, const RegressorScore& scored) const;
+
+  const WhitenedFit& whitened() const { return whitened_; }
+  EvidenceScale scale() const { return scale_; }
+
+ private:
+  struct Fold {
+    Eigen::MatrixXd UU;  // (rank, rank) of the fold
+    Eigen::VectorXd Uy;  // (rank,)
+    double yy = 0.0;
+    Eigen::MatrixXd without;  // (U^T U of the others)^-1
+    double error = 0.0;       // held-out sum of squares of the model alone
+  };
+  const WhitenedFit& whitened_;
+  EvidenceScale scale_;
+  std::vector<Fold> folds_;
+};
+
+}  // namespace plumb::offline

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/rms_reduction.hpp"
+
+#include "fit/solver.hpp"
+#include "fit/weights.hpp"
+
+namespace plumb::offline {
+
+double rms_reduction(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
+                     const Calibration& from, const Calibration& to) {
+  FitData data;
+  data.measured = &measured;
+  data.rows = without_outliers(without_outliers(fit, from.outliers), to.outliers);
+  data.sigma_m = stated_sigma(cell, measured);
+  const double before = evaluate(data, from.state, {}).residual.norm();
+  const double after = evaluate(data, to.state, {}).residual.norm();
+  return before > 0.0 ? 1.0 - after / before : 0.0;
+}
+
+}  // namespace plumb::offline

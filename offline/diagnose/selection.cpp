@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/selection.hpp"
+
+#include "diagnose/diagnosis_text.hpp"
+#include "diagnose/effect_list.hpp"
+#include "diagnose/model_parts.hpp"
+#include "diagnose/unless_refused.hpp"
+
+namespace plumb::offline {
+
+Selection::Selection(ForwardStart start, const Calibration& calibration, WhitenedFit whitened,
+                     Scan look)
+    : start_(std::move(start)),
+      now_{{std::make_shared<const Cell>(start_.cell), calibration},
+           std::move(whitened),
+           std::move(look)} {
+  now_.whitened.cell = now_.model.cell.get();
+}
+
+bool Selection::leaves_as_remainder(const Found& found) const {
+  return is_remainder(cell(), whitened(), calibration(), found);
+}
+
+FittedModel Selection::fitted(const std::vector<EffectEntry>& effects, Refit how) const {
+  Cell with = start_.cell;
+  with.effects = effects;
+  return {std::make_shared<const Cell>(std::move(with)),
+          refitted(start_.cell, start_.measured, start_.fit, effects, calibration(), how)};
+}
+
+FittedModel Selection::fitted_somehow(const std::vector<EffectEntry>& effects) const {
+  FittedModel out;
+  if (unless_refused([&] { out = fitted(effects); })) return out;
+  return fitted(effects, Refit::kFully);
+}
+
+WhitenedFit Selection::whitened_fit_of(const FittedModel& model) const {
+  return make_whitened_fit(*model.cell, start_.measured, model.calibration,
+                           without_outliers(start_.fit, model.calibration.outliers), {});
+}
+
+JudgedModel Selection::without(const EffectEntry& entry,
+                               const std::vector<std::string>& banned) const {
+  FittedModel model = fitted(without_effect(cell().effects, entry));
+  WhitenedFit whitened = whitened_fit_of(model);
+  Scan look = scan(whitened, start_.not_testable, banned);
+  return {std::move(model), std::move(whitened), std::move(look)};
+}
+
+void Selection::go_to(JudgedModel there) {
+  now_ = std::move(there);
+  seen_.push_back(now_.model);
+}
+
+void Selection::look_at(FittedModel model, WhitenedFit whitened) {
+  Scan look = scan(whitened, start_.not_testable, banned_);
+  waiting_.clear();
+  go_to({std::move(model), std::move(whitened), std::move(look)});
+}
+
+void Selection::refit_fully() {
+  now_.model.calibration = fitted(cell().effects, Refit::kFully).calibration;
+}
+
+void Selection::look_again() {
+  std::vector<std::string> out = banned_;
+  out.insert(out.end(), waiting_.begin(), waiting_.end());
+  now_.look = scan(now_.whitened, start_.not_testable, out);
+}
+
+void Selection::set_aside(const EffectEntry& entry) {
+  const std::string name = key(entry);
+  not_judged_["with " + name] = "with " + in_words(cell(), entry);
+  (++failed_[name] > 1 ? banned_ : waiting_).push_back(name);
+  look_again();
+}
+
+void Selection::not_compared_without(const EffectEntry& entry) {
+  not_judged_["without " + key(entry)] = "without " + in_words(cell(), entry);
+}
+
+void Selection::not_refitted_from_the_start() {
+  not_judged_["all"] = "with all of them, once more from the start";
+}
+
+std::vector<std::string> Selection::not_judged() const {
+  std::vector<std::string> out;
+  for (const auto& [key, words] : not_judged_) out.push_back(words);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/whitened_fit.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cell/replicates.hpp"
+#include "diagnose/constants.hpp"
+#include "diagnose/thinned_fit.hpp"
+#include "fit/noise_floor.hpp"
+#include "fit/solver.hpp"
+#include "fit/split.hpp"
+#include "fit/weights.hpp"
+#include "plumb/runtime/detail/effect_set.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kIndependent = 1e-9;
+constexpr Eigen::Index kQrLines = 1024;
+
+/// Rows by fold; repeats of a pose share one.
+void deal(const Measurements& measured, const std::vector<int>& fit, const std::vector<int>& held,
+          WhitenedFit& out) {
+  const Measurements some = pick(measured, fit);
+  HeldOutRule rule;
+  rule.kind = HeldOutRule::Kind::kFolds;
+  const int groups = [&] {
+    std::vector<int> all = pose_groups(some);
+    std::sort(all.begin(), all.end());
+    return static_cast<int>(std::unique(all.begin(), all.end()) - all.begin());
+  }();
+  rule.folds = std::min(groups, groups < kManyPoses ? kManyFoldCount : kFoldCount);
+  const Split split = split_poses(some, rule, out.cell->measurement.seed);
+  for (int f = 0; f < rule.folds; ++f) {
+    const auto begin = static_cast<Eigen::Index>(out.row.size());
+    for (std::size_t i = 0; i < fit.size(); ++i)
+      if (split.fold[i] == f) out.row.push_back(fit[i]);
+    out.folds.push_back({begin, static_cast<Eigen::Index>(out.row.size())});
+  }
+  out.held.begin = static_cast<Eigen::Index>(out.row.size());
+  out.row.insert(out.row.end(), held.begin(), held.end());
+  out.held.end = static_cast<Eigen::Index>(out.row.size());
+}
+
+NoiseScale noise_scale(const NoiseFloor& floor, double sigma_m) {
+  NoiseScale out;
+  const double sigma = std::max(floor.sigma_m, kSmallestSigma_m);
+  if (floor.source == NoiseFloor::Source::kNone) return out;
+  out.known = true;
+  out.variance = std::pow(sigma / sigma_m, 2);
+  out.dof = floor.dof > 0 ? floor.dof : kStatedDof;
+  return out;
+}
+
+void look(const ArmState& state, WhitenedFit& out) {
+  out.chain = Chain(state.arm.calibrated);
+  out.sensors = out.measured->context.sensors;
+  if (out.sensors.size() > format::kMaxTemperatures) out.sensors.resize(format::kMaxTemperatures);
+  const Transformd X_TF = from_pose(state.arm.calibrated.tool).inverse();
+  const auto count = static_cast<std::size_t>(out.poses());
+  out.frames.resize(count);
+  out.loads.resize(count);
+  out.context.resize(count);
+  out.arm_B.resize(count);
+  out.R_MB.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.chain.frames(out.q(static_cast<Eigen::Index>(i)), out.frames[i]);
+    const int setup = setup_of(*out.measured, out.row[i]);
+    const Transformd X_MB = from_pose(state.frame(setup));
+    out.R_MB[i] = X_MB.R;
+    out.context[i] = context_of(*out.measured, out.row[i], out.sensors, X_MB);
+    weigh(out.chain, out.frames[i], state.arm.mechanics, state.arm.gravity, X_TF, out.context[i],
+          out.loads[i]);
+    out.arm_B[i] = out.frames[i].tip.R * from_pose(state.target(setup)).p;
+  }
+}
+
+/// Writes a motion of the target (measurement frame) into the lines of one pose, whitened.
+template <class Lines>
+void put(const WhitenedFit& s, Eigen::Index pose, const Vector3& v_M, Lines&& lines) {
+  Eigen::Index line = pose * s.axes;
+  for (int k = 0; k < 3; ++k)
+    if (s.measured->has_axis[k]) {
+      lines(line) = v_M(k) / s.sigma[line];
+      ++line;
+    }
+}
+
+void fill_carriers(WhitenedFit& s) {
+  const Eigen::Index lines = s.poses() * s.axes;
+  s.joint.assign(s.joints(), Eigen::VectorXd(lines));
+  s.base.resize(lines, 6);
+  s.tool.resize(lines, 3);
+  for (Eigen::Index i = 0; i < s.poses(); ++i) {
+    const Matrix3& R_MB = s.R_MB[static_cast<std::size_t>(i)];
+    const auto& f = s.frames[i];
+    const Vector3 target = f.tip.p + s.arm_B[i];
+    for (int j = 0; j < s.joints(); ++j) {
+      const Vector3 axis = f.joint[j].R.col(2) * s.chain.scale(j);
+      const Vector3 v = s.chain.revolute(j) ? cross<double>(axis, target - f.joint[j].p) : axis;
+      put(s, i, R_MB * v, s.joint[j]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      Vector3 e = Vector3::Zero();
+      e(k) = 1.0;
+      put(s, i, R_MB * e, s.base.col(k));
+      put(s, i, R_MB * cross<double>(e, target), s.base.col(3 + k));
+      put(s, i, R_MB * (f.tip.R * e), s.tool.col(k));
+    }
+  }
+}
+
+/// R of J = Q R, a part of the rows at a time: what does not fit into the processor's cache is
+/// slow.
+Eigen::MatrixXd triangle_of(const Eigen::Ref<const Eigen::MatrixXd>& J) {
+  const Eigen::Index count = J.cols(), part = std::max(kQrLines, 4 * count);
+  Eigen::MatrixXd R(0, count);
+  for (Eigen::Index first = 0; first < J.rows(); first += part) {
+    const Eigen::Index lines = std::min(part, J.rows() - first);
+    Eigen::MatrixXd stack(R.rows() + lines, count);
+    stack << R, J.middleRows(first, lines);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack);
+    R = qr.matrixQR()
+            .topRows(std::min(stack.rows(), count))
+            .template triangularView<Eigen::Upper>();
+  }
+  return R;
+}
+
+/// Columns J scaled, as many as are independent over the first `fit_lines`, made orthonormal there:
+/// U = J * half.
+struct Orthonormal {
+  Eigen::MatrixXd U, half;
+};
+Orthonormal orthonormal(const Eigen::MatrixXd& J, Eigen::Index fit_lines) {
+  const Eigen::VectorXd scale =
+      J.topRows(fit_lines).colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = J * scale.asDiagonal();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle_of(scaled.topRows(fit_lines)));
+  qr.setThreshold(kIndependent);
+  const Eigen::Index rank = qr.rank();
+  Orthonormal out;
+  out.U = (scaled * qr.colsPermutation()).leftCols(rank);
+  const Eigen::MatrixXd R = qr.matrixQR().topLeftCorner(rank, rank);
+  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(out.U);
+  out.half = Eigen::MatrixXd::Zero(J.cols(), rank);
+  out.half.topRows(rank) =
+      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(rank, rank));
+  out.half = scale.asDiagonal() * (qr.colsPermutation() * out.half);
+  return out;
+}
+
+/// Takes out of y what the columns explain.
+void clear_residual(WhitenedFit& s) {
+  const Eigen::VectorXd left = s.U.topRows(s.fit_lines).transpose() * s.y.head(s.fit_lines);
+  s.y -= s.U * left;
+  s.Q = s.y.head(s.fit_lines).squaredNorm();
+}
+
+/// Residual and model columns of all rows; the columns made orthonormal over the fit lines.
+void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3& sigma_m) {
+  FitData data;
+  data.measured = s.measured;
+  data.rows = s.row;
+  data.sigma_m = sigma_m;
+  const Solution at = evaluate(data, calibration.state, calibration.parameters);
+  s.y = at.residual;
+  s.fit_lines = s.fit_poses() * s.axes;
+  auto [U, half] = orthonormal(at.jacobian, s.fit_lines);
+  s.rank = U.cols();
+  s.U = std::move(U);
+  s.inverse_information = half * half.transpose();
+  clear_residual(s);
+}
+
+/// Sum over the lines of each pose.
+template <class Product>
+Eigen::MatrixXd by_pose(const Product& lines, int axes) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(lines.rows() / axes, lines.cols());
+  for (Eigen::Index c = 0; c < lines.cols(); ++c)
+    for (Eigen::Index i = 0; i < out.rows(); ++i) {
+      double sum = 0.0;
+      for (int k = 0; k < axes; ++k) sum += lines(i * axes + k, c);
+      out(i, c) = sum;
+    }
+  return out;
+}
+
+}  // namespace
+
+void fold_joints(WhitenedFit& s) {
+  s.joint_square.clear();
+  s.joint_y.clear();
+  s.joint_U.clear();
+  for (int j = 0; j < s.joints(); ++j) {
+    s.joint_square.push_back(by_pose(s.joint[j].cwiseAbs2(), s.axes));
+    s.joint_y.push_back(by_pose(s.joint[j].cwiseProduct(s.y), s.axes));
+    const Eigen::MatrixXd product = s.joint[j].asDiagonal() * s.U;
+    s.joint_U.push_back(by_pose(product, s.axes));
+  }
+}
+
+WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
+  std::vector<Eigen::Index> pose, line;
+  WhitenedFit out;
+  for (const auto& fold : whitened.folds) {
+    const auto begin = static_cast<Eigen::Index>(pose.size());
+    for (Eigen::Index i = fold.begin; i < fold.end; ++i)
+      if (i * most / whitened.fit_poses() != (i + 1) * most / whitened.fit_poses())
+        pose.push_back(i);
+    out.folds.push_back({begin, static_cast<Eigen::Index>(pose.size())});
+  }
+  for (const auto i : pose)
+    for (int k = 0; k < whitened.axes; ++k) line.push_back(i * whitened.axes + k);
+  out.cell = whitened.cell;
+  out.measured = whitened.measured;
+  for (const auto i : pose) {
+    const auto at = static_cast<std::size_t>(i);
+    out.row.push_back(whitened.row[at]);
+    out.frames.push_back(whitened.frames[at]);
+    out.R_MB.push_back(whitened.R_MB[at]);
+    out.loads.push_back(whitened.loads[at]);
+    out.context.push_back(whitened.context[at]);
+    out.arm_B.push_back(whitened.arm_B[at]);
+  }
+  for (const auto l : line) out.sigma.push_back(whitened.sigma[static_cast<std::size_t>(l)]);
+  out.held = {static_cast<Eigen::Index>(pose.size()), static_cast<Eigen::Index>(pose.size())};
+  out.axes = whitened.axes;
+  out.fit_lines = static_cast<Eigen::Index>(line.size());
+  out.noise = whitened.noise;
+  out.sigma_m = whitened.sigma_m;
+  out.inverse_information = whitened.inverse_information;
+  for (const auto& carrier : whitened.joint) out.joint.push_back(carrier(line));
+  out.base = whitened.base(line, Eigen::all);
+  out.tool = whitened.tool(line, Eigen::all);
+  out.chain = whitened.chain;
+  out.sensors = whitened.sensors;
+  out.y = whitened.y(line);
+  out.U = orthonormal(whitened.U(line, Eigen::all), out.fit_lines).U;
+  out.rank = out.U.cols();
+  clear_residual(out);
+  fold_joints(out);
+  return out;
+}
+
+WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
+                              const Calibration& calibration, const std::vector<int>& fit,
+                              const std::vector<int>& held) {
+  WhitenedFit out;
+  out.cell = &cell;
+  out.measured = &measured;
+  out.axes = static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
+  deal(measured, fit, held, out);
+  const Rows3 sigma_m = stated_sigma(cell, measured);
+  double sum = 0.0;
+  for (int row : out.row)
+    for (int k = 0; k < 3; ++k)
+      if (measured.has_axis[k]) {
+        out.sigma.push_back(sigma_m(row, k));
+        sum += sigma_m(row, k);
+      }
+  out.sigma_m = sum / static_cast<double>(std::max<std::size_t>(1, out.sigma.size()));
+  look(calibration.state, out);
+  clear_of_model(calibration, out, sigma_m);
+  fill_carriers(out);
+  fold_joints(out);
+  out.noise = noise_scale(noise_floor(cell, measured, calibration.state), out.sigma_m);
+  return out;
+}
+
+}  // namespace plumb::offline

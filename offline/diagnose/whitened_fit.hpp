@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/calibrate.hpp"
+#include "plumb/runtime/detail/effect.hpp"
+
+namespace plumb::offline {
+
+/// How well one measured coordinate is known, in units of its stated sigma.
+struct NoiseScale {
+  double variance = 1.0;  // of a whitened coordinate
+  double dof = 0.0;       // behind that number
+  bool known = false;     // false: nothing is known of the noise but the residuals themselves
+};
+
+/// Consecutive rows that are held out together; the last segment holds the poses held out for good.
+struct Segment {
+  Eigen::Index begin = 0, end = 0;
+  Eigen::Index size() const { return end - begin; }
+};
+
+/// A fitted model as a diagnosis looks at it: what it leaves, cleared of all that its own
+/// parameters could still explain. Rows are sorted by fold; every whitened coordinate is one line,
+/// pose by pose. Memory: about (axes * parameters + 300) numbers a pose.
+struct WhitenedFit {
+  const Cell* cell = nullptr;
+  const Measurements* measured = nullptr;
+  std::vector<int> row;        // of the measurements
+  std::vector<Segment> folds;  // of the fit poses
+  Segment held;                // may be empty
+  int axes = 3;                // measured ones
+  Eigen::Index fit_lines = 0;  // axes * fit poses
+  Eigen::Index rank = 0;       // of the model's own columns
+  NoiseScale noise;
+  double sigma_m = 0.0;  // typical 1 sigma of a coordinate
+
+  Eigen::VectorXd y;  // (lines,) residual; held lines keep all of theirs
+  Eigen::MatrixXd U;  // (lines, rank) model columns, orthonormal over the fit lines
+  double Q = 0.0;     // sum of squares of y over the fit lines
+  Eigen::MatrixXd inverse_information;  // of the model's parameters, SI, stated sigma
+
+  /// Whitened motion of the measured point, per unit of joint j: shape (lines,) each.
+  std::vector<Eigen::VectorXd> joint;
+  /// The same folded with y and U, so that any function of the pose times a joint costs one line a
+  /// pose: shapes (poses,), (poses,), (poses, rank).
+  std::vector<Eigen::VectorXd> joint_square, joint_y;
+  std::vector<Eigen::MatrixXd> joint_U;
+  Eigen::MatrixXd base;  // (lines, 6) twist of the base: shifts, turns
+  Eigen::MatrixXd tool;  // (lines, 3) shift of the target in the tool frame
+
+  /// What laws of the library look at, pose by pose.
+  Chain chain;
+  std::vector<ChainFrames> frames;
+  std::vector<Loads> loads;
+  std::vector<Context> context;
+  std::vector<double> sigma;   // (lines,)
+  std::vector<Matrix3> R_MB;   // base in the measurement frame
+  std::vector<Vector3> arm_B;  // tip to target
+  std::vector<std::string> sensors;
+
+  Eigen::Index poses() const { return static_cast<Eigen::Index>(row.size()); }
+  Eigen::Index fit_poses() const { return held.begin; }
+  int joints() const { return chain.joints(); }
+  std::span<const double> q(Eigen::Index pose) const {
+    return {measured->q.row(row[pose]).data(), static_cast<std::size_t>(chain.joints())};
+  }
+};
+
+/// fit: rows the calibration was made from, without its outliers; held: rows it never saw.
+WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
+                              const Calibration& calibration, const std::vector<int>& fit,
+                              const std::vector<int>& held);
+
+/// Renews what is folded with y and U.
+void fold_joints(WhitenedFit& whitened);
+
+}  // namespace plumb::offline

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/held_out_excess.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kAtTheFloor = 1.3;  // noise floors
+constexpr double kFew = 1.15;        // times the noise
+
+}  // namespace
+
+bool HeldOutExcess::few_poses() const { return unavoidable > kFew; }
+
+HeldOutExcess::Level HeldOutExcess::level() const {
+  if (times > kAtTheFloor * (few_poses() ? unavoidable : 1.0)) return Level::kLackOfFit;
+  return times > kAtTheFloor ? Level::kAsFewPosesLeaveIt : Level::kAtTheFloor;
+}
+
+std::optional<HeldOutExcess> held_out_excess(double mean_m, const NoiseFloor& floor,
+                                             double unavoidable) {
+  if (floor.source == NoiseFloor::Source::kNone || !(floor.mean_m > 0.0)) return std::nullopt;
+  return HeldOutExcess{mean_m / floor.mean_m, unavoidable};
+}
+
+}  // namespace plumb::offline

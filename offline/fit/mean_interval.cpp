@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/mean_interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "fit/arm_state.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kNormal975 = 1.959963984540054;
+constexpr std::size_t kFewestPoses = 3;
+
+/// 97.5 % quantile of Student's t [Abramowitz & Stegun 1964, 26.7.5]; within 1 % from two degrees
+/// of freedom on.
+double student975(double dof) {
+  const double z = kNormal975, z2 = z * z;
+  const double g1 = z * (z2 + 1.0) / 4.0;
+  const double g2 = z * ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0;
+  const double g3 = z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0;
+  const double g4 =
+      z * ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92160.0;
+  return z + (g1 + (g2 + (g3 + g4 / dof) / dof) / dof) / dof;
+}
+
+}  // namespace
+
+// se^2 = G / (G - 1) sum_g (sum_i (e_gi - mean))^2 / n^2.
+MeanInterval mean_interval(const std::vector<double>& errors_m, const std::vector<int>& pose) {
+  const auto n = static_cast<double>(errors_m.size());
+  const double mean = std::accumulate(errors_m.begin(), errors_m.end(), 0.0) / std::max(1.0, n);
+  std::map<int, double> sums;
+  for (std::size_t i = 0; i < errors_m.size(); ++i) sums[pose[i]] += errors_m[i] - mean;
+  if (sums.size() < kFewestPoses) return {};
+  const auto poses = static_cast<double>(sums.size());
+  double squares = 0.0;
+  for (const auto& [group, sum] : sums) squares += sum * sum;
+  const double half = student975(poses - 1.0) * std::sqrt(poses / (poses - 1.0) * squares) / n;
+  return {std::max(0.0, mean - half), mean + half};
+}
+
+MeanInterval held_out_interval(const Measurements& measured, const Fit& fit) {
+  if (fit.held.n == 0 || fit.predicted_M.rows() != measured.size()) return {};
+  const Rows3 error = residuals(measured, fit.predicted_M);
+  std::vector<double> norms;
+  std::vector<int> pose;
+  for (const int row : held_rows(fit.split)) {
+    norms.push_back(error.row(row).norm());
+    pose.push_back(measured.replicate_group[row]);
+  }
+  return mean_interval(norms, pose);
+}
+
+}  // namespace plumb::offline

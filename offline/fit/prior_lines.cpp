@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/prior_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/registry.hpp"
+#include "fit/arm_change.hpp"
+#include "fit/effect_binding.hpp"
+
+namespace plumb::offline {
+/// What a distance of u sigma from the mean adds to the residuals, and its slope. Heavy: Huber's,
+///
+///   u^2 / 2 up to one sigma, |u| - 1/2 beyond
+///
+/// so that what is hardly seen stays small, what the poses clearly show may be as large as it is,
+/// and there is one best fit.
+struct PriorLines::Pull {
+  double residual, slope;
+};
+PriorLines::Pull PriorLines::pull_of(double u, KnownParameter::Tail tail) {
+  if (tail == KnownParameter::Tail::kNormal || std::abs(u) <= 1.0) return {u, 1.0};
+  const double length = std::sqrt(2.0 * std::abs(u) - 1.0);
+  return {std::copysign(length, u), 1.0 / length};
+}
+
+/// What the cell says, and of effects: that they are rarely many times their typical size. Without
+/// it, what geometry nearly imitates (the scale of a tracker) would run away.
+std::vector<PriorLines::KnownParameter> PriorLines::known(
+    const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters) {
+  std::vector<KnownParameter> out;
+  if (data.cell == nullptr) return out;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!parameters[i].of_effect()) continue;
+    const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
+    const double typical = effect_parameter(start.arm, joint, component).typical;
+    const format::Effect& effect = start.arm.effects[joint];
+    const double width = descriptor_of(effect.name).prior_width;
+    const double mean =
+        effect.formula.code.empty() ? 0.0 : effect.formula.parameters[component].start;
+    if (typical > 0.0)
+      out.push_back(
+          {static_cast<Eigen::Index>(i), mean, width * typical, KnownParameter::Tail::kHeavy});
+  }
+  ArmState nominal;
+  nominal.arm.calibrated = data.cell->nominal;
+  for (const auto& [name, sigma] : data.cell->fit.priors)
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].name == name)
+        out.push_back({static_cast<Eigen::Index>(i), value_of(nominal, parameters[i]), sigma,
+                       KnownParameter::Tail::kNormal});
+  return out;
+}
+
+PriorLines::WeakColumns PriorLines::weak_columns(const FitData& data,
+                                                 const std::vector<Parameter>& parameters) {
+  WeakColumns out;
+  if (data.cell == nullptr || data.weak.weights.rows() == 0) return out;
+  ArmState nominal;
+  nominal.arm.calibrated = data.cell->nominal;
+  const auto& all = data.weak.parameters;
+  out.nominal.resize(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto at = std::find_if(parameters.begin(), parameters.end(),
+                                 [&](const Parameter& p) { return p.name == all[k].name; });
+    if (at == parameters.end()) return {};
+    out.index.push_back(at - parameters.begin());
+    out.nominal(static_cast<Eigen::Index>(k)) = value_of(nominal, *at);
+  }
+  return out;
+}
+
+PriorLines::PriorLines(const FitData& data, const ArmState& start,
+                       const std::vector<Parameter>& parameters)
+    : data_(data),
+      parameters_(parameters),
+      known_(known(data, start, parameters)),
+      weak_(weak_columns(data, parameters)) {}
+
+int PriorLines::count() const {
+  const auto directions = weak_.index.empty() ? 0 : data_.weak.weights.rows();
+  return static_cast<int>(known_.size()) + static_cast<int>(directions);
+}
+
+void PriorLines::evaluate(const ArmState& state, double* residual, double* jacobian) const {
+  const auto count = static_cast<Eigen::Index>(parameters_.size());
+  Eigen::Index row = 0;
+  for (const auto& [index, mean, sigma, tail] : known_) {
+    const Pull pull = pull_of((mean - value_of(state, parameters_[index])) / sigma, tail);
+    residual[row] = pull.residual;
+    if (jacobian != nullptr) {
+      Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
+      slopes.setZero();
+      slopes(index) = -pull.slope / sigma;
+    }
+    ++row;
+  }
+  if (weak_.index.empty()) return;
+  Eigen::VectorXd away = weak_.nominal;
+  for (std::size_t k = 0; k < weak_.index.size(); ++k)
+    away(static_cast<Eigen::Index>(k)) -=
+        value_of(state, parameters_[static_cast<std::size_t>(weak_.index[k])]);
+  const Eigen::VectorXd distance = data_.weak.weights * away;
+  for (Eigen::Index d = 0; d < distance.size(); ++d) {
+    const Pull pull = pull_of(distance(d), KnownParameter::Tail::kHeavy);
+    residual[row] = pull.residual;
+    if (jacobian != nullptr) {
+      Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
+      slopes.setZero();
+      for (std::size_t k = 0; k < weak_.index.size(); ++k)
+        slopes(weak_.index[k]) = -pull.slope * data_.weak.weights(d, static_cast<Eigen::Index>(k));
+    }
+    ++row;
+  }
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/solver.hpp"
+
+namespace plumb::offline {
+
+/// What is known of the parameters of a fit beforehand, as lines of its least squares behind those
+/// of the poses: the priors of the cell, the typical sizes of effects, and the weak directions.
+class PriorLines {
+ public:
+  /// Keeps references to `data` and `parameters`.
+  PriorLines(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters);
+
+  int count() const;
+
+  /// residual: shape (count,); jacobian, unless null: how they change, shape (count, parameters),
+  /// line by line.
+  void evaluate(const ArmState& state, double* residual, double* jacobian) const;
+
+ private:
+  /// A parameter of which something is known beforehand.
+  struct KnownParameter {
+    enum class Tail { kNormal, kHeavy };
+    Eigen::Index index;  // among those fitted
+    double mean, sigma;
+    Tail tail;
+  };
+
+  /// Columns of the weak directions' numbers among those fitted, and where these are nominally.
+  /// Empty where not all of them are fitted.
+  struct WeakColumns {
+    std::vector<Eigen::Index> index;
+    Eigen::VectorXd nominal;
+  };
+
+  static std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
+                                           const std::vector<Parameter>& parameters);
+  static WeakColumns weak_columns(const FitData& data, const std::vector<Parameter>& parameters);
+  struct Pull;
+  static Pull pull_of(double u, KnownParameter::Tail tail);
+
+  const FitData& data_;
+  const std::vector<Parameter>& parameters_;
+  std::vector<KnownParameter> known_;
+  WeakColumns weak_;
+};
+
+}  // namespace plumb::offline

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// A run must be what was fitted: its files carry SHA-256 sums, so that one that was edited, cut
+/// off or mixed up is not compiled into a model. They guard against accidents, not against forgery.
+namespace plumb::offline {
+
+/// The text of run.json with the sum of predictions.csv, and as its last key the sum of the text
+/// itself, taken with zeros in the place of that sum.
+std::string with_checksums(nlohmann::ordered_json run, const std::string& predictions_csv);
+
+/// True if the sums are right. A run of an earlier version, which wrote none, counts as right.
+bool json_sum_holds(const std::string& run_json_text);
+bool predictions_sum_holds(const nlohmann::ordered_json& run, const std::string& predictions_csv);
+
+/// False of a run that was written before there were sums; throws Failure if it cannot be read.
+bool has_checksums(const std::filesystem::path& run_folder);
+
+}  // namespace plumb::offline

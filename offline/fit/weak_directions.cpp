@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/weak_directions.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/parameter_subset.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kMostRows = 4000;
+constexpr double kWeak = 3.0;     // s: known worse than a third of the prior
+constexpr double kPartOf = 0.25;  // of a number's square lies in the weak directions
+constexpr std::size_t kDirectionsListed = 6;
+
+/// 1 sigma of a number about its nominal value [SI]; 0 where nothing is known.
+double prior_of(const Parameter& p, const FitSettings& settings) {
+  if (!p.of_robot() || p.of_effect()) return 0.0;
+  for (const auto& own : settings.priors)
+    if (own.name == p.name) return 0.0;
+  return p.is_length() ? settings.prior_m : settings.prior_rad;
+}
+
+/// Last columns of J, less what the first ones explain: the lower right block of R.
+Eigen::MatrixXd less_the_first(const Eigen::MatrixXd& J, Eigen::Index first) {
+  const Eigen::VectorXd scale = J.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = J * scale.asDiagonal();
+  const Eigen::Index rows = std::min(J.rows(), J.cols());
+  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(scaled)
+                                .matrixQR()
+                                .topRows(rows)
+                                .triangularView<Eigen::Upper>();
+  const Eigen::Index last = J.cols() - first;
+  return R.bottomRightCorner(std::max<Eigen::Index>(0, rows - first), last) *
+         scale.tail(last).cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+WeakDirections weak_directions(const FitData& data, const ArmState& state,
+                               const std::vector<Parameter>& parameters) {
+  WeakDirections out;
+  if (data.cell == nullptr) return out;
+  std::vector<Parameter> order;
+  std::vector<double> prior;
+  for (const auto& p : parameters) {
+    const double sigma = prior_of(p, data.cell->fit);
+    if (sigma > 0.0) {
+      out.parameters.push_back(p);
+      prior.push_back(sigma);
+    } else {
+      order.push_back(p);
+    }
+  }
+  if (out.parameters.empty()) return out;
+  const auto first = static_cast<Eigen::Index>(order.size());
+  order.insert(order.end(), out.parameters.begin(), out.parameters.end());
+  FitData thin = data;
+  thin.weak = {};
+  thin.rows = thinned(data.rows, kMostRows);
+  const double thinning =
+      std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(thin.rows.size()));
+  const Eigen::Map<const Eigen::VectorXd> sigma(prior.data(),
+                                                static_cast<Eigen::Index>(prior.size()));
+  const Eigen::MatrixXd shown =
+      thinning * less_the_first(evaluate(thin, state, order).jacobian, first) * sigma.asDiagonal();
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
+  square.topRows(std::min(shown.rows(), square.rows())) =
+      shown.topRows(std::min(shown.rows(), square.rows()));
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
+  const auto& s = svd.singularValues();
+  const auto strong = static_cast<Eigen::Index>((s.array() >= kWeak).count());
+  const Eigen::MatrixXd V = svd.matrixV().rightCols(sigma.size() - strong);
+  out.weights = V.transpose() * sigma.cwiseInverse().asDiagonal();
+  out.share = V.rowwise().squaredNorm();
+  return out;
+}
+
+std::vector<std::string> names_of(const WeakDirections& weak) {
+  std::vector<std::string> out;
+  if (weak.weights.rows() == 0) return out;
+  // Where a direction is made of many numbers, none has a large part: the largest is named.
+  const double least = std::min(kPartOf, weak.share.maxCoeff());
+  for (std::size_t i = 0; i < weak.parameters.size(); ++i)
+    if (weak.share(static_cast<Eigen::Index>(i)) >= least) out.push_back(weak.parameters[i].name);
+  return out;
+}
+
+Problem held_near_nominal(const WeakDirections& weak, const FitSettings& settings) {
+  auto names = names_of(weak);
+  std::string more;
+  if (names.size() > kDirectionsListed) {
+    more = fmt::format(" and {} more", names.size() - kDirectionsListed);
+    names.resize(kDirectionsListed);
+  }
+  return {.severity = Severity::kNote,
+          .code = "N-FIT-PRIOR",
+          .message = fmt::format("these poses say little of {}{}: they are held near nominal, give "
+                                 "or take {:g} mm and {:g} mrad",
+                                 fmt::join(names, ", "), more, settings.prior_m * 1e3,
+                                 settings.prior_rad * 1e3),
+          .help = "to know them, measure poses all over the joint limits: plumb plan --n 30"};
+}
+
+}  // namespace plumb::offline

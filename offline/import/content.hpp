@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "import/dialect.hpp"
+
+namespace plumb::offline {
+
+/// What stands below a heading.
+struct ColumnContent {
+  bool empty = true;            // every cell
+  std::vector<double> numbers;  // of some rows all over the file; none if one cell is no number
+  double largest = 0.0;         // of their sizes
+  bool numeric() const { return !numbers.empty(); }
+};
+
+/// One for each column of the header. Looks at 500 rows, at all of them for `empty`.
+std::vector<ColumnContent> column_contents(const RawRows& rows);
+
+/// Units that numbers of this size may have, most usual first, and why.
+struct UnitChoice {
+  std::vector<std::string> units;
+  std::string reason;  // "up to 1250: in mm 1.25 m"
+  /// "mm", or "mm|um" where one is to be chosen.
+  std::string text() const;
+};
+
+/// `name`: canonical, "q1", "sx"; `largest`: of the columns of its kind, as written.
+UnitChoice unit_choice(const std::string& name, double largest);
+
+}  // namespace plumb::offline

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumb/runtime/detail/effect.hpp"
+
+namespace plumb::effects {
+
+/// Something moved once: from row n on a twist of the tool (0: a bumped reflector), of the base
+/// (1: a bumped tracker or base) or a joint offset (2: a slipped encoder; joints = the joint).
+struct Step {
+  static constexpr EffectParameter kParameters[] = {
+      {"dx", "m", 300e-6, 0, 0},   {"dy", "m", 300e-6, 0, 0},   {"dz", "m", 300e-6, 0, 0},
+      {"ex", "rad", 300e-6, 0, 0}, {"ey", "rad", 300e-6, 0, 0}, {"ez", "rad", 300e-6, 0, 0}};
+  static constexpr const char* kConstants[] = {"row", "of"};
+  static constexpr EffectInfo kInfo{.name = "step",
+                                    .version = 1,
+                                    .title = "something moved",
+                                    .domain = EffectDomain::kMeasurement,
+                                    .needs = kNeedsOrder,
+                                    .per_joint = false,
+                                    .repeats = true,
+                                    .parameters = kParameters,
+                                    .constants = kConstants};
+  enum Of { kTool = 0, kBase = 1, kJoint = 2 };
+  static int of(const EffectShape& shape) {
+    const double code = shape.constants[1];
+    return code < 0.5 ? kTool : code < 1.5 ? kBase : kJoint;
+  }
+  /// Tool: the shift. Base: shift and turn. Joint: one offset.
+  static int count(const EffectShape& shape) {
+    return of(shape) == kTool ? 3 : of(shape) == kBase ? 6 : 1;
+  }
+
+  template <class S>
+  static void apply(std::span<const S> a, const EffectShape& shape, const Situation& at,
+                    Motion<S>& out) {
+    if (!(at.context.order > shape.constants[0])) return;
+    const Vec3<S> none(S(0.0), S(0.0), S(0.0));
+    switch (of(shape)) {
+      case kTool:
+        out.twist(at.frames.tip, at.frames.tip.p, Vec3<S>(a[0], a[1], a[2]), none);
+        break;
+      case kBase:
+        out.twist(Transformd{}, at.frames.tip.p, Vec3<S>(a[0], a[1], a[2]),
+                  Vec3<S>(a[3], a[4], a[5]));
+        break;
+      default:
+        if (!shape.joints.empty()) out.dq[shape.joints[0]] += a[0];
+    }
+  }
+};
+
+}  // namespace plumb::effects

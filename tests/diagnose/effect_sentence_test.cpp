@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/effect_sentence.hpp"
+
+#include <gtest/gtest.h>
+
+#include "diagnose/diagnosis_text.hpp"
+#include "plumb/runtime/detail/effect_library.hpp"
+
+namespace plumb::offline {
+namespace {
+
+Cell three_joints() {
+  Cell cell;
+  cell.nominal.joints.resize(3);
+  for (int i = 0; i < 3; ++i) cell.nominal.joints[i].name = "J" + std::to_string(i + 1);
+  return cell;
+}
+
+TEST(EffectSentence, EveryLawOfTheLibraryHasOneInPlainWords) {
+  const Cell cell = three_joints();
+  for (int law = 0; law < kEffectLaws; ++law) {
+    const std::string name(effect_info(law).name);
+    if (name == "formula" || name == "step") continue;  // these name themselves
+    const EffectEntry entry{.name = name, .joints = {1}, .options = {}, .place = {}};
+    const std::string sentence = effect_sentence(cell, entry, {20.0});
+    EXPECT_NE(sentence, in_words(cell, entry, {20.0})) << name;
+    EXPECT_EQ(sentence.find('{'), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find('_'), std::string::npos) << sentence;
+  }
+}
+
+TEST(EffectSentence, SpeaksOfOneJointAndOfTwo) {
+  const Cell cell = three_joints();
+  EffectEntry entry{.name = "gravity_free", .joints = {1}, .options = {}, .place = {}};
+  EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 yields under gravity (masses not given)");
+  entry.joints = {1, 2};
+  EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 and J3 yield under gravity (masses not given)");
+}
+
+TEST(EffectSentence, TheNameOfAnEffectHoldsWhatTheCommandLineTakes) {
+  const Cell cell = three_joints();
+  const EffectEntry spring{
+      .name = "gravity_compensator", .joints = {1}, .options = {}, .place = {}};
+  EXPECT_EQ(in_words(cell, spring), "balancing spring (gravity_compensator:J2)");
+  EXPECT_EQ(key_in_words("gravity_compensator:J2"), in_words(cell, spring));
+  const EffectEntry ripple{.name = "gear_ripple", .joints = {1}, .options = {}, .place = {}};
+  EXPECT_EQ(in_words(cell, ripple, {20.0, 8.5}),
+            "gear ripple, 20 and 8.5 cycles a turn (gear_ripple:J2)");
+  EXPECT_EQ(in_words(cell, ripple, {14.8, 3.0, 1.0}), "gear ripple, 3 waves (gear_ripple:J2)");
+  EXPECT_EQ(effect_sentence(cell, ripple, {14.8, 3.0, 1.0}),
+            "the gear of J2 turns unevenly, 3 waves, the largest at 14.8 cycles a turn");
+}
+
+TEST(EffectSentence, TheVerdictSaysHowSureItIsAndWhatElseItMayBe) {
+  const Cell cell = three_joints();
+  Diagnosis d;
+  d.finding = Finding::kMissing;
+  d.before.mean = 61e-6;
+  Candidate best;
+  best.entry = {.name = "gravity_free", .joints = {1}, .options = {}, .place = {}};
+  best.ln_bayes = 437.0;
+  best.alone.mean = 31e-6;
+  d.candidates = {best};
+  EXPECT_EQ(verdict_text(cell, d),
+            "Missing: J2 yields under gravity (masses not given). Adding it: 0.061 -> 0.031 mm on "
+            "unseen poses, noise floor unknown. Certain.");
+  d.candidates.front().confounded_with = {"link_flexure:J2,J3"};
+  EXPECT_EQ(verdict_text(cell, d).find("hardly"), std::string::npos) << "no rival is near";
+  Candidate rival;
+  rival.entry = {.name = "link_flexure", .joints = {1, 2}, .options = {}, .place = {}};
+  rival.ln_bayes = 400.0;
+  d.candidates.push_back(rival);
+  EXPECT_EQ(verdict_text(cell, d).find("hardly"), std::string::npos) << "37 nats behind";
+  d.candidates.back().ln_bayes = 430.0;
+  EXPECT_NE(verdict_text(cell, d).find(
+                "these poses hardly tell it from bending of links (link_flexure:J2+J3)."),
+            std::string::npos)
+      << verdict_text(cell, d);
+  d.candidates.front().ln_bayes = 4.0;
+  EXPECT_NE(verdict_text(cell, d).find("Likely"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumb::offline

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// A selection owns what its whitened fit refers to, and takes only a refused refit for an answer.
+#include "diagnose/selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "diagnose/unless_refused.hpp"
+#include "simulate/blind_case.hpp"
+
+namespace plumb::offline {
+namespace {
+
+BlindRequest yielding() {
+  BlindRequest out;
+  out.poses = 120;
+  out.fresh_poses = 1;
+  out.effects = {"joint_compliance:J2:5"};
+  return out;
+}
+
+/// Everything that the selection was made from is gone when it returns, but the measurements.
+Selection begun(const BlindCase& blind) {
+  const Measurements& m = blind.measured.measured;
+  std::vector<int> rows(static_cast<std::size_t>(m.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  const Cell cell = blind.cell;
+  const Calibration base = calibrate(cell, m, rows);
+  const WhitenedFit whitened =
+      make_whitened_fit(cell, m, base, without_outliers(rows, base.outliers), {});
+  return Selection({cell, m, rows, {}, {}}, base, whitened, scan(whitened, {}, {}));
+}
+
+TEST(Selection, RefersToItsOwnCellWhereverItGoes) {
+  const BlindCase blind = make_blind_case(yielding());
+  Selection first = begun(blind);
+  EXPECT_EQ(first.whitened().cell, &first.cell());
+  ASSERT_NE(first.look().supported(), nullptr);
+  const EffectEntry best = first.look().supported()->entry;
+
+  Selection second = std::move(first);
+  EXPECT_EQ(second.whitened().cell, &second.cell());
+  second.look_at(second.fitted({best}));
+  EXPECT_EQ(second.whitened().cell, &second.cell());
+  ASSERT_EQ(second.cell().effects.size(), 1U);
+  EXPECT_EQ(second.cell().effects.front().name, best.name);
+
+  JudgedModel without = second.without(best, {});
+  const JudgedModel copy = without;
+  EXPECT_EQ(copy.whitened.cell, copy.model.cell.get());
+  EXPECT_NE(copy.whitened.cell, &second.cell());
+  second.go_to(std::move(without));
+  EXPECT_EQ(second.whitened().cell, &second.cell());
+  EXPECT_TRUE(second.cell().effects.empty());
+  EXPECT_EQ(second.seen().size(), 2U);
+}
+
+TEST(Selection, LooksAgainWithoutWhatIsBanned) {
+  const BlindCase blind = make_blind_case(yielding());
+  Selection selection = begun(blind);
+  const std::string best = selection.key(selection.look().library.front().entry);
+  selection.look_again();
+  EXPECT_EQ(selection.key(selection.look().library.front().entry), best);
+  selection.ban(best);
+  selection.look_again();
+  EXPECT_NE(selection.key(selection.look().library.front().entry), best);
+}
+
+TEST(UnlessRefused, TakesOnlyNumbersThatSayNoForAnAnswer) {
+  const Problem problem{.code = "E-TEST", .message = "a test"};
+  EXPECT_TRUE(unless_refused([] {}));
+  EXPECT_FALSE(unless_refused([&] { throw Failure(Exit::kNumbersSayNo, problem); }));
+  for (const Exit exit : {Exit::kInput, Exit::kUsage, Exit::kEnvironment})
+    EXPECT_THROW(unless_refused([&] { throw Failure(exit, problem); }), Failure);
+  EXPECT_THROW(unless_refused([] { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_THROW(unless_refused([] { throw std::logic_error("a fault"); }), std::logic_error);
+}
+
+}  // namespace
+}  // namespace plumb::offline

@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Building the library drivers/program builds only itself and model_format.
+
+    program_test.py NINJA BUILD_FOLDER LIBRARY SOURCE_FOLDER
+"""
+import os
+import subprocess
+import sys
+
+ALLOWED = ("drivers/program/", "model_format/")
+
+
+def sources(ninja, build, library, top):
+    """Every source file of ours that ninja compiles on the way to the library, from the top."""
+    target = os.path.relpath(library, build)
+    inputs = subprocess.run([ninja, "-C", build, "-t", "inputs", target], check=True, capture_output=True, text=True)
+    paths = [os.path.relpath(os.path.join(build, line.strip()), top) for line in inputs.stdout.splitlines()]
+    return [path for path in paths if path.endswith((".cpp", ".fbs"))]
+
+
+if __name__ == "__main__":
+    found = sources(*sys.argv[1:5])
+    if not any(path.startswith(ALLOWED[0]) for path in found):
+        sys.exit("error: no source file of drivers/program is an input of its library")
+    other = [path for path in found if not path.startswith(ALLOWED)]
+    if other:
+        sys.exit("error: drivers/program is built with " + ", ".join(other)
+                 + "\n  = help: take what it links beyond model_format out of drivers/program/CMakeLists.txt")

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+# Manual pages and shell completions: each program prints its own, from the tables that its help comes from. The target
+# "man" writes them into the folder share of the build folder. Where the programs cannot be run, there are none.
+
+# plumb_pages(PROGRAM): the pages of one program, and where they are installed.
+function(plumb_pages program)
+  set(share ${PROJECT_BINARY_DIR}/share)
+  set(man ${share}/man/man1/${program}.1)
+  set(bash ${share}/bash-completion/completions/${program})
+  set(zsh ${share}/zsh/site-functions/_${program})
+  set(fish ${share}/fish/vendor_completions.d/${program}.fish)
+  foreach(page ${man} ${bash} ${zsh} ${fish})
+    cmake_path(GET page PARENT_PATH folder)
+    file(MAKE_DIRECTORY ${folder})
+  endforeach()
+  add_custom_command(OUTPUT ${man} ${bash} ${zsh} ${fish}
+    COMMAND ${program} --man > ${man}
+    COMMAND ${program} --completion bash > ${bash}
+    COMMAND ${program} --completion zsh > ${zsh}
+    COMMAND ${program} --completion fish > ${fish}
+    DEPENDS ${program} COMMENT "Manual page and completions of ${program}" VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY plumb_pages ${man} ${bash} ${zsh} ${fish})
+  # Optional: a build of some targets only can be installed too.
+  install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools OPTIONAL)
+  foreach(page ${bash} ${zsh} ${fish})
+    cmake_path(GET page PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${share})
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder} COMPONENT tools OPTIONAL)
+  endforeach()
+endfunction()
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING AND NOT PLUMB_SANITIZE)
+  foreach(program plumb plumb-twin plumb-rt)
+    if(TARGET ${program})
+      plumb_pages(${program})
+    endif()
+  endforeach()
+  get_property(pages GLOBAL PROPERTY plumb_pages)
+  if(PLUMB_NUMERIC_TESTS)
+    add_custom_target(man ALL DEPENDS ${pages})
+  else()
+    add_custom_target(man DEPENDS ${pages})  # the offline half is built on demand only
+  endif()
+endif()
