@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "formula_check.hpp"
 #include "plumb/format/context_ranges.hpp"
+#include "plumb/format/formula.hpp"
 #include "provenance_check.hpp"
 #include "text_check.hpp"
 #include "tree_check.hpp"
@@ -103,9 +105,21 @@ bool is_effect_name(const std::string& name) {
          });
 }
 
+/// Effects of a measurement are fitted so that they do not distort the rest. The cycle can never
+/// know what they depend on: the row, or where the tracker stood.
+Finding check_measurement(const Effect& effect) {
+  constexpr const char* kOfMeasurement[] = {"drift", "settling_lag", "step", "tracker"};
+  const bool named = std::any_of(std::begin(kOfMeasurement), std::end(kOfMeasurement),
+                                 [&](const char* name) { return effect.name == name; });
+  if (!named && !reads_measurement(effect.formula)) return std::nullopt;
+  return "effect '" + effect.name +
+         "' belongs to a measurement, which a model file must not contain";
+}
+
 Finding check_effect(const Effect& effect, std::size_t joints) {
   const std::string what = "effect '" + effect.name + "'";
   if (!is_effect_name(effect.name)) return "an effect's name is not of a-z, 0-9 and _";
+  if (auto f = check_measurement(effect)) return f;
   if (effect.version == 0) return what + " has version 0";
   if (effect.joints.size() > kMaxJoints) return what + " names too many joints";
   for (auto joint : effect.joints)

@@ -115,27 +115,28 @@ ContextRows pick(const ContextRows& all, const std::vector<int>& rows) {
           .order = picked(all.order, rows)};
 }
 
-Context context_at(const ContextRows& rows, Eigen::Index row,
-                   const std::vector<std::string>& sensors) {
-  Context out;
-  copy_row(rows.direction, row, out.direction);
-  copy_row(rows.travel, row, out.travel);
+MeasuredContext context_at(const ContextRows& rows, Eigen::Index row,
+                           const std::vector<std::string>& sensors) {
+  MeasuredContext out;
+  Context& known = out.known;
+  copy_row(rows.direction, row, known.direction);
+  copy_row(rows.travel, row, known.travel);
   copy_row(rows.step, row, out.step);
   if (rows.payload.rows() > 0) {
-    out.payload_kg = rows.payload(row, 0);
-    for (int k = 0; k < 3; ++k) out.payload_com_m[k] = rows.payload(row, 1 + k);
+    known.payload_kg = rows.payload(row, 0);
+    for (int k = 0; k < 3; ++k) known.payload_com_m[k] = rows.payload(row, 1 + k);
   }
   if (rows.wrench.rows() > 0)
     for (int k = 0; k < 3; ++k) {
-      out.force_N[k] = std::isnan(rows.wrench(row, k)) ? 0.0 : rows.wrench(row, k);
-      out.moment_Nm[k] = std::isnan(rows.wrench(row, 3 + k)) ? 0.0 : rows.wrench(row, 3 + k);
+      known.force_N[k] = std::isnan(rows.wrench(row, k)) ? 0.0 : rows.wrench(row, k);
+      known.moment_Nm[k] = std::isnan(rows.wrench(row, 3 + k)) ? 0.0 : rows.wrench(row, 3 + k);
     }
-  for (std::size_t k = 0; k < std::min(sensors.size(), out.temperature_degC.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(sensors.size(), known.temperature_degC.size()); ++k) {
     const auto at = std::find(rows.sensors.begin(), rows.sensors.end(), sensors[k]);
     if (at != rows.sensors.end())
-      out.temperature_degC[k] = rows.temperature(row, at - rows.sensors.begin());
+      known.temperature_degC[k] = rows.temperature(row, at - rows.sensors.begin());
   }
-  if (rows.time_s.size() > 0) out.time_s = rows.time_s(row);
+  if (rows.time_s.size() > 0) known.time_s = rows.time_s(row);
   if (rows.order.size() > 0) out.order = rows.order(row);
   return out;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/runtime/context.hpp"
+#include "effects/measured_context.hpp"
 
 namespace plumb::offline {
 
@@ -34,8 +34,9 @@ ContextRows read_contexts(std::span<const Table> tables, const ContextRows::Rows
 
 ContextRows pick(const ContextRows& all, const std::vector<int>& rows);
 
-/// Row `row` as the laws see it. `sensors`: which temperature goes where in the context.
-Context context_at(const ContextRows& rows, Eigen::Index row,
-                   const std::vector<std::string>& sensors);
+/// Row `row` as the laws see it, without the place of the tracker. `sensors`: which temperature
+/// goes where in the context.
+MeasuredContext context_at(const ContextRows& rows, Eigen::Index row,
+                           const std::vector<std::string>& sensors);
 
 }  // namespace plumb::offline

@@ -33,11 +33,11 @@ CorrectedRow corrected_row(const Corrector& corrector, const Targets& targets, i
                            const std::vector<std::string>& sensors, KnownInputs& inputs) {
   CorrectedRow out;
   out.X_BD = target_pose(targets, row, corrector.nominal(), seed);
-  const Context context = context_at(targets.context, row, sensors);
+  const MeasuredContext context = context_at(targets.context, row, sensors);
   out.correction =
-      guarded(corrector.solve(out.X_BD, seed, kind, context), out.X_BD, corrector.limits());
+      guarded(corrector.solve(out.X_BD, seed, kind, context.known), out.X_BD, corrector.limits());
   out.command = to_pose(out.correction.X_BC);
-  if (may_be_of_context(out.correction.status) && inputs.beyond_correction(context)) {
+  if (may_be_of_context(out.correction.status) && inputs.beyond_correction(context.known)) {
     out.correction.status = inputs.mark(seed, context, true, Status::kOutsideDomain);
     out.faded = true;
     return out;

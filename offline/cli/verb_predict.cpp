@@ -16,8 +16,8 @@
 #include "fit/controller_base.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/known_inputs.hpp"
+#include "fit/measured_arm.hpp"
 #include "fit/series_place.hpp"
-#include "plumb/runtime/forward_model.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -60,10 +60,10 @@ void set_points(const Rows3& p, show::CsvColumns& columns) {
 
 /// What a row comes to, and with which status: the one place for both ways of predicting. `placed`:
 /// whether it has a place in the cell's own series.
-Prediction predicted_row(const ForwardModel& arm, const Measurements& rows, int i,
+Prediction predicted_row(const MeasuredArm& arm, const Measurements& rows, int i,
                          const std::vector<std::string>& sensors, bool placed,
                          KnownInputs& inputs) {
-  const Context context = context_at(rows.context, i, sensors);
+  const MeasuredContext context = context_at(rows.context, i, sensors);
   Prediction out = arm.predict(joints(rows, i), context);
   out.status = inputs.mark(joints(rows, i), context, placed, out.status);
   return out;
@@ -149,7 +149,7 @@ class ModelRows {
                    text);
   }
 
-  ForwardModel arm_;
+  MeasuredArm arm_;
   Chain nominal_;
   format::GuardLimits guard_;
   KnownInputs unused_;  // that have seen no row
@@ -210,7 +210,7 @@ Run chosen_run(const Options& options, const Cell& cell, const Measurements& mea
 std::vector<Status> domain_status(const Run& run, const Measurements& rows,
                                   const std::vector<bool>& placed, Outcome& outcome) {
   const format::Model& model = run.fit.calibration.state.arm;
-  const ForwardModel arm(model);
+  const MeasuredArm arm(model);
   const auto sensors = temperature_names(model);
   KnownInputs inputs(model);
   JointUnits units(model);

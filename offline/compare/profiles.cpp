@@ -109,8 +109,8 @@ class Profiler {
     Loads loads;
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
       chain.frames({measured_.q.row(i).data(), static_cast<std::size_t>(out.cols())}, frames);
-      weigh(chain, frames, mechanics, cell_.gravity, X_TF, context_at(measured_.context, i, {}),
-            loads);
+      weigh(chain, frames, mechanics, cell_.gravity, X_TF,
+            context_at(measured_.context, i, {}).known, loads);
       for (int j = 0; j < cell_.joints(); ++j) out(i, j) = loads.torque(j, chain, frames);
     }
     return out;

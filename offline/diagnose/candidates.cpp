@@ -11,8 +11,8 @@
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
 #include "effects/effect_option.hpp"
+#include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -73,7 +73,7 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
 }
 
 Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
-  const EffectInfo& info = effect_info(find_effect_law(found.entry.name));
+  const EffectInfo& info = *descriptor_of(found.entry.name).law;
   const Regressor regressor = regressor_of(s, found);
   Candidate out;
   out.entry = found.entry;

@@ -39,7 +39,7 @@ struct Running {
 /// then yield by another torque; that is no slipped encoder.
 bool changes_payload(const WhitenedFit& s, const std::vector<Eigen::Index>& order,
                      Eigen::Index cut) {
-  const auto payload = [&](Eigen::Index i) { return s.context[order[i]].payload_kg; };
+  const auto payload = [&](Eigen::Index i) { return s.context[order[i]].known.payload_kg; };
   if (!(std::abs(payload(cut) - payload(cut - 1)) > kSamePayload_kg)) return false;
   for (Eigen::Index k = 1; k < kFewestBesideStep; ++k)
     if (payload(cut - 1 - k) != payload(cut - 1) || payload(cut + k) != payload(cut)) return false;

@@ -11,7 +11,6 @@
 #include "diagnose/effect_sentence.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -142,8 +141,8 @@ std::string tie_words(const Cell& cell, const Diagnosis& d) {
 }
 
 std::string title_of(const std::string& effect) {
-  const int law = find_effect_law(effect);
-  return law >= 0 ? effect_info(law).title : effect;
+  const EffectDescriptor* const found = find_descriptor(effect);
+  return found != nullptr && found->law != nullptr ? found->law->title : effect;
 }
 
 /// The title of the law, or of the entry where its law has words for that.

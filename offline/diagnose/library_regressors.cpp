@@ -6,10 +6,10 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/few_digits.hpp"
 #include "diagnose/regressor.hpp"
+#include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
 #include "fit/dual.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -25,7 +25,7 @@ struct Bound {
   Bound(const WhitenedFit& s, const EffectEntry& entry)
       : whitened(s),
         effect(bind_effect(*s.cell, *s.measured, entry)),
-        law(find_effect_law(entry.name)) {
+        law(find_fitted_law(entry.name)) {
     shape = {.arm_joints = s.joints(),
              .joints = effect.joints,
              .constants = effect.constants,
@@ -42,7 +42,7 @@ struct Bound {
             .chain = whitened.chain,
             .frames = whitened.frames[i],
             .loads = whitened.loads[i],
-            .context = whitened.context[i]};
+            .context = whitened.context[i].known};
   }
 };
 
@@ -55,7 +55,8 @@ void differentiate(const Bound& bound, const Visit& visit) {
     for (Eigen::Index l = 0; l < lanes; ++l) theta[first + l].d(l) = 1.0;
     for (Eigen::Index i = 0; i < bound.whitened.poses(); ++i) {
       Motion<Dual> motion;
-      apply_effect<Dual>(bound.law, theta, bound.shape, bound.at(i), motion);
+      apply_fitted_law<Dual>(bound.law, theta, bound.shape, bound.at(i), bound.whitened.context[i],
+                             motion);
       for (Eigen::Index l = 0; l < lanes; ++l) visit(i, first + l, l, motion);
     }
   }
@@ -156,7 +157,7 @@ std::vector<int> turning(const WhitenedFit& s) {
 double session_of(const WhitenedFit& s) {
   double low = 1e300, high = -1e300;
   for (const auto& c : s.context) {
-    const double now = c.time_s == c.time_s ? c.time_s : c.order;
+    const double now = c.known.time_s == c.known.time_s ? c.known.time_s : c.order;
     low = std::min(low, now);
     high = std::max(high, now);
   }

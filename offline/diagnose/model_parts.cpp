@@ -14,7 +14,6 @@
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -31,7 +30,7 @@ std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
   const auto& effects = calibration.state.arm.effects;
   std::vector<const EffectEntry*> entries;
   for (const auto& entry : cell.effects)
-    if (find_effect_law(entry.name) >= 0) entries.push_back(&entry);
+    if (descriptor_of(entry.name).law != nullptr) entries.push_back(&entry);
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
     const Parameter& p = calibration.parameters[i];
     if (!p.of_effect()) continue;

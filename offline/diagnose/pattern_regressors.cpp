@@ -49,21 +49,23 @@ Eigen::ArrayXd gathered(const WhitenedFit& s, const Get& get) {
 }
 
 std::optional<Input> time_input(const WhitenedFit& s) {
-  auto time = normalised("t", "time", gathered(s, [](const Context& c) { return c.time_s; }));
+  auto time =
+      normalised("t", "time", gathered(s, [](const MeasuredContext& c) { return c.known.time_s; }));
   if (time) return time;
   return normalised("order", "the order of the poses",
-                    gathered(s, [](const Context& c) { return c.order; }));
+                    gathered(s, [](const MeasuredContext& c) { return c.order; }));
 }
 
 std::vector<Input> surroundings(const WhitenedFit& s) {
   std::vector<Input> out;
   for (std::size_t k = 0; k < s.sensors.size(); ++k)
-    if (auto input =
-            normalised(s.sensors[k], "temperature " + s.sensors[k],
-                       gathered(s, [&](const Context& c) { return c.temperature_degC[k]; })))
+    if (auto input = normalised(
+            s.sensors[k], "temperature " + s.sensors[k],
+            gathered(s, [&](const MeasuredContext& c) { return c.known.temperature_degC[k]; })))
       out.push_back(std::move(*input));
-  if (auto input = normalised("payload", "payload",
-                              gathered(s, [](const Context& c) { return c.payload_kg; })))
+  if (auto input = normalised("payload", "payload", gathered(s, [](const MeasuredContext& c) {
+                                return c.known.payload_kg;
+                              })))
     out.push_back(std::move(*input));
   return out;
 }

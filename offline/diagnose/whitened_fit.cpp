@@ -72,8 +72,8 @@ void look(const ArmState& state, WhitenedFit& out) {
     const Transformd X_MB = from_pose(state.frame(setup));
     out.R_MB[i] = X_MB.R;
     out.context[i] = context_of(*out.measured, out.row[i], out.sensors, X_MB);
-    weigh(out.chain, out.frames[i], state.arm.mechanics, state.arm.gravity, X_TF, out.context[i],
-          out.loads[i]);
+    weigh(out.chain, out.frames[i], state.arm.mechanics, state.arm.gravity, X_TF,
+          out.context[i].known, out.loads[i]);
     out.arm_B[i] = out.frames[i].tip.R * from_pose(state.target(setup)).p;
   }
 }

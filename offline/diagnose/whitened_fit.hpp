@@ -57,7 +57,7 @@ struct WhitenedFit {
   Chain chain;
   std::vector<ChainFrames> frames;
   std::vector<Loads> loads;
-  std::vector<Context> context;
+  std::vector<MeasuredContext> context;
   std::vector<double> sigma;   // (lines,)
   std::vector<Matrix3> R_MB;   // base in the measurement frame
   std::vector<Vector3> arm_B;  // tip to target

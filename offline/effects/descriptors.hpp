@@ -2,7 +2,7 @@
 #pragma once
 
 #include "effects/descriptor.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
+#include "effects/fitted_laws.hpp"
 
 /// One function for each law of the library, found by the law's type and defined in the file of
 /// that law. Used by the registry alone; everybody else asks the registry.

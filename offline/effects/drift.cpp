@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/detail/effects/drift.hpp"
+#include "effects/measurement/drift.hpp"
 
 #include <fmt/format.h>
 

@@ -8,12 +8,12 @@
 #include <tuple>
 
 #include "effects/descriptors.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
+#include "effects/fitted_laws.hpp"
 
 namespace plumb::offline {
 namespace {
 
-using AllDescriptors = std::array<const EffectDescriptor*, 2 + kEffectLaws>;
+using AllDescriptors = std::array<const EffectDescriptor*, 2 + kFittedLaws>;
 
 /// A law of the library without a line in descriptors.hpp does not compile here.
 const AllDescriptors& all_descriptors() {
@@ -22,7 +22,7 @@ const AllDescriptors& all_descriptors() {
         return AllDescriptors{&geometry_descriptor(), &local_tree_descriptor(),
                               &law_descriptor(law)...};
       },
-      EffectLaws{});
+      FittedLaws{});
   return all;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/detail/effects/settling_lag.hpp"
+#include "effects/measurement/settling_lag.hpp"
 
 #include "effects/data_rules.hpp"
 #include "effects/descriptors.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/detail/effects/step.hpp"
+#include "effects/measurement/step.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plumb/runtime/detail/effects/tracker.hpp"
+#include "effects/measurement/tracker.hpp"
 
 #include "effects/data_rules.hpp"
 #include "effects/descriptors.hpp"

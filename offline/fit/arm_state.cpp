@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/arm_state.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/measured_arm.hpp"
 #include "tree/jobs.hpp"
 
 namespace plumb::offline {
@@ -23,9 +24,9 @@ std::span<const double> row_of(const RowsN& q, Eigen::Index i) {
 
 }  // namespace
 
-Context context_of(const Measurements& at, Eigen::Index row,
-                   const std::vector<std::string>& sensors, const Transformd& X_MB) {
-  Context out = context_at(at.context, row, sensors);
+MeasuredContext context_of(const Measurements& at, Eigen::Index row,
+                           const std::vector<std::string>& sensors, const Transformd& X_MB) {
+  MeasuredContext out = context_at(at.context, row, sensors);
   const Transformd X_BM = X_MB.inverse();
   for (int k = 0; k < 3; ++k) {
     out.tracker_B[k] = X_BM.p(k);
@@ -49,7 +50,7 @@ struct Placed {
 
 /// With the effects that a context brings.
 Rows3 predict_points_in(const ArmState& state, const Measurements& at) {
-  const ForwardModel arm(state.arm);
+  const MeasuredArm arm(state.arm);
   const auto sensors = temperature_names(state.arm);
   const Placed placed(state);
   const bool departed = at.departure_B.rows() > 0;
@@ -60,7 +61,7 @@ Rows3 predict_points_in(const ArmState& state, const Measurements& at) {
     const Transformd& X_MB = placed.X_MB[setup];
     const Prediction predicted =
         has_effects ? arm.predict(row_of(at.q, i), context_of(at, i, sensors, X_MB))
-                    : arm.predict(row_of(at.q, i));
+                    : arm.predict(row_of(at.q, i), {});
     out.row(i) = (X_MB * (predicted.X_BT * placed.X_TG[setup].p)).transpose();
     if (departed) out.row(i) += at.departure_B.row(i) * X_MB.R.transpose();
   });
@@ -91,25 +92,25 @@ Rows3 predict_points(const ArmState& state, const Measurements& at) {
 }
 
 Rows3 predict_points(const ArmState& state, const RowsN& q) {
-  const ForwardModel arm(state.arm);
+  const MeasuredArm arm(state.arm);
   const Transformd X_MB = from_pose(state.X_MB);
   const Vector3 target_T(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
   Rows3 out(q.rows(), 3);
   for_rows(q.rows(), [&](Eigen::Index i) {
-    out.row(i) = (X_MB * (arm.predict(row_of(q, i)).X_BT * target_T)).transpose();
+    out.row(i) = (X_MB * (arm.predict(row_of(q, i), {}).X_BT * target_T)).transpose();
   });
   return out;
 }
 
 Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured) {
-  const ForwardModel arm(state.arm);
+  const MeasuredArm arm(state.arm);
   const auto sensors = temperature_names(state.arm);
   const Placed placed(state);
   Eigen::VectorXd out(measured.q.rows());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const auto setup = static_cast<std::size_t>(setup_of(measured, i));
     const Transformd& X_MB = placed.X_MB[setup];
-    const Context context = context_of(measured, i, sensors, X_MB);
+    const MeasuredContext context = context_of(measured, i, sensors, X_MB);
     const Matrix3 R_MG =
         X_MB.R * arm.predict(row_of(measured.q, i), context).X_BT.R * placed.X_TG[setup].R;
     const auto quat = measured.quat_M.row(i);

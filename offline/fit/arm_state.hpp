@@ -51,8 +51,8 @@ Rows3 predict_points(const ArmState& state, const Measurements& at);
 Rows3 predict_points(const ArmState& state, const RowsN& q);
 
 /// What is known of row `row`; the tracker stands at the origin of the measurement frame.
-Context context_of(const Measurements& at, Eigen::Index row,
-                   const std::vector<std::string>& sensors, const Transformd& X_MB);
+MeasuredContext context_of(const Measurements& at, Eigen::Index row,
+                           const std::vector<std::string>& sensors, const Transformd& X_MB);
 
 /// Angle between measured and predicted orientation of the reflector [rad], shape (n,).
 Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/format/formula.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -35,8 +35,8 @@ bool formula_reads(const format::Effect& effect, FormulaOp op) {
 }
 
 unsigned needs_of(const format::Effect& effect) {
-  const int law = find_effect_law(effect.name);
-  return law < 0 ? 0U : effect_info(law).needs;
+  const EffectDescriptor* const found = find_descriptor(effect.name);
+  return found == nullptr || found->law == nullptr ? 0U : found->law->needs;
 }
 
 bool reads_load(const format::Effect& effect) {

@@ -8,10 +8,10 @@
 #include <functional>
 #include <optional>
 
+#include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
 #include "fit/formula_binding.hpp"
 #include "plumb/format/limits.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::offline {
@@ -38,7 +38,8 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
   Loads loads;
   for (Eigen::Index i = 0; i < measured.q.rows(); ++i) {
     chain.frames({measured.q.row(i).data(), static_cast<std::size_t>(cell.joints())}, frames);
-    weigh(chain, frames, mechanics, cell.gravity, X_TF, context_at(measured.context, i, {}), loads);
+    weigh(chain, frames, mechanics, cell.gravity, X_TF, context_at(measured.context, i, {}).known,
+          loads);
     for (int j = 0; j < cell.joints(); ++j)
       out[j] = std::max(out[j], std::abs(loads.torque(j, chain, frames)));
   }
@@ -80,8 +81,8 @@ class DataSource : public ConstantsSource {
 format::Effect bind_effect(const Cell& cell, const Measurements& measured,
                            const EffectEntry& entry) {
   if (is_formula(entry.name)) return bind_formula(cell, measured, entry);
-  const int law = find_effect_law(entry.name);
-  const EffectInfo& info = effect_info(law);
+  const int law = find_fitted_law(entry.name);
+  const EffectInfo& info = fitted_law_info(law);
   format::Effect out;
   out.name = entry.name;
   out.version = info.version;
@@ -89,14 +90,14 @@ format::Effect bind_effect(const Cell& cell, const Measurements& measured,
   if (auto* const bind = descriptor_of(entry.name).bind; bind != nullptr)
     bind(entry, DataSource(cell, measured), out);
   const EffectShape shape{cell.joints(), out.joints, out.constants};
-  out.parameters.assign(static_cast<std::size_t>(effect_parameter_count(law, shape)), 0.0);
+  out.parameters.assign(static_cast<std::size_t>(fitted_parameter_count(law, shape)), 0.0);
   return out;
 }
 
 std::vector<format::Effect> bind_effects(const Cell& cell, const Measurements& measured) {
   std::vector<format::Effect> out;
   for (const auto& entry : cell.effects)
-    if (find_effect_law(entry.name) >= 0)  // not geometry, local_tree
+    if (descriptor_of(entry.name).law != nullptr)  // not geometry, local_tree
       out.push_back(bind_effect(cell, measured, entry));
   if (out.size() > static_cast<std::size_t>(format::kMaxEffects))
     throw Failure(Exit::kInput,
@@ -181,7 +182,7 @@ format::Mechanics mechanics_of(const Cell& cell) {
 
 EffectDomain domain_of(const format::Effect& effect) {
   if (!effect.formula.code.empty()) return static_cast<EffectDomain>(effect.formula.domain);
-  return effect_info(find_effect_law(effect.name)).domain;
+  return descriptor_of(effect.name).law->domain;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 
 #include "cell/setups.hpp"
+#include "fit/measured_arm.hpp"
 
 namespace plumb::offline {
 
@@ -33,7 +34,7 @@ void place_as_given(const MeasurementSettings& settings, ArmState& state) {
 std::array<double, 4> align_target(const ArmState& state, const Measurements& measured,
                                    const std::vector<int>& rows) {
   // Mean of quaternions as the leading eigenvector of sum q q^T [Markley 2007].
-  const ForwardModel arm(state.arm);
+  const MeasuredArm arm(state.arm);
   const Transformd X_MB = from_pose(state.frame(rows.empty() ? 0 : setup_of(measured, rows[0])));
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (int i : rows) {
@@ -42,7 +43,7 @@ std::array<double, 4> align_target(const ArmState& state, const Measurements& me
     const auto m = measured.quat_M.row(i);
     Transformd X_MG = from_pose({{}, {m(0), m(1), m(2), m(3)}});
     X_MG.p.setZero();
-    const auto q_TG = to_pose((X_MB * arm.predict(q).X_BT).inverse() * X_MG).q;
+    const auto q_TG = to_pose((X_MB * arm.predict(q, {}).X_BT).inverse() * X_MG).q;
     const Eigen::Map<const Eigen::Vector4d> v(q_TG.data());
     sum += v * v.transpose();
   }

@@ -8,7 +8,6 @@
 #include "fit/arm_change.hpp"
 #include "fit/dual.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -143,7 +142,7 @@ void GeometryDerivative::add_column(const Parameter& p, Eigen::Index column) {
 struct GeometryDerivative::Bent {
   ChainFrames rigid;
   ChainFrames frames;  // with joint effects; the tip without the twists
-  EffectSet::ContextAndLoads around;
+  FittedEffects::Surroundings around;
   Motion<double> motion;
   Matrix3 turn = Matrix3::Identity();  // of the tip, by the twists
   int undefined = -1;                  // the first effect without a value
@@ -164,7 +163,8 @@ void GeometryDerivative::apply_wave(std::size_t w, std::span<const double> q, Be
   out.wave_slope[w] = {moved.d(0), moved.d(1)};
 }
 
-void GeometryDerivative::bend(std::span<const double> q, const Context& context, Bent& out) const {
+void GeometryDerivative::bend(std::span<const double> q, const MeasuredContext& context,
+                              Bent& out) const {
   chain_.frames(q, out.rigid);
   if (effects_.empty()) {
     out.frames = out.rigid;
@@ -239,8 +239,8 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
   }
 }
 
-void GeometryDerivative::evaluate(std::span<const double> q, const Context& context, Point& out,
-                                  const Vector3& departure_B, int setup) const {
+void GeometryDerivative::evaluate(std::span<const double> q, const MeasuredContext& context,
+                                  Point& out, const Vector3& departure_B, int setup) const {
   const Transformd& X_MB = X_MB_[static_cast<std::size_t>(setup)];
   const Transformd& X_TG = X_TG_[static_cast<std::size_t>(setup)];
   Bent bent;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fit/arm_state.hpp"
+#include "fit/fitted_effects.hpp"
 #include "fit/parameter.hpp"
-#include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::offline {
 
@@ -34,7 +34,7 @@ class GeometryDerivative {
   /// q: shape (joints,). `out.columns` is resized once and reused. Columns of geometry leave out
   /// that it changes the loads of the effects a little; those of effects are exact.
   /// departure_B: moves the point besides [m]. setup: whose frame and reflector the pose has.
-  void evaluate(std::span<const double> q, const Context& context, Point& out,
+  void evaluate(std::span<const double> q, const MeasuredContext& context, Point& out,
                 const Vector3& departure_B = Vector3::Zero(), int setup = 0) const;
 
   /// Base in the measurement frame of that set-up.
@@ -51,7 +51,7 @@ class GeometryDerivative {
   };
   SlotTwist slot_twist(const Parameter& parameter) const;
   struct Bent;
-  void bend(std::span<const double> q, const Context& context, Bent& out) const;
+  void bend(std::span<const double> q, const MeasuredContext& context, Bent& out) const;
   void add_column(const Parameter& parameter, Eigen::Index column);
   void apply_wave(std::size_t wave, std::span<const double> q, Bent& out) const;
   void effect_columns(std::span<const double> q, const Bent& bent, const Vector3& arm_B,
@@ -74,7 +74,7 @@ class GeometryDerivative {
     std::array<Eigen::Index, 2> column{-1, -1};  // -1: not fitted
   };
   std::vector<Wave> waves_;   // those of which a number is fitted
-  EffectSet effects_;         // refers to state_
+  FittedEffects effects_;     // refers to state_
   std::vector<int> wave_of_;  // place of every effect among the waves, or -1
   std::vector<std::string> sensors_;
 };

@@ -52,7 +52,8 @@ KnownInputs::KnownInputs(const format::Model& model)
   for (auto& want : context_wants(model)) lacks_.push_back({std::move(want), 0});
 }
 
-Status KnownInputs::mark(std::span<const double> q, const Context& at, bool placed, Status said) {
+Status KnownInputs::mark(std::span<const double> q, const MeasuredContext& at, bool placed,
+                         Status said) {
   ++rows_;
   bool lacking = false;
   for (auto& lack : lacks_) {
@@ -60,8 +61,8 @@ Status KnownInputs::mark(std::span<const double> q, const Context& at, bool plac
     ++lack.rows;
     lacking = true;
   }
-  const bool outside = known_.look(q, at).outside;
-  if (outside) look_beyond(q, at);
+  const bool outside = known_.look(q, at.known).outside;
+  if (outside) look_beyond(q, at.known);
   if (refused(said)) return said;
   if (outside) return Status::kOutsideDomain;
   return lacking && said == Status::kOk ? Status::kContextFallback : said;
@@ -74,20 +75,20 @@ bool KnownInputs::beyond_correction(const Context& at) const {
   return !(known_.look(middle, at).weight > 0.0);
 }
 
-bool KnownInputs::lacks(const ContextWant& want, const Context& at, bool placed) const {
+bool KnownInputs::lacks(const ContextWant& want, const MeasuredContext& at, bool placed) const {
   switch (want.kind) {
     case WantKind::kDirection:
-      return std::isnan(at.direction[want.index]);
+      return std::isnan(at.known.direction[want.index]);
     case WantKind::kMove:
       return std::isnan(at.step[want.index]);
     case WantKind::kPlaceInSeries:
       return !placed;
     case WantKind::kMoment:
-      return !placed || std::isnan(at.time_s);
+      return !placed || std::isnan(at.known.time_s);
     case WantKind::kWarmth:
-      return std::isnan(at.temperature_degC[want.index]);
+      return std::isnan(at.known.temperature_degC[want.index]);
     default:
-      return std::isnan(at.payload_kg);
+      return std::isnan(at.known.payload_kg);
   }
 }
 

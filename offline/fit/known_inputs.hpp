@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/measured_context.hpp"
 #include "fit/context_needs.hpp"
 #include "plumb/runtime/corrector.hpp"
 #include "plumb/runtime/detail/known_range.hpp"
@@ -22,7 +23,7 @@ class KnownInputs {
   /// q: shape (joints,). `placed`: whether the row has a place in the cell's own series
   /// (SeriesPlace); rows of a compiled model need none. Returns what counts more, `said` or what is
   /// found: refused, outside-domain, context-fallback, ok.
-  Status mark(std::span<const double> q, const Context& at, bool placed, Status said);
+  Status mark(std::span<const double> q, const MeasuredContext& at, bool placed, Status said);
 
   /// Whether the context alone, whatever the joints, lies so far outside that the correction has
   /// faded to nothing.
@@ -45,7 +46,7 @@ class KnownInputs {
     double value = 0.0;
   };
 
-  bool lacks(const ContextWant& want, const Context& at, bool placed) const;
+  bool lacks(const ContextWant& want, const MeasuredContext& at, bool placed) const;
   void look_beyond(std::span<const double> q, const Context& at);
   void note(double value, double low, double high, Beyond& out) const;
   static void add(const std::vector<Beyond>& more, std::vector<Beyond>& out);

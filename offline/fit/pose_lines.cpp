@@ -21,10 +21,10 @@ PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int
   for (int at = first; at < last; ++at) {
     const int i = data_.rows[static_cast<std::size_t>(at)];
     const int setup = setup_of(m, i);
-    geometry.evaluate(
-        {m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
-        has_effects ? context_of(m, i, geometry.sensors(), geometry.X_MB(setup)) : Context{}, point,
-        departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero(), setup);
+    geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
+                      has_effects ? context_of(m, i, geometry.sensors(), geometry.X_MB(setup))
+                                  : MeasuredContext{},
+                      point, departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero(), setup);
     if (point.undefined >= 0) return {i, point.undefined};
     for (int k = 0; k < 3; ++k)
       if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);

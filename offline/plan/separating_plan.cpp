@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
 #include "plan/plan_steps.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -32,9 +32,7 @@ struct Pair {
   }
 };
 
-const EffectInfo& info_of(const EffectEntry& entry) {
-  return effect_info(find_effect_law(entry.name));
-}
+const EffectInfo& info_of(const EffectEntry& entry) { return *descriptor_of(entry.name).law; }
 
 /// Place of the entry among the effects of the arm; added if it is not there.
 int place_of(const Cell& cell, const EffectEntry& entry, const Measurements& at, ArmState& state) {

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "diagnose/scan.hpp"
+#include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
@@ -70,7 +71,7 @@ bool at_joint(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
 double true_error(ArmState arm, const BlindCase& blind) {
   // Thrown away before the arm works: steps, drift, lag, the tracker.
   for (auto& effect : arm.arm.effects) {
-    const EffectInfo& info = effect_info(find_effect_law(effect.name));
+    const EffectInfo& info = *descriptor_of(effect.name).law;
     if (info.domain == EffectDomain::kMeasurement || info.domain == EffectDomain::kProcedure)
       std::fill(effect.parameters.begin(), effect.parameters.end(), 0.0);
   }

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "check/identifiability.hpp"
+#include "effects/fitted_laws.hpp"
 #include "fit/effect_binding.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 
 /// What a check says of a cell whose model holds an effect.
 namespace plumb::offline {
@@ -109,8 +109,8 @@ TEST(Identifiability, SpeaksOfTheNumbersOfTheCalibrationWhateverEffectIsInTheMod
   std::vector<int> rows(kPoses);
   std::iota(rows.begin(), rows.end(), 0);
   int looked_at = 0;
-  for (int law = 0; law < kEffectLaws; ++law) {
-    const std::string name(effect_info(law).name);
+  for (int law = 0; law < kFittedLaws; ++law) {
+    const std::string name(fitted_law_info(law).name);
     if (name == "formula") continue;  // has no numbers before a user writes some
     SCOPED_TRACE(name);
     Cell with = cell;
@@ -125,7 +125,7 @@ TEST(Identifiability, SpeaksOfTheNumbersOfTheCalibrationWhateverEffectIsInTheMod
       std::printf("  %s: %s\n", name.c_str(), failure.problems().front().message.c_str());
     }
   }
-  EXPECT_GT(looked_at, kEffectLaws / 2);
+  EXPECT_GT(looked_at, kFittedLaws / 2);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/diagnosis_text.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
+#include "effects/fitted_laws.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -18,8 +18,8 @@ Cell three_joints() {
 
 TEST(EffectSentence, EveryLawOfTheLibraryHasOneInPlainWords) {
   const Cell cell = three_joints();
-  for (int law = 0; law < kEffectLaws; ++law) {
-    const std::string name(effect_info(law).name);
+  for (int law = 0; law < kFittedLaws; ++law) {
+    const std::string name(fitted_law_info(law).name);
     if (name == "formula" || name == "step") continue;  // these name themselves
     const EffectEntry entry{.name = name, .joints = {1}, .options = {}, .place = {}};
     const std::string sentence = effect_sentence(cell, entry, {20.0});

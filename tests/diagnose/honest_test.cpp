@@ -211,7 +211,7 @@ TEST(DiagnoseHonest, AnotherPayloadFromOnePoseOnIsNoSlippedEncoder) {
   // The joint sagged and the payload changed behind half of the poses.
   const std::size_t half = order.size() / 2;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    at.whitened.context[order[i]].payload_kg = i < half ? 0.0 : 20.0;
+    at.whitened.context[order[i]].known.payload_kg = i < half ? 0.0 : 20.0;
     if (i < half) continue;
     for (Eigen::Index line = 3 * order[i]; line < 3 * order[i] + 3; ++line)
       at.whitened.y(line) += 5e-4 * at.whitened.joint[2](line);

@@ -21,8 +21,8 @@ PAGE = (SOURCE / "docs/adding-an-effect.md").read_text()
 NUMBERS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9, "ten": 10,
            "eleven": 11, "twelve": 12}
 # All of the runtime that evaluates a model; its cycle, guard and corrector know no laws.
-RUNTIME = ("chain", "effect_library", "effect_set", "elementary", "forward_model", "crisp_trees", "loads", "status",
-           "transform", "tree")
+RUNTIME = ("chain", "effect_library", "effect_set", "elementary", "fallbacks", "forward_model", "crisp_trees", "loads",
+           "status", "transform", "tree")
 
 
 class Step:
@@ -124,8 +124,11 @@ class Page(unittest.TestCase):
             self.assertEqual((SOURCE / step.file).exists(), not step.is_new, step.file)
 
     def test_the_readme_states_how_many_effects_are_known(self):
-        library = (SOURCE / "runtime/include/plumb/runtime/detail/effect_library.hpp").read_text()
-        laws = re.findall(r"effects::\w+", re.search(r"using EffectLaws =(.*?);", library, re.DOTALL)[1])
+        lists = {"runtime/include/plumb/runtime/detail/effect_library.hpp": "EffectLaws",
+                 "offline/effects/fitted_laws.hpp": "MeasurementLaws"}
+        laws = [law for file, name in lists.items()
+                for law in re.findall(r"effects::\w+", re.search(rf"using {name} =(.*?);", (SOURCE / file).read_text(),
+                                                                 re.DOTALL)[1])]
         self.assertEqual(re.search(r"(\d+) physical effects are known", (SOURCE / "README.md").read_text())[1],
                          str(len(laws)))
 

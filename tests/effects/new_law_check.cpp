@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
 #include "fit/dual.hpp"
 #include "plumb/runtime/forward_model.hpp"
@@ -33,10 +34,11 @@ void check_registry(std::string_view name) {
   const EffectDescriptor* found = find_descriptor(name);
   require(found != nullptr, "the registry knows the law");
   if (found == nullptr) return;
-  require(found->law == &effect_info(find_effect_law(name)), "the descriptor is that of the law");
+  require(found->law == &fitted_law_info(find_fitted_law(name)),
+          "the descriptor is that of the law");
   require(std::string(found->explanation).size() > 60, "the law is explained");
   require(found->testable != nullptr, "the descriptor says which data show the law");
-  require(effect_descriptors().size() == 2U + static_cast<std::size_t>(kEffectLaws),
+  require(effect_descriptors().size() == 2U + static_cast<std::size_t>(kFittedLaws),
           "every law of the library has a descriptor");
 }
 
@@ -63,24 +65,31 @@ std::vector<S> numbers_of(const Motion<S>& motion) {
 class Pose {
  public:
   Pose(const format::Model& model, const Chain& chain, std::span<const double> q)
-      : effects_(model), chain_(chain), q_(q) {
+      : law_(find_fitted_law(model.effects[0].name)),
+        shape_(effect_shape(model, model.effects[0])),
+        chain_(chain),
+        q_(q) {
     chain_.frames(q_, frames_);
-    effects_.survey(frames_, Context{}, around_);
+    effect_weights(model, {}).weigh(frames_, nothing_.known, loads_);
   }
 
   template <class S>
   std::vector<S> motion(const std::vector<S>& theta) const {
     Motion<S> out;
-    effects_.apply_one<S>(0, theta, q_, chain_, frames_, around_, out);
+    const Situation at{
+        .q = q_, .chain = chain_, .frames = frames_, .loads = loads_, .context = nothing_.known};
+    apply_fitted_law<S>(law_, theta, shape_, at, nothing_, out);
     return numbers_of(out);
   }
 
  private:
-  EffectSet effects_;
+  int law_;
+  EffectShape shape_;
   const Chain& chain_;
   std::span<const double> q_;
   ChainFrames frames_;
-  EffectSet::ContextAndLoads around_;
+  Loads loads_;
+  MeasuredContext nothing_;
 };
 
 /// The largest slope by this parameter; the exact slopes are held against finite differences.

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/runtime/detail/effect_library.hpp"
+#include "effects/fitted_laws.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -23,7 +23,7 @@ TEST(EffectRegistry, HasExactlyOneDescriptorForEveryLawInTheOrderOfTheLibrary) {
   for (const EffectDescriptor* effect : effect_descriptors())
     if (effect->law != nullptr) described.push_back(effect->name);
   std::vector<std::string_view> library;
-  for (int law = 0; law < kEffectLaws; ++law) library.push_back(effect_info(law).name);
+  for (int law = 0; law < kFittedLaws; ++law) library.push_back(fitted_law_info(law).name);
   EXPECT_EQ(described, library);
   for (const EffectDescriptor* effect : effect_descriptors()) {
     EXPECT_EQ(find_descriptor(effect->name), effect) << effect->name;
@@ -35,7 +35,7 @@ TEST(EffectRegistry, HasExactlyOneDescriptorForEveryLawInTheOrderOfTheLibrary) {
 
 TEST(EffectRegistry, GeometryAndTheLocalTreeAreTheOnlyEffectsThatAreNoLaws) {
   const auto all = effect_descriptors();
-  ASSERT_EQ(all.size(), 2U + static_cast<std::size_t>(kEffectLaws));
+  ASSERT_EQ(all.size(), 2U + static_cast<std::size_t>(kFittedLaws));
   EXPECT_EQ(all[0]->name, "geometry");
   EXPECT_EQ(all[1]->name, "local_tree");
   EXPECT_EQ(all[0]->law, nullptr);

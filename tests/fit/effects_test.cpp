@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "compile/compiler.hpp"
+#include "effects/fitted_laws.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/geometry_derivative.hpp"
+#include "plumb/format/formula.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 
@@ -98,8 +99,11 @@ ArmState with_effects(const Cell& cell, const Measurements& m, Random& dice) {
 
 class EveryEffect : public ::testing::TestWithParam<int> {
  protected:
-  std::string name() const { return std::string(effect_info(GetParam()).name); }
+  std::string name() const { return std::string(fitted_law_info(GetParam()).name); }
 };
+
+/// The laws that a model file may contain.
+class EveryRuntimeEffect : public EveryEffect {};
 
 TEST_P(EveryEffect, HasTheDerivativesOfItsFiniteDifferences) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -115,7 +119,7 @@ TEST_P(EveryEffect, HasTheDerivativesOfItsFiniteDifferences) {
     double moved_most = 0.0;
     for (Eigen::Index row = 0; row < m.q.rows(); ++row) {
       const std::span<const double> q(m.q.row(row).data(), kJoints);
-      const Context context = context_of(m, row, sensors, from_pose(state.X_MB));
+      const MeasuredContext context = context_of(m, row, sensors, from_pose(state.X_MB));
       const auto at = [&](const Eigen::VectorXd& change) {
         GeometryDerivative::Point point;
         GeometryDerivative(state, parameters, change).evaluate(q, context, point);
@@ -148,7 +152,7 @@ TEST_P(EveryEffect, RunsInTheModelFileAsItWasFitted) {
     run.cell_sha256 = std::string(64, '0');
     run.fit.calibration.state = with_effects(cell, m, dice);
     const format::Model model = compile(cell, run);
-    const EffectDomain domain = effect_info(GetParam()).domain;
+    const EffectDomain domain = fitted_law_info(GetParam()).domain;
     const bool online = domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
     ASSERT_EQ(model.effects.size(), online ? 1U : 0U);
     if (!online) return;
@@ -161,7 +165,7 @@ TEST_P(EveryEffect, RunsInTheModelFileAsItWasFitted) {
     const Transformd X_MB = from_pose(run.fit.calibration.state.X_MB);
     const Vector3 target(0.02, 0.03, 0.1);
     for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
-      const Context context = context_at(m.context, i, temperature_names(loaded));
+      const Context context = context_at(m.context, i, temperature_names(loaded)).known;
       const std::span<const double> q(m.q.row(i).data(), kJoints);
       const Vector3 p = X_MB * (arm.predict(q, context).X_BT * target);
       EXPECT_LT((p - fitted.row(i).transpose()).norm(), 1e-9);
@@ -169,7 +173,7 @@ TEST_P(EveryEffect, RunsInTheModelFileAsItWasFitted) {
   }
 }
 
-TEST_P(EveryEffect, IsInvertedByTheCorrector) {
+TEST_P(EveryRuntimeEffect, IsInvertedByTheCorrector) {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Random dice(seed);
@@ -181,7 +185,7 @@ TEST_P(EveryEffect, IsInvertedByTheCorrector) {
     model.guard.corrects = format::Corrects::kPose;
     const Corrector corrector(model);
     for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
-      const Context context = context_of(m, i, temperature_names(model), Transformd{});
+      const Context context = context_of(m, i, temperature_names(model), Transformd{}).known;
       std::array<double, kJoints> q{};
       for (int j = 0; j < kJoints; ++j) q[j] = m.q(i, j) + dice.uniform(-0.02, 0.02);
       const Transformd X_BD = corrector.nominal().forward(q);
@@ -198,8 +202,78 @@ TEST_P(EveryEffect, IsInvertedByTheCorrector) {
   EXPECT_GT(solved, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, EveryEffect, ::testing::Range(0, kEffectLaws),
-                         [](const auto& law) { return std::string(effect_info(law.param).name); });
+std::string name_of(const ::testing::TestParamInfo<int>& law) {
+  return std::string(fitted_law_info(law.param).name);
+}
+INSTANTIATE_TEST_SUITE_P(Library, EveryEffect, ::testing::Range(0, kFittedLaws), name_of);
+INSTANTIATE_TEST_SUITE_P(Runtime, EveryRuntimeEffect, ::testing::Range(0, kEffectLaws), name_of);
+
+/// A sound model of an arm without effects, and an effect of that arm.
+format::Model bare_model() {
+  offline::Run run;
+  run.created = "2026-01-01T00:00:00Z";
+  run.cell_sha256 = std::string(64, '0');
+  const Cell cell = heavy_arm(1);
+  Random dice(1);
+  run.fit.calibration.state = with_effects(cell, rich_measurements(cell, 5, 1), dice);
+  return compile(cell, run);
+}
+format::Effect bound(const std::string& name) {
+  const Cell cell = heavy_arm(1);
+  return bind_effect(cell, rich_measurements(cell, 5, 1), entry_of(name));
+}
+
+TEST(Effects, NoModelFileHoldsOneOfTheMeasurement) {
+  for (int law = 0; law < kFittedLaws; ++law) {
+    const EffectInfo& info = fitted_law_info(law);
+    const bool of_robot =
+        info.domain == EffectDomain::kRobot || info.domain == EffectDomain::kEnvironment;
+    EXPECT_EQ(of_robot, !is_measurement_law(law)) << info.name;
+    format::Model model = bare_model();
+    model.effects = {bound(std::string(info.name))};
+    try {
+      format::write_model(model);
+      EXPECT_TRUE(of_robot) << info.name;
+    } catch (const std::invalid_argument& fault) {
+      EXPECT_EQ(fault.what(),
+                "effect '" + std::string(info.name) +
+                    "' belongs to a measurement, which a model file must not contain");
+    }
+  }
+}
+
+/// A formula that reads the row or a last move is of the measurement, whatever its domain says.
+TEST(Effects, NoModelFileHoldsAFormulaThatReadsTheOrderOfMeasuring) {
+  for (const format::FormulaOp op : {format::FormulaOp::kRow, format::FormulaOp::kMove}) {
+    format::Model model = bare_model();
+    model.effects = {
+        {.name = "formula", .version = 1, .joints = {}, .parameters = {}, .context = {}}};
+    model.effects[0].formula.code = {format::instruction(op, 0)};
+    EXPECT_THROW(format::write_model(model), std::invalid_argument);
+    model.effects[0].formula.code = {format::instruction(format::FormulaOp::kPosition, 0)};
+    EXPECT_NO_THROW(format::write_model(model));
+  }
+}
+
+/// Every law alone, and behind a law of the robot: the two ways of evaluating the arm agree.
+TEST_P(EveryEffect, IsPredictedAsItIsFitted) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Random dice(seed);
+    Cell cell = heavy_arm(seed);
+    cell.effects = {{"geometry", {}, {}, {}}, entry_of(name())};
+    if (seed > 1) cell.effects.insert(cell.effects.begin() + 1, entry_of("thermal_growth"));
+    const Measurements m = rich_measurements(cell, 20, seed);
+    const ArmState state = with_effects(cell, m, dice);
+    const GeometryDerivative geometry(state, {}, Eigen::VectorXd(0));
+    const Rows3 predicted = predict_points(state, m);
+    for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
+      GeometryDerivative::Point fitted;
+      geometry.evaluate({m.q.row(i).data(), kJoints},
+                        context_of(m, i, geometry.sensors(), from_pose(state.X_MB)), fitted);
+      EXPECT_LT((predicted.row(i).transpose() - fitted.p_M).norm(), 1e-12) << name();
+    }
+  }
+}
 
 TEST(Effects, AnUnknownLawAWrongCountOrANewerVersionIsNamed) {
   format::Model model;
@@ -231,7 +305,8 @@ TEST(Effects, AMissingInputUsesItsFallbackAndSaysSo) {
   EXPECT_EQ(unknown.status, Status::kContextFallback);
   // The fallback is the reference temperature: nothing has grown.
   EXPECT_LT((unknown.X_BT.p - rigid.predict(q).X_BT.p).norm(), 1e-15);
-  const Prediction known = arm.predict(q, context_at(m.context, 0, temperature_names(state.arm)));
+  const Prediction known =
+      arm.predict(q, context_at(m.context, 0, temperature_names(state.arm)).known);
   EXPECT_EQ(known.status, Status::kOk);
   EXPECT_GT((known.X_BT.p - unknown.X_BT.p).norm(), 1e-6);
 }

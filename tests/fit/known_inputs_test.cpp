@@ -33,24 +33,25 @@ format::Effect effect(const char* name, std::vector<std::uint8_t> joints,
 
 const std::vector<double> kInside(6, 0.5);
 
-Status mark(const format::Model& model, const Context& at, bool placed) {
+Status mark(const format::Model& model, const MeasuredContext& at, bool placed) {
   return KnownInputs(model).mark(kInside, at, placed, Status::kOk);
 }
 
 TEST(KnownInputs, EachEffectIsMissedWhatItNeeds) {
   struct Case {
     format::Model model;
-    void (*tell)(Context&);
+    void (*tell)(MeasuredContext&);
     const char* column;
   };
   const Case cases[] = {
       {arm({effect("reversal", {1}, {{ContextInput::kDirection, "", 0.0}})}),
-       [](Context& c) { c.direction[1] = 1.0; }, "'dir_j2'"},
-      {arm({effect("settling_lag", {2})}), [](Context& c) { c.step[2] = 0.5; }, "'travel_j3'"},
+       [](MeasuredContext& c) { c.known.direction[1] = 1.0; }, "'dir_j2'"},
+      {arm({effect("settling_lag", {2})}), [](MeasuredContext& c) { c.step[2] = 0.5; },
+       "'travel_j3'"},
       {arm({effect("thermal_growth", {0}, {{ContextInput::kTemperature, "temp_arm", 21.5}})}),
-       [](Context& c) { c.temperature_degC[0] = 22.0; }, "'temp_arm_degC'"}};
+       [](MeasuredContext& c) { c.known.temperature_degC[0] = 22.0; }, "'temp_arm_degC'"}};
   for (const auto& one : cases) {
-    Context context;
+    MeasuredContext context;
     KnownInputs inputs(one.model);
     EXPECT_EQ(inputs.mark(kInside, context, true, Status::kOk), Status::kContextFallback);
     one.tell(context);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules about effects, guard and provenance.
+#include "plumb/format/formula.hpp"
 #include "rule.hpp"
 
 namespace plumb::format {
@@ -10,6 +11,23 @@ std::vector<Rule> effect_rules() {
       {"NameWithCapitals", "effect's name", [](Model& m) { m.effects[0].name = "Gear Ripple"; }},
       {"NameEmpty", "effect's name", [](Model& m) { m.effects[0].name = ""; }},
       {"NameLong", "effect's name", [](Model& m) { m.effects[0].name = std::string(300, 'a'); }},
+      {"OfTheTracker", "'tracker' belongs to a measurement",
+       [](Model& m) { m.effects[0].name = "tracker"; }},
+      {"OfADrift", "'drift' belongs to a measurement",
+       [](Model& m) { m.effects[0].name = "drift"; }},
+      {"OfAStep", "'step' belongs to a measurement", [](Model& m) { m.effects[0].name = "step"; }},
+      {"OfASettlingLag", "'settling_lag' belongs to a measurement",
+       [](Model& m) { m.effects[0].name = "settling_lag"; }},
+      {"FormulaOfTheRow", "'formula' belongs to a measurement",
+       [](Model& m) {
+         m.effects[0].name = "formula";
+         m.effects[0].formula.code = {instruction(FormulaOp::kRow)};
+       }},
+      {"FormulaOfALastMove", "'formula' belongs to a measurement",
+       [](Model& m) {
+         m.effects[0].name = "formula";
+         m.effects[0].formula.code = {instruction(FormulaOp::kMove, 1)};
+       }},
       {"Version", "version 0", [](Model& m) { m.effects[0].version = 0; }},
       {"Joint", "'reversal' names joint 7 of 6", [](Model& m) { m.effects[0].joints[0] = 6; }},
       {"TooManyJoints", "too many joints", [](Model& m) { m.effects[0].joints.assign(10, 0); }},

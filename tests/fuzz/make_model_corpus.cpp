@@ -50,6 +50,7 @@ int main(int count, char** arguments) {
     for (int law = first; law < std::min(first + kLawsInOneFile, kEffectLaws); ++law)
       if (effect_info(law).name != "formula")
         model.effects.push_back(tests::typical_effect(model, law, 2));
+    if (model.effects.empty()) continue;
     if (find_effect_fault(model).kind != EffectFault::Kind::kNone) return 1;
     write(folder + "/laws_" + std::to_string(file) + ".plumb", model);
   }

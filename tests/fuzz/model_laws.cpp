@@ -45,7 +45,6 @@ Context context(Random& random) {
   };
   fill(out.direction, 1.0);
   fill(out.travel, 3.0);
-  fill(out.step, 1.0);
   fill(out.temperature_degC, 80.0);
   fill(out.payload_com_m, 0.5);
   fill(out.force_N, 100.0);

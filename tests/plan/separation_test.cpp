@@ -9,9 +9,9 @@
 #include <numeric>
 #include <random>
 
+#include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "plan/pose_plan.hpp"
-#include "plumb/runtime/detail/effect_library.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 
@@ -150,7 +150,7 @@ TEST(Separation, EffectsThatAreOneAndTheSameStayConfounded) {
   EXPECT_GT(plan.apart_after.a_by_b.value_or(0.0), 0.95);
 }
 
-const EffectInfo& info(const char* name) { return effect_info(find_effect_law(name)); }
+const EffectInfo& info(const char* name) { return *descriptor_of(name).law; }
 
 TEST(Contrasts, TheTableNamesTheMeasurementThatChangesOneEffectAndNotTheOther) {
   using List = std::vector<Contrast>;

@@ -98,14 +98,13 @@ void RandomInputs::context(Context& out) {
   const auto number = [&](double size) {
     return one_in(random_, 64) ? wild(random_) : random_.uniform(-size, size);
   };
-  for (auto* values : {&out.direction, &out.travel, &out.step})
+  for (auto* values : {&out.direction, &out.travel})
     for (double& x : *values) x = number(1.0);
   for (double& x : out.temperature_degC) x = number(60.0);
-  for (auto* values : {&out.payload_com_m, &out.force_N, &out.moment_Nm, &out.tracker_B})
+  for (auto* values : {&out.payload_com_m, &out.force_N, &out.moment_Nm})
     for (double& x : *values) x = number(1.0);
   out.payload_kg = number(20.0);
   out.time_s = number(1e5);
-  out.order = number(1e3);
 }
 
 /// Beside the target by a millimetre, by a metre, or by a world.

@@ -93,4 +93,12 @@ inline FormulaFault find_formula_fault(const Effect& effect, std::size_t joints)
   return height == 1 ? FormulaFault::kNone : FormulaFault::kStack;
 }
 
+/// Whether the formula reads what is known only of measured poses: a joint's last move relative to
+/// the others, or the row. No model file contains such a formula.
+inline bool reads_measurement(const Formula& f) noexcept {
+  return std::any_of(f.code.begin(), f.code.end(), [](std::uint16_t code) {
+    return operation(code) == FormulaOp::kMove || operation(code) == FormulaOp::kRow;
+  });
+}
+
 }  // namespace plumb::format

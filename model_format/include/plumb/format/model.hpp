@@ -87,7 +87,8 @@ struct ContextNeed {
 /// [rad] or [m], torque [N m] or force [N], sign and size of its last move, its move as a fraction
 /// of the largest move of all joints; the time [s], the effect's k-th temperature [degC], the
 /// payload [kg], a coordinate of the tip in the base frame [m], the row of the measurement, counted
-/// from 1. kNegate to kStep replace one number, kAdd to kMax two, kClamp (x, low, high) three.
+/// from 1. kNegate to kStep replace one number, kAdd to kMax two, kClamp (x, low, high) three. The
+/// move and the row are known only of measured poses: a fit reads them, and no model file does.
 enum class FormulaOp : std::uint8_t {
   kLiteral,
   kParameter,

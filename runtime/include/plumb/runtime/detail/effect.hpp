@@ -21,6 +21,8 @@ namespace plumb {
 enum class EffectDomain : std::uint8_t { kRobot, kEnvironment, kProcedure, kMeasurement };
 
 /// The inputs that must be known, and must vary between poses, for an effect to be identifiable.
+/// Order, steps (the joints' last moves relative to each other) and tracker are known only of
+/// measured poses.
 enum Need : unsigned {
   kNeedsMasses = 1U << 0,
   kNeedsPayload = 1U << 1,

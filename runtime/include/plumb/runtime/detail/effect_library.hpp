@@ -9,7 +9,6 @@
 #include "plumb/runtime/detail/effects/backlash_load.hpp"
 #include "plumb/runtime/detail/effects/base_compliance.hpp"
 #include "plumb/runtime/detail/effects/cross_compliance.hpp"
-#include "plumb/runtime/detail/effects/drift.hpp"
 #include "plumb/runtime/detail/effects/encoder_eccentricity.hpp"
 #include "plumb/runtime/detail/effects/encoder_scale.hpp"
 #include "plumb/runtime/detail/effects/formula.hpp"
@@ -23,39 +22,33 @@
 #include "plumb/runtime/detail/effects/link_flexure.hpp"
 #include "plumb/runtime/detail/effects/payload_compliance.hpp"
 #include "plumb/runtime/detail/effects/reversal.hpp"
-#include "plumb/runtime/detail/effects/settling_lag.hpp"
-#include "plumb/runtime/detail/effects/step.hpp"
 #include "plumb/runtime/detail/effects/thermal_growth.hpp"
 #include "plumb/runtime/detail/effects/tool_sag.hpp"
-#include "plumb/runtime/detail/effects/tracker.hpp"
 #include "plumb/runtime/detail/effects/wrench_compliance.hpp"
 #include "plumb/runtime/detail/effects/wrist_coupling.hpp"
 
 namespace plumb {
 
-/// All laws. A new law is one header and one line here.
+/// All laws of the robot and of its surroundings. A new law is one header and one line here.
 using EffectLaws =
     std::tuple<effects::JointCompliance, effects::JointComplianceSoft, effects::GravityFree,
                effects::LinkFlexure, effects::GearHarmonics, effects::GearRipple,
                effects::JointTable, effects::EncoderScale, effects::EncoderEccentricity,
-               effects::Reversal, effects::BacklashLoad, effects::SettlingLag, effects::AxisWobble,
+               effects::Reversal, effects::BacklashLoad, effects::AxisWobble,
                effects::WristCoupling, effects::CrossCompliance, effects::ThermalGrowth,
                effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
-               effects::PayloadCompliance, effects::WrenchCompliance, effects::Drift, effects::Step,
-               effects::Tracker, effects::Formula>;
+               effects::PayloadCompliance, effects::WrenchCompliance, effects::Formula>;
 
 inline constexpr int kEffectLaws = static_cast<int>(std::tuple_size_v<EffectLaws>);
 
-/// Calls f(Law{}) with law number `index`; false if there is no such law.
-template <class F, std::size_t... I>
-bool with_law(int index, F&& f, std::index_sequence<I...>) {
-  return (
-      (index == static_cast<int>(I) ? (f(std::tuple_element_t<I, EffectLaws>{}), true) : false) ||
-      ...);
-}
-template <class F>
+/// Calls f(Law{}) with law number `index` of the tuple Laws; false if there is no such law.
+template <class Laws = EffectLaws, class F>
 bool with_law(int index, F&& f) {
-  return with_law(index, f, std::make_index_sequence<std::tuple_size_v<EffectLaws>>{});
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return ((index == static_cast<int>(I) ? (f(std::tuple_element_t<I, Laws>{}), true) : false) ||
+            ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<Laws>>{});
 }
 
 const EffectInfo& effect_info(int law) noexcept;
@@ -65,12 +58,5 @@ int find_effect_law(std::string_view name) noexcept;
 
 /// How many parameters the law has for this shape.
 int effect_parameter_count(int law, const EffectShape& shape) noexcept;
-
-/// Adds the motion of the effect at one pose to `out`; theta: shape (effect_parameter_count,).
-template <class S>
-void apply_effect(int law, std::span<const S> theta, const EffectShape& shape, const Situation& at,
-                  Motion<S>& out) {
-  with_law(law, [&](auto found) { decltype(found)::apply(theta, shape, at, out); });
-}
 
 }  // namespace plumb

@@ -7,6 +7,7 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/detail/effect_library.hpp"
+#include "plumb/runtime/detail/fallbacks.hpp"
 
 namespace plumb {
 
@@ -31,9 +32,14 @@ EffectFault find_effect_fault(const format::Model& model) noexcept;
 /// Context::temperature_degC; null after the last.
 const std::string* temperature_name(const format::Model& model, int k) noexcept;
 
+/// What a law needs to know of an effect of the model. Refers to the memory of both.
+EffectShape effect_shape(const format::Model& model, const format::Effect& effect) noexcept;
+
+/// The masses of the model, with the payload that its effects fall back to.
+Weights effect_weights(const format::Model& model, const Fallbacks& fallbacks) noexcept;
+
 /// An effect of a model together with its law.
 struct BoundEffect {
-  int law = 0;
   void (*apply)(const BoundEffect& effect, const Situation& at, Motion<double>& out) = nullptr;
   EffectShape shape;
   std::span<const double> theta;
@@ -47,29 +53,6 @@ class EffectSet {
   explicit EffectSet(const format::Model& model) noexcept;
 
   bool empty() const noexcept { return count_ == 0; }
-  int size() const noexcept { return static_cast<int>(count_); }
-
-  /// Context and loads of one pose, which all laws share.
-  struct ContextAndLoads {
-    Context context;
-    Loads loads;
-  };
-  void survey(const ChainFrames& frames, const Context& context,
-              ContextAndLoads& out) const noexcept;
-
-  /// Adds the motion of effect i, computed with the parameters theta instead of the model's.
-  template <class S>
-  void apply_one(int i, std::span<const S> theta, std::span<const double> q, const Chain& chain,
-                 const ChainFrames& frames, const ContextAndLoads& around, Motion<S>& out) const {
-    const BoundEffect& bound = effects_[static_cast<std::size_t>(i)];
-    const Situation at{.q = q,
-                       .chain = chain,
-                       .frames = frames,
-                       .loads = around.loads,
-                       .context = around.context,
-                       .fallbacks = fallbacks_};
-    apply_effect<S>(bound.law, theta, bound.shape, at, out);
-  }
 
   /// Working memory for the poses of one context. Every thread needs its own.
   struct Workspace {
@@ -90,20 +73,10 @@ class EffectSet {
              Motion<double>& out) const noexcept;
 
  private:
-  static constexpr std::size_t kInputs = sizeof(Context) / sizeof(double);
-
   void bind(const format::Model& model, const format::Effect& effect, int law) noexcept;
-  void add_fallback(const format::ContextNeed& need, const BoundEffect& bound,
-                    std::size_t& sensor) noexcept;
-  void add_fallback(std::size_t input, double value) noexcept;
-
-  /// True if an input that an effect needs is unknown.
-  bool lacks(const Context& context) const noexcept;
 
   std::array<BoundEffect, format::kMaxEffects> effects_;
-  std::array<std::size_t, kInputs + 1> needs_;  // indices into Context; the last is repeated
-  std::size_t need_count_ = 0;
-  Context fallbacks_;  // fallbacks of unknown inputs, from the first effect that needs each
+  Fallbacks fallbacks_;
   std::size_t count_ = 0;
   Weights weights_;
 };

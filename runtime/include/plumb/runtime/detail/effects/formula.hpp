@@ -36,8 +36,6 @@ struct Formula {
         return at.direction(which);
       case FormulaOp::kTravel:
         return at.travel(which);
-      case FormulaOp::kMove:
-        return at.context.step[which];
       case FormulaOp::kTime:
         return at.time_s();
       case FormulaOp::kTemperature:
@@ -46,8 +44,8 @@ struct Formula {
         return at.payload_kg();
       case FormulaOp::kTip:
         return at.frames.tip.p(static_cast<Eigen::Index>(which));
-      default:  // kRow
-        return at.context.order + 1.0;
+      default:  // kMove and kRow, which are known only of measured poses
+        return kUnknown;
     }
   }
 
@@ -85,13 +83,19 @@ struct Formula {
   template <class S>
   static void apply(std::span<const S> theta, const EffectShape& shape, const Situation& at,
                     Motion<S>& out) {
+    apply(theta, shape, at, out,
+          [&](format::FormulaOp op, std::size_t which) { return read(op, which, shape, at); });
+  }
+
+  /// The same with inputs that reader(op, operand) returns.
+  template <class S, class Reader>
+  static void apply(std::span<const S> theta, const EffectShape& shape, const Situation& at,
+                    Motion<S>& out, const Reader& reader) {
     using formula::is_number;
     using plumb::plain;
     if (shape.formula == nullptr) return;
     const format::Formula& f = *shape.formula;
-    const S motion = formula::evaluate(f, theta, [&](format::FormulaOp op, std::size_t which) {
-      return read(op, which, shape, at);
-    });
+    const S motion = formula::evaluate(f, theta, reader);
     const double size = plain(motion) < 0.0 ? -plain(motion) : plain(motion);
     if (!is_number(motion) || size > format::kMaxFormulaMotion) {
       out.undefined = true;

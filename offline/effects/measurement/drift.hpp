@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "effects/measured_context.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::effects {
@@ -29,9 +30,9 @@ struct Drift {
 
   template <class S>
   static void apply(std::span<const S> a, const EffectShape& shape, const Situation& at,
-                    Motion<S>& out) {
+                    const offline::MeasuredContext& measured, Motion<S>& out) {
     const bool timed = at.time_s() == at.time_s();
-    const double now = timed ? at.time_s() : at.context.order;
+    const double now = timed ? at.time_s() : measured.order;
     if (!(now == now)) return;
     const double t = (now - shape.constants[0]) / shape.constants[1];
     const double T = shape.constants[2] / shape.constants[1];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "effects/measured_context.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::effects {
@@ -20,10 +21,10 @@ struct SettlingLag {
   static int count(const EffectShape& shape) { return default_count<SettlingLag>(shape); }
 
   template <class S>
-  static void apply(std::span<const S> T, const EffectShape& shape, const Situation& at,
-                    Motion<S>& out) {
+  static void apply(std::span<const S> T, const EffectShape& shape, const Situation&,
+                    const offline::MeasuredContext& measured, Motion<S>& out) {
     for (std::size_t i = 0; i < shape.joints.size(); ++i) {
-      const double step = at.context.step[shape.joints[i]];
+      const double step = measured.step[shape.joints[i]];
       if (step == step) out.dq[shape.joints[i]] += T[i] * step;
     }
   }

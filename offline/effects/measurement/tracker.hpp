@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "effects/measured_context.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::effects {
@@ -23,10 +24,10 @@ struct Tracker {
   static int count(const EffectShape& shape) { return default_count<Tracker>(shape); }
 
   template <class S>
-  static void apply(std::span<const S> a, const EffectShape&, const Situation& at, Motion<S>& out) {
-    const auto& c = at.context;
-    const Vector3 beam = at.frames.tip.p - Vector3(c.tracker_B[0], c.tracker_B[1], c.tracker_B[2]);
-    const Vector3 up(c.tracker_up_B[0], c.tracker_up_B[1], c.tracker_up_B[2]);
+  static void apply(std::span<const S> a, const EffectShape&, const Situation& at,
+                    const offline::MeasuredContext& measured, Motion<S>& out) {
+    const Vector3 beam = at.frames.tip.p - Vector3(measured.tracker_B.data());
+    const Vector3 up(measured.tracker_up_B.data());
     const double range = portable::sqrt(dot(beam, beam));
     if (!(range > 1e-3)) return;
     const Vector3 along = beam * (1.0 / range);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "effects/measured_context.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::effects {
@@ -33,8 +34,8 @@ struct Step {
 
   template <class S>
   static void apply(std::span<const S> a, const EffectShape& shape, const Situation& at,
-                    Motion<S>& out) {
-    if (!(at.context.order > shape.constants[0])) return;
+                    const offline::MeasuredContext& measured, Motion<S>& out) {
+    if (!(measured.order > shape.constants[0])) return;
     const Vec3<S> none(S(0.0), S(0.0), S(0.0));
     switch (of(shape)) {
       case kTool:
