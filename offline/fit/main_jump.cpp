@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/main_jump.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kMostOfTheError = 0.3;  // of the squared error: a jump that is the cause
+constexpr double kClear_ln_p = -6.9;     // by chance once in a thousand
+
+}  // namespace
+
+double share_of_error(const StepFound& step, double rms_m, double rows) {
+  const double before = static_cast<double>(step.before + 1) / rows;
+  return rms_m > 0.0 ? step.size_m * step.size_m * before * (1.0 - before) / (rms_m * rms_m) : 1.0;
+}
+
+bool is_clear(const StepFound& step) { return step.ln_p <= kClear_ln_p; }
+
+bool is_cause(double share) { return share >= kMostOfTheError; }
+
+std::optional<StepFound> main_jump(const ArmState& fitted, const Measurements& measured,
+                                   const std::vector<int>& rows) {
+  if (rows.empty()) return std::nullopt;
+  const Measurements some = pick(measured, rows);
+  std::vector<int> all(rows.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Rows3 error_M = residuals(some, predict_points(fitted, some));
+  const double count = static_cast<double>(rows.size());
+  const double rms = std::sqrt(error_M.squaredNorm() / count);
+  const Changes found = change_points(StepMotions(fitted, some, series(some, error_M, all)));
+  std::optional<StepFound> out;
+  double most = 0.0;
+  for (const StepFound& step : found.steps) {
+    const double share = share_of_error(step, rms, count);
+    if (!is_clear(step) || !is_cause(share) || share <= most) continue;
+    most = share;
+    out = step;
+  }
+  if (out)
+    for (int* row : {&out->before, &out->after, &out->earliest, &out->latest})
+      *row = rows[static_cast<std::size_t>(*row)];
+  return out;
+}
+
+}  // namespace plumb::offline
