@@ -71,9 +71,8 @@ std::optional<MovedPart> moved_part(const Cell& cell, const Measurements& measur
   const std::optional<StepFound> step = main_jump(fitted, measured, rows);
   if (!step) return std::nullopt;
   MovedPart out;
-  out.words =
-      fmt::format("{} moved by some {:.2g} mm {}", in_words(cell, {step->source, step->joint}),
-                  step->size_m * 1e3, between(measured, step->before, step->after));
+  out.words = fmt::format("{} moved by some {} mm {}", in_words(cell, {step->source, step->joint}),
+                          size_in_mm(*step), between(measured, step->before, step->after));
   out.finding = {Severity::kWarning, "W-CHECK-MOVED",
                  fmt::format("it looks as if {}: a fit of all rows lies between the two and is "
                              "wrong for both{}",

@@ -19,7 +19,8 @@ struct MovedPart {
 };
 
 /// The jump of the residual in the order of measuring that causes most of it, by the rule of
-/// `plumb compare`. Silent where drift, an effect that the model lacks, or chance explain as much.
+/// `plumb compare`. Silent where drift, another payload, an effect that the model lacks, or chance
+/// explain as much.
 /// rows: to look at, outliers left out; fitted: the state that leaves the residual.
 /// Cost: 30 ms for 1,000 rows.
 std::optional<MovedPart> moved_part(const Cell& cell, const Measurements& measured,

@@ -83,9 +83,9 @@ std::string jump_words(const Cell& cell, const Measurements& measured, const Fit
   const auto step = main_jump(fit.calibration.state, measured, rows);
   if (!step) return "";
   return fmt::format(
-      "\nIt looks as if {} moved between rows {} and {}, by some {:.2g} mm: see plumb compare.\n",
+      "\nIt looks as if {} moved between rows {} and {}, by some {} mm: see plumb compare.\n",
       in_words(cell, {step->source, step->joint}), step->before + 1, step->after + 1,
-      show::to_mm(step->size_m));
+      size_in_mm(*step));
 }
 
 void fit(const Options& options, const Globals& globals, Outcome& outcome) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fit/change_points.hpp"
@@ -20,9 +21,12 @@ bool is_clear(const StepFound& step);
 bool is_cause(double share);
 
 /// The jump that causes most of what `fitted` leaves on these rows: clear, and a cause. Nothing if
-/// there is none. rows: of the measurements, ascending, outliers left out; so are those of the
-/// answer. Cost: 30 us a row.
+/// there is none, or if the payload changes at that moment. rows: of the measurements, ascending,
+/// outliers left out; so are those of the answer. Cost: 30 us a row.
 std::optional<StepFound> main_jump(const ArmState& fitted, const Measurements& measured,
                                    const std::vector<int>& rows);
+
+/// How far the measured points jump, in mm: "0.29", "16", "156".
+std::string size_in_mm(const StepFound& step);
 
 }  // namespace plumb::offline
