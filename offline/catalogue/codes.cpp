@@ -152,6 +152,13 @@ constexpr Explanation kCodes[] = {
      "says, or points that stand one or two rows away from their joint positions. Each of these "
      "was tried on every row, and the repaired rows were fitted with the others. Correct these "
      "lines of the file; plumb changes nothing by itself."},
+    {"W-CHECK-MOVED",
+     "From one row on all measured points are shifted, in the way in which they are when the "
+     "tracker or the base was pushed, the reflector was seated anew, or the zero of a joint was "
+     "lost. It is judged as plumb compare judges it: chance makes such a jump less than once in a "
+     "thousand, and it causes at least 30 % of the squared error that the fit leaves. A drift is "
+     "no jump. Put it into the model with plumb add step, or give the rows before and behind it "
+     "set-ups of their own, or measure again."},
     {"W-CHECK-CONTRADICT",
      "An arm fits most readings well and misses the others by far, with nothing between: these "
      "belong to another arm, another target or another set of joint positions. They are too many "

@@ -14,6 +14,7 @@
 #include "check/data_sense.hpp"
 #include "check/effect_sense.hpp"
 #include "check/gravity_sense.hpp"
+#include "check/moved_part.hpp"
 #include "check/row_faults.hpp"
 #include "check/row_pattern.hpp"
 #include "check/setup_sharing.hpp"
@@ -34,6 +35,7 @@ constexpr double kEnough = 1.5;              // coordinates for each number
 constexpr std::size_t kMostSentences = 4;
 constexpr double kOneChange = 1.05;  // of the labels
 constexpr int kPlacedRows = 300;
+constexpr int kSearchedRows = 1500;  // for a jump: those that identifiability fits
 
 std::vector<int> used_rows(const Measurements& measured) {
   std::vector<int> rows;
@@ -324,6 +326,7 @@ class Checker {
     add(option_findings(cell));
     std::string cause = row_findings(cell, measured, rows, placed);
     if (cause.empty()) cause = gross_findings();
+    if (cause.empty()) cause = moved_findings(cell, measured, rows, placed);
     auto pattern = out_.parameters && cause.empty() ? pattern_findings(measured, rows, placed)
                                                     : std::vector<Problem>{};
     // Every third reading off is a third of them wrong too; the pattern says more.
@@ -362,6 +365,24 @@ class Checker {
     std::erase_if(out_.findings, [](const Problem& p) { return p.code == "W-CHECK-OUTLIER"; });
     add(std::move(found));
     return "some rows were written otherwise than the rest, see W-CHECK-ROWS";
+  }
+
+  /// Something moved half-way, and W-CHECK-SAME does not say so already.
+  std::string moved_findings(const Cell& cell, const Measurements& measured,
+                             const std::vector<int>& rows, const ArmState& placed) {
+    if (out_.detection.changed ||
+        std::any_of(out_.findings.begin(), out_.findings.end(),
+                    [](const Problem& p) { return p.code == "W-CHECK-SAME"; }))
+      return "";
+    const std::vector<int> some = thinned(rows, kSearchedRows);
+    auto found = moved_part(
+        cell, measured,
+        out_.parameters ? without_outliers(some, out_.parameters->calibration.outliers) : some,
+        placed);
+    if (!found) return "";
+    out_.moved = std::move(found->words);
+    add({std::move(found->finding)});
+    return out_.moved + ", see W-CHECK-MOVED";
   }
 
   /// What explains why no reading fits; empty if nothing does.
@@ -433,11 +454,14 @@ std::string verdict(const Check& check) {
           ? fmt::format("fit the labels to {:.3g} mm{} and", check.detection.best.fitted_m * 1e3,
                         has_effects ? " with geometry alone" : "")
           : "cannot show whether the labels are right, but";
-  return fmt::format("Usable: the {} poses {} tell {} numbers of arm, frame and target{}.", poses,
-                     fit, rank,
-                     warnings == 0   ? ""
-                     : warnings == 1 ? ", with one warning"
-                                     : fmt::format(", with {} warnings", warnings));
+  const std::string numbers =
+      fmt::format("the {} poses {} tell {} numbers of arm, frame and target{}.", poses, fit, rank,
+                  warnings == 0   ? ""
+                  : warnings == 1 ? ", with one warning"
+                                  : fmt::format(", with {} warnings", warnings));
+  if (check.moved.empty()) return "Usable: " + numbers;
+  return fmt::format("Usable only with the effect 'step', because {}. Without that effect {}",
+                     check.moved, numbers);
 }
 
 }  // namespace plumb::offline

@@ -26,6 +26,7 @@ struct Check {
   std::optional<Rounding> rounding;
   NoiseFloor floor;
   std::vector<Testable> effects;
+  std::string moved;              // what moved, by how much and where, in words; empty: nothing
   std::vector<Problem> findings;  // errors first
   Exit exit = Exit::kDone;        // kInput: data or cell are wrong; kNumbersSayNo: nothing to fit
 };

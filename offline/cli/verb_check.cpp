@@ -63,7 +63,7 @@ void check(const Options& options, const Globals& globals, Outcome& outcome) {
   if (to_fix)
     say_next(globals, "check --fix   # writes the files as they are meant", outcome);
   else if (outcome.exit == Exit::kDone)
-    say_next(globals, "fit", outcome);
+    say_next(globals, found.moved.empty() ? "fit" : "compare   # what moved, and when?", outcome);
 }
 
 }  // namespace

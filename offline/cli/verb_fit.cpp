@@ -11,12 +11,17 @@
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
+#include "fit/main_jump.hpp"
+#include "fit/moving_part.hpp"
+#include "fit/parameter_subset.hpp"
 #include "fit/verdict.hpp"
 #include "show/fit_view.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
 namespace {
+
+constexpr int kSearchedRows = 1500;  // for a jump: as check does
 
 struct Options {
   bool dry_run = false;
@@ -68,6 +73,21 @@ void keep_run(const Options& options, const Cell& cell, const Measurements& meas
   }
 }
 
+/// One sentence if a jump is what the fit leaves, held-out rows included; compare says more of it.
+std::string jump_words(const Cell& cell, const Measurements& measured, const Fit& fit) {
+  std::vector<int> used;
+  for (int i = 0; i < measured.size(); ++i)
+    if (fit.split.used[i]) used.push_back(i);
+  const auto rows = without_outliers(
+      without_outliers(thinned(used, kSearchedRows), fit.calibration.outliers), fit.held_outliers);
+  const auto step = main_jump(fit.calibration.state, measured, rows);
+  if (!step) return "";
+  return fmt::format(
+      "\nIt looks as if {} moved between rows {} and {}, by some {} mm: see plumb compare.\n",
+      in_words(cell, {step->source, step->joint}), step->before + 1, step->after + 1,
+      size_in_mm(*step));
+}
+
 void fit(const Options& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
@@ -76,6 +96,7 @@ void fit(const Options& options, const Globals& globals, Outcome& outcome) {
   Fit fitted = fit_with_progress(cell, measured, outcome);
   outcome.result = show::fit_json(cell, measured, fitted);
   outcome.text = show::fit_text(cell, measured, fitted);
+  outcome.text += jump_words(cell, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
   keep_run(options, cell, measured, std::move(fitted), outcome);
   say_next(globals, next, outcome);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "compare/series.hpp"
+#include "fit/series.hpp"
 
 namespace plumb::offline::compare {
 

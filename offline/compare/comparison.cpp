@@ -5,7 +5,7 @@
 #include <set>
 
 #include "compare/profiles.hpp"
-#include "compare/step_motions.hpp"
+#include "fit/step_motions.hpp"
 
 namespace plumb::offline::compare {
 namespace {

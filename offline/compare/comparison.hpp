@@ -7,10 +7,10 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "compare/autocorrelation.hpp"
-#include "compare/change_points.hpp"
 #include "compare/joint_shares.hpp"
 #include "compare/lack_of_fit.hpp"
 #include "compare/profile.hpp"
+#include "fit/change_points.hpp"
 #include "fit/fit.hpp"
 
 namespace plumb::offline::compare {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compare/step_motions.hpp"
+#include "fit/step_motions.hpp"
 
 namespace plumb::offline::compare {
 

@@ -4,34 +4,50 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
 #include "effects/registry.hpp"
+#include "fit/cut_search.hpp"
+#include "fit/moving_part.hpp"
+#include "fit/running_sums.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr double kSamePayload_kg = 1e-6;
 
-/// Running products of one kind of motion over the poses behind a cut.
-struct Running {
-  EffectEntry entry;
-  Eigen::MatrixXd carriers;  // (lines, c)
-  Eigen::MatrixXd XX, UX;
-  Eigen::VectorXd Xy;
+EffectEntry step_of(const MovingPart& part) {
+  EffectEntry out{.name = change_point_effect(), .joints = {}, .options = {}, .place = {}};
+  if (part.joint >= 0) out.joints = {part.joint};
+  set_option(out, OptionKey::kOf, std::string(name_of(part.source)));
+  return out;
+}
 
-  Running(const WhitenedFit& s, EffectEntry e, Eigen::MatrixXd motion)
-      : entry(std::move(e)), carriers(std::move(motion)) {
-    XX.setZero(carriers.cols(), carriers.cols());
-    UX.setZero(s.rank, carriers.cols());
-    Xy.setZero(carriers.cols());
+Eigen::MatrixXd motions_of(const WhitenedFit& s, const MovingPart& part) {
+  return part.source == MotionSource::kTool   ? s.tool
+         : part.source == MotionSource::kBase ? s.base
+                                              : Eigen::MatrixXd(s.joint[part.joint]);
+}
+
+/// A part that may have moved, and what is summed of its motions over the poses behind a cut.
+struct Kind {
+  EffectEntry entry;
+  Eigen::MatrixXd motions;  // (lines, c) per typical step
+  RunningSums behind;
+
+  Kind(const WhitenedFit& s, const MovingPart& part)
+      : entry(step_of(part)),
+        motions(motions_of(s, part) * kTypicalStep),
+        behind(motions.cols(), s.rank) {}
+
+  void pass(const WhitenedFit& s, Eigen::Index pose) {
+    behind.add(motions.middleRows(pose * s.axes, s.axes), s.y.segment(pose * s.axes, s.axes),
+               s.U.middleRows(pose * s.axes, s.axes));
   }
-  void add(const WhitenedFit& s, Eigen::Index pose) {
-    const auto X = carriers.middleRows(pose * s.axes, s.axes);
-    XX.noalias() += X.transpose() * X;
-    UX.noalias() += s.U.middleRows(pose * s.axes, s.axes).transpose() * X;
-    Xy.noalias() += X.transpose() * s.y.segment(pose * s.axes, s.axes);
+  double ln_bayes(const WhitenedFit& s, const EvidenceScale& scale) const {
+    return evidence(behind.XX - behind.UX.transpose() * behind.UX, behind.Xy, s.Q, scale).ln_bayes;
   }
 };
 
@@ -46,83 +62,68 @@ bool changes_payload(const WhitenedFit& s, const std::vector<Eigen::Index>& orde
   return true;
 }
 
-EffectEntry step_of(const char* of, std::vector<int> joints = {}) {
-  EffectEntry out{
-      .name = change_point_effect(), .joints = std::move(joints), .options = {}, .place = {}};
-  set_option(out, OptionKey::kOf, std::string(of));
-  return out;
-}
-
-std::vector<Running> kinds(const WhitenedFit& s) {
-  std::vector<Running> out;
-  out.emplace_back(s, step_of("tool"), s.tool * kTypicalStep);
-  out.emplace_back(s, step_of("base"), s.base * kTypicalStep);
-  for (int j = 0; j < s.joints(); ++j)
-    out.emplace_back(s, step_of("joint", {j}), s.joint[j] * kTypicalStep);
-  return out;
-}
-
-std::vector<Eigen::Index> in_order(const WhitenedFit& s) {
+std::vector<Eigen::Index> poses_in_order(const WhitenedFit& s) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(s.fit_poses()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return s.context[a].order < s.context[b].order; });
+  put_in_order(order, [&](Eigen::Index pose) { return s.context[pose].order; });
   return order;
 }
 
-/// Poses between the two were not looked at: the middle.
-double between(double before, double after) { return std::floor(0.5 * (before + after + 1.0)); }
+/// The row before the cut; of poses between the two that were not looked at the middle.
+double row_before(const WhitenedFit& s, const std::vector<Eigen::Index>& order, int cut) {
+  const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
+  return std::floor(0.5 * (before + after + 1.0));
+}
+
+CutRange cuts_between(const std::vector<Eigen::Index>& order) {
+  return cuts_of(VisitRun{0, static_cast<int>(order.size())}, static_cast<int>(kFewestBesideStep));
+}
 
 }  // namespace
 
 std::vector<ChangePoint> change_points(const WhitenedFit& s, int& tried) {
-  const std::vector<Eigen::Index> order = in_order(s);
+  const std::vector<Eigen::Index> order = poses_in_order(s);
   const EvidenceScale scale = evidence_scale(s);
   std::vector<ChangePoint> out;
-  const auto n = static_cast<Eigen::Index>(order.size());
-  for (auto& kind : kinds(s)) {
-    ChangePoint best{kind.entry, -1e300};
-    for (Eigen::Index cut = n - 1; cut >= kFewestBesideStep; --cut) {
-      kind.add(s, order[cut]);
-      if (n - cut < kFewestBesideStep) continue;
-      const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
-      if (!kind.entry.joints.empty() && changes_payload(s, order, cut)) continue;
-      ++tried;
-      const Evidence found = evidence(kind.XX - kind.UX.transpose() * kind.UX, kind.Xy, s.Q, scale);
-      if (found.ln_bayes <= best.ln_bayes) continue;
-      best.ln_bayes = found.ln_bayes;
-      set_option(best.entry, OptionKey::kAfterRow, between(before, after));
-    }
-    if (best.ln_bayes > -1e300) out.push_back(std::move(best));
+  for (const MovingPart& part : moving_parts(s.joints())) {
+    Kind kind(s, part);
+    const auto best = best_cut(
+        static_cast<int>(order.size()), cuts_between(order),
+        [&](int visit) { kind.pass(s, order[visit]); },
+        [&](int cut) -> std::optional<double> {
+          if (part.joint >= 0 && changes_payload(s, order, cut)) return std::nullopt;
+          ++tried;
+          return kind.ln_bayes(s, scale);
+        });
+    if (!best) continue;
+    set_option(kind.entry, OptionKey::kAfterRow, row_before(s, order, best->cut));
+    out.push_back({std::move(kind.entry), best->score});
   }
   return out;
 }
 
 void sharpen(const WhitenedFit& s, Eigen::Index poses, EffectEntry& step) {
-  const std::vector<Eigen::Index> order = in_order(s);
+  const std::vector<Eigen::Index> order = poses_in_order(s);
   const EvidenceScale scale = evidence_scale(s);
-  auto all = kinds(s);
-  const auto kind = std::find_if(all.begin(), all.end(), [&](const Running& one) {
-    return one.entry.joints == step.joints &&
-           text_option(one.entry, OptionKey::kOf, "") == text_option(step, OptionKey::kOf, "");
-  });
-  if (kind == all.end()) return;
   const double after_row = number_option(step, OptionKey::kAfterRow, 0.0);
-  const auto n = static_cast<Eigen::Index>(order.size());
-  const Eigen::Index found =
+  const auto found = static_cast<int>(
       std::partition_point(order.begin(), order.end(),
                            [&](auto pose) { return s.context[pose].order < after_row; }) -
-      order.begin();
-  double best = kImpossible;
-  for (Eigen::Index cut = n - 1; cut >= std::max(kFewestBesideStep, found - poses); --cut) {
-    kind->add(s, order[cut]);
-    if (n - cut < kFewestBesideStep || cut > found + poses) continue;
-    const Evidence here =
-        evidence(kind->XX - kind->UX.transpose() * kind->UX, kind->Xy, s.Q, scale);
-    if (here.ln_bayes <= best) continue;
-    best = here.ln_bayes;
-    set_option(step, OptionKey::kAfterRow,
-               between(s.context[order[cut - 1]].order, s.context[order[cut]].order));
+      order.begin());
+  for (const MovingPart& part : moving_parts(s.joints())) {
+    const EffectEntry one = step_of(part);
+    if (one.joints != step.joints ||
+        text_option(one, OptionKey::kOf, "") != text_option(step, OptionKey::kOf, ""))
+      continue;
+    Kind kind(s, part);
+    const auto best = best_cut(
+        static_cast<int>(order.size()),
+        cuts_near(cuts_between(order), found, static_cast<int>(poses)),
+        [&](int visit) { kind.pass(s, order[visit]); },
+        [&](int) -> std::optional<double> { return kind.ln_bayes(s, scale); });
+    if (best && best->score > kImpossible)
+      set_option(step, OptionKey::kAfterRow, row_before(s, order, best->cut));
+    return;
   }
 }
 

@@ -41,7 +41,7 @@ std::string with_factor_apart(const std::string& heading) {
       R"(([\[\(])\s*([^\[\]\(\),;]+?)\s*[,;\s]\s*(k\s*=\s*[0-9]+(?:[.,][0-9]+)?)\s*([\]\)]))",
       std::regex::icase);
   static const std::regex kBefore(
-      R"(([\[\(])\s*(k\s*=\s*[0-9]+(?:[.,][0-9]+)?)\s*[,;\s]\s*([^\[\]\(\),;]+?)\s*([\]\)]))",
+      R"(([\[\(])\s*(k\s*=\s*[0-9]+(?:[.,][0-9]+)?)\s*[,;\s]\s*([^\[\]\(\),;0-9][^\[\]\(\),;]*?)\s*([\]\)]))",
       std::regex::icase);
   return std::regex_replace(std::regex_replace(heading, kBehind, "$1$2$4 ($3)"), kBefore,
                             "$1$3$4 ($2)");

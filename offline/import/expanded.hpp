@@ -13,9 +13,9 @@ struct Expanded {
   std::string rest = {};  // the heading without it
 };
 
-/// "U(95) X", "U95_X", "Uncertainty X (k=2)", "U(x) [mm, k=2]", "expanded uncertainty X", "X 2 sigma" are two
-/// standard deviations, [JCGM 100:2008] 6.2; "k=3" and "3 sigma" are three. Nothing if the heading
-/// does not say.
+/// "U(95) X", "U95_X", "Uncertainty X (k=2)", "U(x) [mm, k=2]", "expanded uncertainty X" and
+/// "X 2 sigma" are two standard deviations, [JCGM 100:2008] 6.2; "k=3" and "3 sigma" are three.
+/// Nothing if the heading does not say.
 std::optional<Expanded> expanded_uncertainty(const std::string& heading);
 
 }  // namespace plumb::offline

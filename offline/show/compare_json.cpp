@@ -138,19 +138,19 @@ Json order_json(const compare::Autocorrelation& found) {
   return out;
 }
 
-void add_shift(const compare::StepFound& step, bool slides, Json& out) {
+void add_shift(const StepFound& step, bool slides, Json& out) {
   const auto three = [&](Eigen::Index first, double scale) {
     return Json{step.shift(first) * scale, step.shift(first + 1) * scale,
                 step.shift(first + 2) * scale};
   };
-  if (step.source == compare::MotionSource::kJoint)
+  if (step.source == MotionSource::kJoint)
     out[slides ? "shift_um" : "turn_urad"] = step.shift(0) * 1e6;
   else
     out["shift_mm"] = three(0, 1e3);
-  if (step.source == compare::MotionSource::kBase) out["turn_urad"] = three(3, 1e6);
+  if (step.source == MotionSource::kBase) out["turn_urad"] = three(3, 1e6);
 }
 
-Json steps_json(const Cell& cell, const Measurements& measured, const compare::Changes& found) {
+Json steps_json(const Cell& cell, const Measurements& measured, const Changes& found) {
   Json out = Json::array();
   for (const auto& step : found.steps) {
     Json row{{"text", step_words(cell, measured, step)},
@@ -159,10 +159,10 @@ Json steps_json(const Cell& cell, const Measurements& measured, const compare::C
              {"before_pose", measured.pose[step.after]},
              {"earliest_row", step.earliest + 1},
              {"latest_row", step.latest + 1},
-             {"of", source_name(step.source)},
+             {"of", name_of(step.source)},
              {"size_mm", to_mm(step.size_m)},
              {"ln_p", step.ln_p}};
-    const bool joint = step.source == compare::MotionSource::kJoint;
+    const bool joint = step.source == MotionSource::kJoint;
     if (joint) row["joint"] = cell.nominal.joints[step.joint].name;
     add_shift(step, joint && slides(cell.nominal.joints[step.joint]), row);
     out.push_back(std::move(row));
@@ -170,13 +170,13 @@ Json steps_json(const Cell& cell, const Measurements& measured, const compare::C
   return out;
 }
 
-Json drifts_json(const Cell& cell, const Measurements& measured, const compare::Changes& found) {
+Json drifts_json(const Cell& cell, const Measurements& measured, const Changes& found) {
   Json out = Json::array();
   for (const auto& drift : found.drifts) {
     Json row{{"text", drift_words(cell, measured, drift)},
              {"from_row", drift.from + 1},
              {"to_row", drift.to + 1},
-             {"of", source_name(drift.source)},
+             {"of", name_of(drift.source)},
              {"size_mm", to_mm(drift.size_m)},
              {"ln_p", drift.ln_p}};
     if (drift.joint >= 0) row["joint"] = cell.nominal.joints[drift.joint].name;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/main_jump.hpp"
 #include "fit/verdict.hpp"
 #include "show/compare_words.hpp"
 #include "show/error_table.hpp"
@@ -19,11 +20,9 @@ namespace {
 using compare::Comparison;
 using compare::ErrorProfile;
 
-constexpr double kMostOfTheError = 0.3;  // of the squared error: a jump that is the cause
 constexpr std::size_t kWorstListed = 10;
 constexpr std::size_t kProfilesShown = 4;
 constexpr int kBarWidth = 18;
-constexpr double kClear_ln_p = -6.9;  // by chance once in a thousand
 
 std::vector<std::string> stats_row(const std::string& name, const ErrorStats& s,
                                    const MeanInterval& interval = {}) {
@@ -152,24 +151,16 @@ std::string setups_text(const Comparison& comparison) {
   return "";
 }
 
-/// How much of the squared error a jump of this size can cause at most: the fit takes its mean
-/// away.
-double share_of_jump(const compare::StepFound& step, const Comparison& comparison, double rows) {
-  const double before = static_cast<double>(step.before + 1) / rows;
-  const double rms = comparison.stats.rms;
-  return rms > 0.0 ? step.size_m * step.size_m * before * (1.0 - before) / (rms * rms) : 1.0;
-}
-
 /// A jump that causes the error explains more than the size of the error does; beside one that does
 /// not, something else is missing, and may look like a jump where the poses change.
 std::string compare_verdict(const Cell& cell, const Measurements& measured,
                             const Comparison& comparison, const Run& run) {
   const std::string error = verdict(run.fit, cell.tolerance_m);
   const auto& steps = comparison.changes.steps;
-  if (steps.empty() || steps.front().ln_p > kClear_ln_p) return error;
-  const double share =
-      share_of_jump(steps.front(), comparison, static_cast<double>(measured.pose.size()));
-  if (share < kMostOfTheError)
+  if (steps.empty() || !is_clear(steps.front())) return error;
+  const double share = share_of_error(steps.front(), comparison.stats.rms,
+                                      static_cast<double>(measured.pose.size()));
+  if (!is_cause(share))
     return fmt::format(
         "{}\nPossibly something moved too: {}. It would cause at most {:.0f} % of the squared "
         "error; what else is missing may look like a jump, so diagnose first.",

@@ -12,7 +12,6 @@ namespace plumb::offline::show {
 
 using compare::ErrorProfile;
 using compare::LackOfFit;
-using compare::MotionSource;
 using Unit = ErrorProfile::Unit;
 
 namespace {
@@ -25,7 +24,7 @@ std::string vector_um(const Eigen::VectorXd& v, Eigen::Index first) {
                      v(first + 2) * 1e6);
 }
 
-std::string shift_words(const Cell& cell, const compare::StepFound& step) {
+std::string shift_words(const Cell& cell, const StepFound& step) {
   switch (step.source) {
     case MotionSource::kTool:
       return vector_um(step.shift, 0) + " um along the tool's axes";
@@ -99,16 +98,6 @@ std::string quantity_words(const ErrorProfile& profile) {
   }
 }
 
-const char* source_name(MotionSource source) {
-  return source == MotionSource::kTool ? "tool" : source == MotionSource::kBase ? "base" : "joint";
-}
-
-std::string source_words(const Cell& cell, MotionSource source, int joint) {
-  if (source == MotionSource::kTool) return "the reflector or the tool";
-  if (source == MotionSource::kBase) return "the tracker or the base";
-  return fmt::format("the zero of {}", cell.nominal.joints[joint].name);
-}
-
 std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOutExcess>& held) {
   if (found.basis == LackOfFit::Basis::kNone)
     return "Lack of fit: unknown; repeats of a few poses, or sigma_um, would tell.";
@@ -175,27 +164,25 @@ std::string where_words(const compare::Comparison& found) {
       quantity_words(*best), 100.0 * best->explained);
 }
 
-std::string step_words(const Cell& cell, const Measurements& measured,
-                       const compare::StepFound& step) {
+std::string step_words(const Cell& cell, const Measurements& measured, const StepFound& step) {
   std::string out =
       fmt::format("between rows {} and {} (poses {} and {}) {} jumped by {}", step.before + 1,
                   step.after + 1, measured.pose[step.before], measured.pose[step.after],
-                  source_words(cell, step.source, step.joint), shift_words(cell, step));
+                  in_words(cell, {step.source, step.joint}), shift_words(cell, step));
   if (step.earliest != step.latest)
     out += fmt::format("; the last row before it lies in {} .. {}", step.earliest + 1,
                        step.latest + 1);
   return out;
 }
 
-std::string drift_words(const Cell& cell, const Measurements& measured,
-                        const compare::DriftFound& drift) {
+std::string drift_words(const Cell& cell, const Measurements& measured, const DriftFound& drift) {
   return fmt::format("from row {} to {} (poses {} and {}) {} drifts by {} mm, smoothly",
                      drift.from + 1, drift.to + 1, measured.pose[drift.from],
-                     measured.pose[drift.to], source_words(cell, drift.source, drift.joint),
+                     measured.pose[drift.to], in_words(cell, {drift.source, drift.joint}),
                      mm(drift.size_m));
 }
 
-std::string changes_words(const compare::Changes& found) {
+std::string changes_words(const Changes& found) {
   if (found.visits == 0) return "Jumps and drift: too few poses to tell.";
   if (found.steps.empty() && found.drifts.empty())
     return fmt::format("Jumps and drift: none over {} readings in order.", found.visits);

@@ -19,17 +19,9 @@ std::string lack_of_fit_words(const compare::LackOfFit& found,
 std::string order_words(const compare::Autocorrelation& found);
 std::string joint_words(const Cell& cell, const compare::Comparison& found);
 std::string where_words(const compare::Comparison& found);
-std::string changes_words(const compare::Changes& found);
-std::string step_words(const Cell& cell, const Measurements& measured,
-                       const compare::StepFound& step);
-std::string drift_words(const Cell& cell, const Measurements& measured,
-                        const compare::DriftFound& drift);
-
-/// "the reflector or the tool", "the tracker or the base", "the zero of J3".
-std::string source_words(const Cell& cell, compare::MotionSource source, int joint);
-
-/// "tool", "base", "joint": as [effects.step] says it.
-const char* source_name(compare::MotionSource source);
+std::string changes_words(const Changes& found);
+std::string step_words(const Cell& cell, const Measurements& measured, const StepFound& step);
+std::string drift_words(const Cell& cell, const Measurements& measured, const DriftFound& drift);
 
 /// "angle of J4", "height", "torque of J2".
 std::string quantity_words(const compare::ErrorProfile& profile);

@@ -105,7 +105,7 @@ Check checked(const Files& files) {
 
 constexpr const char* kCodes[] = {"W-CHECK-COARSE", "W-CHECK-ROUNDED",    "W-CHECK-PATTERN",
                                   "W-CHECK-SCALE",  "W-CHECK-CONTRADICT", "W-CHECK-GRAVITY",
-                                  "W-CHECK-ROWS"};
+                                  "W-CHECK-ROWS",   "W-CHECK-MOVED"};
 
 /// Only this one of the doubts is said; its sentence holds the words. An empty code: none is.
 Check expect_only(const Files& files, const std::string& code, const std::string& words = "") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 
 #include "sandbox.hpp"
@@ -11,6 +12,11 @@ using Json = nlohmann::ordered_json;
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// Screens wrap.
+std::string one_line(const std::string& text) {
+  return std::regex_replace(text, std::regex("\\s+"), " ");
 }
 
 class CheckVerb : public testing::Test {
@@ -133,6 +139,60 @@ TEST_F(CheckVerb, FixOfASoundCellChangesNothing) {
   EXPECT_EQ(box.plumb({"-C", "cell", "check", "--fix"}).exit, 0);
   EXPECT_EQ(box.listing(), before);
   EXPECT_EQ(box.read("cell/cell.toml"), cell);
+}
+
+TEST_F(CheckVerb, ATrackerThatMovedIsNamedWhereCompareNamesItAndIsNotCalledPlainlyUsable) {
+  ASSERT_EQ(box.plumb({"-C", "cell", "simulate", "--force", "--poses", "120", "--effect",
+                       "step_base=15mm", "--geometry-mm", "0.3", "--noise-um", "20"})
+                .exit,
+            0);
+  const Ran screen = box.plumb({"-C", "cell", "check"});
+  EXPECT_EQ(screen.exit, 0) << screen.err;
+  EXPECT_EQ(screen.out.rfind("Usable only with the effect 'step'", 0), 0U) << screen.out;
+  EXPECT_TRUE(has(screen.err, "W-CHECK-MOVED")) << screen.err;
+  EXPECT_TRUE(has(screen.out, "Next: plumb -C cell compare")) << screen.out;
+  const Json compared =
+      box.plumb({"-C", "cell", "compare", "--json"}).json().at("result").at("change_points");
+  ASSERT_EQ(compared.size(), 1U);
+  EXPECT_EQ(compared[0].at("of"), "base");
+  const int row = compared[0].at("after_row");
+  const std::string csv = box.read("cell/measurements.csv");
+  const auto pose = csv.find("\n" + compared[0].at("after_pose").get<std::string>() + ",");
+  ASSERT_NE(pose, std::string::npos);
+  const auto line = 2 + std::count(csv.begin(), csv.begin() + static_cast<long>(pose), '\n');
+  EXPECT_TRUE(has(one_line(screen.out), "lines " + std::to_string(line) + " and " +
+                                            std::to_string(line + 1) + " of measurements.csv"))
+      << screen.out;
+  const std::string fit = one_line(box.plumb({"-C", "cell", "fit", "--dry-run"}).out);
+  EXPECT_TRUE(has(fit, "the tracker or the base moved between rows " + std::to_string(row) +
+                           " and " + std::to_string(row + 1)))
+      << fit;
+  EXPECT_TRUE(has(fit, "see plumb compare")) << fit;
+  // What check advises mends it.
+  const std::string advice =
+      "plumb -C cell add step --set after_row=" + std::to_string(row) + " --set of=base";
+  EXPECT_TRUE(has(one_line(screen.err), advice)) << screen.err;
+  ASSERT_EQ(box.plumb({"-C", "cell", "add", "step", "--set", "after_row=" + std::to_string(row),
+                       "--set", "of=base"})
+                .exit,
+            0);
+  const Ran mended = box.plumb({"-C", "cell", "check"});
+  EXPECT_EQ(mended.out.rfind("Usable: ", 0), 0U) << mended.out;
+  EXPECT_FALSE(has(mended.err, "W-CHECK-MOVED")) << mended.err;
+  EXPECT_FALSE(has(box.plumb({"-C", "cell", "fit", "--dry-run"}).out, "It looks as if"));
+}
+
+TEST_F(CheckVerb, NoSampleCellButTheBumpedOneIsSaidToHaveMoved) {
+  for (const char* name : {"clean", "gear", "ripple", "reversal", "thermal", "unknown", "mixed",
+                           "compliance", "beam", "scara"}) {
+    ASSERT_EQ(box.plumb({"demo", name, name}).exit, 0) << name;
+    const Ran ran = box.plumb({"-C", name, "check"});
+    EXPECT_FALSE(has(ran.err, "W-CHECK-MOVED")) << name << ran.err;
+  }
+  ASSERT_EQ(box.plumb({"demo", "bumped", "bumped"}).exit, 0);
+  const Ran ran = box.plumb({"-C", "bumped", "check"});
+  EXPECT_TRUE(has(ran.err, "W-CHECK-MOVED")) << ran.err;
+  EXPECT_TRUE(has(one_line(ran.out), "the reflector or the tool moved by some")) << ran.out;
 }
 
 TEST_F(CheckVerb, TooFewPosesAreExitFour) {

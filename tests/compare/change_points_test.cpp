@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare/change_points.hpp"
+#include "fit/change_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <functional>
 
 #include "cell/measurements.hpp"
-#include "compare/series.hpp"
-#include "compare/step_motions.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/series.hpp"
+#include "fit/step_motions.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

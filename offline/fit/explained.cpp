@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare/explained.hpp"
+#include "fit/explained.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "tree/f_tail.hpp"
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 namespace {
 
 constexpr int kFewestInBin = 5;
@@ -33,7 +33,7 @@ double memory(const Eigen::MatrixXd& series) {
 /// a law that the model lacks shakes some directions more than others, and neighbours alike. By
 /// the scores of each visit, X_i^T r_i on their average or along the jump found, and their
 /// autocorrelation; at least 1. [White 1980; Newey & West 1987]
-double inflation(const Segment& s, const Explained& e, const Eigen::Matrix3Xd& rest) {
+double inflation(const VisitRun& s, const Explained& e, const Eigen::Matrix3Xd& rest) {
   const MotionSums& sums = *e.sums;
   Eigen::MatrixXd scores(sums.rank(), s.size());
   double motion = 0.0;
@@ -62,7 +62,7 @@ double inflation(const Segment& s, const Explained& e, const Eigen::Matrix3Xd& r
 }
 
 /// F with its chance, given what is fitted.
-void judge(const Segment& s, int numbers, double tries, const Unexplained& what, Explained& out) {
+void judge(const VisitRun& s, int numbers, double tries, const Unexplained& what, Explained& out) {
   const Eigen::Matrix3Xd rest = what.error.middleCols(s.first, s.size()) - out.fitted;
   out.inflation = std::max(1.0, inflation(s, out, rest));
   out.left = rest.squaredNorm();
@@ -71,7 +71,7 @@ void judge(const Segment& s, int numbers, double tries, const Unexplained& what,
   out.ln_p = std::min(0.0, ln_f_tail(f, numbers, out.free) + std::log(tries));
 }
 
-void fill(const MotionSums& sums, const Segment& part, int offset, Eigen::Matrix3Xd& out) {
+void fill(const MotionSums& sums, const VisitRun& part, int offset, Eigen::Matrix3Xd& out) {
   const auto numbers = sums.solve(part.first, part.last);
   for (int i = part.first; i < part.last; ++i) out.col(i - offset) = sums.at(i) * numbers;
 }
@@ -80,27 +80,29 @@ void fill(const MotionSums& sums, const Segment& part, int offset, Eigen::Matrix
 
 int fewest_visits(const MotionSums& sums) { return std::max(kFewestInBin, sums.rank() + 2); }
 
-std::optional<Explained> jump_of(const MotionSums& sums, const Segment& s,
+std::optional<Explained> jump_of(const MotionSums& sums, const VisitRun& s,
                                  const Unexplained& what) {
   const int edge = fewest_visits(sums);
   if (s.size() < 2 * edge) return std::nullopt;
   const double whole = sums.explained(s.first, s.last);
   Explained out;
   out.sums = &sums;
-  for (int c = s.first + edge; c <= s.last - edge; ++c) {
-    const double gain = sums.explained(s.first, c) + sums.explained(c, s.last) - whole;
-    if (gain > out.gain) out.gain = gain, out.cut = c;
-  }
-  if (out.cut == 0) return std::nullopt;
+  const CutRange cuts = cuts_of(s, edge);
+  const auto best = best_cut(
+      s.last, cuts, [](int) {},
+      [&](int cut) -> std::optional<double> { return sums.gain(s.first, cut, s.last) - whole; });
+  if (!best || !(best->score > 0.0)) return std::nullopt;
+  out.cut = best->cut;
+  out.gain = best->score;
   out.fitted.resize(3, s.size());
   fill(sums, {s.first, out.cut}, s.first, out.fitted);
   fill(sums, {out.cut, s.last}, s.first, out.fitted);
   out.free = what.axes * s.size() - 2.0 * sums.rank();
-  judge(s, sums.rank(), (s.size() - 2.0 * edge + 1.0) * what.sources, what, out);
+  judge(s, sums.rank(), cuts.count() * what.sources, what, out);
   return out;
 }
 
-std::optional<Explained> drift_of(const MotionSums& sums, const Segment& s,
+std::optional<Explained> drift_of(const MotionSums& sums, const VisitRun& s,
                                   const Unexplained& what) {
   const int k = sums.rank();
   if (what.axes * s.size() < 6 * k) return std::nullopt;
@@ -129,4 +131,4 @@ std::optional<Explained> drift_of(const MotionSums& sums, const Segment& s,
   return out;
 }
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

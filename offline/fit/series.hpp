@@ -6,7 +6,7 @@
 
 #include "cell/measurements.hpp"
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 
 /// Residuals in the order of measuring. Immediate repeats of a pose are one visit: what they share
 /// is the pose, not the moment.
@@ -21,4 +21,4 @@ struct Series {
 /// By time if every row has one, else by row. error_M: shape (all rows, 3); rows: those to take.
 Series series(const Measurements& measured, const Rows3& error_M, std::vector<int> rows);
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

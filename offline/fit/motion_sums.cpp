@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare/motion_sums.hpp"
+#include "fit/motion_sums.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 namespace {
 
 constexpr double kSeen = 1e-6;   // of the largest eigenvalue: directions below never show
@@ -13,12 +13,11 @@ constexpr double kRidge = 1e-9;  // of a segment in which some direction never s
 
 }  // namespace
 
-MotionSums::MotionSums(const StepMotions& motions, MotionSource source, int joint)
-    : source_(source), joint_(joint) {
-  const int n = motions.size(), k = StepMotions::count(source);
+MotionSums::MotionSums(const StepMotions& motions, const MovingPart& part) : part_(part) {
+  const int n = motions.size(), k = numbers_of(part.source);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(k, k);
   for (int i = 0; i < n; ++i) {
-    columns_.emplace_back(motions.columns(i, source, joint));
+    columns_.emplace_back(motions.columns(i, part.source, part.joint));
     gram += columns_.back().transpose() * columns_.back();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram / std::max(1, n));
@@ -33,25 +32,25 @@ MotionSums::MotionSums(const StepMotions& motions, MotionSource source, int join
 }
 
 void MotionSums::sum(const Eigen::Matrix3Xd& error) {
-  gram_.assign(columns_.size() + 1, Square::Zero(rank_, rank_));
-  along_.assign(columns_.size() + 1, Numbers::Zero(rank_));
+  before_.assign(columns_.size() + 1, RunningSums(rank_));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const auto& c = columns_[i];
-    gram_[i + 1] = gram_[i] + c.transpose() * c;
-    along_[i + 1] = along_[i] + c.transpose() * error.col(static_cast<Eigen::Index>(i));
+    before_[i + 1] = before_[i];
+    before_[i + 1].add(columns_[i], error.col(static_cast<Eigen::Index>(i)));
   }
 }
 
 MotionSums::Numbers MotionSums::solve(int first, int last) const {
-  Square gram = gram_[static_cast<std::size_t>(last)] - gram_[static_cast<std::size_t>(first)];
+  Square gram =
+      before_[static_cast<std::size_t>(last)].XX - before_[static_cast<std::size_t>(first)].XX;
   gram.diagonal().array() += kRidge * (last - first);
-  return gram.llt().solve(along_[static_cast<std::size_t>(last)] -
-                          along_[static_cast<std::size_t>(first)]);
+  return gram.llt().solve(before_[static_cast<std::size_t>(last)].Xy -
+                          before_[static_cast<std::size_t>(first)].Xy);
 }
 
 double MotionSums::explained(int first, int last) const {
   return solve(first, last)
-      .dot(along_[static_cast<std::size_t>(last)] - along_[static_cast<std::size_t>(first)]);
+      .dot(before_[static_cast<std::size_t>(last)].Xy -
+           before_[static_cast<std::size_t>(first)].Xy);
 }
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

@@ -4,13 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "compare/series.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/moving_part.hpp"
+#include "fit/series.hpp"
 
-namespace plumb::offline::compare {
-
-/// What may shift once while measuring.
-enum class MotionSource { kTool, kBase, kJoint };
+namespace plumb::offline {
 
 /// How the measured point of each visit moves when something of the cell moves by a unit, in the
 /// measurement frame, missing axes 0; and the residual beside it.
@@ -36,10 +34,6 @@ class StepMotions {
   /// of the measurement frame, turn about its axes through the middle of the points. 1: joint.
   Eigen::MatrixXd columns(int visit, MotionSource source, int j) const;
 
-  static int count(MotionSource source) {
-    return source == MotionSource::kBase ? 6 : source == MotionSource::kTool ? 3 : 1;
-  }
-
  private:
   std::vector<int> rows_, last_rows_;
   std::vector<bool> turns_;
@@ -50,4 +44,4 @@ class StepMotions {
   Eigen::Vector3d mask_;
 };
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare/change_points.hpp"
+#include "fit/change_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "compare/explained.hpp"
+#include "fit/explained.hpp"
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 namespace {
 
 constexpr double kChance = 0.01;
@@ -19,9 +19,7 @@ class Scanner {
  public:
   explicit Scanner(const StepMotions& motions) : motions_(motions), error_(3, motions.size()) {
     for (int i = 0; i < motions.size(); ++i) error_.col(i) = motions.error(i);
-    take(MotionSource::kTool, -1);
-    take(MotionSource::kBase, -1);
-    for (int j = 0; j < motions.joints(); ++j) take(MotionSource::kJoint, j);
+    for (const MovingPart& part : moving_parts(motions.joints())) take(part);
   }
 
   Changes scan() {
@@ -29,7 +27,7 @@ class Scanner {
     if (motions_.size() < kFewestVisits || sources_.empty()) return out;
     out.visits = motions_.size();
     without_steps_ = error_;
-    look(Segment{0, motions_.size()}, out);
+    look(VisitRun{0, motions_.size()}, out);
     for (int pass = 0; pass < 2 && found_.size() > 1; ++pass)
       for (auto& jumped : found_) refine(jumped);
     std::sort(found_.begin(), found_.end(),
@@ -46,8 +44,8 @@ class Scanner {
     StepFound step;
   };
 
-  void take(MotionSource source, int joint) {
-    MotionSums sums(motions_, source, joint);
+  void take(const MovingPart& part) {
+    MotionSums sums(motions_, part);
     if (sums.rank() > 0) sources_.push_back(std::move(sums));
   }
 
@@ -55,7 +53,7 @@ class Scanner {
     return {error_, motions_.axes(), static_cast<double>(sources_.size())};
   }
 
-  void look(const Segment& s, Changes& out) {
+  void look(const VisitRun& s, Changes& out) {
     if (found_.size() >= kMostSteps) return;
     std::optional<Explained> best, smooth;
     const auto better = [](const std::optional<Explained>& a, std::optional<Explained>& b) {
@@ -80,7 +78,7 @@ class Scanner {
     look({best->cut, s.last}, out);
   }
 
-  Jumped jumped(const Explained& e, const Segment& s) const {
+  Jumped jumped(const Explained& e, const VisitRun& s) const {
     return {static_cast<std::size_t>(e.sums - sources_.data()), e.cut,
             e.sums->solve(e.cut, s.last) - e.sums->solve(s.first, e.cut), step(e, s)};
   }
@@ -106,15 +104,15 @@ class Scanner {
     one.step.ln_p = ln_p;
   }
 
-  DriftFound described(const Explained& e, const Segment& s) const {
+  DriftFound described(const Explained& e, const VisitRun& s) const {
     const auto n = e.fitted.cols();
     const Eigen::Index tenth = std::max<Eigen::Index>(1, n / 10);
     DriftFound out{.source = e.sums->source(), .joint = e.sums->joint(), .ln_p = e.ln_p};
     out.from = motions_.rows()[static_cast<std::size_t>(s.first)];
     out.to = motions_.rows()[static_cast<std::size_t>(s.last - 1)];
     // The pose changes the direction in which a drift shows, so its numbers are compared, not it.
-    Segment head{s.first, s.first + static_cast<int>(tenth)};
-    Segment tail{s.last - static_cast<int>(tenth), s.last};
+    VisitRun head{s.first, s.first + static_cast<int>(tenth)};
+    VisitRun tail{s.last - static_cast<int>(tenth), s.last};
     MotionSums again = *e.sums;
     Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, motions_.size());
     all.middleCols(s.first, s.size()) = e.fitted;
@@ -125,14 +123,14 @@ class Scanner {
     return out;
   }
 
-  static double rms(const MotionSums& sums, const Segment& s, const MotionSums::Numbers& numbers) {
+  static double rms(const MotionSums& sums, const VisitRun& s, const MotionSums::Numbers& numbers) {
     double squares = 0.0;
     for (int i = s.first; i < s.last; ++i) squares += (sums.at(i) * numbers).squaredNorm();
     return std::sqrt(squares / s.size());
   }
 
   /// Must be called with the sums of the residual in which it was found.
-  StepFound step(const Explained& e, const Segment& s) const {
+  StepFound step(const Explained& e, const VisitRun& s) const {
     const MotionSums& sums = *e.sums;
     const MotionSums::Numbers moved = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
     StepFound out;
@@ -146,8 +144,9 @@ class Scanner {
     const double whole = sums.explained(s.first, s.last);
     const double enough = e.gain - kChi95 * e.inflation * e.left / e.free;
     int low = e.cut, high = e.cut;
-    for (int c = s.first + fewest_visits(sums); c <= s.last - fewest_visits(sums); ++c) {
-      if (sums.explained(s.first, c) + sums.explained(c, s.last) - whole < enough) continue;
+    const CutRange cuts = cuts_of(s, fewest_visits(sums));
+    for (int c = cuts.first; c <= cuts.last; ++c) {
+      if (sums.gain(s.first, c, s.last) - whole < enough) continue;
       low = std::min(low, c);
       high = std::max(high, c);
     }
@@ -167,4 +166,4 @@ class Scanner {
 
 Changes change_points(const StepMotions& motions) { return Scanner(motions).scan(); }
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

@@ -4,14 +4,10 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "compare/motion_sums.hpp"
+#include "fit/cut_search.hpp"
+#include "fit/motion_sums.hpp"
 
-namespace plumb::offline::compare {
-
-struct Segment {
-  int first, last;  // visits [first, last)
-  int size() const { return last - first; }
-};
+namespace plumb::offline {
 
 /// What one motion source explains of a segment, by a jump or by a drift, beyond its mean.
 struct Explained {
@@ -35,10 +31,11 @@ struct Unexplained {
 int fewest_visits(const MotionSums& sums);
 
 /// The best cut of the segment; nothing if it is too short. `sums` must be of that error.
-std::optional<Explained> jump_of(const MotionSums& sums, const Segment& s, const Unexplained& what);
+std::optional<Explained> jump_of(const MotionSums& sums, const VisitRun& s,
+                                 const Unexplained& what);
 
 /// Motion linear and quadratic in order.
-std::optional<Explained> drift_of(const MotionSums& sums, const Segment& s,
+std::optional<Explained> drift_of(const MotionSums& sums, const VisitRun& s,
                                   const Unexplained& what);
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

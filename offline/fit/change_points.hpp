@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "compare/step_motions.hpp"
+#include "fit/step_motions.hpp"
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 
 /// A moment at which the mean residual jumps. SI; rows of the measurements.
 struct StepFound {
@@ -41,4 +41,4 @@ struct Changes {
 /// first: a smooth drift is not a row of jumps.
 Changes change_points(const StepMotions& motions);
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

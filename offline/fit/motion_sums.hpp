@@ -4,22 +4,24 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "compare/step_motions.hpp"
+#include "fit/moving_part.hpp"
+#include "fit/running_sums.hpp"
+#include "fit/step_motions.hpp"
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 
-/// Least squares of the residual on the motions of one motion source, over any run of visits, from
-/// running sums. Its columns are combined to independent ones of unit size first.
+/// Least squares of the residual on the motions of one part, over any run of visits, from running
+/// sums. Its columns are combined to independent ones of unit size first.
 class MotionSums {
  public:
   using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6>;
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-  using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+  using Square = RunningSums::Square;
+  using Numbers = RunningSums::Numbers;
 
-  MotionSums(const StepMotions& motions, MotionSource source, int joint);
+  MotionSums(const StepMotions& motions, const MovingPart& part);
 
-  MotionSource source() const { return source_; }
-  int joint() const { return joint_; }
+  MotionSource source() const { return part_.source; }
+  int joint() const { return part_.joint; }
   int rank() const { return rank_; }  // 0: nothing moves
   const Columns& at(int visit) const { return columns_[static_cast<std::size_t>(visit)]; }
 
@@ -29,18 +31,20 @@ class MotionSums {
   /// Best numbers over the visits [first, last), and the sum of squares they explain.
   Numbers solve(int first, int last) const;
   double explained(int first, int last) const;
+  /// Of the two sides of a cut, each with numbers of its own.
+  double gain(int first, int cut, int last) const {
+    return explained(first, cut) + explained(cut, last);
+  }
 
   /// The same in the units of StepMotions::columns.
   Eigen::VectorXd physical(const Numbers& numbers) const { return combine_ * numbers; }
 
  private:
-  MotionSource source_;
-  int joint_;
+  MovingPart part_;
   int rank_ = 0;
   Eigen::MatrixXd combine_;
   std::vector<Columns> columns_;
-  std::vector<Square> gram_;  // of the visits before
-  std::vector<Numbers> along_;
+  std::vector<RunningSums> before_;  // of the visits before each
 };
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare/series.hpp"
+#include "fit/series.hpp"
 
 #include <algorithm>
 
-namespace plumb::offline::compare {
+#include "fit/cut_search.hpp"
+
+namespace plumb::offline {
 
 Series series(const Measurements& measured, const Rows3& error_M, std::vector<int> rows) {
   const Eigen::VectorXd& time = measured.context.time_s;
   const bool timed = time.size() == measured.size() && time.allFinite();
   std::sort(rows.begin(), rows.end());
-  if (timed)
-    std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return time(a) < time(b); });
+  if (timed) put_in_order(rows, [&](int row) { return time(row); });
   Series out;
   out.has_axis = measured.has_axis;
   out.error_M.resize(static_cast<Eigen::Index>(rows.size()), 3);
@@ -31,4 +32,4 @@ Series series(const Measurements& measured, const Rows3& error_M, std::vector<in
   return out;
 }
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

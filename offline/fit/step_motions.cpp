@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare/step_motions.hpp"
+#include "fit/step_motions.hpp"
 
 #include "plumb/runtime/chain.hpp"
 
-namespace plumb::offline::compare {
+namespace plumb::offline {
 
 StepMotions::StepMotions(const ArmState& state, const Measurements& measured, const Series& series)
     : rows_(series.first_row), last_rows_(series.last_row), axes_(series.axes()) {
@@ -45,4 +45,4 @@ Eigen::MatrixXd StepMotions::columns(int visit, MotionSource source, int j) cons
   return mask_.asDiagonal() * out;
 }
 
-}  // namespace plumb::offline::compare
+}  // namespace plumb::offline

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace plumb::offline {
+
+/// The search for the moment at which something moved once. Whoever looks for it puts the visits in
+/// order, walks over the cuts between them, and gives each cut a score of his own.
+
+/// Items in the order of what is measured of them; equal ones stay as they stood.
+template <class Item, class Key>
+void put_in_order(std::vector<Item>& items, const Key& key_of) {
+  std::stable_sort(items.begin(), items.end(),
+                   [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); });
+}
+
+/// Visits [first, last), in order.
+struct VisitRun {
+  int first, last;
+  int size() const { return last - first; }
+};
+
+/// Cuts from `first` to `last`, both included; a cut is the first visit behind it.
+struct CutRange {
+  int first, last;
+  int count() const { return std::max(0, last - first + 1); }
+};
+
+/// The cuts of a run that leave so many visits on either side.
+inline CutRange cuts_of(const VisitRun& run, int fewest) {
+  return {run.first + fewest, run.last - fewest};
+}
+
+/// Those of them that are at most so many visits away from one of them.
+inline CutRange cuts_near(const CutRange& cuts, int cut, int visits) {
+  return {std::max(cuts.first, cut - visits), std::min(cuts.last, cut + visits)};
+}
+
+struct BestCut {
+  int cut = 0;
+  double score = 0.0;
+};
+
+/// Walks over the cuts of the visits before `end`, the last cut first. `pass(visit)` is told of
+/// each visit when it comes to lie behind the cut, so that it can keep running sums;
+/// `score_of(cut)` is the caller's score, a std::optional<double>: nothing where the cut is not to
+/// be tried. Nothing if no cut was tried; of equal scores that of the last cut.
+template <class Pass, class ScoreOf>
+std::optional<BestCut> best_cut(int end, const CutRange& cuts, const Pass& pass,
+                                const ScoreOf& score_of) {
+  std::optional<BestCut> best;
+  for (int cut = end - 1; cut >= cuts.first; --cut) {
+    pass(cut);
+    if (cut > cuts.last) continue;
+    const std::optional<double> score = score_of(cut);
+    if (score && (!best || *score > best->score)) best = BestCut{cut, *score};
+  }
+  return best;
+}
+
+}  // namespace plumb::offline

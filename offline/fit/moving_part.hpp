@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+
+namespace plumb::offline {
+
+/// What may shift once while measuring: the reflector or the tool, the tracker or the base, or the
+/// zero of a joint.
+enum class MotionSource { kTool, kBase, kJoint };
+
+/// One of them; `joint` is -1 for tool and base.
+struct MovingPart {
+  MotionSource source = MotionSource::kTool;
+  int joint = -1;
+};
+
+/// Every part of an arm of so many joints, in the order in which a search tries them.
+inline std::vector<MovingPart> moving_parts(int joints) {
+  std::vector<MovingPart> out{{MotionSource::kTool, -1}, {MotionSource::kBase, -1}};
+  for (int j = 0; j < joints; ++j) out.push_back({MotionSource::kJoint, j});
+  return out;
+}
+
+/// Numbers that say how it moved: a shift; a shift and a turn; the one of the joint.
+inline int numbers_of(MotionSource source) {
+  return source == MotionSource::kBase ? 6 : source == MotionSource::kTool ? 3 : 1;
+}
+
+/// "tool", "base", "joint": as [effects.step] says it.
+inline const char* name_of(MotionSource source) {
+  return source == MotionSource::kTool ? "tool" : source == MotionSource::kBase ? "base" : "joint";
+}
+
+/// "the reflector or the tool", "the tracker or the base", "the zero of J3".
+inline std::string in_words(const Cell& cell, const MovingPart& part) {
+  if (part.source == MotionSource::kTool) return "the reflector or the tool";
+  if (part.source == MotionSource::kBase) return "the tracker or the base";
+  return "the zero of " + cell.nominal.joints[static_cast<std::size_t>(part.joint)].name;
+}
+
+}  // namespace plumb::offline
