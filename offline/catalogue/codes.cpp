@@ -112,8 +112,9 @@ constexpr Explanation kCodes[] = {
      "The distinct poses give hardly more coordinates than there are numbers to find, so that the "
      "fit can follow the noise."},
     {"W-CHECK-COPY",
-     "Readings that agree to the last digit are copies: a tracker never repeats itself like that. "
-     "They make the noise look smaller than it is."},
+     "Readings that agree to the last digit are copies, unless the file was rounded to steps as "
+     "coarse as the noise: then some true repeats agree too. Only more than rounding explains are "
+     "called copies. They make the noise look smaller than it is."},
     {"W-CHECK-OUTLIER",
      "Readings lie farther from where all others put them than noise or an unknown effect "
      "explains: a wrong row, a broken beam, a reflector that slipped. The fit leaves them out and "

@@ -137,7 +137,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "um, in, deg, rad, mrad, urad, kg, g, degC, K, s, ms, us, N, Nm. Only pose, repeat, set, "
      "note, "
      "time, status, fold, joint, type, quaternions and dir_jN have none."},
-    {"E-CSV-UTF8", "The file is not UTF-8. The help line converts it; the encoding is a guess."},
+    {"E-CSV-UTF8",
+     "The file is not UTF-8. The help line converts it; the encoding is a guess. plumb import "
+     "reads "
+     "UTF-16 and Latin-1 too."},
     {"E-EXISTS", "Nothing is overwritten unless asked for. Choose another name or add --force."},
     {"E-FORMULA-DOMAIN",
      "A formula of the robot or its environment runs in the cycle, where only joint positions, "

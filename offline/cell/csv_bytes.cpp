@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cell/csv_header.hpp"
+#include "cell/unmarked_utf16.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb::offline {
@@ -21,6 +22,13 @@ Place place_of_byte(std::string_view text, std::size_t offset, const std::string
   return CsvPlace{file, number, line}.of(text.substr(offset, 1), "here");
 }
 
+std::string from_utf16_to_utf8(const std::string& file, const char* encoding) {
+  return fmt::format(
+      "import it: plumb import {0}; or save it as UTF-8: iconv -f {1} -t UTF-8 {0} > "
+      "utf8.csv",
+      file, encoding);
+}
+
 }  // namespace
 
 void check_bytes(std::string_view text, const std::string& file, int first_line) {
@@ -31,7 +39,11 @@ void check_bytes(std::string_view text, const std::string& file, int first_line)
     problems.error("E-CSV-EMPTY", "the file is empty", whole, "export the measurements again");
   else if (begins && (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")))
     problems.error("E-CSV-UTF8", "the file is UTF-16, not UTF-8", whole,
-                   fmt::format("iconv -f UTF-16 -t UTF-8 {} > utf8.csv", file));
+                   from_utf16_to_utf8(file, "UTF-16"));
+  else if (const auto order = begins ? unmarked_utf16(text) : std::nullopt)
+    problems.error(
+        "E-CSV-UTF8", "the file is UTF-16 without a byte-order mark, not UTF-8", whole,
+        from_utf16_to_utf8(file, *order == ByteOrder::kBigEndian ? "UTF-16BE" : "UTF-16LE"));
   else if (const auto zero = text.find('\0'); zero != std::string_view::npos)
     problems.error("E-CSV-BINARY", "this is no text file: it holds zero bytes",
                    place_of_byte(text, zero, file, first_line),

@@ -10,6 +10,7 @@
 #include "cell/setups.hpp"
 #include "check/common_scale.hpp"
 #include "check/contradiction.hpp"
+#include "check/copies.hpp"
 #include "check/data_findings.hpp"
 #include "check/data_sense.hpp"
 #include "check/effect_sense.hpp"
@@ -160,10 +161,11 @@ class Checker {
   /// Everything else, on the files as they are meant.
   void look(const Cell& cell, const Measurements& measured) {
     const std::vector<int> rows = used_rows(measured);
-    add(copy_findings(measured));
+    out_.floor = noise_floor(cell, measured);
+    add(equal_pose_findings(measured));
+    add(copy_findings(measured, out_.floor));
     add(limit_findings(cell, measured));
     add(constant_findings(cell, measured));
-    out_.floor = noise_floor(cell, measured);
     if (rows.empty()) return;
     out_.effects = testable_effects(data_sense(cell, measured, rows));
     look_at_parameters(cell, measured, rows);

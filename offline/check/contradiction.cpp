@@ -9,8 +9,8 @@
 
 #include "cell/random.hpp"
 #include "cell/table_place.hpp"
-#include "check/data_findings.hpp"
 #include "check/regularised_fit.hpp"
+#include "check/row_lines.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/quantile.hpp"
 

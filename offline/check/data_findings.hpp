@@ -9,21 +9,10 @@
 
 namespace plumb::offline {
 
-/// Where a row of the joined measurements stands.
-struct RowPlace {
-  int table = 0;
-  int row = 0;  // of that table
-};
-RowPlace row_place(const Measurements& measured, int row);
-
 /// Joint readings beyond their limits (W-CHECK-LIMITS, first rows with their lines), saying so if a
 /// whole turn less would be inside. Only a warning, because fit uses no limits. Beyond limits that
 /// were only assumed: N-CHECK-LIMITS.
 std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measured);
-
-/// Rows with the very digits of another row's point (W-CHECK-COPY): a true repeat has its own
-/// reading. And poses that are all equal (E-CHECK-EQUAL).
-std::vector<Problem> copy_findings(const Measurements& measured);
 
 /// Readings that the others contradict (W-CHECK-OUTLIER), farthest first, with their lines.
 std::vector<Problem> outlier_findings(const Measurements& measured,

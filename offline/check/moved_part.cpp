@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "cell/table_place.hpp"
-#include "check/data_findings.hpp"
+#include "check/row_lines.hpp"
 #include "fit/main_jump.hpp"
 #include "fit/moving_part.hpp"
 

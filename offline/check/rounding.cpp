@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -105,6 +106,17 @@ CoarseAxis coarsest_axis(const Table& table) {
 }
 
 }  // namespace
+
+std::array<double, 3> point_steps(const Measurements& measured) {
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  std::array<double, 3> out{};
+  for (const Table& table : measured.tables)
+    for (std::size_t k = 0; k < kAxes.size(); ++k)
+      if (const Column* column = table.find(kAxes[k]))
+        if (const double step = step_of_point(*column); step > 0.0)
+          out[k] = std::max(out[k], unit_of(column->unit)->to_si(step));
+  return out;
+}
 
 std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloor& floor) {
   const bool known = floor.source != NoiseFloor::Source::kNone;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -24,9 +25,13 @@ struct Rounding {
 std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& measured,
                                        const std::vector<int>& rows, const ArmState& placed);
 
-/// Measured coordinates that were rounded (W-CHECK-COARSE, once a file): all of an axis are
-/// multiples of 1, 2, 2.5 or 5 times a power of ten of their unit, and a uniform error of +-step/2,
-/// whose sigma is step / sqrt(12), is no longer small beside the noise.
+/// The steps of the measured x, y, z [m], the coarsest of all files: all values are multiples of 1,
+/// 2, 2.5 or 5 times a power of ten of their unit. 0 where there is none, or too few values to
+/// tell.
+std::array<double, 3> point_steps(const Measurements& measured);
+
+/// Measured coordinates that were rounded (W-CHECK-COARSE, once a file): a uniform error of
+/// +-step/2, whose sigma is step / sqrt(12), is no longer small beside the noise.
 std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloor& floor);
 
 }  // namespace plumb::offline

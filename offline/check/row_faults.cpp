@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "cell/table_place.hpp"
-#include "check/data_findings.hpp"
 #include "check/regularised_fit.hpp"
+#include "check/row_lines.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
 #include "fit/parameter_subset.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "cell/table_place.hpp"
-#include "check/data_findings.hpp"
+#include "check/row_lines.hpp"
 #include "fit/quantile.hpp"
 #include "plumb/runtime/chain.hpp"
 

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <set>
 
+#include "cell/unmarked_utf16.hpp"
 #include "program/file.hpp"
 #include "program/utf8.hpp"
 
@@ -18,7 +17,6 @@ constexpr std::size_t kLongestLine = 1 << 20;
 
 constexpr std::size_t kNoEuropeanWord = 4;  // different letters beyond ASCII in a row
 constexpr std::size_t kLooked = 1 << 16;    // bytes that tell a text from a binary file
-constexpr std::size_t kShortestUtf16 = 16;  // bytes below which nothing is concluded
 
 void append_utf8(std::string& out, unsigned code) {
   if (code < 0x80) {
@@ -48,18 +46,6 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
     append_utf8(out, big_endian ? (first << 8 | second) : (second << 8 | first));
   }
   return out;
-}
-
-/// Which half of the byte pairs is nearly always 0, as it is in UTF-16 of European text: 0 the
-/// first (big endian), 1 the second; nothing if neither is.
-std::optional<int> zero_half(std::string_view bytes) {
-  const auto part = bytes.substr(0, std::min(kLooked, bytes.size() / 2 * 2));
-  if (part.size() < kShortestUtf16) return std::nullopt;
-  std::array<std::size_t, 2> zeros{};
-  for (std::size_t i = 0; i < part.size(); ++i) zeros[i % 2] += part[i] == '\0' ? 1U : 0U;
-  for (int half = 0; half < 2; ++half)
-    if (zeros[half] * 20 >= part.size() / 2 * 19 && zeros[1 - half] == 0) return half;
-  return std::nullopt;
 }
 
 bool looks_binary(std::string_view bytes) {
@@ -136,8 +122,8 @@ void decode(std::string bytes, const std::string& file, SourceText& out) {
     out.remarks.push_back(note(fmt::format("{} is in UTF-16", file)));
   } else if (bytes.starts_with("\xEF\xBB\xBF")) {
     bytes.erase(0, 3);
-  } else if (const auto half = zero_half(bytes)) {
-    bytes = from_utf16(bytes, *half == 0);
+  } else if (const auto order = unmarked_utf16(bytes)) {
+    bytes = from_utf16(bytes, *order == ByteOrder::kBigEndian);
     out.remarks.push_back(
         note(fmt::format("{} is in UTF-16, though no byte-order mark says so", file)));
   }

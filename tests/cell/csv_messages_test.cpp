@@ -154,6 +154,23 @@ TEST(CsvMessage, OfBinaryAndForeignEncodings) {
   EXPECT_EQ(summary(of_table("x_mm\n\xED\xA0\x80\n")), Summary{"E-CSV-UTF8 2:1"});  // surrogate
 }
 
+TEST(CsvMessage, OfUtf16WithoutItsMarkSaysWhatItIsAndWhatToDo) {
+  for (const bool big_endian : {false, true}) {
+    std::string wide;
+    for (char c : std::string("q1_deg,x_mm\n1.5,2.25\n"))
+      (big_endian ? (wide += '\0') += c : (wide += c) += '\0');
+    const auto problems = of_table(wide);
+    EXPECT_EQ(summary(problems), Summary{"E-CSV-UTF8 0:0"});
+    EXPECT_NE(problems[0].message.find("UTF-16 without a byte-order mark"), std::string::npos);
+    EXPECT_NE(problems[0].help.find("plumb import "), std::string::npos) << problems[0].help;
+    EXPECT_NE(problems[0].help.find(big_endian ? "iconv -f UTF-16BE" : "iconv -f UTF-16LE"),
+              std::string::npos)
+        << problems[0].help;
+  }
+  EXPECT_EQ(summary(of_table(std::string("q1_deg,x_mm\n1.5,2\0\0\0\n", 20))),
+            Summary{"E-CSV-BINARY 2:6"});
+}
+
 TEST(CsvMessage, OfTabs) {
   EXPECT_EQ(summary(of_table("x_mm\ty_mm\n1\t2\n")), Summary{"E-CSV-SEPARATOR 1:1"});
 }

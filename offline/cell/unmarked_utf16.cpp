@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/unmarked_utf16.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::size_t kBytesLookedAt = 1 << 16;
+constexpr std::size_t kShortestUtf16 = 16;  // bytes
+
+}  // namespace
+
+std::optional<ByteOrder> unmarked_utf16(std::string_view bytes) {
+  const auto part = bytes.substr(0, std::min(kBytesLookedAt, bytes.size() / 2 * 2));
+  if (part.size() < kShortestUtf16) return std::nullopt;
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < part.size(); ++i) zeros[i % 2] += part[i] == '\0' ? 1U : 0U;
+  for (std::size_t half = 0; half < 2; ++half)
+    if (zeros[half] * 20 >= part.size() / 2 * 19 && zeros[1 - half] == 0)
+      return half == 0 ? ByteOrder::kBigEndian : ByteOrder::kLittleEndian;
+  return std::nullopt;
+}
+
+}  // namespace plumb::offline

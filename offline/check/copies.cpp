@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/copies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "check/equal_repeats.hpp"
+#include "check/row_lines.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kOnePlace = 5e-3;          // [m]: readings of one pose hardly differ by more
+constexpr std::size_t kMostCompared = 100;  // rows with one point
+constexpr double kWorthSaying = 0.5;        // readings that rounding makes equal
+
+/// A row, and one before it that has the digits of its point: one with its joint positions too, or
+/// else the first.
+struct EqualPoint {
+  int row = 0;
+  int original = 0;
+};
+
+std::vector<EqualPoint> equal_points(const Measurements& m) {
+  std::vector<EqualPoint> out;
+  std::map<std::array<double, 3>, std::vector<int>> seen;
+  for (int i = 0; i < m.size(); ++i) {
+    auto& before = seen[std::array{m.p_M(i, 0), m.p_M(i, 1), m.p_M(i, 2)}];
+    const auto same =
+        std::find_if(before.begin(), before.end(), [&](int k) { return m.q.row(k) == m.q.row(i); });
+    if (!before.empty()) out.push_back({i, same == before.end() ? before.front() : *same});
+    if (before.size() < kMostCompared) before.push_back(i);
+  }
+  return out;
+}
+
+bool is_repeat(const Measurements& m, const EqualPoint& equal) {
+  return m.replicate_group[static_cast<std::size_t>(equal.row)] ==
+         m.replicate_group[static_cast<std::size_t>(equal.original)];
+}
+
+bool same_joints(const Measurements& m, const EqualPoint& equal) {
+  return m.q.row(equal.row) == m.q.row(equal.original);
+}
+
+/// The points that are copies, or may be.
+struct Copies {
+  std::vector<EqualPoint> points;
+  double by_rounding = 0.0;  // so many of them are expected to be none
+  bool perhaps = false;      // nothing tells which they are
+};
+
+/// Equal points at other poses are copies. Repeats are if they are more than rounding explains, all
+/// of them or those that agree in the joint positions too.
+Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
+  Copies out;
+  std::vector<EqualPoint> repeats, rows;
+  for (const EqualPoint& equal : equal_points(m)) {
+    (is_repeat(m, equal) ? repeats : out.points).push_back(equal);
+    if (is_repeat(m, equal) && same_joints(m, equal)) rows.push_back(equal);
+  }
+  const auto too_many = [](const std::vector<EqualPoint>& some, double expected) {
+    return static_cast<double>(some.size()) > most_by_chance(expected);
+  };
+  std::vector<EqualPoint> also;
+  if (chance.assumed && chance.points >= kWorthSaying && out.points.empty()) {
+    also = repeats;
+    out.perhaps = true;
+  } else if (too_many(repeats, chance.points)) {
+    also = repeats;
+    out.by_rounding = chance.points;
+  } else if (too_many(rows, chance.rows)) {
+    also = rows;
+    out.by_rounding = chance.rows;
+  }
+  out.points.insert(out.points.end(), also.begin(), also.end());
+  std::sort(out.points.begin(), out.points.end(),
+            [](const EqualPoint& a, const EqualPoint& b) { return a.row < b.row; });
+  return out;
+}
+
+/// One pose again and again, or joint columns that stood still while the arm moved.
+Problem equal_poses(const Measurements& measured) {
+  const double spread =
+      (measured.p_M.colwise().maxCoeff() - measured.p_M.colwise().minCoeff()).norm();
+  const bool arm_moved = spread > kOnePlace;
+  return {Severity::kError, "E-CHECK-EQUAL",
+          arm_moved ? fmt::format(
+                          "every row has the same joint positions, but the points are up to {:.3g} "
+                          "mm apart: these are not the joint positions of these points",
+                          spread * 1e3)
+                    : "every row has the same joint positions",
+          cell_of_row(measured, 0, "q1", arm_moved ? "the same in every row" : "the only pose"),
+          arm_moved ? "export the joint positions again, each row at its own pose"
+                    : "measure at least 30 poses all over the joint limits"};
+}
+
+std::string why_perhaps(const Copies& copies, double step_m) {
+  if (copies.perhaps)
+    return fmt::format(
+        "; the points are rounded to {:g} mm, so these may be copies or true repeats",
+        step_m * 1e3);
+  if (copies.by_rounding >= kWorthSaying)
+    return fmt::format("; rounding alone would make about {:.0f} equal", copies.by_rounding);
+  return "";
+}
+
+}  // namespace
+
+std::vector<Problem> copy_findings(const Measurements& measured, const NoiseFloor& floor) {
+  const EqualRepeats chance = equal_by_rounding(measured, floor);
+  const Copies copies = copies_of(measured, chance);
+  if (copies.points.empty()) return {};
+  std::vector<int> rows;
+  for (const EqualPoint& equal : copies.points) rows.push_back(equal.row);
+  const EqualPoint& first = copies.points.front();
+  return {
+      {Severity::kWarning, "W-CHECK-COPY",
+       fmt::format("{} of {} readings repeat another one to the last digit, {}{}{}", rows.size(),
+                   measured.size(), listed_lines(measured, rows),
+                   same_joints(measured, first) ? "" : ", at other joint positions",
+                   why_perhaps(copies, chance.step_m)),
+       cell_of_row(measured, first.row, measured.has_axis[0] ? "x" : "y",
+                   measured.tables.empty()
+                       ? ""
+                       : fmt::format("as in line {}", line_of_row(measured, first.original))),
+       copies.perhaps
+           ? "export the points again with all their digits, and delete those that are still equal"
+           : "delete the copies: a true repeat has its own reading, and copies hide the noise"}};
+}
+
+std::vector<Problem> equal_pose_findings(const Measurements& measured) {
+  if (measured.size() < 2) return {};
+  for (int i = 1; i < measured.size(); ++i)
+    if (measured.q.row(i) != measured.q.row(0)) return {};
+  return {equal_poses(measured)};
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/equal_repeats.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "check/rounding.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kNeighbours = 3;             // repeats further on that each one is compared with
+constexpr double kEnoughPairs = 5.0;       // that differ
+constexpr double kQuietTracker_m = 3e-6;   // no instrument repeats a point much better
+constexpr int kMostRounds = 200;           // of the fixed point
+constexpr double kUnsureShare = 1.5;       // the chance itself is only estimated
+constexpr double kUnsureDeviations = 4.0;  // standard deviations of a count
+
+/// Pairs of neighbouring repeats of one pose.
+struct Pairs {
+  double differ = 0.0;               // in some coordinate
+  std::array<double, 3> agree_in{};  // of these: equal in that axis
+  double agree_in_joints = 0.0;      // of these
+};
+
+std::vector<std::vector<int>> repeats_of(const Measurements& m) {
+  std::vector<std::vector<int>> out;
+  for (int i = 0; i < m.size(); ++i) {
+    const auto group = static_cast<std::size_t>(m.replicate_group[static_cast<std::size_t>(i)]);
+    if (group >= out.size()) out.resize(group + 1);
+    out[group].push_back(i);
+  }
+  return out;
+}
+
+void compare(const Measurements& m, int a, int b, Pairs& out) {
+  if (m.p_M.row(a) == m.p_M.row(b)) return;
+  out.differ += 1.0;
+  for (int k = 0; k < 3; ++k)
+    out.agree_in[static_cast<std::size_t>(k)] += m.p_M(a, k) == m.p_M(b, k) ? 1.0 : 0.0;
+  out.agree_in_joints += m.q.row(a) == m.q.row(b) ? 1.0 : 0.0;
+}
+
+/// The chance that two repeats agree in all axes, from those pairs that agree in some of them only:
+/// the pairs that agree in all of them are added in thought until both numbers go together. One
+/// pair more that agrees and one that does not keep few pairs from promising too much.
+double chance_from_pairs(const Measurements& m, const Pairs& pairs) {
+  double chance = 0.0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double all = pairs.differ / (1.0 - chance);
+    double product = 1.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (m.has_axis[k]) product *= (pairs.agree_in[k] + all * chance + 1.0) / (all + 2.0);
+    chance = product;
+  }
+  return chance;
+}
+
+double chance_in_an_axis(double step, double sigma) {
+  if (step <= 0.0) return 0.0;
+  const double u = step / (2.0 * std::max(sigma, 1e-3 * step));
+  return std::erf(u) + std::expm1(-u * u) / (u * std::sqrt(M_PI));
+}
+
+double chance_from_steps(const Measurements& m, const std::array<double, 3>& steps, double sigma) {
+  double out = 1.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (m.has_axis[k]) out *= chance_in_an_axis(steps[k], sigma);
+  return out;
+}
+
+}  // namespace
+
+EqualRepeats equal_by_rounding(const Measurements& measured, const NoiseFloor& floor) {
+  EqualRepeats out;
+  const auto steps = point_steps(measured);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (measured.has_axis[k]) out.step_m = std::max(out.step_m, steps[k]);
+  Pairs pairs;
+  const auto poses = repeats_of(measured);
+  for (const auto& rows : poses)
+    for (std::size_t a = 0; a < rows.size(); ++a)
+      for (std::size_t b = a + 1; b < std::min(rows.size(), a + 1 + kNeighbours); ++b)
+        compare(measured, rows[a], rows[b], pairs);
+  double chance = 0.0, joints = 1.0;
+  if (pairs.differ >= kEnoughPairs) {
+    chance = chance_from_pairs(measured, pairs);
+    joints = (pairs.agree_in_joints + 1.0) / (pairs.differ + 2.0);
+  } else {
+    out.assumed = floor.source == NoiseFloor::Source::kNone;
+    chance = chance_from_steps(measured, steps, out.assumed ? kQuietTracker_m : floor.sigma_m);
+  }
+  for (const auto& rows : poses) {
+    const auto n = static_cast<double>(rows.size());
+    out.points += std::min(n - 1.0, 0.5 * n * (n - 1.0) * chance);
+  }
+  out.rows = out.points * joints;
+  return out;
+}
+
+double most_by_chance(double expected) {
+  return kUnsureShare * expected + kUnsureDeviations * std::sqrt(expected);
+}
+
+}  // namespace plumb::offline
