@@ -118,7 +118,8 @@ constexpr Explanation kCodes[] = {
     {"W-CHECK-OUTLIER",
      "Readings lie farther from where all others put them than noise or an unknown effect "
      "explains: a wrong row, a broken beam, a reflector that slipped. The fit leaves them out and "
-     "lists them."},
+     "lists them. Neighbours that are off by one vector were measured with the reflector, or the "
+     "tracker, in another place."},
     {"W-CHECK-STILL",
      "A joint that never moves shows nothing of itself, and what is behind it looks like one "
      "link."},

@@ -203,7 +203,7 @@ class Checker {
       blame(failure.exit_code());
       return;
     }
-    add(outlier_findings(measured, out_.parameters->calibration.outliers));
+    add(outlier_findings(measured, out_.parameters->calibration));
     add(out_.parameters->calibration.remarks);
     separation_findings();
     poses_enough(measured);

@@ -9,6 +9,7 @@
 #include "cell/column_names.hpp"
 #include "cell/table_place.hpp"
 #include "check/arm_shape.hpp"
+#include "check/displaced_run.hpp"
 #include "check/row_lines.hpp"
 
 namespace plumb::offline {
@@ -98,18 +99,23 @@ std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measur
 }
 
 std::vector<Problem> outlier_findings(const Measurements& measured,
-                                      const std::vector<Outlier>& outliers) {
+                                      const Calibration& calibration) {
+  const auto& outliers = calibration.outliers;
   if (outliers.empty()) return {};
   std::vector<int> rows;
   for (const auto& outlier : outliers) rows.push_back(outlier.row);
   const Outlier& first = outliers.front();
-  return {{Severity::kWarning, "W-CHECK-OUTLIER",
-           fmt::format("{} {} by the others, {}: the farthest by {:.3g} mm, {:.0f} times the usual",
-                       rows.size(),
-                       rows.size() == 1 ? "reading is contradicted" : "readings are contradicted",
-                       listed_lines(measured, rows), first.error_m * 1e3, first.times),
-           cell_of_row(measured, first.row, measured.has_axis[0] ? "x" : "y", "does not belong"),
-           "measure these poses again, or mark the rows with set = ignore"}};
+  std::string runs;
+  for (const auto& run : displaced_runs(calibration.state, measured, outliers))
+    runs += "; " + in_words(measured, run);
+  return {
+      {Severity::kWarning, "W-CHECK-OUTLIER",
+       fmt::format("{} {} by the others, {}: the farthest by {:.3g} mm, {:.0f} times the usual{}",
+                   rows.size(),
+                   rows.size() == 1 ? "reading is contradicted" : "readings are contradicted",
+                   listed_lines(measured, rows), first.error_m * 1e3, first.times, runs),
+       cell_of_row(measured, first.row, measured.has_axis[0] ? "x" : "y", "does not belong"),
+       "measure these poses again, or mark the rows with set = ignore"}};
 }
 
 std::vector<Problem> constant_findings(const Cell& cell, const Measurements& measured) {

@@ -5,7 +5,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/outliers.hpp"
+#include "fit/calibrate.hpp"
 
 namespace plumb::offline {
 
@@ -14,9 +14,9 @@ namespace plumb::offline {
 /// were only assumed: N-CHECK-LIMITS.
 std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measured);
 
-/// Readings that the others contradict (W-CHECK-OUTLIER), farthest first, with their lines.
-std::vector<Problem> outlier_findings(const Measurements& measured,
-                                      const std::vector<Outlier>& outliers);
+/// Readings that the others contradict (W-CHECK-OUTLIER), farthest first, with their lines, and
+/// where neighbouring ones are off by one vector.
+std::vector<Problem> outlier_findings(const Measurements& measured, const Calibration& calibration);
 
 /// Context columns that hold one value only (N-CHECK-CONSTANT), and joints that never move.
 std::vector<Problem> constant_findings(const Cell& cell, const Measurements& measured);

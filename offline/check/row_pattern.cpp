@@ -10,8 +10,8 @@
 
 #include "cell/table_place.hpp"
 #include "check/row_lines.hpp"
+#include "check/tool_errors.hpp"
 #include "fit/quantile.hpp"
-#include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -29,7 +29,7 @@ constexpr double kPatternFollows = 0.25;  // of a column's variance: more, and i
 constexpr double kTwoValued = 0.7;        // of the pattern's sum of squares
 constexpr int kShown = 3;
 
-using Errors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Errors = Rows3;
 
 /// The used rows of one file.
 struct FileRows {
@@ -49,20 +49,6 @@ std::vector<FileRows> by_file(const Measurements& measured, const std::vector<in
     file.place.push_back(at.row);
   }
   std::erase_if(out, [](const FileRows& f) { return f.row.size() < kPatternFewestRows; });
-  return out;
-}
-
-/// Errors seen from the tool.
-Errors in_tool(const ArmState& state, const Measurements& some, const Errors& left) {
-  const Rows3 base = to_base(state, some, left);
-  const Chain chain(state.arm.calibrated);
-  ChainFrames frames;
-  Errors out(left.rows(), 3);
-  for (Eigen::Index i = 0; i < left.rows(); ++i) {
-    const auto q = some.q.row(i);
-    chain.frames({q.data(), static_cast<std::size_t>(q.cols())}, frames);
-    out.row(i) = (frames.tip.R.transpose() * base.row(i).transpose()).transpose();
-  }
   return out;
 }
 
@@ -257,8 +243,8 @@ std::vector<Problem> pattern_findings(const Measurements& measured, const std::v
     Errors left = residuals(some, predict_points(fitted, some));
     clip(left);
     const auto of_tracker = best_pattern(left, file.place);
-    const auto of_tool =
-        all_axes ? best_pattern(in_tool(fitted, some, left), file.place) : std::optional<Phases>{};
+    const auto of_tool = all_axes ? best_pattern(errors_in_tool(fitted, some, left), file.place)
+                                  : std::optional<Phases>{};
     if (!of_tracker && !of_tool) continue;
     const bool tool = !of_tracker || (of_tool && of_tool->share > of_tracker->share);
     const Phases& best = tool ? *of_tool : *of_tracker;

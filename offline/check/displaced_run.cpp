@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/displaced_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "check/row_lines.hpp"
+#include "check/tool_errors.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::size_t kFewestOfARun = 3;
+constexpr int kNextRow = 2;         // one row between them may have escaped notice
+constexpr double kOneVector = 0.2;  // scatter about the mean, as a share of the mean
+
+/// Outliers in their order, cut where rows lie between them.
+std::vector<std::vector<int>> neighbours(const std::vector<Outlier>& outliers) {
+  std::vector<int> rows;
+  for (const Outlier& outlier : outliers) rows.push_back(outlier.row);
+  std::sort(rows.begin(), rows.end());
+  std::vector<std::vector<int>> out;
+  for (const int row : rows) {
+    if (out.empty() || row - out.back().back() > kNextRow) out.emplace_back();
+    out.back().push_back(row);
+  }
+  std::erase_if(out, [](const auto& run) { return run.size() < kFewestOfARun; });
+  return out;
+}
+
+struct CommonVector {
+  Vector3 mean;
+  double scatter = 0.0;  // RMS distance from the mean, as a share of it
+};
+
+CommonVector common_vector(const Rows3& errors) {
+  const Eigen::RowVector3d mean = errors.colwise().mean();
+  const double rms =
+      std::sqrt((errors.rowwise() - mean).squaredNorm() / static_cast<double>(errors.rows()));
+  return {mean.transpose(), rms / std::max(mean.norm(), 1e-12)};
+}
+
+}  // namespace
+
+std::vector<DisplacedRun> displaced_runs(const ArmState& state, const Measurements& measured,
+                                         const std::vector<Outlier>& outliers) {
+  std::vector<DisplacedRun> out;
+  const auto& axis = measured.has_axis;
+  for (const auto& rows : neighbours(outliers)) {
+    const Measurements some = pick(measured, rows);
+    const Rows3 errors = residuals(some, predict_points(state, some));
+    const CommonVector base = common_vector(errors);
+    std::optional<CommonVector> tool;
+    if (axis[0] && axis[1] && axis[2]) tool = common_vector(errors_in_tool(state, some, errors));
+    const bool of_tool = tool && tool->scatter < base.scatter;
+    const CommonVector& one = of_tool ? *tool : base;
+    if (one.scatter <= kOneVector) out.push_back({rows.front(), rows.back(), one.mean, of_tool});
+  }
+  return out;
+}
+
+std::string in_words(const Measurements& measured, const DisplacedRun& run) {
+  const Vector3 mm = run.by * 1e3;
+  const int digits = mm.norm() < 1.0 ? 3 : 1;
+  const bool read = !measured.tables.empty();
+  return fmt::format(
+      "{} {} to {} are all off by some ({:.{}f}, {:.{}f}, {:.{}f}) mm, seen from the {}",
+      read ? "lines" : "rows", read ? line_of_row(measured, run.first) : run.first + 1,
+      read ? line_of_row(measured, run.last) : run.last + 1, mm(0), digits, mm(1), digits, mm(2),
+      digits,
+      run.of_tool ? "tool: the reflector probably sat in another place"
+                  : "tracker: it, or the base, probably stood in another place");
+}
+
+}  // namespace plumb::offline
