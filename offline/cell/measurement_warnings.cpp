@@ -124,7 +124,7 @@ std::optional<std::pair<std::string, std::string>> oddity_of(const Column& colum
 
 }  // namespace
 
-void replace_zero_sigmas(Measurements& m) {
+void replace_zero_sigmas(MeasurementFiles& m) {
   if (m.sigma_m.rows() == 0) return;
   const double any = smallest_positive(m.sigma_m.reshaped());
   for (auto& table : m.tables) warn_of_zero_sigma(table, any == 0.0);
@@ -187,7 +187,7 @@ void warn_of_doubles(Table& table) {
                            "delete the copy; a true repeat has its own reading"});
 }
 
-void warn_of_names(Measurements& m) {
+void warn_of_names(MeasurementFiles& m) {
   std::vector<int> first_of_group(m.size(), -1);
   int i = 0;
   for (auto& table : m.tables) {

@@ -19,11 +19,11 @@ void warn_of_doubles(Table& table);
 
 /// W-CSV-POSE: one name for different poses would turn the arm's motion into noise. Added to the
 /// remarks of the tables, once a file.
-void warn_of_names(Measurements& measurements);
+void warn_of_names(MeasurementFiles& measurements);
 
 /// W-CSV-SIGMA: a standard deviation of zero, which some trackers write where they have none, would
 /// give its reading all the weight. It is replaced by the smallest one above zero of its axis, or
 /// of any axis; where all are zero none is used. Added to the remarks of the tables, once a file.
-void replace_zero_sigmas(Measurements& measurements);
+void replace_zero_sigmas(MeasurementFiles& measurements);
 
 }  // namespace plumb::offline

@@ -29,7 +29,7 @@ class Assembler {
 
   void take(Table table) { tables_.push_back(std::move(table)); }
 
-  Measurements finish() {
+  MeasurementFiles finish() {
     join();
     m_.replicate_group = replicate_groups(names_, file_, m_.q);
     m_.context = read_contexts(tables_, m_.q);
@@ -39,6 +39,7 @@ class Assembler {
       warn_of_values(table);
       warn_of_doubles(table);
     }
+    m_.file = file_of_rows(tables_);
     m_.tables = std::move(tables_);
     warn_of_names(m_);
     replace_zero_sigmas(m_);
@@ -46,7 +47,7 @@ class Assembler {
   }
 
   /// For rows that are only computed with.
-  Measurements finish_plainly() {
+  MeasurementFiles finish_plainly() {
     join();
     m_.context = read_contexts(tables_, m_.q);
     forget_order(tables_, m_.q, m_.context);
@@ -54,6 +55,7 @@ class Assembler {
       warn_of_misspelt(table);
       warn_of_values(table);
     }
+    m_.file = file_of_rows(tables_);
     m_.tables = std::move(tables_);
     return std::move(m_);
   }
@@ -180,13 +182,13 @@ class Assembler {
   ProblemList problems_;
   std::vector<std::string> names_;  // as written, empty without a column
   std::vector<int> file_;           // of each row
-  Measurements m_;
+  MeasurementFiles m_;
 };
 
 }  // namespace
 
-Measurements read_measurements(const std::vector<std::filesystem::path>& files,
-                               const std::vector<bool>& joint_is_angle, Needs needs) {
+MeasurementFiles read_measurements(const std::vector<std::filesystem::path>& files,
+                                   const std::vector<bool>& joint_is_angle, Needs needs) {
   if (files.empty())
     throw Failure(Exit::kInput,
                   Problem{.code = "E-CSV-NONE",
@@ -197,7 +199,7 @@ Measurements read_measurements(const std::vector<std::filesystem::path>& files,
   return assembler.finish();
 }
 
-Measurements plain_rows(Table table, const std::vector<bool>& joint_is_angle) {
+MeasurementFiles plain_rows(Table table, const std::vector<bool>& joint_is_angle) {
   Assembler assembler(joint_is_angle, Needs::kJoints);
   assembler.take(std::move(table));
   return assembler.finish_plainly();

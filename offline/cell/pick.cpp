@@ -63,6 +63,7 @@ Measurements pick(const Measurements& all, const std::vector<int>& rows) {
   out.replicate_group = picked(all.replicate_group, rows);
   out.set = picked(all.set, rows);
   out.setup = picked(all.setup, rows);
+  out.file = picked(all.file, rows);
   out.q = picked(all.q, rows);
   out.p_M = picked(all.p_M, rows);
   out.has_axis = all.has_axis;
@@ -71,7 +72,13 @@ Measurements pick(const Measurements& all, const std::vector<int>& rows) {
   out.nominal_B = picked(all.nominal_B, rows);
   out.departure_B = picked(all.departure_B, rows);
   out.context = pick(all.context, rows);
-  out.tables = pick_tables(all.tables, rows);
+  return out;
+}
+
+MeasurementFiles pick(const MeasurementFiles& all, const std::vector<int>& rows) {
+  MeasurementFiles out{pick(static_cast<const Measurements&>(all), rows),
+                       pick_tables(all.tables, rows)};
+  out.file = file_of_rows(out.tables);
   return out;
 }
 

@@ -113,7 +113,7 @@ void keep_repeats_apart(Measurements& measured) {
 }
 
 /// Several names in the column and one frame for all of them: that is rarely meant.
-void warn_of_unused_column(Measurements& measured) {
+void warn_of_unused_column(MeasurementFiles& measured) {
   std::set<std::string> names;
   Table* first = nullptr;
   for (auto& table : measured.tables)
@@ -187,7 +187,7 @@ Cell cell_of_setup(const Cell& cell, int setup) {
   return out;
 }
 
-OneSetup one_setup(const Cell& cell, const Measurements& measured, int setup) {
+OneSetup one_setup(const Cell& cell, const MeasurementFiles& measured, int setup) {
   OneSetup out{setup, cell_of_setup(cell, setup), {}};
   std::vector<int> rows;
   for (int i = 0; i < measured.size(); ++i)
@@ -216,7 +216,8 @@ std::vector<fs::path> measurement_files(const MeasurementSettings& m) {
   return out;
 }
 
-void assign_setups(const Cell& cell, const std::vector<fs::path>& files, Measurements& measured) {
+void assign_setups(const Cell& cell, const std::vector<fs::path>& files,
+                   MeasurementFiles& measured) {
   const MeasurementSettings& m = cell.measurement;
   if (m.setups.empty()) return warn_of_unused_column(measured);
   ProblemList problems;
@@ -237,7 +238,7 @@ void assign_setups(const Cell& cell, const std::vector<fs::path>& files, Measure
   keep_repeats_apart(measured);
 }
 
-void assign_setups_to_predict(const Cell& cell, const fs::path& file, Measurements& rows) {
+void assign_setups_to_predict(const Cell& cell, const fs::path& file, MeasurementFiles& rows) {
   const MeasurementSettings& m = cell.measurement;
   rows.setup.clear();
   if (m.setups.size() < 2) return;

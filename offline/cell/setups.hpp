@@ -35,9 +35,9 @@ Cell cell_of_setup(const Cell& cell, int setup);
 struct OneSetup {
   int setup = 0;
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
 };
-OneSetup one_setup(const Cell& cell, const Measurements& measured, int setup);
+OneSetup one_setup(const Cell& cell, const MeasurementFiles& measured, int setup);
 int largest_setup(const Cell& cell, const Measurements& measured);
 
 /// Files to read, each once, in the order of the cell file: those of [measurement], those that only
@@ -48,12 +48,12 @@ std::vector<std::filesystem::path> measurement_files(const MeasurementSettings& 
 /// set-ups apart. `files`: where the tables of `measured` were read from. Throws Failure (kInput,
 /// E-CSV-SETUP) for rows that belong to no set-up, or to two, and for a set-up without rows.
 void assign_setups(const Cell& cell, const std::vector<std::filesystem::path>& files,
-                   Measurements& measured);
+                   MeasurementFiles& measured);
 
 /// The same of rows that are to be predicted: by the column `setup`, or because `file`, where they
 /// were read from, is one that a set-up names. Throws Failure (kInput, E-CSV-SETUP) if neither says
 /// it: a point in the frame of another station would be metres off.
 void assign_setups_to_predict(const Cell& cell, const std::filesystem::path& file,
-                              Measurements& rows);
+                              MeasurementFiles& rows);
 
 }  // namespace plumb::offline

@@ -38,7 +38,7 @@ constexpr double kOneChange = 1.05;  // of the labels
 constexpr int kPlacedRows = 300;
 constexpr int kSearchedRows = 1500;  // for a jump: those that identifiability fits
 
-std::vector<int> used_rows(const Measurements& measured) {
+std::vector<int> used_rows(const MeasurementFiles& measured) {
   std::vector<int> rows;
   for (int i = 0; i < measured.size(); ++i)
     if (measured.set[i] != SetMark::kIgnore) rows.push_back(i);
@@ -47,7 +47,7 @@ std::vector<int> used_rows(const Measurements& measured) {
 
 class Checker {
  public:
-  Checker(const Cell& cell, const Measurements& measured) : cell_(cell), measured_(measured) {}
+  Checker(const Cell& cell, const MeasurementFiles& measured) : cell_(cell), measured_(measured) {}
 
   Check check() {
     out_.detection = detect_convention(cell_, measured_);
@@ -107,7 +107,8 @@ class Checker {
   /// The convention search holds the arm near nominal, and fit lets it go farther: what fit fits,
   /// in lengths as they are, is no wrong reading. W-FIT-FAR then says how far from nominal it
   /// ended.
-  void reading_fits(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
+  void reading_fits(const Cell& cell, const MeasurementFiles& measured,
+                    const std::vector<int>& rows) {
     Detection& d = out_.detection;
     const double most = kFits * d.best.size_m;
     if (!d.why_not.empty() || d.changed || d.best.fitted_m <= most) return;
@@ -159,7 +160,7 @@ class Checker {
   }
 
   /// Everything else, on the files as they are meant.
-  void look(const Cell& cell, const Measurements& measured) {
+  void look(const Cell& cell, const MeasurementFiles& measured) {
     const std::vector<int> rows = used_rows(measured);
     out_.floor = noise_floor(cell, measured);
     add(equal_pose_findings(measured));
@@ -184,7 +185,7 @@ class Checker {
            "measure some poses twice, or state [measurement] sigma_um");
   }
 
-  void look_at_parameters(const Cell& cell, const Measurements& measured,
+  void look_at_parameters(const Cell& cell, const MeasurementFiles& measured,
                           const std::vector<int>& rows) {
     try {
       out_.parameters = identifiability(cell, measured, rows);
@@ -235,7 +236,7 @@ class Checker {
   }
 
   /// What fit will refuse: poses held out are missing in the fit.
-  void split_enough(const Measurements& measured) {
+  void split_enough(const MeasurementFiles& measured) {
     if (out_.exit != Exit::kDone) return;
     try {
       const Split split = split_poses(measured, cell_.measurement.held_out, cell_.measurement.seed);
@@ -255,14 +256,14 @@ class Checker {
   }
 
   /// Numbers that one reading gives.
-  std::size_t axes_of(const Measurements& measured) const {
+  std::size_t axes_of(const MeasurementFiles& measured) const {
     std::size_t out = measured.has_orientation() && cell_.measurement.sigma_rad ? 3 : 0;
     for (const bool has : measured.has_axis) out += has ? 1 : 0;
     return out;
   }
 
   /// Each distinct pose gives its measured axes once; repeats give noise only.
-  void poses_enough(const Measurements& measured) {
+  void poses_enough(const MeasurementFiles& measured) {
     const int axes = static_cast<int>(axes_of(measured));
     const std::set<int> groups(measured.replicate_group.begin(), measured.replicate_group.end());
     const int coordinates = axes * static_cast<int>(groups.size());
@@ -293,7 +294,7 @@ class Checker {
 
   /// Rounded readings leave at least about their own error; where less is left, the values were
   /// round before the arm went there. Where no noise is known, the two must be of one size.
-  void rounding_findings(const Measurements& measured, const std::vector<int>& rows,
+  void rounding_findings(const MeasurementFiles& measured, const std::vector<int>& rows,
                          const ArmState& placed) {
     if (!out_.rounding) return;
     const bool known = out_.floor.source != NoiseFloor::Source::kNone;
@@ -311,7 +312,7 @@ class Checker {
   }
 
   /// RMS 3-D error [m] of the rows that are no outliers.
-  double left_by_fit(const Measurements& measured, const std::vector<int>& rows,
+  double left_by_fit(const MeasurementFiles& measured, const std::vector<int>& rows,
                      const ArmState& placed) const {
     const auto fitted =
         out_.parameters ? without_outliers(rows, out_.parameters->calibration.outliers) : rows;
@@ -321,7 +322,7 @@ class Checker {
   }
 
   /// Doubts about the readings themselves, and about gravity.
-  void reading_findings(const Cell& cell, const Measurements& measured,
+  void reading_findings(const Cell& cell, const MeasurementFiles& measured,
                         const std::vector<int>& rows, const ArmState& placed) {
     add(sharing_findings(cell, measured, rows));
     repeat_findings(cell);
@@ -359,7 +360,7 @@ class Checker {
   }
 
   /// Rows that one and the same slip explains; a part of the outliers or all of them are these.
-  std::string row_findings(const Cell& cell, const Measurements& measured,
+  std::string row_findings(const Cell& cell, const MeasurementFiles& measured,
                            const std::vector<int>& rows, const ArmState& placed) {
     if (out_.detection.changed) return "";
     auto found = row_fault_findings(cell, measured, rows, placed);
@@ -370,7 +371,7 @@ class Checker {
   }
 
   /// Something moved half-way, and W-CHECK-SAME does not say so already.
-  std::string moved_findings(const Cell& cell, const Measurements& measured,
+  std::string moved_findings(const Cell& cell, const MeasurementFiles& measured,
                              const std::vector<int>& rows, const ArmState& placed) {
     if (out_.detection.changed ||
         std::any_of(out_.findings.begin(), out_.findings.end(),
@@ -394,7 +395,7 @@ class Checker {
     return "one common factor on all points would, see W-CHECK-SCALE";
   }
 
-  std::string contradiction_findings(const Cell& cell, const Measurements& measured,
+  std::string contradiction_findings(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows, const ArmState& placed) {
     auto found = contradiction(
         cell, measured,
@@ -423,7 +424,7 @@ class Checker {
   }
 
   const Cell& cell_;
-  const Measurements& measured_;
+  const MeasurementFiles& measured_;
   std::optional<GrossScale> gross_scale_;
   Check out_;
 };
@@ -436,7 +437,7 @@ int count(const Check& check, Severity severity) {
 
 }  // namespace
 
-Check check_cell(const Cell& cell, const Measurements& measured) {
+Check check_cell(const Cell& cell, const MeasurementFiles& measured) {
   return Checker(cell, measured).check();
 }
 

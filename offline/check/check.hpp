@@ -34,7 +34,7 @@ struct Check {
 /// Checks conventions first and all else on the files read as they are meant. Throws only for what
 /// read_cell and read_measurements throw.
 /// Cost: 0.1 s for a usual cell, below 1 s for 12,000 poses.
-Check check_cell(const Cell& cell, const Measurements& measured);
+Check check_cell(const Cell& cell, const MeasurementFiles& measured);
 
 /// "Can I use this?" in one sentence.
 std::string verdict(const Check& check);

@@ -49,7 +49,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 class Majority {
  public:
-  Majority(const Cell& cell, const Measurements& measured, const std::vector<int>& rows)
+  Majority(const Cell& cell, const MeasurementFiles& measured, const std::vector<int>& rows)
       : cell_(cell), measured_(measured), rows_(rows), some_(pick(measured, rows)) {}
 
   /// From where the common fit stands, and where that is far off from random rows too.
@@ -151,7 +151,7 @@ class Majority {
   }
 
   const Cell& cell_;
-  const Measurements& measured_;
+  const MeasurementFiles& measured_;
   std::vector<int> rows_;
   Measurements some_;
   ArmState state_;
@@ -187,7 +187,7 @@ bool is_point(const std::string& name) {
 }
 
 /// True if a column tells these rows from the others: then it may be their cause.
-bool follows_a_column(const Measurements& measured, const std::vector<int>& rows,
+bool follows_a_column(const MeasurementFiles& measured, const std::vector<int>& rows,
                       const Part& part) {
   if (measured.tables.empty()) return false;
   std::vector<double> marks;
@@ -208,7 +208,7 @@ bool follows_a_column(const Measurements& measured, const std::vector<int>& rows
   return false;
 }
 
-std::string lines_of(const Measurements& measured, const std::vector<int>& rows) {
+std::string lines_of(const MeasurementFiles& measured, const std::vector<int>& rows) {
   if (measured.tables.empty()) return "";
   std::vector<int> lines;
   for (std::size_t k = 0; k < std::min(kListed, rows.size()); ++k) {
@@ -219,7 +219,7 @@ std::string lines_of(const Measurements& measured, const std::vector<int>& rows)
   return fmt::format(", lines {}{}", fmt::join(lines, ", "), rows.size() > kListed ? ", ..." : "");
 }
 
-std::optional<Place> place_of(const Measurements& measured, int row) {
+std::optional<Place> place_of(const MeasurementFiles& measured, int row) {
   if (measured.tables.empty()) return std::nullopt;
   const RowPlace at = row_place(measured, row);
   const Table& table = measured.tables[static_cast<std::size_t>(at.table)];
@@ -235,7 +235,7 @@ double rms_error(const Measurements& some, const ArmState& state) {
 
 }  // namespace
 
-std::optional<Problem> contradiction(const Cell& cell, const Measurements& measured,
+std::optional<Problem> contradiction(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows, const ArmState& placed) {
   if (static_cast<int>(rows.size()) < kContradictionFewestRows || !measured.setup.empty())
     return std::nullopt;

@@ -16,7 +16,7 @@ namespace plumb::offline {
 /// near nominal. Silent where the fit `placed` leaves less than 0.1 mm, and where these rows follow
 /// one another or differ from the rest in the joint positions or in a column.
 /// Cost: at most some 30 soft fits of 300 rows.
-std::optional<Problem> contradiction(const Cell& cell, const Measurements& measured,
+std::optional<Problem> contradiction(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows, const ArmState& placed);
 
 }  // namespace plumb::offline

@@ -16,7 +16,7 @@ bool slides(const Cell& cell, int joint) {
   return cell.nominal.joints[joint].type == format::JointType::kPrismatic;
 }
 
-std::string unit_in_file(const Measurements& measured, const std::string& name,
+std::string unit_in_file(const MeasurementFiles& measured, const std::string& name,
                          const std::string& fallback) {
   for (const auto& table : measured.tables)
     if (const Column* column = table.find(name)) return column->unit;
@@ -96,7 +96,7 @@ format::Pose inverse(const format::Pose& pose) { return to_pose(from_pose(pose).
 
 }  // namespace
 
-Convention labelled_convention(const Cell& cell, const Measurements& measured) {
+Convention labelled_convention(const Cell& cell, const MeasurementFiles& measured) {
   Convention out;
   out.dh = cell.nominal.convention;
   out.length_unit = cell.length_unit;
@@ -152,6 +152,12 @@ Measurements read_as(const Measurements& measured, const Cell& cell, const Conve
   out.p_M *= ratio(meant.point_unit, present.point_unit);
   mirror_points(out, meant.mirror);
   return out;
+}
+
+MeasurementFiles read_as(const MeasurementFiles& measured, const Cell& cell,
+                         const Convention& present, const Convention& meant) {
+  return {read_as(static_cast<const Measurements&>(measured), cell, present, meant),
+          measured.tables};
 }
 
 CellEdit cell_edit(const Cell& cell, const Convention& present, const Convention& meant) {

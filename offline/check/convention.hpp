@@ -28,7 +28,7 @@ struct Convention {
 };
 
 /// What the files say of themselves.
-Convention labelled_convention(const Cell& cell, const Measurements& measured);
+Convention labelled_convention(const Cell& cell, const MeasurementFiles& measured);
 
 /// How much `other` asks to be changed: 1 for each unit, sign or the DH convention, a little more
 /// for what is rarer, so that of two explanations with the same points the simpler one wins.
@@ -39,6 +39,8 @@ double changes(const Convention& present, const Convention& other);
 Cell read_as(const Cell& cell, const Convention& present, const Convention& meant);
 Measurements read_as(const Measurements& measured, const Cell& cell, const Convention& present,
                      const Convention& meant);
+MeasurementFiles read_as(const MeasurementFiles& measured, const Cell& cell,
+                         const Convention& present, const Convention& meant);
 
 /// The same as edits of the files.
 CellEdit cell_edit(const Cell& cell, const Convention& present, const Convention& meant);

@@ -54,7 +54,7 @@ struct Lead {
 
 class ConventionSearch {
  public:
-  ConventionSearch(const Cell& cell, const Measurements& measured)
+  ConventionSearch(const Cell& cell, const MeasurementFiles& measured)
       : cell_(cell),
         measured_(measured),
         labels_(labelled_convention(cell, measured)),
@@ -297,7 +297,7 @@ class ConventionSearch {
   }
 
   const Cell& cell_;
-  const Measurements& measured_;
+  const MeasurementFiles& measured_;
   Convention labels_;
   std::vector<int> few_, some_;
   std::vector<Lead> leads_;
@@ -307,7 +307,7 @@ class ConventionSearch {
 
 }  // namespace
 
-Detection detect_convention(const Cell& cell, const Measurements& measured) {
+Detection detect_convention(const Cell& cell, const MeasurementFiles& measured) {
   if (cell.measurement.setups.empty() || measured.setup.empty())
     return ConventionSearch(cell, measured).work();
   const OneSetup one = one_setup(cell, measured, largest_setup(cell, measured));

@@ -35,6 +35,6 @@ struct Detection {
 /// one with the most rows.
 ///
 /// Cost: about 10 us a reading on 40 poses, 5 to 50 ms in all. Throws Failure as parse_cell.
-Detection detect_convention(const Cell& cell, const Measurements& measured);
+Detection detect_convention(const Cell& cell, const MeasurementFiles& measured);
 
 }  // namespace plumb::offline

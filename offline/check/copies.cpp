@@ -83,7 +83,7 @@ Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
 }
 
 /// One pose again and again, or joint columns that stood still while the arm moved.
-Problem equal_poses(const Measurements& measured) {
+Problem equal_poses(const MeasurementFiles& measured) {
   const double spread =
       (measured.p_M.colwise().maxCoeff() - measured.p_M.colwise().minCoeff()).norm();
   const bool arm_moved = spread > kOnePlace;
@@ -110,7 +110,7 @@ std::string why_perhaps(const Copies& copies, double step_m) {
 
 }  // namespace
 
-std::vector<Problem> copy_findings(const Measurements& measured, const NoiseFloor& floor) {
+std::vector<Problem> copy_findings(const MeasurementFiles& measured, const NoiseFloor& floor) {
   const EqualRepeats chance = equal_by_rounding(measured, floor);
   const Copies copies = copies_of(measured, chance);
   if (copies.points.empty()) return {};
@@ -132,7 +132,7 @@ std::vector<Problem> copy_findings(const Measurements& measured, const NoiseFloo
            : "delete the copies: a true repeat has its own reading, and copies hide the noise"}};
 }
 
-std::vector<Problem> equal_pose_findings(const Measurements& measured) {
+std::vector<Problem> equal_pose_findings(const MeasurementFiles& measured) {
   if (measured.size() < 2) return {};
   for (int i = 1; i < measured.size(); ++i)
     if (measured.q.row(i) != measured.q.row(0)) return {};

@@ -51,7 +51,7 @@ bool assumed(const Cell& cell, int joint) {
 }
 
 /// Nobody stated these limits: what goes beyond them is no error.
-Problem beyond_assumed(const Cell& cell, const Measurements& measured, int joint) {
+Problem beyond_assumed(const Cell& cell, const MeasurementFiles& measured, int joint) {
   const auto& row = cell.nominal.joints[static_cast<std::size_t>(joint)];
   const auto q = measured.q.col(joint);
   return {Severity::kNote, "N-CHECK-LIMITS",
@@ -65,7 +65,7 @@ Problem beyond_assumed(const Cell& cell, const Measurements& measured, int joint
 
 }  // namespace
 
-std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measured) {
+std::vector<Problem> limit_findings(const Cell& cell, const MeasurementFiles& measured) {
   std::vector<Problem> out;
   for (int j = 0; j < cell.joints(); ++j) {
     const auto& row = cell.nominal.joints[j];
@@ -98,7 +98,7 @@ std::vector<Problem> limit_findings(const Cell& cell, const Measurements& measur
   return out;
 }
 
-std::vector<Problem> outlier_findings(const Measurements& measured,
+std::vector<Problem> outlier_findings(const MeasurementFiles& measured,
                                       const Calibration& calibration) {
   const auto& outliers = calibration.outliers;
   if (outliers.empty()) return {};
@@ -118,7 +118,7 @@ std::vector<Problem> outlier_findings(const Measurements& measured,
        "measure these poses again, or mark the rows with set = ignore"}};
 }
 
-std::vector<Problem> constant_findings(const Cell& cell, const Measurements& measured) {
+std::vector<Problem> constant_findings(const Cell& cell, const MeasurementFiles& measured) {
   std::vector<Problem> out;
   for (int j = 0; j < cell.joints(); ++j) {
     const auto q = measured.q.col(j);

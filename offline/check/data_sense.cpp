@@ -21,7 +21,7 @@ struct Span {
   double size() const { return known ? high - low : 0.0; }
 };
 
-Span span_of(const Measurements& measured, const std::string& name) {
+Span span_of(const MeasurementFiles& measured, const std::string& name) {
   Span out;
   for (const auto& table : measured.tables) {
     const Column* column = table.find(name);
@@ -34,7 +34,7 @@ Span span_of(const Measurements& measured, const std::string& name) {
   return out;
 }
 
-void sense_temperatures(const Measurements& measured, DataSense& out) {
+void sense_temperatures(const MeasurementFiles& measured, DataSense& out) {
   if (measured.tables.empty()) return;
   for (const auto& column : measured.tables.front().columns) {
     if (column.quantity != Quantity::kTemperature) continue;
@@ -46,14 +46,14 @@ void sense_temperatures(const Measurements& measured, DataSense& out) {
   }
 }
 
-bool any_column(const Measurements& measured, Quantity quantity) {
+bool any_column(const MeasurementFiles& measured, Quantity quantity) {
   for (const auto& table : measured.tables)
     for (const auto& column : table.columns)
       if (column.quantity == quantity) return true;
   return false;
 }
 
-double share_of_rarer_direction(const Measurements& measured, int joint) {
+double share_of_rarer_direction(const MeasurementFiles& measured, int joint) {
   int plus = 0, minus = 0;
   for (const auto& table : measured.tables) {
     const Column* column = table.find(fmt::format("dir_j{}", joint + 1));
@@ -64,7 +64,7 @@ double share_of_rarer_direction(const Measurements& measured, int joint) {
   return all > 0 ? static_cast<double>(std::min(plus, minus)) / all : 0.0;
 }
 
-bool has_column(const Measurements& measured, const std::string& name) {
+bool has_column(const MeasurementFiles& measured, const std::string& name) {
   return !measured.tables.empty() &&
          std::all_of(measured.tables.begin(), measured.tables.end(),
                      [&](const Table& table) { return table.find(name) != nullptr; });
@@ -106,7 +106,8 @@ void sense_levers(const Cell& cell, const Measurements& measured, const std::vec
 
 }  // namespace
 
-DataSense data_sense(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
+DataSense data_sense(const Cell& cell, const MeasurementFiles& measured,
+                     const std::vector<int>& rows) {
   DataSense out;
   std::set<int> groups;
   for (const int i : rows) groups.insert(measured.replicate_group[i]);

@@ -12,6 +12,7 @@ namespace plumb::offline {
 /// What these measurements could show.
 ///
 /// @param rows  Those that are used.
-DataSense data_sense(const Cell& cell, const Measurements& measured, const std::vector<int>& rows);
+DataSense data_sense(const Cell& cell, const MeasurementFiles& measured,
+                     const std::vector<int>& rows);
 
 }  // namespace plumb::offline

@@ -45,7 +45,7 @@ CommonVector common_vector(const Rows3& errors) {
 
 }  // namespace
 
-std::vector<DisplacedRun> displaced_runs(const ArmState& state, const Measurements& measured,
+std::vector<DisplacedRun> displaced_runs(const ArmState& state, const MeasurementFiles& measured,
                                          const std::vector<Outlier>& outliers) {
   std::vector<DisplacedRun> out;
   const auto& axis = measured.has_axis;
@@ -62,7 +62,7 @@ std::vector<DisplacedRun> displaced_runs(const ArmState& state, const Measuremen
   return out;
 }
 
-std::string in_words(const Measurements& measured, const DisplacedRun& run) {
+std::string in_words(const MeasurementFiles& measured, const DisplacedRun& run) {
   const Vector3 mm = run.by * 1e3;
   const int digits = mm.norm() < 1.0 ? 3 : 1;
   const bool read = !measured.tables.empty();

@@ -19,11 +19,11 @@ struct DisplacedRun {
 
 /// The runs of at least three of these outliers. `state`: the arm as fitted without them. Cost: one
 /// prediction per outlier.
-std::vector<DisplacedRun> displaced_runs(const ArmState& state, const Measurements& measured,
+std::vector<DisplacedRun> displaced_runs(const ArmState& state, const MeasurementFiles& measured,
                                          const std::vector<Outlier>& outliers);
 
 /// "lines 40 to 47 are all off by some (12.1, -3.0, 39.4) mm, seen from the tool: the reflector
 /// probably sat in another place".
-std::string in_words(const Measurements& measured, const DisplacedRun& run);
+std::string in_words(const MeasurementFiles& measured, const DisplacedRun& run);
 
 }  // namespace plumb::offline

@@ -73,7 +73,7 @@ double chance_from_steps(const Measurements& m, const std::array<double, 3>& ste
 
 }  // namespace
 
-EqualRepeats equal_by_rounding(const Measurements& measured, const NoiseFloor& floor) {
+EqualRepeats equal_by_rounding(const MeasurementFiles& measured, const NoiseFloor& floor) {
   EqualRepeats out;
   const auto steps = point_steps(measured);
   for (std::size_t k = 0; k < 3; ++k)

@@ -20,7 +20,7 @@ struct EqualRepeats {
 /// normal noise sigma, rounded to steps s, both have the same coordinate with probability
 /// erf(u) - (1 - exp(-u^2)) / (u sqrt(pi)), u = s / (2 sigma).
 /// Cost: O(n).
-EqualRepeats equal_by_rounding(const Measurements& measured, const NoiseFloor& floor);
+EqualRepeats equal_by_rounding(const MeasurementFiles& measured, const NoiseFloor& floor);
 
 /// The most that chance makes of an expected number of equal readings.
 double most_by_chance(double expected);

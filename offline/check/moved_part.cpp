@@ -20,7 +20,7 @@ struct Spot {
 };
 
 /// Rows that were read from no file count from 1.
-Spot spot_of(const Measurements& measured, int row) {
+Spot spot_of(const MeasurementFiles& measured, int row) {
   if (measured.tables.empty()) return {row + 1, ""};
   const RowPlace at = row_place(measured, row);
   const Table& table = measured.tables[static_cast<std::size_t>(at.table)];
@@ -28,7 +28,7 @@ Spot spot_of(const Measurements& measured, int row) {
           std::filesystem::path(table.file).filename().string()};
 }
 
-std::string between(const Measurements& measured, int before, int after) {
+std::string between(const MeasurementFiles& measured, int before, int after) {
   const Spot a = spot_of(measured, before), b = spot_of(measured, after);
   if (a.file != b.file)
     return fmt::format("between line {} of {} and line {} of {}", a.line, a.file, b.line, b.file);
@@ -37,7 +37,7 @@ std::string between(const Measurements& measured, int before, int after) {
 }
 
 /// Where the moment is not sure to the row.
-std::string uncertainty(const Measurements& measured, const StepFound& step) {
+std::string uncertainty(const MeasurementFiles& measured, const StepFound& step) {
   if (step.earliest == step.latest) return "";
   const Spot a = spot_of(measured, step.earliest), b = spot_of(measured, step.latest);
   return fmt::format(
@@ -55,7 +55,7 @@ std::string adding_step(const Cell& cell, const StepFound& step) {
                      name_of(step.source));
 }
 
-std::optional<Place> first_moved(const Measurements& measured, const StepFound& step) {
+std::optional<Place> first_moved(const MeasurementFiles& measured, const StepFound& step) {
   if (measured.tables.empty()) return std::nullopt;
   const RowPlace at = row_place(measured, step.after);
   const Table& table = measured.tables[static_cast<std::size_t>(at.table)];
@@ -66,7 +66,7 @@ std::optional<Place> first_moved(const Measurements& measured, const StepFound& 
 
 }  // namespace
 
-std::optional<MovedPart> moved_part(const Cell& cell, const Measurements& measured,
+std::optional<MovedPart> moved_part(const Cell& cell, const MeasurementFiles& measured,
                                     const std::vector<int>& rows, const ArmState& fitted) {
   const std::optional<StepFound> step = main_jump(fitted, measured, rows);
   if (!step) return std::nullopt;

@@ -23,7 +23,7 @@ struct MovedPart {
 /// explain as much.
 /// rows: to look at, outliers left out; fitted: the state that leaves the residual.
 /// Cost: 30 ms for 1,000 rows.
-std::optional<MovedPart> moved_part(const Cell& cell, const Measurements& measured,
+std::optional<MovedPart> moved_part(const Cell& cell, const MeasurementFiles& measured,
                                     const std::vector<int>& rows, const ArmState& fitted);
 
 }  // namespace plumb::offline

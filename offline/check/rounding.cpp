@@ -47,7 +47,7 @@ double step_of(const Column& column) {
 }
 
 /// The joint column of every file, coarsest step first found.
-double file_step(const Measurements& measured, const std::string& name, std::string& unit) {
+double file_step(const MeasurementFiles& measured, const std::string& name, std::string& unit) {
   double finest = 0.0;
   for (const auto& table : measured.tables) {
     const Column* column = table.find(name);
@@ -107,7 +107,7 @@ CoarseAxis coarsest_axis(const Table& table) {
 
 }  // namespace
 
-std::array<double, 3> point_steps(const Measurements& measured) {
+std::array<double, 3> point_steps(const MeasurementFiles& measured) {
   constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
   std::array<double, 3> out{};
   for (const Table& table : measured.tables)
@@ -118,7 +118,7 @@ std::array<double, 3> point_steps(const Measurements& measured) {
   return out;
 }
 
-std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloor& floor) {
+std::vector<Problem> coarse_points(const MeasurementFiles& measured, const NoiseFloor& floor) {
   const bool known = floor.source != NoiseFloor::Source::kNone;
   std::vector<Problem> out;
   for (const Table& table : measured.tables) {
@@ -139,7 +139,7 @@ std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloo
   return out;
 }
 
-std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& measured,
+std::optional<Rounding> joint_rounding(const Cell& cell, const MeasurementFiles& measured,
                                        const std::vector<int>& rows, const ArmState& placed) {
   Rounding out;
   std::vector<double> sigma(cell.joints(), 0.0);

@@ -22,16 +22,16 @@ struct Rounding {
 
 /// Nothing if the files do not say how they were written. A uniform error of +-step/2 has sigma =
 /// step / sqrt(12); at the tool it is sqrt(sum_j |J_j|^2) of that, RMS over the poses.
-std::optional<Rounding> joint_rounding(const Cell& cell, const Measurements& measured,
+std::optional<Rounding> joint_rounding(const Cell& cell, const MeasurementFiles& measured,
                                        const std::vector<int>& rows, const ArmState& placed);
 
 /// The steps of the measured x, y, z [m], the coarsest of all files: all values are multiples of 1,
 /// 2, 2.5 or 5 times a power of ten of their unit. 0 where there is none, or too few values to
 /// tell.
-std::array<double, 3> point_steps(const Measurements& measured);
+std::array<double, 3> point_steps(const MeasurementFiles& measured);
 
 /// Measured coordinates that were rounded (W-CHECK-COARSE, once a file): a uniform error of
 /// +-step/2, whose sigma is step / sqrt(12), is no longer small beside the noise.
-std::vector<Problem> coarse_points(const Measurements& measured, const NoiseFloor& floor);
+std::vector<Problem> coarse_points(const MeasurementFiles& measured, const NoiseFloor& floor);
 
 }  // namespace plumb::offline

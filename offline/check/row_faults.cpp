@@ -381,7 +381,7 @@ Problem described(const Cell& cell, const Table& table, const std::vector<int>& 
 
 }  // namespace
 
-std::vector<Problem> row_fault_findings(const Cell& cell, const Measurements& measured,
+std::vector<Problem> row_fault_findings(const Cell& cell, const MeasurementFiles& measured,
                                         const std::vector<int>& rows, const ArmState& placed) {
   std::vector<Problem> out;
   if (!measured.setup.empty() || measured.tables.empty() ||

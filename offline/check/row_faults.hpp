@@ -22,7 +22,7 @@ namespace plumb::offline {
 /// all rows were fitted by, leaves nothing to explain.
 ///
 /// Cost: 1 us a row for sound files; else some 0.2 s and 50 us a row, of at most 20,000 a file.
-std::vector<Problem> row_fault_findings(const Cell& cell, const Measurements& measured,
+std::vector<Problem> row_fault_findings(const Cell& cell, const MeasurementFiles& measured,
                                         const std::vector<int>& rows, const ArmState& placed);
 
 }  // namespace plumb::offline

@@ -14,7 +14,7 @@ constexpr std::size_t kLinesListed = 5;  // lines named in one message
 
 }  // namespace
 
-RowPlace row_place(const Measurements& measured, int row) {
+RowPlace row_place(const MeasurementFiles& measured, int row) {
   RowPlace out{0, row};
   while (out.table + 1 < static_cast<int>(measured.tables.size()) &&
          out.row >= measured.tables[out.table].rows())
@@ -22,12 +22,12 @@ RowPlace row_place(const Measurements& measured, int row) {
   return out;
 }
 
-int line_of_row(const Measurements& measured, int row) {
+int line_of_row(const MeasurementFiles& measured, int row) {
   const RowPlace at = row_place(measured, row);
   return measured.tables[at.table].lines[at.row];
 }
 
-std::string listed_lines(const Measurements& measured, const std::vector<int>& rows) {
+std::string listed_lines(const MeasurementFiles& measured, const std::vector<int>& rows) {
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < std::min(rows.size(), kLinesListed); ++k)
     lines.push_back(fmt::format("{}", line_of_row(measured, rows[k])));
@@ -35,8 +35,8 @@ std::string listed_lines(const Measurements& measured, const std::vector<int>& r
                      rows.size() > kLinesListed ? ", ..." : "");
 }
 
-std::optional<Place> cell_of_row(const Measurements& measured, int row, const std::string& column,
-                                 std::string label) {
+std::optional<Place> cell_of_row(const MeasurementFiles& measured, int row,
+                                 const std::string& column, std::string label) {
   if (measured.tables.empty()) return std::nullopt;
   const RowPlace at = row_place(measured, row);
   const Table& table = measured.tables[at.table];

@@ -38,7 +38,7 @@ struct FileRows {
   std::vector<int> place;  // in the file, 0 ...
 };
 
-std::vector<FileRows> by_file(const Measurements& measured, const std::vector<int>& rows) {
+std::vector<FileRows> by_file(const MeasurementFiles& measured, const std::vector<int>& rows) {
   std::vector<FileRows> out(measured.tables.size());
   for (const int row : rows) {
     const RowPlace at = row_place(measured, row);
@@ -118,7 +118,7 @@ std::optional<Phases> best_pattern(const Errors& v, const std::vector<int>& plac
 
 /// A column that moves with the pattern: joint positions, how they were reached, payload,
 /// temperature. Columns of the user's own, such as the face, explain it in words and are no cause.
-bool is_followed(const Measurements& measured, const FileRows& file, int period) {
+bool is_followed(const MeasurementFiles& measured, const FileRows& file, int period) {
   const auto follows = [&](const auto& value_of) {
     Errors v = Errors::Zero(static_cast<Eigen::Index>(file.row.size()), 3);
     for (std::size_t i = 0; i < file.row.size(); ++i)
@@ -197,7 +197,8 @@ double largest_difference(const Phases& p) {
   return out;
 }
 
-Problem described(const Measurements& measured, const FileRows& file, const Phases& p, bool tool) {
+Problem described(const MeasurementFiles& measured, const FileRows& file, const Phases& p,
+                  bool tool) {
   const Table& table = measured.tables[static_cast<std::size_t>(file.table)];
   const auto odd = odd_places(p);
   const int first_place = odd ? odd->places.front() : 0;
@@ -234,8 +235,8 @@ Problem described(const Measurements& measured, const FileRows& file, const Phas
 
 }  // namespace
 
-std::vector<Problem> pattern_findings(const Measurements& measured, const std::vector<int>& rows,
-                                      const ArmState& fitted) {
+std::vector<Problem> pattern_findings(const MeasurementFiles& measured,
+                                      const std::vector<int>& rows, const ArmState& fitted) {
   std::vector<Problem> out;
   const bool all_axes = measured.has_axis[0] && measured.has_axis[1] && measured.has_axis[2];
   for (const FileRows& file : by_file(measured, rows)) {

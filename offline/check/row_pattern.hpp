@@ -15,7 +15,7 @@ namespace plumb::offline {
 /// Silent unless the pattern makes up a fifth of what the fit leaves and is no chance, and where
 /// the joint positions, the directions of their moves, the payload or a temperature follow the same
 /// pattern: these may then be the cause. Cost: 20 us a row, of at most 20,000 rows a file.
-std::vector<Problem> pattern_findings(const Measurements& measured, const std::vector<int>& rows,
-                                      const ArmState& fitted);
+std::vector<Problem> pattern_findings(const MeasurementFiles& measured,
+                                      const std::vector<int>& rows, const ArmState& fitted);
 
 }  // namespace plumb::offline

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr double kAsGoodAsTheArm_m = 50e-6;  // as plumb-rt compares poses with the controller
 
-void note_tables(const Measurements& measured, Outcome& outcome) {
+void note_tables(const MeasurementFiles& measured, Outcome& outcome) {
   for (const auto& table : measured.tables) {
     outcome.inputs.push_back({table.file, table.sha256});
     outcome.remark(table.remarks);
@@ -37,7 +37,7 @@ fs::path cell_file(const Globals& globals) {
                  .help = "make one: plumb new DIR --dh F.csv --convention standard"});
 }
 
-bool same_data(const Run& run, const Measurements& measured) {
+bool same_data(const Run& run, const MeasurementFiles& measured) {
   if (run.inputs.size() != measured.tables.size()) return false;
   for (std::size_t i = 0; i < run.inputs.size(); ++i)
     if (run.inputs[i].sha256 != measured.tables[i].sha256) return false;
@@ -53,34 +53,34 @@ Cell open_cell(const Globals& globals, Outcome& outcome) {
   return cell;
 }
 
-Measurements open_measurements(const Cell& cell, Outcome& outcome) {
-  Measurements measured = read_cell_measurements(cell);
+MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome) {
+  MeasurementFiles measured = read_cell_measurements(cell);
   note_tables(measured, outcome);
   return measured;
 }
 
-Measurements open_rows(const fs::path& file, const format::Chain& chain, Outcome& outcome) {
+MeasurementFiles open_rows(const fs::path& file, const format::Chain& chain, Outcome& outcome) {
   std::vector<bool> is_angle;
   for (const auto& row : chain.joints) is_angle.push_back(row.type == format::JointType::kRevolute);
-  Measurements rows = read_measurements({file}, is_angle, Needs::kJoints);
+  MeasurementFiles rows = read_measurements({file}, is_angle, Needs::kJoints);
   note_tables(rows, outcome);
   return rows;
 }
 
-Fit fit_with_progress(const Cell& cell, const Measurements& measured, Outcome& outcome) {
+Fit fit_with_progress(const Cell& cell, const MeasurementFiles& measured, Outcome& outcome) {
   Progress progress(fmt::format("calibrating on {} poses", measured.size()));
   Fit fit = fit_cell(cell, measured, [&](const std::string& step) { progress.at(step); });
   outcome.remark(fit.remarks);
   return fit;
 }
 
-Run keep(const Cell& cell, const Measurements& measured, Fit fit) {
+Run keep(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   lock_cell(cell.directory);
   const Writing writing;
   return save_run(cell, measured, std::move(fit));
 }
 
-Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep_it,
+Run current_or_new_run(const Cell& cell, const MeasurementFiles& measured, Keep keep_it,
                        Outcome& outcome) {
   if (auto run = current_run(cell, measured)) return std::move(*run);
   if (keep_it == Keep::kRun) {
@@ -100,11 +100,11 @@ Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep
   return run;
 }
 
-void stand_on_base_of(const Run& run, const Cell& cell, Measurements& measured) {
+void stand_on_base_of(const Run& run, const Cell& cell, MeasurementFiles& measured) {
   if (run.fit.base == Base::kController) stand_on_controller(cell, measured);
 }
 
-void check_known_to_runtime(const Run& run, const Measurements& measured) {
+void check_known_to_runtime(const Run& run, const MeasurementFiles& measured) {
   const double most = departure_of(measured).max;
   if (most <= kAsGoodAsTheArm_m) return;
   throw Failure(
@@ -118,12 +118,13 @@ void check_known_to_runtime(const Run& run, const Measurements& measured) {
            "give [robot] joints the controller's own values, or calibrate that arm: plumb fit"});
 }
 
-show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured) {
+show::ListedRun::State state_of(const Run& run, const Cell& cell,
+                                const MeasurementFiles& measured) {
   const bool current = run.cell_sha256 == sha256(cell.text) && same_data(run, measured);
   return current ? show::ListedRun::State::kCurrent : show::ListedRun::State::kOther;
 }
 
-void check_same_data(const Run& run, const Measurements& measured) {
+void check_same_data(const Run& run, const MeasurementFiles& measured) {
   if (same_data(run, measured)) return;
   throw Failure(Exit::kInput,
                 {.code = "E-RUN-DATA",

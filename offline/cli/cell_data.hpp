@@ -16,36 +16,36 @@ namespace plumb::offline::cli {
 Cell open_cell(const Globals& globals, Outcome& outcome);
 
 /// The cell's measurements; files and remarks go to `outcome`.
-Measurements open_measurements(const Cell& cell, Outcome& outcome);
+MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome);
 
 /// Joint rows of another file, for this cell's arm or a model's.
-Measurements open_rows(const std::filesystem::path& file, const format::Chain& chain,
-                       Outcome& outcome);
+MeasurementFiles open_rows(const std::filesystem::path& file, const format::Chain& chain,
+                           Outcome& outcome);
 
 /// Fits, with progress and remarks.
-Fit fit_with_progress(const Cell& cell, const Measurements& measured, Outcome& outcome);
+Fit fit_with_progress(const Cell& cell, const MeasurementFiles& measured, Outcome& outcome);
 
 /// Keeps the fit as the next run.
-Run keep(const Cell& cell, const Measurements& measured, Fit fit);
+Run keep(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// The latest run of the present cell and data; if there is none, fits and keeps one, and says so.
 /// With kNothing the new run is not kept and has number 0.
 enum class Keep { kRun, kNothing };
-Run current_or_new_run(const Cell& cell, const Measurements& measured, Keep keep_it,
+Run current_or_new_run(const Cell& cell, const MeasurementFiles& measured, Keep keep_it,
                        Outcome& outcome);
 
 /// From here on the measurements are compared with what the run was: the arm of the cell, or the
 /// controller's own positions.
-void stand_on_base_of(const Run& run, const Cell& cell, Measurements& measured);
+void stand_on_base_of(const Run& run, const Cell& cell, MeasurementFiles& measured);
 
 /// Refuses (E-RUN-BASE) measurements, standing on the base of the run, whose positions only the
 /// controller knows: the controller-side PC computes with the arm of the cell.
-void check_known_to_runtime(const Run& run, const Measurements& measured);
+void check_known_to_runtime(const Run& run, const MeasurementFiles& measured);
 
 /// Whether a run is of the present cell file and data.
-show::ListedRun::State state_of(const Run& run, const Cell& cell, const Measurements& measured);
+show::ListedRun::State state_of(const Run& run, const Cell& cell, const MeasurementFiles& measured);
 
 /// Refuses (E-RUN-DATA) a run that was made from other measurements than these.
-void check_same_data(const Run& run, const Measurements& measured);
+void check_same_data(const Run& run, const MeasurementFiles& measured);
 
 }  // namespace plumb::offline::cli

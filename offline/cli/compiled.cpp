@@ -88,7 +88,7 @@ void Compiled::put_run(Json& result) const {
 
 Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
                   Outcome& outcome) {
-  Measurements measured = open_measurements(cell, outcome);
+  MeasurementFiles measured = open_measurements(cell, outcome);
   Run run =
       current_or_new_run(cell, measured, write.dry_run ? Keep::kNothing : Keep::kRun, outcome);
   stand_on_base_of(run, cell, measured);

@@ -21,9 +21,9 @@ std::string relative(const Cell& cell, const fs::path& file) {
 }
 
 /// New measurement files; the cell is told to read them.
-void add_measurements(const Cell& cell, const Measurements& measured, const MeasurementEdit& edit,
-                      CellEdit& in_cell, OutputFiles& files, std::string& said,
-                      const WriteOptions& options) {
+void add_measurements(const Cell& cell, const MeasurementFiles& measured,
+                      const MeasurementEdit& edit, CellEdit& in_cell, OutputFiles& files,
+                      std::string& said, const WriteOptions& options) {
   const auto& read = cell.measurement.files;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < measured.tables.size(); ++i) {
@@ -42,7 +42,7 @@ void add_measurements(const Cell& cell, const Measurements& measured, const Meas
 
 }  // namespace
 
-std::string repair(const Cell& cell, const Measurements& measured, const Check& check,
+std::string repair(const Cell& cell, const MeasurementFiles& measured, const Check& check,
                    const WriteOptions& options, Outcome& outcome) {
   if (cell.measurement.setups.size() > 1)
     throw Failure(Exit::kInput,

@@ -34,7 +34,8 @@ struct Options {
   bool dry_run = false;
 };
 
-std::string before_and_after(const Measurements& measured, const Fit& before, const Fit& after) {
+std::string before_and_after(const MeasurementFiles& measured, const Fit& before,
+                             const Fit& after) {
   namespace head = show::head;
   show::TextTable table(
       {head::kHeldOutError, head::kMean, head::kInterval, head::kRms, head::kP95, head::kMax});
@@ -101,7 +102,7 @@ void make(const Change& change, const Options& options, const Globals& globals, 
   std::optional<Cell> read_back;
   checked(options.effect, cell, [&] { read_back = with_effects(cell, change.effects); });
   const Cell& edited = *read_back;
-  Measurements measured = open_measurements(cell, outcome);
+  MeasurementFiles measured = open_measurements(cell, outcome);
   checked(options.effect, cell, [&] {
     check_rows(edited, measured);
     if (change.adds) check_effect_sizes(bind_effects(edited, measured));

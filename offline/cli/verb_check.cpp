@@ -26,8 +26,8 @@ void hand_over(const Check& check, Outcome& outcome) {
 }
 
 /// What was wrong with the labels is put right; the rest stands.
-void fix(const Options& options, const Cell& cell, const Measurements& measured, const Check& check,
-         Outcome& outcome) {
+void fix(const Options& options, const Cell& cell, const MeasurementFiles& measured,
+         const Check& check, Outcome& outcome) {
   if (!check.detection.changed) {
     outcome.result["files"] = Json::array();
     outcome.result["dry_run"] = options.write.dry_run;
@@ -52,7 +52,7 @@ void fix(const Options& options, const Cell& cell, const Measurements& measured,
 void check(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = options.fix && !options.write.dry_run ? open_cell_to_change(globals, outcome)
                                                           : open_cell(globals, outcome);
-  const Measurements measured = open_measurements(cell, outcome);
+  const MeasurementFiles measured = open_measurements(cell, outcome);
   const Progress progress(fmt::format("checking {} rows", measured.size()));
   const Check found = check_cell(cell, measured);
   outcome.result = show::check_json(cell, found);

@@ -15,7 +15,7 @@ namespace {
 using Runs = std::vector<std::string>;
 
 std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
-                                    const Measurements& measured, Outcome& outcome) {
+                                    const MeasurementFiles& measured, Outcome& outcome) {
   std::vector<show::ListedRun> out;
   for (const auto& name : names) {
     Run run = load_run(cell, run_number(name));
@@ -31,7 +31,7 @@ std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
 
 void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  Measurements measured = open_measurements(cell, outcome);
+  MeasurementFiles measured = open_measurements(cell, outcome);
   const auto runs = wanted(names, cell, measured, outcome);
   const Run& last = runs.back().run;
   stand_on_base_of(last, cell, measured);

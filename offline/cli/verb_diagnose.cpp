@@ -48,7 +48,7 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
 }
 
 /// False if the effects were refused.
-bool keep(const Options& options, const Cell& cell, const Measurements& measured,
+bool keep(const Options& options, const Cell& cell, const MeasurementFiles& measured,
           const Diagnosis& found, double before_m, Outcome& outcome) {
   if (found.added.empty()) {
     show::put_null(outcome.result, "run", "nothing was added");
@@ -75,7 +75,7 @@ bool keep(const Options& options, const Cell& cell, const Measurements& measured
 void diagnose_cell(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = options.apply && !options.dry_run ? open_cell_to_change(globals, outcome)
                                                       : open_cell(globals, outcome);
-  Measurements measured = open_measurements(cell, outcome);
+  MeasurementFiles measured = open_measurements(cell, outcome);
   double before_m = std::numeric_limits<double>::infinity();
   if (options.dry_run) {
     if (const auto run = current_run(cell, measured)) stand_on_base_of(*run, cell, measured);

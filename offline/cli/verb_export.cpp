@@ -46,7 +46,7 @@ void run_export(const Options& options, const Globals& globals, Outcome& outcome
   if (options.nominal) {
     arm.calibrated = cell.nominal;
   } else {
-    Measurements measured = open_measurements(cell, outcome);
+    MeasurementFiles measured = open_measurements(cell, outcome);
     const Run run =
         options.run.empty()
             ? current_or_new_run(cell, measured,

@@ -58,7 +58,7 @@ bool passes(const Options& options, const Fit& fit, Outcome& outcome) {
   return false;
 }
 
-void keep_run(const Options& options, const Cell& cell, const Measurements& measured, Fit fit,
+void keep_run(const Options& options, const Cell& cell, const MeasurementFiles& measured, Fit fit,
               Outcome& outcome) {
   if (!passes(options, fit, outcome)) {
     show::put_null(outcome.result, "run", "the gate failed");
@@ -74,7 +74,7 @@ void keep_run(const Options& options, const Cell& cell, const Measurements& meas
 }
 
 /// One sentence if a jump is what the fit leaves, held-out rows included; compare says more of it.
-std::string jump_words(const Cell& cell, const Measurements& measured, const Fit& fit) {
+std::string jump_words(const Cell& cell, const MeasurementFiles& measured, const Fit& fit) {
   std::vector<int> used;
   for (int i = 0; i < measured.size(); ++i)
     if (fit.split.used[i]) used.push_back(i);
@@ -91,7 +91,7 @@ std::string jump_words(const Cell& cell, const Measurements& measured, const Fit
 void fit(const Options& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
-  Measurements measured = open_measurements(cell, outcome);
+  MeasurementFiles measured = open_measurements(cell, outcome);
   if (options.base == name_of(Base::kController)) stand_on_controller(cell, measured);
   Fit fitted = fit_with_progress(cell, measured, outcome);
   outcome.result = show::fit_json(cell, measured, fitted);

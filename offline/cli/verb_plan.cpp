@@ -96,8 +96,9 @@ fs::path new_measurements(const Cell& cell) {
 void plan(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const PlanRequest request = request_of(options, cell);
-  const Measurements measured =
-      measured_already(cell) ? open_measurements(cell, outcome) : nothing_measured(cell);
+  const MeasurementFiles measured = measured_already(cell)
+                                        ? open_measurements(cell, outcome)
+                                        : MeasurementFiles{nothing_measured(cell), {}};
   const Progress progress(fmt::format("choosing among {} poses", request.rules.pool));
   const PosePlan found = plan_poses(cell, measured, request);
   outcome.remark(found.remarks);

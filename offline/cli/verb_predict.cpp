@@ -29,7 +29,7 @@ struct Options {
   CsvOutput output;
 };
 
-std::span<const double> joints(const Measurements& rows, int i) {
+std::span<const double> joints(const MeasurementFiles& rows, int i) {
   return {rows.q.row(i).data(), static_cast<std::size_t>(rows.q.cols())};
 }
 
@@ -60,7 +60,7 @@ void set_points(const Rows3& p, show::CsvColumns& columns) {
 
 /// What a row comes to, and with which status: the one place for both ways of predicting. `placed`:
 /// whether it has a place in the cell's own series.
-Prediction predicted_row(const MeasuredArm& arm, const Measurements& rows, int i,
+Prediction predicted_row(const MeasuredArm& arm, const MeasurementFiles& rows, int i,
                          const std::vector<std::string>& sensors, bool placed,
                          KnownInputs& inputs) {
   const MeasuredContext context = context_at(rows.context, i, sensors);
@@ -90,7 +90,7 @@ class ModelRows {
   }
 
   RowStream::Computed compute(Table table, const show::PassThrough& columns) {
-    Measurements rows = plain_rows(std::move(table), is_angle_);
+    MeasurementFiles rows = plain_rows(std::move(table), is_angle_);
     StatusCounts counts;
     KnownInputs inputs = unused_;
     JointUnits units = unread_;
@@ -133,7 +133,7 @@ class ModelRows {
         .help = "raise max_correction_mm under [deploy] in cell.toml, then: plumb compile"};
   }
 
-  void append(const Measurements& rows, int i, const show::PassThrough& columns,
+  void append(const MeasurementFiles& rows, int i, const show::PassThrough& columns,
               StatusCounts& counts, KnownInputs& inputs, std::string& text) const {
     Prediction predicted = predicted_row(arm_, rows, i, sensors_, true, inputs);
     if ((predicted.status == Status::kOk || predicted.status == Status::kContextFallback) &&
@@ -197,7 +197,7 @@ void set_split(const Split& split, show::CsvColumns& columns) {
   columns.set("fold", std::move(fold));
 }
 
-Run chosen_run(const Options& options, const Cell& cell, const Measurements& measured,
+Run chosen_run(const Options& options, const Cell& cell, const MeasurementFiles& measured,
                Outcome& outcome) {
   const auto keep_it = options.output.write.dry_run ? Keep::kNothing : Keep::kRun;
   if (options.run.empty()) return current_or_new_run(cell, measured, keep_it, outcome);
@@ -207,7 +207,7 @@ Run chosen_run(const Options& options, const Cell& cell, const Measurements& mea
 }
 
 /// `placed`: which rows have a place in the cell's own series.
-std::vector<Status> domain_status(const Run& run, const Measurements& rows,
+std::vector<Status> domain_status(const Run& run, const MeasurementFiles& rows,
                                   const std::vector<bool>& placed, Outcome& outcome) {
   const format::Model& model = run.fit.calibration.state.arm;
   const MeasuredArm arm(model);
@@ -243,10 +243,10 @@ void finish(const Options& options, const std::vector<Status>& status, const std
 /// The measured point in the measurement frame: held-out poses by models that never saw them.
 void predict_as_measured(const Options& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  const Measurements measured = open_measurements(cell, outcome);
+  const MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = chosen_run(options, cell, measured, outcome);
   const bool own = options.data.empty();
-  Measurements rows = own ? measured : open_rows(options.data, cell.nominal, outcome);
+  MeasurementFiles rows = own ? measured : open_rows(options.data, cell.nominal, outcome);
   if (!own) assign_setups_to_predict(cell, options.data, rows);
   if (!own && run.fit.base == Base::kController) {
     check_same_data(run, measured);

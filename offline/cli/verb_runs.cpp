@@ -13,7 +13,7 @@ namespace plumb::offline::cli {
 namespace {
 
 /// The history can be read without the measurements; then no run is the current one.
-std::optional<Measurements> present_measurements(const Cell& cell, Outcome& outcome) {
+std::optional<MeasurementFiles> present_measurements(const Cell& cell, Outcome& outcome) {
   try {
     return open_measurements(cell, outcome);
   } catch (const Failure&) {

@@ -63,7 +63,7 @@ class HeldOut {
 /// All that a diagnosis works with.
 struct Work {
   Cell cell;
-  const Measurements& measured;
+  const MeasurementFiles& measured;
   Split split;
   std::vector<int> fit, held;  // held: for good, none with folds
   std::vector<Testable> testable;
@@ -230,7 +230,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
 
 }  // namespace
 
-Diagnosis diagnose(const Cell& cell, const Measurements& measured,
+Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
                    const DiagnosisRequest& request) {
   Work w{physics_of(cell),
          measured,

@@ -106,6 +106,7 @@ struct DiagnosisRequest {
 
 /// Which physical effect is missing. Selection sees the fit poses alone; held-out poses give every
 /// figure, once. Below 60 poses the folds go around the whole diagnosis. Throws as `calibrate`.
-Diagnosis diagnose(const Cell& cell, const Measurements& measured, const DiagnosisRequest& request);
+Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
+                   const DiagnosisRequest& request);
 
 }  // namespace plumb::offline

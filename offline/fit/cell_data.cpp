@@ -45,7 +45,7 @@ bool moves_in_space(const Cell& cell) {
 }
 
 /// W-CSV-AXES: errors of fewer axes look smaller than those of the point in space.
-void warn_of_missing_axes(const Cell& cell, Measurements& measured) {
+void warn_of_missing_axes(const Cell& cell, MeasurementFiles& measured) {
   std::string missing, given;
   for (int k = 0; k < 3; ++k) {
     std::string& list = measured.has_axis[k] ? given : missing;
@@ -114,10 +114,10 @@ std::vector<bool> joint_is_angle(const Cell& cell) {
   return out;
 }
 
-Measurements read_cell_measurements(const Cell& cell) {
+MeasurementFiles read_cell_measurements(const Cell& cell) {
   check_files(cell);
   const auto files = measurement_files(cell.measurement);
-  Measurements out = read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
+  MeasurementFiles out = read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
   assign_setups(cell, files, out);
   check_rows(cell, out);
   warn_of_missing_axes(cell, out);

@@ -10,7 +10,7 @@ namespace plumb::offline {
 std::vector<bool> joint_is_angle(const Cell& cell);
 
 /// The measurements of a cell, the held-out file of its rule last; rows checked as below.
-Measurements read_cell_measurements(const Cell& cell);
+MeasurementFiles read_cell_measurements(const Cell& cell);
 
 /// Throws Failure (kInput, E-EFFECT-DATA) if an effect begins behind the last row.
 void check_rows(const Cell& cell, const Measurements& measured);

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kOtherArm = 0.01;  // of the reach
 
-std::string file_of(const Measurements& measured) {
+std::string file_of(const MeasurementFiles& measured) {
   return measured.tables.empty() ? std::string() : measured.tables.front().file;
 }
 
 /// As if a tracker had read what the controller says.
-Measurements said_by_controller(const Measurements& measured) {
+Measurements said_by_controller(const MeasurementFiles& measured) {
   if (measured.nominal_B.rows() == 0)
     throw Failure(Exit::kInput,
                   {.code = "E-FIT-BASE",
@@ -48,7 +48,7 @@ ArmState placed_by_controller(const Cell& cell, const Measurements& said) {
   return place_nominal(alone, said, rows);
 }
 
-void check_same_arm(const Cell& cell, const Measurements& measured) {
+void check_same_arm(const Cell& cell, const MeasurementFiles& measured) {
   const double mean = departure_of(measured).mean;
   if (mean < kOtherArm * reach(cell.nominal)) return;
   throw Failure(
@@ -63,11 +63,12 @@ void check_same_arm(const Cell& cell, const Measurements& measured) {
 
 }  // namespace
 
-void stand_on_controller(const Cell& cell, Measurements& measured) {
+void stand_on_controller(const Cell& cell, MeasurementFiles& measured) {
   stand_on_controller(cell, measured, measured);
 }
 
-void stand_on_controller(const Cell& cell, const Measurements& measured, Measurements& rows) {
+void stand_on_controller(const Cell& cell, const MeasurementFiles& measured,
+                         MeasurementFiles& rows) {
   const ArmState placed = placed_by_controller(cell, said_by_controller(measured));
   const Measurements said = said_by_controller(rows);
   rows.departure_B = to_base(placed, said, residuals(said, predict_points(placed, said)));

@@ -13,10 +13,11 @@ namespace plumb::offline {
 /// the controller sees otherwise does no harm; nor does a tool, but for what the controller knows
 /// of orientations, which its positions tell of their own point only. Measured points have no say.
 /// Throws Failure (kInput): no such columns, or positions of another arm.
-void stand_on_controller(const Cell& cell, Measurements& measured);
+void stand_on_controller(const Cell& cell, MeasurementFiles& measured);
 
 /// The same of rows that are too few to tell frame and tool: those of `measured` are theirs.
-void stand_on_controller(const Cell& cell, const Measurements& measured, Measurements& rows);
+void stand_on_controller(const Cell& cell, const MeasurementFiles& measured,
+                         MeasurementFiles& rows);
 
 /// How far the controller's positions are from those of the nominal arm, once both share a base
 /// frame and a tool [m].

@@ -31,7 +31,7 @@ std::string now_utc() {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
 }
 
-std::vector<format::InputHash> inputs_of(const Measurements& measured) {
+std::vector<format::InputHash> inputs_of(const MeasurementFiles& measured) {
   std::vector<format::InputHash> out;
   for (const auto& table : measured.tables)
     out.push_back({fs::path(table.file).filename().string(), table.sha256});
@@ -157,7 +157,7 @@ void write_part(const fs::path& draft, const fs::path& run, const char* name,
 
 }  // namespace
 
-Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
+Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   Run run;
   run.created = now_utc();
   run.cell_sha256 = sha256(cell.text);
@@ -169,7 +169,7 @@ Run draft_run(const Cell& cell, const Measurements& measured, Fit fit) {
   return run;
 }
 
-Run save_run(const Cell& cell, const Measurements& measured, Fit fit) {
+Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   Run run = draft_run(cell, measured, std::move(fit));
   const Draft draft(cell);
   const std::string predictions = predictions_to_csv(measured, run.fit);
@@ -227,7 +227,7 @@ Run load_run(const Cell& cell, int number) {
   }
 }
 
-std::optional<Run> current_run(const Cell& cell, const Measurements& measured) {
+std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured) {
   const auto numbers = list_runs(cell);
   const std::string hash = sha256(cell.text);
   const auto inputs = inputs_of(measured);

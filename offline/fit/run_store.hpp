@@ -24,10 +24,10 @@ struct Run {
 };
 
 /// The run that `save_run` would keep, not kept: number 0.
-Run draft_run(const Cell& cell, const Measurements& measured, Fit fit);
+Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// Writes the next run; all or nothing.
-Run save_run(const Cell& cell, const Measurements& measured, Fit fit);
+Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// The number of every run, oldest first, whether it can be read or not.
 std::vector<int> list_runs(const Cell& cell);
@@ -36,6 +36,6 @@ std::vector<int> list_runs(const Cell& cell);
 Run load_run(const Cell& cell, int number);
 
 /// The latest run of the present cell and data. Throws on a damaged later one: was it that?
-std::optional<Run> current_run(const Cell& cell, const Measurements& measured);
+std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured);
 
 }  // namespace plumb::offline

@@ -21,7 +21,7 @@ std::string repeat_of(const Column& column, int row) {
 
 }  // namespace
 
-SeriesPlace::SeriesPlace(const Measurements& own) : own_(own), clock_(clock_of(own.tables)) {
+SeriesPlace::SeriesPlace(const MeasurementFiles& own) : own_(own), clock_(clock_of(own.tables)) {
   const Eigen::VectorXd& t = own.context.time_s;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (std::isnan(t(i))) continue;
@@ -52,7 +52,7 @@ SeriesPlace::Clock SeriesPlace::clock_of(const std::vector<Table>& tables) {
 }
 
 /// Pose and repeat of each row; empty where its file names no poses.
-std::vector<std::string> SeriesPlace::names_of(const Measurements& rows) {
+std::vector<std::string> SeriesPlace::names_of(const MeasurementFiles& rows) {
   std::vector<std::string> out;
   for (const auto& table : rows.tables) {
     const Column* repeat = table.find("repeat");
@@ -82,7 +82,7 @@ double SeriesPlace::order_at(double time_s) const {
 
 /// The own row of that name at those joints; of several the one that comes as often as `times`
 /// says.
-int SeriesPlace::named(const std::string& name, const Measurements& rows, int row,
+int SeriesPlace::named(const std::string& name, const MeasurementFiles& rows, int row,
                        int times) const {
   const auto found = rows_named_.find(name);
   if (name.empty() || found == rows_named_.end()) return -1;
@@ -95,7 +95,7 @@ int SeriesPlace::named(const std::string& name, const Measurements& rows, int ro
   return out;
 }
 
-std::vector<bool> SeriesPlace::place(Measurements& rows) const {
+std::vector<bool> SeriesPlace::place(MeasurementFiles& rows) const {
   const int n = rows.size();
   const bool timed = !by_time_.empty();
   const bool one_clock = timed && clock_ != Clock::kNone && clock_of(rows.tables) == clock_ &&

@@ -22,20 +22,20 @@ namespace plumb::offline {
 class SeriesPlace {
  public:
   /// Keeps a reference to `own`.
-  explicit SeriesPlace(const Measurements& own);
+  explicit SeriesPlace(const MeasurementFiles& own);
 
   /// Sets order and time of `rows`, all of one or several whole files; in one of the cell's own
   /// files the last moves too. Which of the rows have a place of their own.
-  std::vector<bool> place(Measurements& rows) const;
+  std::vector<bool> place(MeasurementFiles& rows) const;
 
  private:
   enum class Clock { kNone, kSeconds, kIso };
   static Clock clock_of(const std::vector<Table>& tables);
-  static std::vector<std::string> names_of(const Measurements& rows);
+  static std::vector<std::string> names_of(const MeasurementFiles& rows);
   double order_at(double time_s) const;
-  int named(const std::string& name, const Measurements& rows, int row, int times) const;
+  int named(const std::string& name, const MeasurementFiles& rows, int row, int times) const;
 
-  const Measurements& own_;
+  const MeasurementFiles& own_;
   Clock clock_;
   double last_s_ = kUnknown;                            // the end of the series
   std::vector<std::pair<double, double>> by_time_;      // time [s] and order, sorted

@@ -132,9 +132,10 @@ void hold_marked(const Measurements& m, Split& split) {
 }
 
 void hold_last_file(const Measurements& m, Split& split) {
-  if (m.tables.size() < 2) fail("the held-out file gave no rows", "check [measurement] held_out");
-  const int first = m.size() - m.tables.back().rows();
-  for (int i = first; i < m.size(); ++i) split.held[i] = split.used[i];
+  if (m.file.empty() || m.file.front() == m.file.back())
+    fail("the held-out file gave no rows", "check [measurement] held_out");
+  for (int i = 0; i < m.size(); ++i)
+    if (m.file[static_cast<std::size_t>(i)] == m.file.back()) split.held[i] = split.used[i];
 }
 
 /// Held out wins: a pose that is fitted as well would vouch for itself.
@@ -161,11 +162,8 @@ Measurements by_pose(const Measurements& m) {
   out.q = m.q;
   out.set = m.set;
   out.setup = m.setup;
+  out.file = m.file;
   out.replicate_group = pose_groups(m);
-  if (m.tables.empty()) return out;
-  Table& last = out.tables.emplace_back();  // its length is all that counts
-  last.lines = m.tables.back().lines;
-  if (m.tables.size() > 1) out.tables.insert(out.tables.begin(), Table{});
   return out;
 }
 

@@ -90,14 +90,15 @@ std::vector<GrossOutlier> Recording::spoil() {
   return out;
 }
 
-Measurements Recording::finish(const std::vector<Column>& context) const {
-  Measurements out = measured_;
+MeasurementFiles Recording::finish(const std::vector<Column>& context) const {
+  MeasurementFiles out{measured_, {}};
   Table table;
   table.file = "simulated";
   table.columns = context;
   for (int row = 0; row < rows(); ++row) table.lines.push_back(row + 2);
   table.raw_rows.resize(rows());
   out.tables.push_back(std::move(table));
+  out.file = file_of_rows(out.tables);
   out.context = read_contexts(out.tables, out.q);
   return out;
 }

@@ -28,7 +28,7 @@ class Recording {
   /// are requested or needed by an effect.
   std::vector<Column> context(const std::vector<Visit>& visits) const;
 
-  Measurements finish(const std::vector<Column>& context) const;
+  MeasurementFiles finish(const std::vector<Column>& context) const;
 
  private:
   void add_temperatures(std::vector<Column>& out, const std::vector<Visit>& visits) const;

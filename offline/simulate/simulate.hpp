@@ -88,7 +88,7 @@ struct GrossOutlier {
 };
 
 struct Simulation {
-  Measurements measured;               // its table contains the context columns
+  MeasurementFiles measured;           // its table contains the context columns
   std::vector<Column> context;         // time and the recorded context
   Rows3 true_p_M;                      // without noise and outliers [m]
   std::vector<HiddenEffect> effects;   // with the sizes and numbers that were used

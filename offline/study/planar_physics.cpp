@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastSigma_m = 1e-6;  // stated for a tracker without noise
 
-ArmState calibrated(const Cell& cell, const Measurements& measured) {
+ArmState calibrated(const Cell& cell, const MeasurementFiles& measured) {
   std::vector<int> rows(measured.size());
   std::iota(rows.begin(), rows.end(), 0);
   return calibrate(cell, measured, rows).state;

@@ -19,7 +19,7 @@ struct PlanarMeasuring {
 /// The cell and the measurements that `plumb study planar --write-cell` writes.
 struct PlanarCell {
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
   std::string csv, truth_json;
 };
 PlanarCell measured_cell(const PlanarMeasuring& measuring);

@@ -97,7 +97,7 @@ std::string words_for(const Diagnosis& found) {
 
 /// The calibration with all effects that the diagnosis supports. The diagnosis has not seen the
 /// truth.
-ArmState diagnosed(const Cell& cell, const Measurements& seen, SixAxisDraw& out) {
+ArmState diagnosed(const Cell& cell, const MeasurementFiles& seen, SixAxisDraw& out) {
   const Diagnosis found = diagnose(cell, seen, {.apply = true, .tell = {}});
   out.added = words_for(found);
   Cell with = cell;

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 /// What a diagnosis may see: the two files, read back.
 struct Seen {
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
 };
 
 Seen written_and_read(const BlindCase& blind, std::uint64_t seed) {
@@ -127,7 +127,7 @@ void score_unknown(const BlindCase& blind, const Diagnosis& d, Score& out) {
 }
 
 /// Which pose, counting repeats once, stands just ahead of a cut behind so many rows.
-int pose_ahead(const Measurements& measured, double rows) {
+int pose_ahead(const MeasurementFiles& measured, double rows) {
   int pose = 0;
   for (int i = 1; i < static_cast<int>(rows) && i < measured.size(); ++i)
     pose += measured.replicate_group[i] != measured.replicate_group[i - 1];

@@ -255,7 +255,7 @@ TEST(ArmMessage, OfStandardDeviations) {
             Summary{"E-CSV-SIGMA 4:7"});
 }
 
-Measurements of_sigmas(const std::string& rows) {
+MeasurementFiles of_sigmas(const std::string& rows) {
   const Folder folder;
   const auto file = folder.put("t.csv", "q1_deg,q2_deg,x_mm,y_mm,sx_um,sy_um\n" + rows);
   return read_measurements({file}, {true, true}, Needs::kJointsAndPosition);

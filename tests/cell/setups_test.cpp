@@ -93,10 +93,10 @@ TEST(Setups, ThatContradictThemselvesAreRefusedWhereTheyStand) {
 
 class SetupRows : public testing::Test {
  protected:
-  Measurements read(const std::string& settings) {
+  MeasurementFiles read(const std::string& settings) {
     const Cell cell = cell_with(settings, folder_.path() / "cell.toml");
     const auto files = measurement_files(cell.measurement);
-    Measurements m = read_measurements(files, {true}, Needs::kJointsAndPosition);
+    MeasurementFiles m = read_measurements(files, {true}, Needs::kJointsAndPosition);
     assign_setups(cell, files, m);
     return m;
   }
@@ -116,7 +116,7 @@ TEST_F(SetupRows, BelongToTheSetupOfTheirFileOrOfTheirColumn) {
   folder_.put("b.csv", "q1_deg,x_mm\n1,2\n");
   EXPECT_EQ(read(files_).setup, (std::vector<int>{0, 0, 1}));
   folder_.put("m.csv", "q1_deg,setup,x_mm\n1,b,2\n2,a,3\n3,b,4\n");
-  const Measurements m = read("files = [\"m.csv\"]\n" + two_);
+  const MeasurementFiles m = read("files = [\"m.csv\"]\n" + two_);
   EXPECT_EQ(m.setup, (std::vector<int>{1, 0, 1}));
   EXPECT_EQ(pick(m, {2, 1}).setup, (std::vector<int>{1, 0}));
 }
@@ -124,7 +124,7 @@ TEST_F(SetupRows, BelongToTheSetupOfTheirFileOrOfTheirColumn) {
 TEST_F(SetupRows, OfOnePoseAreNoRepeatsInDifferentSetupsButOnePoseOfTheArm) {
   folder_.put("a.csv", "pose,q1_deg,x_mm\nP,1,2\nP,1,2.1\n");
   folder_.put("b.csv", "pose,q1_deg,x_mm\nP,1,7\nQ,1,7.1\n");
-  const Measurements m = read(files_);
+  const MeasurementFiles m = read(files_);
   EXPECT_EQ(m.replicate_group, (std::vector<int>{0, 0, 1, 1}));
   EXPECT_EQ(pose_groups(m), (std::vector<int>{0, 0, 0, 0}));
 }
@@ -147,11 +147,11 @@ TEST_F(SetupRows, MustExistForEverySetup) {
 TEST_F(SetupRows, ToBePredictedSayTheirSetupOrStandInAFileThatASetupNames) {
   const Cell cell = cell_with("files = [\"m.csv\"]\n" + two_);
   const auto rows_of = [&](const std::string& text) {
-    Measurements rows = read_measurements({folder_.put("p.csv", text)}, {true}, Needs::kJoints);
+    MeasurementFiles rows = read_measurements({folder_.put("p.csv", text)}, {true}, Needs::kJoints);
     assign_setups_to_predict(cell, folder_.put("p.csv", text), rows);
     return rows;
   };
-  const Measurements said = rows_of("q1_deg,setup\n1,b\n2,a\n");
+  const MeasurementFiles said = rows_of("q1_deg,setup\n1,b\n2,a\n");
   EXPECT_EQ(said.setup, (std::vector<int>{1, 0}));
   EXPECT_TRUE(said.tables[0].remarks.empty());
   EXPECT_EQ(summary(problems_of([&] { rows_of("q1_deg\n1\n2\n"); })), Summary{"E-CSV-SETUP 1:7"});
@@ -161,7 +161,7 @@ TEST_F(SetupRows, ToBePredictedSayTheirSetupOrStandInAFileThatASetupNames) {
 
 TEST_F(SetupRows, OfSeveralSetupsInACellWithNoneAreWarnedOf) {
   folder_.put("m.csv", "q1_deg,setup,x_mm\n1,a,2\n2,b,3\n");
-  const Measurements m = read("files = [\"m.csv\"]\n");
+  const MeasurementFiles m = read("files = [\"m.csv\"]\n");
   EXPECT_TRUE(m.setup.empty());
   EXPECT_EQ(summary(m.tables[0].remarks), Summary{"W-CSV-SETUP 1:8"});
 }

@@ -48,7 +48,7 @@ std::string said(const Check& check) {
   return out;
 }
 
-Check expect_usable_as_fit_does(const Cell& cell, const Measurements& measured,
+Check expect_usable_as_fit_does(const Cell& cell, const MeasurementFiles& measured,
                                 const std::string& name) {
   const Fit fit = fit_cell(cell, measured);
   EXPECT_LT(fit.held.rms, kWell_m) << name;
@@ -74,8 +74,8 @@ TEST(CheckAsFit, ArmsOfOneAndTwoJointsAreUsable) {
 TEST(CheckAsFit, WholeTurnsBeyondTheLimitsAreAWarning) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Cell cell = arm_of(seed, 6);
-    const Measurements measured = simulate(cell, plan_of(seed)).measured;
-    Measurements all = measured, some = measured;
+    const MeasurementFiles measured = simulate(cell, plan_of(seed)).measured;
+    MeasurementFiles all = measured, some = measured;
     for (Eigen::Index i = 0; i < measured.q.rows(); ++i) {
       all.q(i, 5) += kTurn;
       if (measured.q(i, 5) < 0.0) some.q(i, 5) += kTurn;
@@ -94,7 +94,7 @@ TEST(CheckAsFit, WholeTurnsBeyondTheLimitsAreAWarning) {
 TEST(CheckAsFit, ALengthOfFortyMillimetresOffIsSaidAndFitted) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Cell cell = arm_of(seed, 6);
-    const Measurements measured = simulate(cell, plan_of(seed)).measured;
+    const MeasurementFiles measured = simulate(cell, plan_of(seed)).measured;
     cell.nominal.joints[2].d += 40e-3;
     cell.text = write_cell(cell);
     const Check check =
@@ -117,7 +117,7 @@ TEST(CheckAsFit, ALengthThatIsOffIsNoFactorOnAllPoints) {
   cell.nominal.joints[0].a = 0.4;
   cell.nominal.joints[1].a = 0.3;
   cell.text = write_cell(cell);
-  const Measurements measured = simulate(cell, plan_of(1)).measured;
+  const MeasurementFiles measured = simulate(cell, plan_of(1)).measured;
   cell.nominal.joints[0].a -= 40e-3;
   cell.text = write_cell(cell);
   const Check check = expect_usable_as_fit_does(cell, measured, "J1.a 40 mm off");
@@ -126,8 +126,8 @@ TEST(CheckAsFit, ALengthThatIsOffIsNoFactorOnAllPoints) {
 
 TEST(CheckAsFit, JointColumnsThatStoodStillWhileTheArmMovedAreNotCalledOnePose) {
   const Cell cell = arm_of(1, 6);
-  Measurements measured = simulate(cell, plan_of(1)).measured;
-  Measurements small = measured;
+  MeasurementFiles measured = simulate(cell, plan_of(1)).measured;
+  MeasurementFiles small = measured;
   measured.q.rowwise() = measured.q.row(0).eval();
   const Check still = check_cell(cell, measured);
   const Problem* equal = found(still, "E-CHECK-EQUAL");

@@ -22,7 +22,7 @@ using scrambled::Case;
 using scrambled::Files;
 
 /// RMS 3-D residual with frame and target placed by the calibration's own code.
-double placed_rms(const Cell& cell, const Measurements& m) {
+double placed_rms(const Cell& cell, const MeasurementFiles& m) {
   std::vector<int> rows(m.size());
   std::iota(rows.begin(), rows.end(), 0);
   const Rows3 left = residuals(m, predict_points(place_nominal(cell, m, rows), m.q));
@@ -154,7 +154,7 @@ TEST(ConventionSearch, WithAGivenFrameSaysWhichAxisIsWrongAndThatTheFrameIsTheIn
     const auto with = [&](const format::Pose& X_MB, int negated) {
       Cell other = cell;
       other.measurement.X_MB = X_MB;
-      Measurements m = s.measured;
+      MeasurementFiles m = s.measured;
       if (negated >= 0) m.p_M.col(negated) *= -1.0;
       return detect_convention(other, m);
     };

@@ -36,7 +36,7 @@ scrambled::Case exported(const Export& how, const Copied& copied = {}) {
   plan.noise_m = how.noise_m;
   plan.seed = how.seed;
   plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
-  const Measurements m = simulate(cell, plan).measured;
+  const MeasurementFiles m = simulate(cell, plan).measured;
   tests::Random random(how.seed);
   std::string csv = "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n";
   std::string joints, points;

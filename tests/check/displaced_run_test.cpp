@@ -18,7 +18,7 @@ constexpr int kFirst = 40, kLast = 47;  // rows that are spoilt
 
 struct Case {
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
 };
 
 Case sound(std::uint64_t seed) {
@@ -28,12 +28,12 @@ Case sound(std::uint64_t seed) {
   plan.seed = seed;
   plan.noise_m = 20e-6;
   plan.truth.geometry_m = plan.truth.geometry_rad = 0.3e-3;
-  Measurements measured = simulate(cell, plan).measured;
+  MeasurementFiles measured = simulate(cell, plan).measured;
   return {std::move(cell), std::move(measured)};
 }
 
 /// Orientation of the tool at a row, in the measurement frame, by the arm that was fitted.
-Matrix3 orientation(const ArmState& state, const Measurements& measured, int row) {
+Matrix3 orientation(const ArmState& state, const MeasurementFiles& measured, int row) {
   const std::span<const double> q(measured.q.row(row).data(), 6);
   return from_pose(state.X_MB).R * Chain(state.arm.calibrated).forward(q).R;
 }
@@ -45,7 +45,7 @@ const Problem& outliers(const Check& check) {
   return none;
 }
 
-std::string lines(const Measurements& measured) {
+std::string lines(const MeasurementFiles& measured) {
   return "lines " + std::to_string(line_of_row(measured, kFirst)) + " to " +
          std::to_string(line_of_row(measured, kLast)) + " are all off by some ";
 }

@@ -36,7 +36,7 @@ Cell heavy_arm() {
 }
 
 /// Random poses with every context there is; noise of 10 um.
-Measurements rich_measurements(const Cell& cell) {
+MeasurementFiles rich_measurements(const Cell& cell) {
   std::mt19937_64 dice(5);
   std::uniform_real_distribution<double> share;
   std::normal_distribution<double> normal;
@@ -46,7 +46,7 @@ Measurements rich_measurements(const Cell& cell) {
     for (double* number : {&row.theta, &row.d, &row.a, &row.alpha}) *number += 3e-4 * normal(dice);
   truth.X_MB.p = {2.1, -1.2, 0.3};
   truth.X_TG.p = {0.03, 0.02, 0.12};
-  Measurements m;
+  MeasurementFiles m;
   m.q.resize(kPoses, cell.joints());
   for (Eigen::Index i = 0; i < kPoses; ++i)
     for (int j = 0; j < cell.joints(); ++j) {
@@ -88,7 +88,7 @@ EffectEntry entry_of(const std::string& name) {
 }
 
 /// Every name that a report speaks of is one of the numbers that the calibration could fit.
-void names_are_known(const Cell& cell, const Measurements& m, const IdentifiabilityReport& r) {
+void names_are_known(const Cell& cell, const MeasurementFiles& m, const IdentifiabilityReport& r) {
   std::set<std::string> known;
   for (const auto& p : calibration_candidates(cell, m, r.calibration.state)) known.insert(p.name);
   for (int j = 0; j < cell.joints(); ++j)
@@ -105,7 +105,7 @@ void names_are_known(const Cell& cell, const Measurements& m, const Identifiabil
 // The derivatives once belonged to other parameters than those that the calibration had used.
 TEST(Identifiability, SpeaksOfTheNumbersOfTheCalibrationWhateverEffectIsInTheModel) {
   const Cell cell = heavy_arm();
-  const Measurements m = rich_measurements(cell);
+  const MeasurementFiles m = rich_measurements(cell);
   std::vector<int> rows(kPoses);
   std::iota(rows.begin(), rows.end(), 0);
   int looked_at = 0;

@@ -18,7 +18,7 @@ constexpr double kTolerance_m = 100e-6;
 
 struct Few {
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
   std::string name;
 };
 
@@ -31,7 +31,7 @@ Few few(int poses, int repeats, std::uint64_t seed) {
   plan.seed = seed;
   plan.truth.seed = seed;
   plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
-  Measurements measured = simulate(cell, plan).measured;
+  MeasurementFiles measured = simulate(cell, plan).measured;
   cell.measurement.sigma_m = 10e-6;
   return {std::move(cell), std::move(measured),
           fmt::format("{} poses, repeats {}, seed {}", poses, repeats, seed)};

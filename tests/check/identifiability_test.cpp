@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto kStandard = format::Convention::kStandard;
 
-std::vector<int> all_rows(const Measurements& m) {
+std::vector<int> all_rows(const MeasurementFiles& m) {
   std::vector<int> rows(m.size());
   std::iota(rows.begin(), rows.end(), 0);
   return rows;
@@ -30,7 +30,7 @@ SimulationPlan plan_with(std::uint64_t seed) {
   return plan;
 }
 
-IdentifiabilityReport report(const Cell& cell, const Measurements& m) {
+IdentifiabilityReport report(const Cell& cell, const MeasurementFiles& m) {
   return identifiability(cell, m, all_rows(m));
 }
 
@@ -167,7 +167,7 @@ TEST(Separation, ExplainsTheNearDegenerateNumbersOfARealArm) {
   const std::filesystem::path folder = PLUMB_SHARED_DATA;
   if (!std::filesystem::exists(folder / "cell.toml")) GTEST_SKIP() << "no " << folder;
   const Cell cell = read_cell(folder / "cell.toml");
-  const Measurements m = read_cell_measurements(cell);
+  const MeasurementFiles m = read_cell_measurements(cell);
   const auto r = report(cell, m);
   EXPECT_EQ(r.rank, 27);
   int said = 0;

@@ -16,7 +16,7 @@ constexpr int kPoses = 90;
 
 struct Case {
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
 };
 
 Case measured_with(std::uint64_t seed, const std::vector<std::string>& effects) {
@@ -27,7 +27,7 @@ Case measured_with(std::uint64_t seed, const std::vector<std::string>& effects) 
   plan.noise_m = 20e-6;
   plan.truth.geometry_m = plan.truth.geometry_rad = 0.3e-3;
   plan.truth.effects = effects;
-  Measurements measured = simulate(cell, plan).measured;
+  MeasurementFiles measured = simulate(cell, plan).measured;
   return {std::move(cell), std::move(measured)};
 }
 
@@ -108,13 +108,13 @@ TEST(MovedPart, NothingOfTheKindIsSaidOfSoundArmsDriftWarmingUpAndOtherEffects) 
 }
 
 /// Light first, then heavy, with no time to tell that it was otherwise.
-Measurements by_payload(const Measurements& measured) {
+MeasurementFiles by_payload(const MeasurementFiles& measured) {
   std::vector<int> rows;
   for (int i = 0; i < measured.size(); ++i) rows.push_back(i);
   std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) {
     return measured.context.payload(a, 0) < measured.context.payload(b, 0);
   });
-  Measurements out = pick(measured, rows);
+  MeasurementFiles out = pick(measured, rows);
   out.context.time_s.resize(0);
   for (int i = 0; i < out.size(); ++i) out.context.order(i) = i;
   return out;
@@ -130,7 +130,7 @@ TEST(MovedPart, AnArmThatYieldsUnderAnotherPayloadFromHalfWayOnDidNotMove) {
     plan.payloads = {Payload{0.0, {0.0, 0.0, 0.1}}, Payload{30.0, {0.0, 0.0, 0.1}}};
     plan.truth.geometry_m = plan.truth.geometry_rad = 0.3e-3;
     plan.truth.effects = {seed % 2 == 0 ? "payload_compliance" : "base_compliance"};
-    const Measurements measured = by_payload(simulate(cell, plan).measured);
+    const MeasurementFiles measured = by_payload(simulate(cell, plan).measured);
     const Check check = check_cell(cell, measured);
     const Problem* problem = moved(check);
     EXPECT_EQ(problem, nullptr) << seed << ": " << (problem ? problem->message : "");

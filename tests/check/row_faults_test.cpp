@@ -25,7 +25,7 @@ constexpr double kDegree = M_PI / 180.0;
 using Row = std::vector<double>;
 using Rows = std::vector<Row>;
 
-Rows rows_of(const Measurements& m) {
+Rows rows_of(const MeasurementFiles& m) {
   Rows out;
   for (int i = 0; i < m.size(); ++i) {
     Row row;

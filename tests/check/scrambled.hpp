@@ -30,7 +30,7 @@ Files scramble(const Files& files, tests::Random& random);
 /// Writes the files into `folder` and reads them as a verb would.
 struct Case {
   Cell cell;
-  Measurements measured;
+  MeasurementFiles measured;
 };
 Case opened(const Files& files, const std::filesystem::path& folder);
 

@@ -32,7 +32,7 @@ Rows3 seen_from_elsewhere(const Rows3& p) {
   return out;
 }
 
-Rows3 of_nominal_arm(const Measurements& m, const Vector3& tool_T) {
+Rows3 of_nominal_arm(const MeasurementFiles& m, const Vector3& tool_T) {
   ArmState nominal;
   nominal.arm.calibrated = kCell.nominal;
   for (int k = 0; k < 3; ++k) nominal.X_TG.p[k] = tool_T(k);
@@ -46,7 +46,7 @@ Cell without_geometry(Cell cell) {
 
 TEST(ControllerBase, AControllerThatKnowsTheTrueArmLeavesNothingButNoise) {
   const Simulation s = simulate(kCell, plan_of(10e-6));
-  Measurements m = s.measured;
+  MeasurementFiles m = s.measured;
   m.nominal_B = seen_from_elsewhere(s.true_p_M);
   const Cell cell = without_geometry(kCell);
   const double by_the_cell = fit_cell(cell, m).held.rms;
@@ -59,7 +59,7 @@ TEST(ControllerBase, AControllerThatKnowsTheTrueArmLeavesNothingButNoise) {
 }
 
 TEST(ControllerBase, AControllerThatKnowsTheNominalArmChangesNothing) {
-  Measurements m = simulate(kCell, plan_of(10e-6)).measured;
+  MeasurementFiles m = simulate(kCell, plan_of(10e-6)).measured;
   const Fit plain = fit_cell(kCell, m);
   m.nominal_B = seen_from_elsewhere(of_nominal_arm(m, {0.02, -0.01, 0.3}));
   stand_on_controller(kCell, m);
@@ -76,7 +76,7 @@ TEST(ControllerBase, GeometryIsFittedOnTopOfWhatTheControllerKnows) {
   const Simulation s = simulate(kCell, plan_of(0.0));
   SimulationPlan other = plan_of(0.0);
   other.truth.seed = 10;  // the same poses of an arm that is wrong otherwise
-  Measurements m = s.measured;
+  MeasurementFiles m = s.measured;
   const Simulation known = simulate(kCell, other);
   ASSERT_EQ(known.measured.q, m.q);
   m.nominal_B = known.true_p_M;
@@ -87,15 +87,15 @@ TEST(ControllerBase, GeometryIsFittedOnTopOfWhatTheControllerKnows) {
 
 TEST(ControllerBase, FewRowsStandWhereTheMeasuredOnesPutThem) {
   const Simulation s = simulate(kCell, plan_of(0.0));
-  Measurements m = s.measured;
+  MeasurementFiles m = s.measured;
   m.nominal_B = seen_from_elsewhere(s.true_p_M);
-  Measurements two = pick(m, {3, 77});
+  MeasurementFiles two = pick(m, {3, 77});
   stand_on_controller(kCell, m, two);
   stand_on_controller(kCell, m);
   EXPECT_LT((two.departure_B - pick(m, {3, 77}).departure_B).norm(), 1e-12);
 }
 
-std::string refusal(Measurements m) {
+std::string refusal(MeasurementFiles m) {
   try {
     stand_on_controller(kCell, m);
   } catch (const Failure& failure) {
@@ -105,7 +105,7 @@ std::string refusal(Measurements m) {
 }
 
 TEST(ControllerBase, MissingPositionsAndThoseOfAnotherArmAreRefused) {
-  Measurements m = simulate(kCell, plan_of(0.0)).measured;
+  MeasurementFiles m = simulate(kCell, plan_of(0.0)).measured;
   EXPECT_EQ(refusal(m), "E-FIT-BASE");
   m.nominal_B = 1e3 * of_nominal_arm(m, Vector3::Zero());  // mm taken for m
   EXPECT_EQ(refusal(m), "E-FIT-BASE-FAR");

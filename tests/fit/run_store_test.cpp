@@ -41,7 +41,7 @@ class RunStore : public ::testing::Test {
 
   fs::path folder_;
   Cell cell_;
-  Measurements measured_;
+  MeasurementFiles measured_;
 };
 
 TEST_F(RunStore, ARunReadsBackToTheSameBits) {

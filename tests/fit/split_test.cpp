@@ -169,9 +169,8 @@ TEST(Split, AFileThatIsFittedCannotVouchForItself) {
   std::vector<int> twice;
   for (int i = 0; i < 2 * n; ++i) twice.push_back(i % n);
   m = pick(m, twice);
-  m.tables.resize(2);
-  m.tables[0].lines.resize(n);
-  m.tables[1].lines.resize(n);
+  m.file.assign(static_cast<std::size_t>(n), 0);
+  m.file.resize(static_cast<std::size_t>(2 * n), 1);
   EXPECT_THROW(split_poses(m, {.kind = HeldOutRule::Kind::kFile}, 1), Failure);
 }
 

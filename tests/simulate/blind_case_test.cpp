@@ -66,7 +66,7 @@ TEST(BlindCase, NoiseHasTheRequestedSigmaAndOutliersAreListed) {
 }
 
 // Reads texts with the strict reader.
-Measurements read_back(const std::string& csv, int joints) {
+MeasurementFiles read_back(const std::string& csv, int joints) {
   const auto file = std::filesystem::temp_directory_path() / "plumb_blind_case_test.csv";
   write_file_atomically(file, csv);
   const auto out =

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cell/kept_rows.hpp"
+#include "program/problem.hpp"
+
+namespace plumb::offline {
+
+/// Kind of quantity a column holds; it decides which units fit.
+enum class Quantity {
+  kText,
+  kNumber,
+  kLength,
+  kAngle,
+  kMass,
+  kTemperature,
+  kTime,
+  kForce,
+  kTorque
+};
+
+/// One column of a measurement file.
+struct Column {
+  std::string header;  // as written: "q1_deg"
+  std::string name;    // without the unit: "q1"
+  std::string unit;    // "deg"; empty for text and plain numbers
+  Quantity quantity = Quantity::kText;
+  std::vector<double> values;     // SI, temperatures in [degC]; empty for text columns
+  std::vector<std::string> text;  // for text columns
+};
+
+/// A measurement file as read: columns in file order, all of one length, numbers in SI.
+struct Table {
+  std::string file;
+  std::string sha256;
+  std::vector<std::pair<std::string, std::string>> comments;  // "# key: value"
+  std::vector<Column> columns;
+  std::vector<int> lines;  // source line of each row
+  KeptRows raw_rows;       // each row as written, canonical commas, for pass-through
+  std::string raw_header;
+  int header_line = 0;  // source line of the header
+  std::vector<Problem> remarks;
+  int rows() const { return static_cast<int>(lines.size()); }
+  const Column* find(std::string_view name) const;
+};
+
+/// Which of these tables each of their rows belongs to, 0, ..., 0, 1, ...
+std::vector<int> file_of_rows(const std::vector<Table>& tables);
+
+/// What a table is about; messages propose other names for the columns of a DH table.
+enum class TableOf { kMeasurements, kRobot };
+
+/// Reads a CSV file strictly: UTF-8, header with units, no ragged rows, only finite numbers.
+/// Throws Failure with all problems (exit 3).
+Table read_table(const std::filesystem::path& file, TableOf of = TableOf::kMeasurements);
+Table parse_table(std::string_view text, const std::string& file_name,
+                  TableOf of = TableOf::kMeasurements);
+
+}  // namespace plumb::offline
