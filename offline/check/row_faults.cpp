@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/row_faults.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "cell/table_place.hpp"
+#include "check/faulty_run.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
 #include "fit/calibrate.hpp"
@@ -39,23 +37,6 @@ constexpr double kElsewhereLeast_m = 5e-3;
 constexpr double kNoPartner_m = 1e3;  // error of a row that the shift takes beyond the file
 constexpr double kDegrees = 180.0 / M_PI;
 
-/// One way in which rows may have been written otherwise.
-struct Fault {
-  enum class Kind { kSign, kTurnUnit, kPointUnit, kShift } kind = Kind::kSign;
-  int joint = 0;        // of kSign
-  int shift = 0;        // of kShift: the point belongs to the joints so many rows further down
-  double factor = 1.0;  // of the units: what the numbers must be multiplied by
-  std::string is = {}, says = {};  // of the units: the one they are in, and the one of the heading
-};
-
-/// Rows first ... last, and their median errors [m].
-struct FaultyRun {
-  Fault fault;
-  int first = 0, last = -1;
-  double before = 0.0, after = 0.0, others = 0.0;
-  int count() const { return last - first + 1; }
-};
-
 /// The rows of one file.
 class RowFaults {
  public:
@@ -63,18 +44,18 @@ class RowFaults {
             const std::string& turn_unit)
       : cell_(cell), now_(of_file) {
     for (int j = 0; j < cell.joints(); ++j)
-      faults_.push_back({.kind = Fault::Kind::kSign, .joint = j});
+      faults_.push_back({.kind = RowFault::Kind::kSign, .joint = j});
     for (const int shift : {-1, 1, -2, 2})
-      faults_.push_back({.kind = Fault::Kind::kShift, .shift = shift});
+      faults_.push_back({.kind = RowFault::Kind::kShift, .shift = shift});
     for (const auto& [unit, metres] : kLengths)
       for (const auto& [says, labelled] : kLengths)
         if (says == point_unit && unit != says)
-          faults_.push_back({.kind = Fault::Kind::kPointUnit,
+          faults_.push_back({.kind = RowFault::Kind::kPointUnit,
                              .factor = metres / labelled,
                              .is = unit,
                              .says = says});
     const bool degrees = turn_unit == "deg";
-    faults_.push_back({.kind = Fault::Kind::kTurnUnit,
+    faults_.push_back({.kind = RowFault::Kind::kTurnUnit,
                        .factor = degrees ? kDegrees : 1.0 / kDegrees,
                        .is = degrees ? "rad" : "deg",
                        .says = turn_unit});
@@ -131,21 +112,21 @@ class RowFaults {
   }
 
   /// The rows first ... last as they would be without that fault; rows without a partner stay.
-  Measurements repaired(const Fault& fault, int first, int last) const {
+  Measurements repaired(const RowFault& fault, int first, int last) const {
     Measurements out = now_;
     for (int i = first; i <= last; ++i) {
-      if (fault.kind == Fault::Kind::kSign) out.q(i, fault.joint) *= -1.0;
-      if (fault.kind == Fault::Kind::kPointUnit) out.p_M.row(i) *= fault.factor;
-      if (fault.kind == Fault::Kind::kShift && has_partner(fault, i))
+      if (fault.kind == RowFault::Kind::kSign) out.q(i, fault.joint) *= -1.0;
+      if (fault.kind == RowFault::Kind::kPointUnit) out.p_M.row(i) *= fault.factor;
+      if (fault.kind == RowFault::Kind::kShift && has_partner(fault, i))
         out.q.row(i) = now_.q.row(i + fault.shift);
-      for (int j = 0; fault.kind == Fault::Kind::kTurnUnit && j < cell_.joints(); ++j)
+      for (int j = 0; fault.kind == RowFault::Kind::kTurnUnit && j < cell_.joints(); ++j)
         if (cell_.nominal.joints[static_cast<std::size_t>(j)].type == format::JointType::kRevolute)
           out.q(i, j) *= fault.factor;
     }
     return out;
   }
 
-  bool has_partner(const Fault& fault, int row) const {
+  bool has_partner(const RowFault& fault, int row) const {
     return row + fault.shift >= 0 && row + fault.shift < size();
   }
 
@@ -154,7 +135,7 @@ class RowFaults {
     return {e.data(), e.data() + e.size()};
   }
 
-  std::vector<double> errors_without(const ArmState& arm, const Fault& fault) const {
+  std::vector<double> errors_without(const ArmState& arm, const RowFault& fault) const {
     auto out = errors_of(arm, repaired(fault, 0, size() - 1));
     for (int i = 0; i < size(); ++i)
       if (!has_partner(fault, i)) out[static_cast<std::size_t>(i)] = kNoPartner_m;
@@ -162,7 +143,7 @@ class RowFaults {
   }
 
   /// The run of rows with the largest sum of log likelihood ratios [Kadane].
-  static std::pair<FaultyRun, double> likeliest(const Fault& fault,
+  static std::pair<FaultyRun, double> likeliest(const RowFault& fault,
                                                 const std::vector<double>& as_is,
                                                 const std::vector<double>& without,
                                                 double scatter) {
@@ -189,7 +170,7 @@ class RowFaults {
     const double scatter = std::max(kLeastScatter_m, quantile(as_is, 0.2));
     FaultyRun best;
     double most = 0.0;
-    for (const Fault& fault : faults_) {
+    for (const RowFault& fault : faults_) {
       const auto [run, gain] = likeliest(fault, as_is, errors_without(arm, fault), scatter);
       if (gain <= most) continue;
       best = run;
@@ -224,7 +205,7 @@ class RowFaults {
     if (run.after > kLikeOthers * run.others || run.before < kTimesBetter * ordinary ||
         quantile(of(after, run), 0.8) > kMostlyLikeOthers * run.others)
       return std::nullopt;
-    for (const Fault& other : faults_)
+    for (const RowFault& other : faults_)
       if (!same(other, run.fault) &&
           quantile(of(errors_without(fit->state, other), run), 0.5) < kNextBest * ordinary)
         return std::nullopt;
@@ -240,7 +221,7 @@ class RowFaults {
     while (run.first <= run.last && is_off(run.first)) ++run.first;
   }
 
-  static bool same(const Fault& a, const Fault& b) {
+  static bool same(const RowFault& a, const RowFault& b) {
     return a.kind == b.kind && a.joint == b.joint && a.shift == b.shift && a.factor == b.factor;
   }
 
@@ -251,8 +232,8 @@ class RowFaults {
   /// No part fits as it is: perhaps all do, each row with the joints of another one.
   std::optional<FaultyRun> shifted_file(double left_m) const {
     std::vector<FaultyRun> found;
-    for (const Fault& fault : faults_) {
-      if (fault.kind != Fault::Kind::kShift) continue;
+    for (const RowFault& fault : faults_) {
+      if (fault.kind != RowFault::Kind::kShift) continue;
       FaultyRun run{.fault = fault,
                     .first = std::max(0, -fault.shift),
                     .last = std::min(size(), size() - fault.shift) - 1};
@@ -275,109 +256,8 @@ class RowFaults {
 
   const Cell& cell_;
   Measurements now_;  // repaired as far as it goes
-  std::vector<Fault> faults_;
+  std::vector<RowFault> faults_;
 };
-
-/// Headings of the columns with these names, those of them that the file has.
-std::string headings(const Table& table, const std::vector<std::string>& names) {
-  std::vector<std::string> out;
-  for (const auto& name : names)
-    if (const Column* column = table.find(name)) out.push_back(column->header);
-  return fmt::format("{}", fmt::join(out, ", "));
-}
-
-std::string unit_of_column(const Table& table, const std::vector<std::string>& names,
-                           const char* usual) {
-  for (const auto& name : names)
-    if (const Column* column = table.find(name)) return column->unit;
-  return usual;
-}
-
-/// All that one reading of the instrument gives.
-const std::vector<std::string>& reading_names() {
-  static const std::vector<std::string> names{"x",  "y",  "z",  "qw", "qx", "qy", "qz",
-                                              "rx", "ry", "rz", "sx", "sy", "sz"};
-  return names;
-}
-
-const std::vector<std::string>& point_names() {
-  static const std::vector<std::string> names{"x", "y", "z"};
-  return names;
-}
-
-std::vector<std::string> turning_names(const Cell& cell) {
-  std::vector<std::string> out;
-  for (int j = 0; j < cell.joints(); ++j)
-    if (cell.nominal.joints[static_cast<std::size_t>(j)].type == format::JointType::kRevolute)
-      out.push_back(fmt::format("q{}", j + 1));
-  return out;
-}
-
-std::string what_is_wrong(const Cell& cell, const Fault& fault) {
-  switch (fault.kind) {
-    case Fault::Kind::kSign:
-      return fmt::format("{} counts the other way than in the other rows",
-                         cell.nominal.joints[static_cast<std::size_t>(fault.joint)].name);
-    case Fault::Kind::kTurnUnit:
-      return fmt::format("the joint angles are in {}, not in {} as their headings say", fault.is,
-                         fault.says);
-    case Fault::Kind::kPointUnit:
-      return fmt::format("the measured points are in {}, not in {} as their headings say", fault.is,
-                         fault.says);
-    case Fault::Kind::kShift:
-      break;
-  }
-  return fmt::format("each measured point belongs to the joint positions {} {}",
-                     std::abs(fault.shift) == 1 ? "one row" : "two rows",
-                     fault.shift < 0 ? "above" : "below");
-}
-
-std::string how_to_mend(const Cell& cell, const Table& table, const Fault& fault,
-                        const std::string& lines) {
-  const std::string points = headings(table, point_names());
-  switch (fault.kind) {
-    case Fault::Kind::kSign:
-      return fmt::format("change the sign of {} in {}",
-                         headings(table, {fmt::format("q{}", fault.joint + 1)}), lines);
-    case Fault::Kind::kTurnUnit:
-      return fmt::format("multiply {} by {:.9g} in {}", headings(table, turning_names(cell)),
-                         fault.factor, lines);
-    case Fault::Kind::kPointUnit:
-      return fmt::format("multiply {} by {:.9g} in {}", points, fault.factor, lines);
-    case Fault::Kind::kShift:
-      break;
-  }
-  return fmt::format("move {} of {} {} by {}, and delete the rows that are left without a point",
-                     headings(table, reading_names()), lines, fault.shift < 0 ? "up" : "down",
-                     std::abs(fault.shift) == 1 ? "one row" : "two rows");
-}
-
-/// `places` are the rows of the table that were looked at.
-Problem described(const Cell& cell, const Table& table, const std::vector<int>& places,
-                  const FaultyRun& run) {
-  const int first = places[static_cast<std::size_t>(run.first)];
-  const int last = places[static_cast<std::size_t>(run.last)];
-  const std::string lines =
-      fmt::format("lines {} to {}", table.lines[static_cast<std::size_t>(first)],
-                  table.lines[static_cast<std::size_t>(last)]);
-  const bool all = run.count() + std::abs(run.fault.shift) >= static_cast<int>(places.size());
-  const std::string name = run.fault.kind == Fault::Kind::kSign
-                               ? fmt::format("q{}", run.fault.joint + 1)
-                           : run.fault.kind == Fault::Kind::kTurnUnit ? turning_names(cell).front()
-                           : table.find("x") != nullptr               ? "x"
-                                                                      : "y";
-  const Column* column = table.find(name);
-  return {Severity::kWarning, "W-CHECK-ROWS",
-          fmt::format("in {} {}: repaired, these {} rows miss the arm by {:.2g} mm instead of "
-                      "{:.3g} mm (medians){}",
-                      lines, what_is_wrong(cell, run.fault), run.count(), run.after * 1e3,
-                      run.before * 1e3,
-                      all ? "" : fmt::format(", and the others by {:.2g} mm", run.others * 1e3)),
-          column != nullptr
-              ? std::optional<Place>(place_in_row(table, first, *column, "from here on"))
-              : std::nullopt,
-          how_to_mend(cell, table, run.fault, lines)};
-}
 
 }  // namespace
 
@@ -400,11 +280,10 @@ std::vector<Problem> row_fault_findings(const Cell& cell, const MeasurementFiles
     const Eigen::VectorXd left = residuals(some, predict_points(placed, some)).rowwise().norm();
     if (left.norm() < kNothingToExplain * std::sqrt(static_cast<double>(left.size()))) continue;
     const Table& table = measured.tables[t];
-    RowFaults faults(cell, some, unit_of_column(table, point_names(), "mm"),
-                     unit_of_column(table, turning_names(cell), "deg"));
+    RowFaults faults(cell, some, unit_of_points(table), unit_of_turns(cell, table));
     const double middle = quantile({left.data(), left.data() + left.size()}, 0.5);
     for (const FaultyRun& run : faults.find(middle))
-      out.push_back(described(cell, table, places, run));
+      out.push_back(row_fault_finding(cell, table, places, run));
   }
   return out;
 }
