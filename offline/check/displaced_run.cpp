@@ -63,16 +63,19 @@ std::vector<DisplacedRun> displaced_runs(const ArmState& state, const Measuremen
 }
 
 std::string in_words(const MeasurementFiles& measured, const DisplacedRun& run) {
-  const Vector3 mm = run.by * 1e3;
-  const int digits = mm.norm() < 1.0 ? 3 : 1;
+  const bool small = run.by.norm() < 1e-3;
+  const auto mm = [&](int k) {
+    const double unit = small ? 1e3 : 10.0;  // of the last digit, per millimetre
+    const double shown = std::round(run.by(k) * 1e3 * unit) / unit + 0.0;  // never "-0.0"
+    return fmt::format("{:.{}f}", shown, small ? 3 : 1);
+  };
   const bool read = !measured.tables.empty();
-  return fmt::format(
-      "{} {} to {} are all off by some ({:.{}f}, {:.{}f}, {:.{}f}) mm, seen from the {}",
-      read ? "lines" : "rows", read ? line_of_row(measured, run.first) : run.first + 1,
-      read ? line_of_row(measured, run.last) : run.last + 1, mm(0), digits, mm(1), digits, mm(2),
-      digits,
-      run.of_tool ? "tool: the reflector probably sat in another place"
-                  : "tracker: it, or the base, probably stood in another place");
+  return fmt::format("{} {} to {} are all off by some ({}, {}, {}) mm, seen from the {}",
+                     read ? "lines" : "rows",
+                     read ? line_of_row(measured, run.first) : run.first + 1,
+                     read ? line_of_row(measured, run.last) : run.last + 1, mm(0), mm(1), mm(2),
+                     run.of_tool ? "tool: the reflector probably sat in another place"
+                                 : "tracker: it, or the base, probably stood in another place");
 }
 
 }  // namespace plumb::offline

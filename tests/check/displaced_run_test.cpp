@@ -72,11 +72,11 @@ TEST(DisplacedRun, ATrackerThatStoodElsewhereIsSaid) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Case at = sound(seed);
     for (int row = kFirst; row <= kLast; ++row)
-      at.measured.p_M.row(row) += Eigen::RowVector3d(0.02, -0.01, 0.03);
+      at.measured.p_M.row(row) += Eigen::RowVector3d(0.02, -0.01, -4e-6);
     const Check check = check_cell(at.cell, at.measured);
     const std::string& said = outliers(check).message;
     EXPECT_NE(said.find(lines(at.measured)), std::string::npos) << seed << " " << said;
-    EXPECT_NE(said.find("(20.0, -10.0, 30.0) mm, seen from the tracker"), std::string::npos)
+    EXPECT_NE(said.find("(20.0, -10.0, 0.0) mm, seen from the tracker"), std::string::npos)
         << seed << " " << said;
   }
 }
