@@ -7,8 +7,8 @@
 
 namespace plumb {
 
-/// Largest files that are read whole, in bytes. What is larger is not what its name says, and would
-/// fill the memory before anything could be said about it.
+/// Largest sizes [bytes] of files that are read as a whole. A larger file cannot be of the expected
+/// kind, and would fill the memory before it could be reported.
 inline constexpr std::uintmax_t kMostCellBytes = 16u << 20;
 inline constexpr std::uintmax_t kMostUrdfBytes = 64u << 20;
 inline constexpr std::uintmax_t kMostStreamBytes = 512u << 20;  // of a pipe or a device

@@ -4,19 +4,19 @@
 #include <filesystem>
 #include <string_view>
 
-/// Bytes into an open file descriptor. Every call goes on after an interrupted system call.
+/// Output of bytes to an open file descriptor. Interrupted system calls are repeated.
 namespace plumb {
 
-/// Writes all of them. 0 or errno.
+/// Writes all bytes. Returns 0 or an errno.
 int write_all(int fd, std::string_view bytes);
 
-/// Waits until they are on the disk; a pipe or a device has nothing to wait for. 0 or errno.
+/// Waits until the bytes are on the disk; not for a pipe or a device. Returns 0 or an errno.
 int sync_to_disk(int fd);
 
-/// Both. 0 or errno.
+/// Writes all bytes and waits. Returns 0 or an errno.
 int write_and_sync(int fd, std::string_view bytes);
 
-/// Whether the name stands for a pipe or a device, which cannot be replaced by a new file.
+/// True if the name is that of a pipe or a device, which cannot be replaced by a new file.
 bool is_stream(const std::filesystem::path& file);
 
 }  // namespace plumb

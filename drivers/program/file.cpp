@@ -71,7 +71,8 @@ class Descriptor {
   int fd_;
 };
 
-/// What is replaced keeps its permissions. 0 or errno.
+/// Writes a draft (temporary file), with the permissions of the file that it will replace. Returns
+/// 0 or an errno.
 int fill_draft(int fd, const fs::path& target, std::string_view bytes) {
   struct stat present {};
   if (::stat(target.c_str(), &present) == 0 && ::fchmod(fd, present.st_mode & 07777) != 0)
@@ -79,8 +80,8 @@ int fill_draft(int fd, const fs::path& target, std::string_view bytes) {
   return write_and_sync(fd, bytes);
 }
 
-/// The draft gets its name when it is whole. 0 or errno; nothing if the file system has no files
-/// without a name.
+/// Writes a draft that gets its name only when it is complete. Returns 0 or an errno; empty if the
+/// file system does not support files without a name.
 std::optional<int> write_nameless_draft(const fs::path& draft, const fs::path& target,
                                         std::string_view bytes) {
   const Descriptor file(folder_of(target).c_str(), O_TMPFILE | O_WRONLY);
@@ -112,15 +113,15 @@ void write_into(const fs::path& stream, std::string_view bytes) {
   if (error != 0) cannot_write(stream, error);
 }
 
-/// A name that no other writer uses, nor one that died before.
+/// A name that no other writer uses and that no killed writer has left.
 fs::path draft_beside(const fs::path& target) {
   static std::atomic<unsigned> count{0};
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return target.string() + fmt::format(".{}-{}-{}.tmp", ::getpid(), now, count++);
 }
 
-/// The process in "12-345-6.tmp", what draft_beside puts behind the name of the target; 0 for any
-/// other text.
+/// The process number in "12-345-6.tmp", the ending that draft_beside appends to the name of the
+/// target; 0 for any other text.
 pid_t writer_of(std::string_view ending) {
   static const std::regex kEnding(R"((\d{1,9})-\d+-\d+\.tmp)");
   std::match_results<std::string_view::const_iterator> match;
@@ -128,8 +129,8 @@ pid_t writer_of(std::string_view ending) {
   return std::stoi(match[1].str());
 }
 
-/// A process of another machine that shares the folder looks as if it were gone, but writes its
-/// draft now and not a minute ago.
+/// True if a draft is older than a minute. A process of another machine that shares the folder
+/// cannot be seen from here, but its draft is newer.
 bool is_old(const fs::path& draft) {
   std::error_code error;
   const auto written = fs::last_write_time(draft, error);
@@ -198,7 +199,7 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) cannot_write(file, EISDIR);
   if (is_stream(file)) return write_into(file, bytes);
-  // A link stays a link: what it points to is replaced.
+  // A symbolic link is kept; the file that it points to is replaced.
   const fs::path target = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file) : file;
   const fs::path draft = draft_beside(target);
   remove_stale_drafts(target);

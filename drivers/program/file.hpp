@@ -14,16 +14,16 @@ std::string display_name(const std::filesystem::path& file);
 std::string read_file(const std::filesystem::path& file);
 
 /// Writes all or nothing: a temporary file beside the target, fsync, rename, fsync of the folder.
-/// Where the file system can, the temporary file has no name until it is whole, so that a killed
-/// program leaves nothing behind; elsewhere the next writer of the same target removes what a
-/// program that is gone has left.
-/// A pipe, a terminal or another device is written into instead: replacing its node would cut off
-/// who reads there. Throws Failure (kEnvironment) with the system's reason; the temporary file is
-/// removed.
+/// If the file system allows it, the temporary file has no name until it is complete, so that a
+/// killed program leaves nothing behind. Otherwise the next writer of the same target removes the
+/// temporary files of killed programs.
+/// A pipe, a terminal or another device is not replaced but written to, because its readers would
+/// otherwise be cut off. Throws Failure (kEnvironment) with the system's reason; the temporary file
+/// is removed.
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 
-/// Whether writing to this name would replace something: not where nothing stands, nor a pipe or a
-/// character device such as /dev/null, which keep nothing.
+/// True if writing to this name would replace content. False if there is no such file, or if it is
+/// a pipe or a character device such as /dev/null.
 bool would_replace(const std::filesystem::path& file);
 
 /// The same, but refuses (kUsage, E-EXISTS) to replace a file unless `force`.

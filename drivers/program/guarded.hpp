@@ -8,9 +8,9 @@
 
 namespace plumb {
 
-/// Runs `work`; whatever it throws becomes errors and exit code of `outcome`: a Failure its own, a
-/// file system error kEnvironment, no memory kEnvironment, anything else a bug of
-/// `program`, kBug.
+/// Runs `work` and turns an exception into errors and exit code of `outcome`: a Failure into its
+/// own, a file system error or lack of memory into kEnvironment, anything else into kBug, a bug of
+/// `program`.
 void guarded(const std::string& program, const std::function<void()>& work, Outcome& outcome);
 
 }  // namespace plumb

@@ -6,7 +6,8 @@
 namespace plumb {
 
 /// From now on SIGINT and SIGTERM end the program with exit code 130, after `last_words` went to
-/// stdout; the text is copied. While a `Writing` lives they wait for it: no draft stays behind.
+/// stdout; the text is copied. While a `Writing` exists the signals are
+/// deferred, so that no temporary file is left behind.
 void end_on_interrupt(const std::string& last_words);
 
 class Writing {

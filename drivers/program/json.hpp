@@ -6,7 +6,7 @@
 
 #include "program/problem.hpp"
 
-/// What programs print for programs: units in key names, never NaN.
+/// JSON output for other programs: units are part of the keys, and NaN never occurs.
 namespace plumb {
 
 using Json = nlohmann::ordered_json;
@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 void put(Json& object, const std::string& key, double value,
          const std::string& reason = "not a finite number");
 
-/// null under `key`, and why under "<key>_reason".
+/// Writes null under `key` and the reason under "<key>_reason".
 void put_null(Json& object, const std::string& key, const std::string& reason);
 
 /// {severity, code, message, place, help}

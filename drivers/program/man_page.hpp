@@ -9,7 +9,7 @@
 
 namespace plumb {
 
-/// What a manual page says that no option says.
+/// The parts of a manual page that do not follow from the options.
 struct ManualText {
   std::string version = {};
   std::vector<FileRow> files = {};

@@ -9,19 +9,20 @@
 
 namespace plumb {
 
-/// What every verb is told.
+/// The options that every verb has.
 struct Globals {
   std::string directory;  // -C; empty: look for cell.toml from here upward
   enum class Output { kText, kJson } output = Output::kText;
 };
 
-/// A file that went in.
+/// A file that was read as input.
 struct InputFile {
   std::string file;
   std::string sha256;
 };
 
-/// What a verb found out. It is filled as the verb goes, so a failure still shows what was read.
+/// The result of a verb. It is filled step by step, so after a failure it still lists the files
+/// read.
 struct Outcome {
   std::vector<InputFile> inputs;
   std::vector<Problem> remarks;  // warnings and notes

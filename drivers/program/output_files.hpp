@@ -22,14 +22,15 @@ struct WriteOptions {
 /// Files that belong together: nothing is written unless all may be.
 class OutputFiles {
  public:
-  /// `folder`: one that was asked for and may be new, such as that of a new cell; none if empty.
+  /// folder: a folder that the user asked for, such as that of a new cell, and that may be created
+  /// without a note. Empty: none.
   explicit OutputFiles(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
   void add(std::filesystem::path file, std::string bytes);
 
-  /// Refuses names of folders (E-USAGE), and (E-EXISTS) to replace a file without --force; makes
-  /// folders and says so unless they were asked for, writes each file all or nothing. Adds `files`
-  /// and `dry_run` to the result, which must be an object.
+  /// Refuses names of folders (E-USAGE) and, without --force, names of existing files (E-EXISTS).
+  /// Creates folders, with a note unless the user asked for them, and writes each file completely
+  /// or not at all. Adds `files` and `dry_run` to the result, which must be an object.
   void commit(const WriteOptions& options, Outcome& outcome) const;
 
  private:

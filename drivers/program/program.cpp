@@ -126,7 +126,7 @@ int Program::run(int argc, char** argv) {
     parsed.emplace_back("--help");
   }
   std::reverse(parsed.begin(), parsed.end());  // as CLI11 wants them
-  // A file size limit is an error of the write, which has words, not the end of the program.
+  // Exceeding a file size limit shall be a reported write error instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     app_->parse(std::move(parsed));

@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-/// What stdout or stderr can show.
+/// The properties of the terminal or file behind stdout or stderr.
 struct Screen {
   std::size_t columns = 100;
   enum class Ink { kPlain, kColour } ink = Ink::kPlain;
@@ -17,20 +17,20 @@ struct Screen {
 /// only, and never with NO_COLOR (https://no-color.org) or TERM=dumb.
 Screen screen_of(int descriptor);
 
-/// Sentences broken at the width of the screen, and the judgement at the beginning of a line in its
-/// colour. Of a table row (two blanks between cells) the words of the last cell are broken and stay
-/// in their column; a table whose other cells are too wide is parted into several, one below the
-/// other, each with the first column. Commands to paste stay whole; the comment behind one that is
-/// too wide stands on a line of its own.
+/// The text with its sentences wrapped at the width of the screen and the verdict at the beginning
+/// of a line in its colour. In a table row (at least two blanks between cells) the last cell is
+/// wrapped within its column. A table whose other cells are too wide is split into several, one
+/// below the other, each with the first column. Commands to paste are not wrapped; if one is too
+/// wide, the comment after it is moved to a line of its own.
 std::string laid_out(const std::string& text, const Screen& screen);
 
-/// The same for the text of --help: an example that is too wide goes on in a further line behind a
-/// backslash, so that it can still be pasted.
+/// The same for the text of --help: an example that is too wide is continued on the next line after
+/// a backslash, so that it can still be pasted.
 std::string laid_out_help(const std::string& help, const Screen& screen);
 
-/// A message as `render` makes it, with its first word in its colour. A terminal gets its sentence
-/// broken at its width; what holds the place and the help, which can be pasted, stays as it is. In
-/// a file or a pipe a message stays one line, to be searched.
+/// A message from `render` with its first word in its colour. For a terminal its sentence is
+/// wrapped at the width of the screen; place and help, which can be pasted, are not. For a file or
+/// a pipe the sentence stays on one line, so that it can be searched for.
 std::string painted(const std::string& message, const Screen& screen);
 
 }  // namespace plumb

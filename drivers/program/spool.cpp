@@ -91,10 +91,10 @@ void Spool::commit_to_file(Overwrite overwrite) {
                                  .message = fmt::format("{} is already there", display_name(file_)),
                                  .help = "to replace it add --force"});
   if (file_.has_parent_path()) fs::create_directories(file_.parent_path());
-  // A link stays a link: what it points to is replaced.
+  // A symbolic link is kept; the file that it points to is replaced.
   const fs::path target = fs::is_symlink(file_, ignored) ? fs::weakly_canonical(file_) : file_;
   const fs::path draft = target.string() + fmt::format(".{}-spool.tmp", ::getpid());
-  ::unlink(draft.c_str());  // of a program of the same number that was killed at this very moment
+  ::unlink(draft.c_str());  // left by a killed program that had the same process number
   int error = give_name(draft, target);
   if (error == 0 && ::rename(draft.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {

@@ -15,7 +15,7 @@ class Validator;
 
 namespace plumb {
 
-/// What a word of the command line may be. A word that is not is a usage error that says so.
+/// A condition on a word of the command line. A word that breaks it is a usage error.
 class WordRule {
  public:
   explicit WordRule(CLI::Validator rule);
@@ -45,19 +45,20 @@ enum class InHelp { kShown, kHidden };
 /// One of these words. `help`: whether the help lists them.
 WordRule one_of(const std::vector<std::string>& words, InHelp help = InHelp::kShown);
 
-/// One option of a verb, to be described further. A handle: copies mean the same option.
+/// A handle to one option of a verb, with which it is described further. Copies refer to the same
+/// option.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  Option type_name(const std::string& name) const;  ///< what the help calls its value: "MM"
+  Option type_name(const std::string& name) const;  ///< name of its value in the help: "MM"
   Option check(const WordRule& rule) const;
   Option required() const;
-  Option shows_default() const;             ///< the help names the value it has now
+  Option shows_default() const;             ///< the help states its present value
   Option delimiter(char between) const;     ///< one word may hold several values
-  Option one_value_each() const;            ///< of a list: the option is repeated for every value
-  Option take_all() const;                  ///< of a text: given twice, both, a line each
-  Option needs(const Option& other) const;  ///< makes no sense without the other
+  Option one_value_each() const;            ///< list: the option is repeated for every value
+  Option take_all() const;                  ///< text: if repeated, all values, one per line
+  Option needs(const Option& other) const;  ///< an error unless `other` is given, too
 
  private:
   CLI::Option* option_;
@@ -76,7 +77,7 @@ class VerbOptions {
   template <class Value>
   Option add_option(const std::string& names, Value& value, const std::string& help);
 
-  /// One that was added before, by one of its names.
+  /// An option that was added before, found by one of its names.
   Option get_option(const std::string& name) const;
 
  private:

@@ -13,16 +13,16 @@ class AnswerFile {
  public:
   /// An existing file is not replaced. Throws Failure (kEnvironment, E-RT-SINK).
   explicit AnswerFile(const std::filesystem::path& file);
-  /// Throws as the constructor would, and makes no file.
+  /// Throws what the constructor would throw, without creating a file.
   static void check(const std::filesystem::path& file);
   ~AnswerFile();
   AnswerFile(const AnswerFile&) = delete;
   AnswerFile& operator=(const AnswerFile&) = delete;
 
-  /// Messages of other kinds are passed over.
+  /// Messages of other kinds are ignored.
   void add(const BusMessage& corrected);
 
-  /// Every line so far has reached the file.
+  /// True if every line so far has reached the file.
   bool sound() const noexcept { return sound_; }
 
  private:

@@ -14,46 +14,47 @@ namespace plumb::drivers::rt {
 
 struct Deployment;
 
-/// A bus that is open, with whatever stands behind its port.
+/// An open bus: its port and all that the port needs, such as the thread of a Modbus link.
 class OpenBus {
  public:
   virtual ~OpenBus() = default;
   virtual BusPort& port() noexcept = 0;
 
-  /// Now and then, by a thread that may wait: helps a link that is down to come back.
+  /// Helps a link that is down to recover. To be called from time to time by a thread that may
+  /// block.
   virtual void tend() noexcept {}
 
-  /// There will be no further target.
+  /// True if no further target will arrive.
   virtual bool finished() const noexcept { return false; }
 };
 
-/// What [source] of rt.toml names: where desired targets come from, and, but for a file, where the
-/// answers go.
+/// The bus that [source] of rt.toml names. Desired targets come from it and, unless it is a file,
+/// corrected targets are sent to it.
 class BusSource {
  public:
   virtual ~BusSource() = default;
 
-  /// Which layout of [bus] it needs.
+  /// The kind of bus for which the layout in [bus] is checked.
   virtual BusUse use() const noexcept = 0;
 
-  /// As the record names it: "can0", "modbus", "csv".
+  /// Its name in the record: "can0", "modbus", "csv".
   virtual std::string name() const = 0;
 
-  /// Throws Failure: E-RT-LINK (kEnvironment) with the system's reason, E-RT-CSV (kInput). Nothing
-  /// is sent yet. Slow.
+  /// Opens the bus without sending anything. Throws Failure: E-RT-LINK (kEnvironment) with the
+  /// system's reason, E-RT-CSV (kInput). Slow.
   virtual std::unique_ptr<OpenBus> open(const Deployment& deployment) const = 0;
 };
 
-/// One kind of bus. Another one is one more entry of bus_kinds().
+/// One kind of bus. A new kind is added by one entry in bus_kinds().
 struct BusKind {
-  const char* word;  // kind = "can"
+  const char* word;  // the value of `kind` in [source], for example "can"
 
-  /// Reads the keys of [source] besides `kind`; files are relative to the folder. Problems go to
-  /// the table's source.
+  /// Reads the keys of [source] besides `kind`; paths of files are relative to `folder`.
+  /// Problems are reported to the table's source.
   std::shared_ptr<const BusSource> (*read)(TomlTable& source, const std::filesystem::path& folder);
 };
 
-/// All of them, in the order in which messages name them.
+/// All kinds, in the order in which messages list them.
 std::span<const BusKind> bus_kinds();
 
 }  // namespace plumb::drivers::rt

@@ -13,27 +13,27 @@
 
 namespace plumb::drivers::rt {
 
-/// When a machine that fails a check is unfit.
+/// For which cycles a failed check makes a machine unfit.
 enum class Need : std::uint8_t {
-  kAlways,      // without it nothing bounds how late the cycle runs
-  kShortCycle,  // delays of up to some hundred microseconds: unfit from 1 kHz on
-  kAdvice,      // worth having; never decides
+  kAlways,      // for every cycle: without it the latency has no bound
+  kShortCycle,  // for cycles up to kShortCycle_us: it delays by up to some 100 us
+  kAdvice,      // for none; it is only recommended
 };
 
 /// "always", "short cycle", "advice".
 const char* to_string(Need need);
 
 struct Check {
-  std::string id;  // stable, for programs: "kernel", "sched_fifo"
+  std::string id;  // stable name for programs: "kernel", "sched_fifo"
   Need need = Need::kAdvice;
   Finding finding;
 };
 
-/// A cycle of this or less is a short one.
+/// The longest period [us] that counts as a short cycle.
 inline constexpr int kShortCycle_us = 1000;
 
-/// What `files`, the steps that were tried and the CAN interfaces tell, in the order in which it is
-/// shown.
+/// All checks of a machine in the order of display, from its files, the real-time steps that were
+/// tried, and its CAN interfaces.
 std::vector<Check> examine(const MachineFiles& files, std::span<const RtStep> steps,
                            std::span<const CanInterface> can);
 
@@ -41,13 +41,13 @@ std::vector<Check> kernel_checks(const MachineFiles& files);
 std::vector<Check> process_checks(const MachineFiles& files, std::span<const RtStep> steps);
 std::vector<Check> processor_checks(const MachineFiles& files, std::span<const RtStep> steps);
 
-/// A check an interface, "can:NAME": its state, frames and bit rates. One, skipped, if there is
-/// none.
+/// One check "can:NAME" per interface: its state, frame format and bit rates. If there is no
+/// interface, a single check with Grant::kSkipped.
 std::vector<Check> can_checks(std::span<const CanInterface> interfaces);
 
-/// CAN interfaces as files tell of them, network interfaces of type ARPHRD_CAN: without their kind
-/// and bit rates, which no file holds. For a copy of another machine; of this one,
-/// read_can_interfaces() knows more.
+/// The CAN interfaces (network interfaces of type ARPHRD_CAN) according to the files, which contain
+/// neither their kind nor their bit rates. For the copied files of another machine; for this
+/// machine read_can_interfaces() returns more.
 std::vector<CanInterface> can_interfaces(const MachineFiles& files);
 
 enum class CanState : std::uint8_t { kUp, kDown, kBusOff };
@@ -56,11 +56,11 @@ CanState state_of(const CanInterface& interface);
 /// "up", "down", "bus-off".
 const char* to_string(CanState state);
 
-/// The check that one step of an RtProcess is.
+/// The check whose result is that of one step of an RtProcess.
 Check step_check(std::string id, Need need, std::span<const RtStep> steps, RtStepKind kind);
 
-/// Why the machine is unfit for this cycle: needed checks that were denied, and those always needed
-/// that could not be made.
+/// The checks that make the machine unfit for this cycle: needed checks that were denied, and
+/// checks with Need::kAlways that could not be made.
 std::vector<Check> obstacles(const std::vector<Check>& checks, int cycle_us);
 
 }  // namespace plumb::drivers::rt

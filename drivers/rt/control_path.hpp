@@ -9,22 +9,23 @@
 
 namespace plumb::drivers::rt {
 
-/// Where the socket of the plumb-rt that runs DIR may be, best first: in /run/plumb, which the
-/// systemd unit makes, in $XDG_RUNTIME_DIR, in DIR itself. Named after the folder, so that two of
-/// them do not meet.
+/// The possible paths of the control socket of the plumb-rt that runs DIR, best first: in
+/// /run/plumb, which the systemd unit creates, in $XDG_RUNTIME_DIR, and in DIR itself. The name
+/// depends on the folder, so that several plumb-rt do not collide.
 std::vector<std::filesystem::path> control_paths(const std::filesystem::path& dir);
 
-/// A socket that is removed at the end.
+/// A listening socket, whose file is removed at the end of the run.
 struct ControlSocket {
   std::filesystem::path path;
   Descriptor listening;
 };
 
-/// Throws Failure (kEnvironment): E-RT-RUNNING if another plumb-rt runs this folder, E-RT-CONTROL
-/// if there is nowhere to listen.
+/// Opens the control socket. Throws Failure (kEnvironment): E-RT-RUNNING if another plumb-rt runs
+/// this folder, E-RT-CONTROL if there is nowhere to listen.
 ControlSocket open_control(const std::filesystem::path& dir);
 
-/// Asks the plumb-rt that runs this folder. Throws Failure (kEnvironment, E-RT-NOT-RUNNING).
+/// Sends a request to the plumb-rt that runs this folder and returns its answer. Throws Failure
+/// (kEnvironment, E-RT-NOT-RUNNING).
 std::string ask_control(const std::filesystem::path& dir, const std::string& request,
                         int within_ms);
 

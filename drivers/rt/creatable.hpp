@@ -5,8 +5,8 @@
 
 namespace plumb::drivers::rt {
 
-/// Whether a new file could be made here, without making it: 0, or the errno with which it would
-/// fail, for example EEXIST, ENOENT (no such folder) or EACCES.
+/// Tests without creating it whether this file could be created: 0, or the errno of the failure,
+/// for example EEXIST, ENOENT (no such folder) or EACCES.
 int creation_error(const std::filesystem::path& file);
 
 }  // namespace plumb::drivers::rt

@@ -7,7 +7,7 @@
 namespace plumb::drivers::rt {
 namespace {
 
-constexpr int kParts = 6;  // messages a row
+constexpr int kParts = 6;  // messages per row
 
 constexpr ControllerState kReady{
     .drives_on = true, .automatic = true, .protective_stop = false, .correction_enabled = true};
@@ -50,7 +50,8 @@ void CsvPort::advance() noexcept {
   }
 }
 
-/// The message as the layout carries it; false: it has none of the kind.
+/// Replaces the message by what a receiver decodes from it. False if the layout has no such
+/// message.
 bool CsvPort::carried(BusMessage& message) noexcept {
   const BusMessage composed = message;
   Heard heard = Heard::kNotOurs;

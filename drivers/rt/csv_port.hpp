@@ -11,16 +11,17 @@
 
 namespace plumb::drivers::rt {
 
-/// Plays targets from a file, one row a cycle, with a controller made up around them: the nominal
-/// arm of the model, drives on, correction enabled. Before the rows the first one stands still
-/// while the session synchronises; at the end the last one stands.
+/// Plays targets from a file, one row per cycle, and simulates the controller that sends them: the
+/// nominal arm of the model, drives on, correction enabled. The first row is repeated while the
+/// session synchronises, the last row after the end.
 ///
-/// Values are those that `layout` can carry, so that a record of them loses nothing.
+/// All values are rounded as `layout` encodes them, so that a record of them is exact.
 ///
-/// No allocation after the constructor; nothing is sent anywhere. Thread: one, but for finished().
+/// No allocation after the constructor; nothing is sent anywhere. Thread: one, except for
+/// finished().
 class CsvPort final : public BusPort {
  public:
-  /// lead: cycles that the first row stands before the others follow.
+  /// lead: number of cycles for which the first row is repeated.
   CsvPort(std::vector<CsvTarget> rows, const Chain& nominal, std::uint32_t robot,
           const BusLayout& layout, int lead);
 
@@ -32,7 +33,7 @@ class CsvPort final : public BusPort {
   LinkState state() const noexcept override { return LinkState::kUp; }
   PortCounters counters() const noexcept override { return counters_; }
 
-  /// Every row has been played.
+  /// True if every row has been played.
   bool finished() const noexcept { return finished_.load(std::memory_order_relaxed); }
 
  private:
@@ -41,13 +42,13 @@ class CsvPort final : public BusPort {
   void advance() noexcept;
 
   std::vector<CsvTarget> rows_;
-  std::vector<Transformd> X_BN_;  // what the nominal arm shows for the joints of each row
+  std::vector<Transformd> X_BN_;  // tool pose of the nominal arm at the joints of each row
   std::uint32_t robot_;
   CanCodec sent_;
   CanCodec heard_;
   int lead_;
   std::size_t row_ = 0;
-  int part_ = 0;  // of the row's messages
+  int part_ = 0;  // index of the next message of the row
   std::uint16_t counter_ = 0;
   std::atomic<bool> finished_{false};
   PortCounters counters_;

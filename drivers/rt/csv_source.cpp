@@ -20,7 +20,8 @@ class CsvBus final : public OpenBus {
   static int joints(const Deployment& deployment) {
     return deployment.model.loaded->corrector().nominal().joints();
   }
-  /// Until the session has compared, waited for its inputs and ramped in.
+  /// The number of cycles until the session has compared poses, waited for its inputs and ramped
+  /// in.
   static int lead(const Deployment& deployment) {
     const SessionSettings& session = deployment.session;
     const double s = session.rearm_s + 2.0 * deployment.model.loaded->limits().ramp_s;

@@ -5,7 +5,7 @@
 
 namespace plumb::drivers::rt {
 
-/// A file of targets, without a robot. It carries what Modbus carries.
+/// A file of targets, without a robot. Its messages are those of Modbus.
 class CsvSource final : public BusSource {
  public:
   std::filesystem::path file;

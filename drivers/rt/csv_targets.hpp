@@ -15,8 +15,9 @@ struct CsvTarget {
   std::vector<double> q;
 };
 
-/// Columns x_mm y_mm z_mm, q1_deg … (or _rad, _mm); qw qx qy qz if there is an orientation; others
-/// are passed over, and so are lines that begin with #. Throws Failure (kInput, E-RT-CSV).
+/// Reads the columns x_mm y_mm z_mm, q1_deg … (or _rad, _mm), and qw qx qy qz if there is an
+/// orientation. Other columns and lines that begin with # are ignored. Throws Failure (kInput,
+/// E-RT-CSV).
 std::vector<CsvTarget> read_csv_targets(const std::filesystem::path& file, int joints);
 
 }  // namespace plumb::drivers::rt

@@ -10,29 +10,29 @@
 
 namespace plumb::drivers::rt {
 
-/// A folder that `plumb deploy` wrote, read and found good: rt.toml, the model, and the layout.
+/// The verified content of a folder that `plumb deploy` wrote: rt.toml, the model and the layout.
 struct Deployment {
   std::filesystem::path folder;
   RtConfig config;
   RunningModel model;
   BusLayout layout;
-  SessionSettings session;  // of the configuration, completed by model and layout
+  SessionSettings session;  // from the configuration, completed from model and layout
 };
 
-/// What the numbers of the deployment's bus are too small for with a model: its own, or one that is
-/// to take its place. Empty: fits. Slow.
+/// The quantities of this model that exceed the range of numbers on the deployment's bus. `model`:
+/// that of the deployment, or one that shall replace it. Empty if all fit. Slow.
 std::vector<LayoutFault> find_short_reach(const Deployment& deployment, const LoadedModel& model);
 
-/// The session that runs finds in message context every sensor that this model reads and the bus
-/// brings. Slow.
+/// True if the running session already reads from message `context` every sensor that this model
+/// needs and the bus transmits. Slow.
 bool sensors_come(const Deployment& deployment, const LoadedModel& model);
 
-/// The layout that the record is written in: of the bus if that is CAN, else its FD variant, which
-/// loses nothing of what other buses carry.
+/// The layout in which the record is written: that of the bus if it is CAN, else its CAN FD
+/// variant, which represents all values of other buses exactly.
 BusLayout record_layout(const Deployment& deployment);
 
-/// Throws Failure (kInput) with everything that is wrong: codes E-RT-..., E-TOML. Sends nothing,
-/// opens no bus. Slow.
+/// Reads and verifies a folder without opening a bus. Throws Failure (kInput) with everything that
+/// is wrong: codes E-RT-..., E-TOML. Slow.
 Deployment load_deployment(const std::filesystem::path& folder);
 
 }  // namespace plumb::drivers::rt

@@ -11,7 +11,7 @@ std::string cycle(int cycle_us) {
                               : fmt::format("{} us", cycle_us);
 }
 
-/// null with "<key>_reason", as elsewhere, but whole.
+/// Writes a whole number; without one, null and the reason under "<key>_reason".
 void put_whole(Json& out, const std::string& key, const std::optional<std::uint32_t>& value,
                const char* reason) {
   out[key] = value ? Json(*value) : Json(nullptr);

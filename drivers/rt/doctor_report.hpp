@@ -10,7 +10,7 @@
 
 namespace plumb::drivers::rt {
 
-/// What the doctor saw.
+/// The result of plumb-rt doctor.
 struct Examination {
   int cycle_us = 4000;
   std::vector<Check> checks;
@@ -22,7 +22,7 @@ struct Examination {
 /// "fit for a 4 ms cycle: no, because the kernel is not PREEMPT_RT; ..."
 std::string verdict(const Examination& examination);
 
-/// A line a check, its remedy below, and the verdict at the end.
+/// One line per check with its remedy below, and the verdict at the end.
 std::string to_text(const Examination& examination);
 
 /// {fit, cycle_us, verdict, checks[{check, what, grant, needed, why, remedy}],

@@ -38,7 +38,7 @@ Check kernel(const MachineFiles& files) {
   return out;
 }
 
-/// A host that takes the processor away is seen by nothing inside.
+/// Fails in a virtual machine: no check inside it can notice that the host suspends its processors.
 Check virtual_machine(const MachineFiles& files) {
   Check out{.id = "machine", .need = Need::kAlways, .finding = {.what = "machine"}};
   if (!files.read("proc/cpuinfo")) {

@@ -38,7 +38,8 @@ class Deadline {
   std::int64_t end_ns_;
 };
 
-/// Up to `end`, or to the end of the connection if `end` is empty; none: too long, too slow.
+/// Reads up to `end`, or to the end of the connection if `end` is empty. No text if it is too long
+/// or too slow.
 std::optional<std::string> read_until(int fd, const std::string& end, std::size_t most,
                                       const Deadline& deadline) {
   std::string out;

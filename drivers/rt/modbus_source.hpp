@@ -7,12 +7,12 @@
 
 namespace plumb::drivers::rt {
 
-/// Modbus over TCP or a serial line; either end asks.
+/// Modbus over TCP or a serial line, as client or as server.
 class ModbusSource final : public BusSource {
  public:
   enum class Role : std::uint8_t { kClient, kServer } role = Role::kClient;  // ours
   std::string interface;              // server: a network interface to listen on
-  std::string address = "127.0.0.1";  // TCP: of the controller, or to listen on
+  std::string address = "127.0.0.1";  // TCP: address of the controller, or the one to listen on
   int port = 502;
   int unit = 1;
   std::vector<std::string> peers;  // server: addresses that may connect

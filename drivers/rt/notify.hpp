@@ -6,8 +6,8 @@
 
 namespace plumb::drivers::rt {
 
-/// Tells the service manager how we are, over the socket in NOTIFY_SOCKET (sd_notify(3)). Without
-/// one nothing happens. Never waits, never fails.
+/// Reports the state of the program to the service manager over the socket in NOTIFY_SOCKET
+/// (sd_notify(3)). Does nothing if there is no such socket. Never blocks, never fails.
 class ServiceManager {
  public:
   ServiceManager();
@@ -18,7 +18,7 @@ class ServiceManager {
   /// "READY=1", "WATCHDOG=1", "STOPPING=1", "STATUS=..."
   void tell(const std::string& state) noexcept;
 
-  /// Half of WATCHDOG_USEC [ns]; 0: nobody watches.
+  /// Half of WATCHDOG_USEC [ns]; 0 if there is no watchdog.
   std::int64_t watchdog_ns() const noexcept { return watchdog_ns_; }
 
  private:

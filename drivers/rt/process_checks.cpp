@@ -14,7 +14,7 @@ namespace {
 constexpr auto kUnlimited = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kPriority = RtRequest{}.priority;
 
-/// The soft limit; nothing if the file does not say. "unlimited" is the largest number there is.
+/// The soft limit; empty if the file does not state it. "unlimited" is the largest number.
 std::optional<std::uint64_t> soft_limit(const MachineFiles& files, const std::string& name) {
   std::istringstream line(files.line("proc/self/limits", name).value_or(""));
   std::string word;
@@ -31,7 +31,7 @@ std::string in_words(std::uint64_t limit, RtStepKind kind) {
                                            : std::to_string(limit);
 }
 
-/// A limit matters only while what it limits was not granted all the same, as to root.
+/// A limit that is too low does no harm if the step itself was granted, for example to root.
 Check limit_check(Check out, const Check& step, RtStepKind kind, std::optional<std::uint64_t> limit,
                   std::uint64_t wanted) {
   out.finding.why = limit ? in_words(*limit, kind) : "not shown";

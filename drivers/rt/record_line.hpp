@@ -10,25 +10,25 @@
 
 namespace plumb::drivers::rt {
 
-/// A line as `candump -L` writes and canplayer reads: (seconds.microseconds) interface id#data, in
-/// CAN FD id##flags data. Seconds are of CLOCK_MONOTONIC.
+/// A line in the format that `candump -L` writes and canplayer reads: (seconds.microseconds)
+/// interface id#data, in CAN FD id##flags data. The time is that of CLOCK_MONOTONIC.
 struct RecordLine {
   std::string interface;
   CanFrame frame;
 };
 
-/// Names of interfaces that are none, for what is no frame of the bus.
-inline constexpr char kTickName[] = "tick";      // the session took a step
-inline constexpr char kUnsentName[] = "unsent";  // an answer that the link did not take
-inline constexpr char kGapName[] = "gap";        // the record could not keep up
+/// Names that stand in place of the interface on lines that are not frames of the bus.
+inline constexpr char kTickName[] = "tick";      // one step of the session
+inline constexpr char kUnsentName[] = "unsent";  // an answer that could not be sent
+inline constexpr char kGapName[] = "gap";        // the record lacks entries
 
 std::string to_line(const RecordLine& line);
 std::optional<RecordLine> parse_line(std::string_view text);
 
-/// What the session was told and the model it went by, in the eight bytes of a frame.
+/// The input of one step of the session and the model it used, encoded in the 8 bytes of a frame.
 struct RecordedTick {
   SessionTick told;
-  std::uint32_t model = 0;  // 24 bits of its number, as a fingerprint has
+  std::uint32_t model = 0;  // its number: a fingerprint of 24 bits
 };
 CanFrame tick_frame(const RecordedTick& tick);
 RecordedTick tick_in(const CanFrame& frame);

@@ -9,25 +9,24 @@
 
 namespace plumb::drivers::rt {
 
-/// Writes what the cycle did as candump would, outside the cycle's thread.
+/// Writes what the cycle received and sent in candump's format, outside the cycle's thread.
 ///
-/// When the disk says no (full, gone), or the record would grow beyond its limit, it ends there,
-/// for good: failure() says why, the last line that is whole stays whole, and the cycle never
-/// notices.
+/// If a write fails (disk full or removed) or the record would exceed its size limit, the record
+/// ends for good after its last whole line. failure() tells why; the cycle is not affected.
 class RecordWriter {
  public:
-  /// An existing file is kept: the new one gets a number behind its name. `most_mb`: 0: no limit.
-  /// Throws Failure (kEnvironment, E-RT-RECORD) if it cannot be made.
+  /// An existing file is kept: the new one gets a number after its name. most_mb: size limit
+  /// [1e6 bytes]; 0: none. Throws Failure (kEnvironment, E-RT-RECORD) if it cannot be created.
   RecordWriter(const std::filesystem::path& file, const BusLayout& layout, std::string bus,
                int most_mb);
-  /// Throws as the constructor would, and makes no file.
+  /// Throws what the constructor would throw, without creating a file.
   static void check(const std::filesystem::path& file);
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
   void add(const RecordEntry& entry);
-  void note_lost(std::uint64_t lost);  // entries that the ring had no room for, so far
+  void note_lost(std::uint64_t lost);  // entries lost so far because the ring was full
   void flush();
 
   const std::string& failure() const noexcept { return failure_; }  // empty: none
@@ -45,8 +44,8 @@ class RecordWriter {
   std::string text_;  // not written yet
   std::uint64_t lost_ = 0;
   std::int64_t last_ns_ = 0;
-  std::uint64_t end_ = 0;     // of the file
-  std::uint64_t length_ = 0;  // of its whole lines
+  std::uint64_t end_ = 0;     // bytes written to the file
+  std::uint64_t length_ = 0;  // bytes up to the end of the last whole line
   std::string failure_;
 };
 

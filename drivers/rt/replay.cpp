@@ -16,7 +16,7 @@
 namespace plumb::drivers::rt {
 namespace {
 
-/// id#data alone: which time and interface are not the session's business.
+/// The frame as text, without time and interface, which are not compared.
 std::string said(const CanFrame& frame) {
   const std::string line = to_line({"x", frame});
   return line.substr(line.rfind(' ') + 1);
@@ -30,7 +30,7 @@ const LoadedModel* find(const Models& models, std::uint32_t number) {
   return found == models.end() ? nullptr : *found;
 }
 
-/// What the record began with, if it is known.
+/// The first model of the record, if it is known; else that of the deployment.
 const LoadedModel& first_of(const Models& models, const std::filesystem::path& record) {
   std::ifstream in(record);
   for (std::string text; std::getline(in, text);)
@@ -41,7 +41,7 @@ const LoadedModel& first_of(const Models& models, const std::filesystem::path& r
   return *models.front();
 }
 
-/// As the run was told that began with this model.
+/// The settings of a run that began with this model.
 SessionSettings settings_with(const Deployment& deployment, const LoadedModel& first) {
   SessionSettings out = deployment.session;
   out.sensors = sensor_places(deployment.layout, first.model());
@@ -76,7 +76,8 @@ class Player {
 
   bool goes_on() const { return !out_.unknown_model; }
 
-  /// A record may end anywhere (limit, disk, power): what its last cycle lacks was cut off.
+  /// The result. Frames missing from the last cycle are no difference, because a record may end
+  /// anywhere (size limit, disk, power).
   Replayed result() && {
     out_.report = session_->report();
     return std::move(out_);
@@ -99,7 +100,7 @@ class Player {
     session_->hear(message);
   }
 
-  /// False: the record goes on with a model that is not known, or of another robot.
+  /// Changes to the model with this number. False if it is unknown or of another robot.
   bool has_model(std::uint32_t number) {
     if (number == session_->model()) return true;
     const LoadedModel* const next = find(models_, number);
@@ -127,7 +128,7 @@ class Player {
     if (now != said(frame)) differ(said(frame), now);
   }
 
-  /// What was expected of the last cycle and is not in the record.
+  /// Counts the frames of the previous cycle that are not in the record as differences.
   void flush() {
     for (const auto& now : expected_) differ("nothing", now);
     expected_.clear();

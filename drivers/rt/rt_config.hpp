@@ -17,11 +17,11 @@ struct SinkConfig {
   std::filesystem::path file = {};
 };
 
-/// rt.toml as read: what `plumb deploy` wrote, every key of it with a default. Paths are relative
-/// to its folder. The layout of [bus] is read where the model is known (deployment.hpp).
+/// The content of rt.toml, which `plumb deploy` writes. Every key has a default. Paths are relative
+/// to its folder. [bus] is read later, when the model is known (deployment.hpp).
 struct RtConfig {
   std::filesystem::path model = "robot.plumb";
-  std::string serial;  // of the robot; empty: whatever the model says
+  std::string serial;  // of the robot; empty: that of the model
   int cycle_us = 4000;
   int priority = 80;       // SCHED_FIFO; 0: an ordinary thread
   int cpu = -1;            // -1: any
@@ -30,11 +30,11 @@ struct RtConfig {
   SinkConfig sink = {};
   SessionSettings session = {};
   std::filesystem::path record = {};  // empty: none
-  int record_max_mb = 1000;           // where the record ends [1e6 bytes]; 0: nowhere
+  int record_max_mb = 1000;           // size limit of the record [1e6 bytes]; 0: none
   int metrics_port = 0;               // on 127.0.0.1; 0: none
 };
 
-/// Reads every table but [bus]; problems go to the tables' source.
+/// Reads every table except [bus]; problems are reported to the tables' source.
 RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder);
 
 }  // namespace plumb::drivers::rt

@@ -7,8 +7,8 @@
 
 namespace plumb::drivers::rt {
 
-/// What an RtProcess made with this request is granted, tried in a child so that nothing stays.
-/// Empty if there could be no child, or it did not live to tell.
+/// The steps of an RtProcess with this request, tried in a child process so that this process is
+/// not changed. Empty if the child could not be created or ended early.
 std::vector<RtStep> try_rt_process(const RtRequest& request);
 
 }  // namespace plumb::drivers::rt

@@ -19,8 +19,8 @@ struct RunningModel {
 /// `serial` is not empty and not the model's. Slow.
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial);
 
-/// If the folder holds SHA256SUMS, every file it names is what it says, or Failure (kInput,
-/// E-RT-SUMS). A file that the list does not name is not looked at.
+/// If the folder contains SHA256SUMS: throws Failure (kInput, E-RT-SUMS) unless every file listed
+/// there has its checksum. Other files are not checked.
 void verify_sums(const std::filesystem::path& folder);
 
 }  // namespace plumb::drivers::rt

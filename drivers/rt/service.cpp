@@ -87,7 +87,7 @@ Service::~Service() {
   std::filesystem::remove(control_.path, ignored);
 }
 
-/// Signals are for the thread that ends the program.
+/// The thread starts with all signals blocked, so that they reach the thread that ends the program.
 void Service::start() {
   sigset_t all, before;
   sigfillset(&all);
@@ -130,7 +130,7 @@ void Service::write_down() {
   facts_.record_failure = record_->failure();
 }
 
-/// The service manager hears of a beat only while the cycle beats.
+/// Sends the watchdog's keep-alive message only if the cycle has run since the last one.
 void Service::tell_manager() {
   const std::uint64_t beats = shared_.beats;
   if (beats == told_beats_) return;
@@ -164,7 +164,7 @@ std::string Service::control(const std::string& request) {
   return refusal("E-RT-CONTROL", "not a request that this plumb-rt knows");
 }
 
-/// The model that runs goes on running unless the new one is good in every respect.
+/// Swaps in the model of a file. If it fails any check the running model stays in use.
 std::string Service::swap(const std::string& file) {
   RunningModel next;
   try {
@@ -191,7 +191,7 @@ std::string Service::swap(const std::string& file) {
   const std::int64_t end_ns = MonotonicTime::now_ns() + kSwap_ns;
   while (!slot_.settled() && MonotonicTime::now_ns() < end_ns)
     std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kSecond_ns / 1000);
-  if (!slot_.settled()) next_ = std::move(next);  // kept: the cycle may still be on it
+  if (!slot_.settled()) next_ = std::move(next);  // kept, because the cycle may still use it
   facts_.model_file = file;
   facts_.model_sha256 = deployment_.model.sha256;
   return reply({{"ok", true},

@@ -16,13 +16,14 @@
 
 namespace plumb::drivers::rt {
 
-/// Everything slow of a run, on a thread of its own without real-time priority: control socket,
-/// metrics, model swap, record, answers to a file, service manager, links that are down.
+/// All slow tasks of a run, on a thread of its own without real-time priority: control socket,
+/// metrics, model swap, record, file of answers, service manager, recovery of links.
 ///
-/// The cycle's thread shares RunShared and the model slot with it, and waits for neither.
+/// It shares RunShared and the model slot with the cycle's thread, which never waits for them.
 class Service {
  public:
-  /// Of record and answers. kChecked: none is made, for a service that is not to start.
+  /// Whether the files of record and answers are created, or only checked (kChecked) for a service
+  /// that will not be started.
   enum class Files : std::uint8_t { kMade, kChecked };
 
   /// Opens sockets and files; throws Failure (kEnvironment) where that fails.
@@ -32,7 +33,7 @@ class Service {
   Service& operator=(const Service&) = delete;
 
   void start();
-  void stop();  // when the cycle's thread is done: writes what is left
+  void stop();  // after the end of the cycle's thread; writes what is left
 
   const RunSnapshot& snapshot() const noexcept { return snapshot_; }  // after stop()
   const RunFacts& facts() const noexcept { return facts_; }
@@ -60,7 +61,7 @@ class Service {
   std::unique_ptr<class AnswerFile> answers_;
   RunFacts facts_;
   RunSnapshot snapshot_;
-  RunningModel next_;  // published, or what the cycle has left
+  RunningModel next_;  // the model before, kept while the cycle may still use it
   std::int64_t told_ns_ = 0;
   std::uint64_t told_beats_ = 0;
   bool ready_ = false;

@@ -8,7 +8,7 @@
 
 namespace plumb::drivers::rt {
 
-/// What there is besides the cycle's own snapshot.
+/// The state of a run that is not in the cycle's snapshot.
 struct RunFacts {
   std::string bus;  // "can0"
   std::string model_file;
@@ -22,7 +22,7 @@ struct RunFacts {
 /// link{}, clock{}, latency_us{}, model{}, record{}}; times in the unit of the key.
 Json status_json(const RunSnapshot& snapshot, const RunFacts& facts);
 
-/// For people, from status_json.
+/// The status for people; `status` is the result of status_json.
 std::string status_text(const Json& status);
 
 /// Prometheus text exposition format 0.0.4.

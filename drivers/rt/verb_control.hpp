@@ -5,7 +5,7 @@
 
 namespace plumb::drivers::rt {
 
-/// status DIR, swap FILE --dir DIR, monitor DIR: asked of the plumb-rt that runs DIR.
+/// status DIR, swap FILE --dir DIR, monitor DIR: requests to the plumb-rt that runs DIR.
 void add_status(Program& program);
 void add_swap(Program& program);
 void add_monitor(Program& program);

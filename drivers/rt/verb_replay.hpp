@@ -5,8 +5,8 @@
 
 namespace plumb::drivers::rt {
 
-/// replay FILE --dir DIR: a record through the same session, offline. Exit code 1 when it decides
-/// otherwise than recorded.
+/// replay FILE --dir DIR: runs a record through the same session, offline. Exit code 1 if its
+/// output differs from the record.
 void add_replay(Program& program);
 
 }  // namespace plumb::drivers::rt

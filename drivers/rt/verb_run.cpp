@@ -32,8 +32,8 @@ RtRequest request_of(const RtConfig& config, const int& cpu) {
   return out;
 }
 
-/// What a real-time cycle cannot do without, asked for in a child, so that a refusal comes before
-/// anything is opened.
+/// Tries in a child process what a real-time cycle cannot do without, so that a refusal comes
+/// before anything is opened.
 void need_rights(const RtConfig& config, Outcome& outcome) {
   for (const RtStep& step : try_rt_process(request_of(config, config.cpu))) {
     if (step.grant != Grant::kDenied) continue;
@@ -60,7 +60,7 @@ void note_sensors(const Deployment& deployment, Outcome& outcome) {
        .help = "plumb deploy, with [deploy.bus] temperatures = [...] in cell.toml"});
 }
 
-/// At once: what is printed at the end of a run may come in a year.
+/// Prints the remarks at once, because the end of the run may be a year away.
 void say(const std::vector<Problem>& remarks) {
   for (const Problem& remark : remarks) std::cerr << render(remark) << '\n';
 }

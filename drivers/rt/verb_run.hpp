@@ -5,8 +5,9 @@
 
 namespace plumb::drivers::rt {
 
-/// run DIR: the cycle, until SIGTERM. Exit codes: 0 ramped out and ended, 3 model or configuration
-/// wrong, 5 the machine denies what is needed, 6 the bus was down for longer than told to bear.
+/// run DIR: runs the cycle until SIGTERM. Exit codes: 0 ramped out and ended, 3 model or
+/// configuration wrong, 5 the machine denies what is needed, 6 the bus was down for longer than
+/// give_up_s.
 void add_run(Program& program);
 
 }  // namespace plumb::drivers::rt

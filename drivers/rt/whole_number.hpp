@@ -9,7 +9,8 @@ struct Range {
   int least, most;
 };
 
-/// A whole number within its range, if the key is there; else a problem of code RANGE, or nothing.
+/// Reads a whole number into `out`. An absent key changes nothing; a number that is not whole or
+/// out of range is reported (code RANGE) and changes nothing either.
 void read_whole(TomlTable& table, const char* key, Range range, int& out);
 
 }  // namespace plumb::drivers::rt

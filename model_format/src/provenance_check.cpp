@@ -10,10 +10,10 @@ namespace {
 
 using Finding = std::optional<std::string>;
 
-constexpr std::size_t kMaxInputs = 64;  // files a model was made from
+constexpr std::size_t kMaxInputs = 64;  // input files that a model may name
 constexpr std::size_t kHashDigits = 64;
 constexpr double kMaxError_m = 100.0;
-constexpr double kRounding = 1.0 + 1e-9;  // of a mean against its own maximum
+constexpr double kRounding = 1.0 + 1e-9;  // by which a mean may exceed the maximum
 
 bool is_hash(const std::string& text) {
   return text.size() == kHashDigits &&

@@ -8,8 +8,8 @@
 
 namespace plumb::format::internal {
 
-/// What contradicts itself in where a model comes from: hashes, held-out figures, covariance.
-/// Nothing if it is sound.
+/// Describes a contradiction in the provenance of a model: in hashes, held-out figures or
+/// covariance. Empty if there is none.
 std::optional<std::string> unsound_provenance(const Provenance& provenance);
 
 }  // namespace plumb::format::internal

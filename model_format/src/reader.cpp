@@ -44,7 +44,8 @@ std::optional<ReadError> check_envelope(std::span<const std::byte> bytes) {
   }
 }
 
-/// Where the version stands is all that every schema promises, so nothing else is verified here.
+/// Reads the schema version before the rest is verified: its place is all that every schema has in
+/// common.
 std::optional<std::uint32_t> schema_of(const std::uint8_t* data, std::size_t size) {
   flatbuffers::Verifier verifier(data, size, kMaxNesting, kMaxTables);
   const auto root = verifier.VerifyOffset(std::size_t{0});

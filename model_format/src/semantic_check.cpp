@@ -22,13 +22,13 @@ constexpr double kMaxMass_kg = 1e5;
 constexpr double kMaxTwist = 1.0;          // [m] or [rad]
 constexpr double kMaxJointPosition = 1e4;  // [rad] or [m]: many turns
 constexpr double kMaxContext = 1e6;        // [kg], [m], [N], [N m], [degC]
-constexpr double kMinSpan = 1e-9;          // of the trained domain, [rad] or [m]: it divides
-constexpr double kMinFade = 1e-6;          // as a share of that span: it divides
-constexpr double kUnitSlack = 1e-9;        // of a quaternion's length
+constexpr double kMinSpan = 1e-9;          // of the trained domain, [rad] or [m]; it is a divisor
+constexpr double kMinFade = 1e-6;          // as a share of that span; it is a divisor
+constexpr double kUnitSlack = 1e-9;        // tolerance for the length of a quaternion
 
 using Finding = std::optional<std::string>;
 
-/// Shortest digits that read back to x, in any locale.
+/// The shortest decimal number that is read back as x, in any locale.
 std::string number(double x) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, x).ptr};
@@ -106,7 +106,7 @@ bool is_effect_name(const std::string& name) {
 }
 
 /// Effects of a measurement are fitted so that they do not distort the rest. The cycle can never
-/// know what they depend on: the row, or where the tracker stood.
+/// know their inputs (the row, the position of the tracker), so a model file must not name them.
 Finding check_measurement(const Effect& effect) {
   constexpr const char* kOfMeasurement[] = {"drift", "settling_lag", "step", "tracker"};
   const bool named = std::any_of(std::begin(kOfMeasurement), std::end(kOfMeasurement),

@@ -8,7 +8,7 @@
 
 namespace plumb::format::internal {
 
-/// What makes a model unsound, in one sentence with place and value; nothing if it is sound.
+/// Describes the first fault of a model in one sentence with place and value; empty if it is sound.
 /// A sound model is finite, within the limits of limits.hpp, and its trees can be walked.
 std::optional<std::string> unsoundness(const Model& model);
 

@@ -6,7 +6,7 @@
 namespace plumb::format::internal {
 namespace {
 
-/// Bytes of the UTF-8 sequence that `first` begins; 0 if none does.
+/// Length in bytes of the UTF-8 sequence that begins with `first`; 0 if none begins with it.
 std::size_t sequence_length(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >> 5 == 0x06) return 2;
@@ -14,7 +14,7 @@ std::size_t sequence_length(unsigned char first) {
   return first >> 3 == 0x1E ? 4 : 0;
 }
 
-/// Takes one code point off the front; nothing if there is no valid one.
+/// Removes the first code point and returns it; empty if it is not valid UTF-8.
 std::optional<char32_t> take_code_point(std::string_view& rest) {
   const auto first = static_cast<unsigned char>(rest.front());
   const std::size_t length = sequence_length(first);

@@ -10,9 +10,9 @@ namespace {
 using Finding = std::optional<std::string>;
 
 constexpr double kMaxError_m = 1.0;     // no correction of an arm is larger
-constexpr double kMinHalfWidth = 1e-9;  // it divides
-constexpr double kUnitSlack = 1e-9;     // of a direction's length
-constexpr float kFarRegion = 4.0F;      // a box is -1 .. 1
+constexpr double kMinHalfWidth = 1e-9;  // it is a divisor
+constexpr double kUnitSlack = 1e-9;     // tolerance for the sum of a direction's |numbers|
+constexpr float kFarRegion = 4.0F;      // normalised; the trained box is -1 .. 1
 
 Finding check_sizes(const Tree& tree, std::size_t joints) {
   const std::size_t leaves = tree.leaves(), nodes = tree.nodes.size();
@@ -65,7 +65,7 @@ Finding check_directions(const Tree& tree, std::size_t joints) {
   return std::nullopt;
 }
 
-/// Parents stand before their children, so one pass finds depths and proves there is no cycle.
+/// Parents precede their children, so one pass finds all depths and shows that there is no cycle.
 Finding check_walk(const Tree& tree, std::size_t joints) {
   const std::size_t inner = tree.nodes.size(), leaves = inner + 1;
   std::vector<int> depth(inner, -1);

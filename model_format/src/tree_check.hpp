@@ -9,8 +9,8 @@
 
 namespace plumb::format::internal {
 
-/// What makes a tree unsound: a node that leads back or nowhere, a leaf reached twice or never, a
-/// depth that is not the real one, an input or a number out of range. Nothing if it is sound.
+/// Describes the first fault of a tree: a child that does not exist or precedes its parent, a leaf
+/// reached twice or never, a wrong depth, an input or a number out of range. Empty if it is sound.
 std::optional<std::string> unsound_tree(const Tree& tree, std::size_t joints);
 
 }  // namespace plumb::format::internal

@@ -38,7 +38,7 @@ GuardLimits guard(const wire::Guard& w) {
           .max_seed_distance = w.max_seed_distance()};
 }
 
-/// Copies within a budget of bytes and remembers the first thing it refused.
+/// Copies within a budget of bytes and keeps the first error.
 class Copier {
  public:
   Model model(const wire::Model& w) {
@@ -71,7 +71,7 @@ class Copier {
     if (!refusal_) refusal_ = ReadError{code, detail};
   }
 
-  /// False, from the first time on, when the budget is spent.
+  /// Takes `bytes` from the budget. False if they exceed it or something was refused before.
   bool affords(std::size_t bytes) {
     if (!refusal_ && bytes <= left_) {
       left_ -= bytes;
@@ -81,7 +81,7 @@ class Copier {
     return false;
   }
 
-  /// Whether the elements of a vector may be read: there are some, aligned and affordable.
+  /// True if the elements of a vector may be read: it is not empty, aligned and within the budget.
   template <class T>
   bool readable(const flatbuffers::Vector<T>* x, std::size_t alignment, std::size_t size) {
     if (x == nullptr || x->size() == 0) return false;  // an empty vector need not be aligned

@@ -39,7 +39,7 @@ Offset<wire::Chain> add(Builder& b, const Chain& chain) {
                            rows, &tool_twist, &tool);
 }
 
-/// Absent if the effect has none.
+/// Returns null if the effect has no formula.
 Offset<wire::Formula> add(Builder& b, const Formula& f) {
   if (f == Formula{}) return {};
   std::vector<Offset<wire::FormulaParameter>> each;
@@ -71,7 +71,7 @@ Offset<wire::Effect> add(Builder& b, const Effect& effect) {
                             formula);
 }
 
-/// Absent if nothing is known.
+/// Returns null if no masses are known.
 Offset<wire::Mechanics> add(Builder& b, const Mechanics& m) {
   if (m == Mechanics{}) return {};
   std::vector<wire::LinkMass> links;
@@ -81,7 +81,7 @@ Offset<wire::Mechanics> add(Builder& b, const Mechanics& m) {
   return wire::CreateMechanics(b, b.CreateVectorOfStructs(links), m.payload_kg, c[0], c[1], c[2]);
 }
 
-/// An older reader must not take such a tree for a crisp affine one.
+/// True if the tree needs schema 2: an older reader would take it for a crisp affine one.
 bool needs_schema_2(const Tree& tree) {
   return !tree.blend_half_width.empty() || tree.degree != 1 || !tree.directions.empty() ||
          !tree.region.empty();
@@ -137,7 +137,8 @@ Offset<wire::Guard> add(Builder& b, const GuardLimits& g) {
 Offset<wire::Provenance> add(Builder& b, const Provenance& p) {
   std::vector<Offset<wire::InputHash>> inputs;
   for (const auto& input : p.inputs) {
-    // In this order, which compilers would otherwise choose: the same model is the same bytes.
+    // In a fixed order, so that the same model gives the same bytes with every compiler. (As
+    // function arguments, the compiler would choose the order.)
     const auto sha256 = b.CreateString(input.sha256);
     const auto name = b.CreateString(input.name);
     inputs.push_back(wire::CreateInputHash(b, name, sha256));

@@ -5,9 +5,9 @@
 
 namespace plumb::offline::bench {
 
-/// How often this thread has taken memory from the C library's heap, on which operator new and
-/// Eigen stand too. Monotone. A program that calls this has its malloc family counted from its
-/// start on: one addition a call.
+/// How often this thread has allocated memory from the C library's heap, which operator new and
+/// Eigen use as well. It never decreases. In a program that uses this function, malloc and its
+/// relatives are counted from the start, at the cost of one addition per call.
 std::uint64_t allocations() noexcept;
 
 }  // namespace plumb::offline::bench

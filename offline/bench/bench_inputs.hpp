@@ -17,10 +17,12 @@ struct BenchPose {
   Transformd X_BD;
 };
 
-/// What the cycle is timed with: the same for the same model and seed, wherever it runs.
+/// The inputs with which the cycle is timed: the same for the same model and seed, wherever it
+/// runs.
 ///
 /// Poses are uniform within the joint limits and, where the model was trained, within its trained
-/// domain; of the context everything is known. Small enough to stay in a cache: "warm" means it.
+/// domain; every value of the context is known. The inputs are few enough to stay in a cache, as
+/// warm timings require.
 class BenchInputs {
  public:
   static constexpr std::size_t kPoses = 1024;

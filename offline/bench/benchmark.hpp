@@ -16,8 +16,8 @@ struct Benchmark {
   Timings timings;
   Machine machine;
   Build build;
-  std::vector<std::string> why_not_representative;  // empty: it is
-  double cycle_s = 0.0;                             // that the model is made for
+  std::vector<std::string> why_not_representative;  // empty if it is
+  double cycle_s = 0.0;                             // for which the model is made
   std::size_t poses = 0;
   std::size_t refused_poses = 0;
   std::uint64_t seed = 0;

@@ -92,7 +92,7 @@ void CycleKernels::add_prediction(Arm& arm, Part part, std::string label) {
                       })});
 }
 
-/// An effect may stand in a model twice.
+/// The label, with a number behind it if the model has several effects of that label.
 std::string CycleKernels::unique(const std::string& label) const {
   const auto taken = std::count_if(kernels_.begin(), kernels_.end(), [&](const auto& other) {
     return other.label == label || other.label.starts_with(label + "#");

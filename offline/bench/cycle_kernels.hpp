@@ -11,9 +11,9 @@
 
 namespace plumb::offline::bench {
 
-/// What of the cycle is timed.
+/// The part of the cycle that is timed.
 enum class Part {
-  kCycle,       // Cycle::step: inputs heard, their ages, correct, guard
+  kCycle,       // Cycle::step: takes inputs, updates their ages, corrects, guards
   kCorrect,     // Corrector::solve
   kGuard,       // Guard::step
   kPredict,     // ForwardModel::predict
@@ -27,7 +27,7 @@ const char* name_of(Part part);
 
 struct CycleKernel {
   Part part = Part::kCycle;
-  std::string label;  // of an effect, "joint_compliance:J2+J3", each once; else empty
+  std::string label;  // of an effect: "joint_compliance:J2+J3", unique; else empty
   std::unique_ptr<Kernel> kernel;
 };
 
@@ -42,7 +42,7 @@ class CycleKernels {
 
   const std::vector<CycleKernel>& all() const { return kernels_; }
 
-  /// Of the poses of the inputs, those the corrector refuses. They cost what the others do.
+  /// The number of input poses that the corrector refuses. They take as long as the others.
   std::size_t refused_poses() const { return refused_; }
 
  private:

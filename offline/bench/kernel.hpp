@@ -9,7 +9,7 @@ namespace plumb::offline::bench {
 /// Whether the input of a call waits for the output of the one before.
 enum class Chaining { kFree, kChained };
 
-/// Something of the cycle that can be called again and again.
+/// A part of the cycle that can be called again and again.
 class Kernel {
  public:
   Kernel() = default;
@@ -17,12 +17,14 @@ class Kernel {
   Kernel(const Kernel&) = delete;
   Kernel& operator=(const Kernel&) = delete;
 
-  /// Calls it at `count` inputs from the `first` on. What it returns keeps the calls alive.
+  /// Calls it at `count` inputs from the `first` on. The result depends on all calls, so
+  /// that the compiler removes none of them.
   virtual double run(std::size_t first, std::size_t count, Chaining chaining) noexcept = 0;
 };
 
-/// call(i, link): input i plus 0 * link, to a number of the output. The compiler must not drop that
-/// product, because it knows no finite numbers.
+/// call(i, link) evaluates input i plus 0 * link and returns a number of the output. In a
+/// chain, `link` is the result of the call before, which therefore has to be waited for. The
+/// compiler must not drop the product, because it would not be 0 if `link` were infinite or NaN.
 template <class Call>
 class KernelOf final : public Kernel {
  public:

@@ -50,7 +50,7 @@ CpuSet allowed_cpus() {
   return out;
 }
 
-/// Only x86 says so in a flag; elsewhere the device tree does, if there is one.
+/// Only x86 shows a virtual machine by a CPU flag; elsewhere the device tree does, if there is one.
 std::optional<bool> virtual_machine(const fs::path& root) {
   if (fs::exists(root / "sys/hypervisor/type") || fs::exists(root / "proc/device-tree/hypervisor"))
     return true;

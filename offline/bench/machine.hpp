@@ -13,7 +13,7 @@ namespace plumb::offline::bench {
 
 using CpuSet = std::set<int>;
 
-/// The machine on which something is timed. Empty: it does not say.
+/// The machine on which something is timed. What it does not tell is left empty.
 struct Machine {
   std::string kernel;  // release
   bool preempt_rt = false;

@@ -11,8 +11,8 @@ inline double now_ns() noexcept {
   return static_cast<double>(std::chrono::nanoseconds(now).count());
 }
 
-/// What two readings with nothing between them differ by [ns]: the median of thousands. To be taken
-/// off every interval.
+/// The time between two readings with nothing between them [ns]: the median of thousands. It is to
+/// be subtracted from every interval.
 double clock_cost_ns();
 
 }  // namespace plumb::offline::bench

@@ -12,8 +12,8 @@ namespace plumb::offline::bench {
 /// kCold: one call after the caches were swept.
 enum class Way { kWarm, kChain, kCold };
 
-/// How long one kernel took one way. `ns`: a number a reading of the clock, in order of size, each
-/// the mean over calls_per_reading calls, without the cost of the clock.
+/// How long one kernel took one way. `ns` has one number for each reading of the clock, in
+/// ascending order: the mean over calls_per_reading calls, without the cost of the clock.
 struct Timing {
   Part part = Part::kCycle;
   std::string label;
@@ -23,7 +23,8 @@ struct Timing {
 
   long calls() const { return calls_per_reading * static_cast<long>(ns.size()); }
 
-  /// The smallest that at least this share (0 .. 1) of the readings did not exceed.
+  /// A quantile: the smallest reading that at least this share (0 .. 1) of the readings does not
+  /// exceed.
   double at_share(double share) const;
   double median() const { return at_share(0.5); }
   double p99() const { return at_share(0.99); }

@@ -55,8 +55,8 @@ long enough_calls_once(Clock& clock, Kernel& kernel, Way way, long most) {
   }
 }
 
-/// A disturbance makes a call look longer, so that fewer calls seem enough: the most of several
-/// searches counts, each of which would have to be disturbed.
+/// A disturbance makes a call look longer, so that fewer calls seem enough. Therefore the largest
+/// result of several searches is used.
 long enough_calls(Clock& clock, Kernel& kernel, Way way, long most) {
   long out = 1;
   for (int i = 0; i < kSearches; ++i)

@@ -11,7 +11,7 @@
 
 namespace plumb::offline::bench {
 
-/// The cycle as plumb-rt runs it: every step a target, its joints and all readings arrive.
+/// The cycle as plumb-rt runs it: in every step a target, its joints and all readings arrive.
 class WholeCycle {
  public:
   /// Precondition: find_effect_fault finds none in the model.

@@ -8,7 +8,7 @@
 
 namespace plumb::offline {
 
-/// What cannot be goes to `problems`: a direction other than +1, -1, 0, a negative travel or
+/// Reports impossible values in `problems`: a direction other than +1, -1, 0, a negative travel or
 /// payload, a temperature below absolute zero, a time that is not ISO 8601, columns of joints that
 /// the arm has not.
 void check_context_columns(const Table& table, const std::vector<bool>& joint_is_angle,

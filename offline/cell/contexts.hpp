@@ -18,7 +18,7 @@ struct ContextRows {
   using RowsN = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   RowsN direction;  // dir_jN
   RowsN travel;     // travel_jN
-  RowsN step;       // move from the row before, as a share of the largest joint's
+  RowsN step;       // last moves (last_moves.hpp), as shares of the largest joint's
   RowsN payload;    // mass [kg], centre of mass x, y, z [m]
   RowsN wrench;     // fx, fy, fz [N], mx, my, mz [N m], on the tool tip, base frame
   RowsN temperature;
@@ -34,7 +34,7 @@ ContextRows read_contexts(std::span<const Table> tables, const ContextRows::Rows
 
 ContextRows pick(const ContextRows& all, const std::vector<int>& rows);
 
-/// Row `row` as the laws see it, without the place of the tracker. `sensors`: which temperature
+/// Row `row` as the laws see it, without the position of the tracker. `sensors`: which temperature
 /// goes where in the context.
 MeasuredContext context_at(const ContextRows& rows, Eigen::Index row,
                            const std::vector<std::string>& sensors);

@@ -40,7 +40,7 @@ double share(double direction, double travel, double largest) {
   return direction == 0.0 ? kUnknown : direction * travel / largest;
 }
 
-/// What is known of the way overwrites what the neighbours say.
+/// Known values from the columns overwrite those from the neighbouring rows.
 void from_columns(const Arrivals& arrivals, int rows, Eigen::Index first, RowsN& out) {
   for (int i = 0; i < rows; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -59,7 +59,7 @@ void from_neighbours(const RowsN& q, int rows, Eigen::Index first, RowsN& out) {
   if (rows > 0) out.row(first).setZero();
   for (Eigen::Index i = first + 1; i < first + rows; ++i) {
     const double largest = (q.row(i) - q.row(i - 1)).cwiseAbs().maxCoeff();
-    // A pose read again is still the stop of the move before.
+    // If the arm did not move, the last move is still that of the row before.
     out.row(i) = largest > kNoMove ? ((q.row(i) - q.row(i - 1)) / largest).eval() : out.row(i - 1);
   }
 }

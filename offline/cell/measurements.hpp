@@ -12,14 +12,15 @@
 
 namespace plumb::offline {
 
-/// Values with mask: what a file says of the measured point.
+/// One row per reading; columns are axes, quaternion components (w, x, y, z), or joints.
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Rows4 = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 using RowsN = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 enum class SetMark : char { kUnmarked, kFit, kHeld, kIgnore };
 
-/// Poses and what was measured there. SI; one row a pose; frames as named.
+/// Poses and what was measured there, one row per reading. SI. Suffix _M: measurement frame, _B:
+/// base frame.
 struct Measurements {
   std::vector<std::string> pose;     // id; "1", "2", … if the file has no such column
   std::vector<int> replicate_group;  // equal for repeats of one pose, 0 … groups - 1
@@ -32,14 +33,14 @@ struct Measurements {
   Rows4 quat_M;         // measured orientation (w, x, y, z), or 0 rows
   Rows3 sigma_m;        // 1 sigma per axis from columns, or 0 rows
   Rows3 nominal_B;      // the controller's own position [m], or 0 rows
-  Rows3 departure_B;    // that, beyond the arm of the cell (controller_base.hpp), or 0 rows
+  Rows3 departure_B;    // nominal_B less the nominal arm [m] (controller_base.hpp), or 0 rows
   ContextRows context;  // what else is known of each pose
   int size() const { return static_cast<int>(q.rows()); }
   bool has_orientation() const { return quat_M.rows() > 0; }
 };
 
-/// Measurements with the files that they were read from, for those who quote a file: its lines, its
-/// columns, its comments.
+/// Measurements with the tables that they were read from, for code that quotes lines, columns or
+/// comments of a file.
 struct MeasurementFiles : Measurements {
   std::vector<Table> tables;  // in order; together they have as many rows
 };

@@ -19,8 +19,9 @@ namespace plumb::offline {
 std::vector<int> replicate_groups(const std::vector<std::string>& names,
                                   const std::vector<int>& file, const RowsN& q);
 
-/// Rows at one pose of the arm, in whatever set-up they were measured: such rows must not vouch for
-/// each other, though they are no repeats of one reading. Same numbering as above.
+/// Groups of rows at one pose of the arm, in whatever set-up they were measured. Across set-ups
+/// they are no repeats of one reading, but one must not be fitted while another is held out.
+/// Numbered as above.
 std::vector<int> pose_groups(const Measurements& measured);
 
 }  // namespace plumb::offline

@@ -101,8 +101,8 @@ class Assigner {
   std::set<std::string> reported_;
 };
 
-/// One reflector reading differs from another of the same pose by much more than noise if the
-/// tracker was moved in between: these are no repeats.
+/// Readings of one pose in two set-ups are no repeats: if the tracker was moved in between, they
+/// differ by much more than the noise.
 void keep_repeats_apart(Measurements& measured) {
   std::map<std::pair<int, int>, int> number;
   for (int i = 0; i < measured.size(); ++i) {

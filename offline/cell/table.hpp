@@ -42,7 +42,7 @@ struct Table {
   std::vector<std::pair<std::string, std::string>> comments;  // "# key: value"
   std::vector<Column> columns;
   std::vector<int> lines;  // source line of each row
-  KeptRows raw_rows;       // each row as written, canonical commas, for pass-through
+  KeptRows raw_rows;       // as written, but with commas and decimal points, for copying
   std::string raw_header;
   int header_line = 0;  // source line of the header
   std::vector<Problem> remarks;
@@ -50,7 +50,7 @@ struct Table {
   const Column* find(std::string_view name) const;
 };
 
-/// Which of these tables each of their rows belongs to, 0, ..., 0, 1, ...
+/// Index of the table of each row, if the tables are joined: 0, ..., 0, 1, ...
 std::vector<int> file_of_rows(const std::vector<Table>& tables);
 
 /// What a table is about; messages propose other names for the columns of a DH table.

@@ -10,7 +10,8 @@
 
 namespace plumb::offline {
 
-/// SI = value * times / by + offset; 1 / 1000 divides, so that one rounding is all there is.
+/// SI = value * times / by + offset. Factors such as 1 / 1000 are stored as divisors, so that only
+/// one rounding occurs.
 /// Temperatures are kept in [degC].
 struct Unit {
   Quantity quantity = Quantity::kNumber;

@@ -132,7 +132,7 @@ class Checker {
          std::nullopt, "look for joints in another order, coupled joints, or rows of another arm"});
   }
 
-  /// The labels leave so much, RMS [m], fitted as fit does.
+  /// Notes the RMS error [m] that a full fit leaves with the files read as labelled.
   void fits_by(double left_m) {
     Detection& d = out_.detection;
     for (Reading& reading : d.table)
@@ -292,8 +292,8 @@ class Checker {
            "measure where the arm will work, or narrow q = [min, max] in cell.toml");
   }
 
-  /// Rounded readings leave at least about their own error; where less is left, the values were
-  /// round before the arm went there. Where no noise is known, the two must be of one size.
+  /// Rounded joint readings leave at least about their own error. If less is left, the arm was
+  /// commanded to round values. If the noise is unknown, the two must be of similar size.
   void rounding_findings(const MeasurementFiles& measured, const std::vector<int>& rows,
                          const ArmState& placed) {
     if (!out_.rounding) return;

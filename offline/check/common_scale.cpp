@@ -27,18 +27,18 @@ constexpr double kScaleFits = 0.01;   // of the cloud's size
 constexpr double kSameUnit = 0.01;    // of a factor
 constexpr double kLeastGross = 0.01;  // less is found from the fitted lengths
 
-/// How many standard deviations are sure: Student's t has long tails where few lengths tell the
-/// scatter.
+/// How many standard deviations count as certain: more if few lengths tell the scatter, because
+/// Student's t distribution then has long tails.
 double sure(std::size_t freedom) { return 5.0 * (1.0 + 6.0 / static_cast<double>(freedom)); }
 
-/// A fitted length: what it would change by if all points were twice as far apart, which is its
-/// nominal value but where the fit holds another length that it stands for, and what it has changed
-/// by. [m]
+/// A fitted length. `whole`: its change if the distances between all points doubled, which is its
+/// nominal value unless it also stands for a length that the fit holds. `change`: fitted less
+/// nominal. [m]
 struct Length {
   double whole, change, std;
 };
 
-/// What every parameter changes by if the points are multiplied: J d = p_M by least squares.
+/// Change of every parameter that doubles all measured coordinates: J d = p_M by least squares.
 Eigen::VectorXd of_scale(const Measurements& measured, const std::vector<int>& rows,
                          const Calibration& fitted) {
   const Measurements some = pick(measured, thinned(rows, kScaleMostRows));

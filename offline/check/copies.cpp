@@ -14,11 +14,11 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kOnePlace = 5e-3;          // [m]: readings of one pose hardly differ by more
-constexpr std::size_t kMostCompared = 100;  // rows with one point
-constexpr double kWorthSaying = 0.5;        // readings that rounding makes equal
+constexpr std::size_t kMostCompared = 100;  // rows with the same point
+constexpr double kWorthSaying = 0.5;        // expected number of readings equal by rounding
 
-/// A row, and one before it that has the digits of its point: one with its joint positions too, or
-/// else the first.
+/// A row, and an earlier one with exactly the same point: one with the same joint positions too if
+/// there is any, else the first.
 struct EqualPoint {
   int row = 0;
   int original = 0;
@@ -49,12 +49,12 @@ bool same_joints(const Measurements& m, const EqualPoint& equal) {
 /// The points that are copies, or may be.
 struct Copies {
   std::vector<EqualPoint> points;
-  double by_rounding = 0.0;  // so many of them are expected to be none
-  bool perhaps = false;      // nothing tells which they are
+  double by_rounding = 0.0;  // expected number of them that are true repeats
+  bool perhaps = false;      // the noise is unknown: copies or true repeats
 };
 
-/// Equal points at other poses are copies. Repeats are if they are more than rounding explains, all
-/// of them or those that agree in the joint positions too.
+/// Equal points at different poses are copies. Equal repeats of a pose are copies if they are more
+/// than rounding explains: all of them, or else those that agree in the joint positions too.
 Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
   Copies out;
   std::vector<EqualPoint> repeats, rows;
@@ -82,7 +82,7 @@ Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
   return out;
 }
 
-/// One pose again and again, or joint columns that stood still while the arm moved.
+/// Every row is at the same pose, or the joint columns stayed constant while the arm moved.
 Problem equal_poses(const MeasurementFiles& measured) {
   const double spread =
       (measured.p_M.colwise().maxCoeff() - measured.p_M.colwise().minCoeff()).norm();

@@ -8,9 +8,9 @@
 
 namespace plumb::offline {
 
-/// Rows with the very digits of another row's point (W-CHECK-COPY): a true repeat has its own
-/// reading. Repeats of one pose that rounding may have made equal are not called copies; where
-/// nothing tells the noise, it is said that they may be either.
+/// Rows whose point equals that of another row to the last digit (W-CHECK-COPY): a true repeat has
+/// its own reading. Repeats of a pose that rounding may have made equal are not called copies; if
+/// the noise is unknown, the finding says that they may be either.
 std::vector<Problem> copy_findings(const MeasurementFiles& measured, const NoiseFloor& floor);
 
 /// Poses that are all equal (E-CHECK-EQUAL).

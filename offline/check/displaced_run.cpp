@@ -14,10 +14,10 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kFewestOfARun = 3;
-constexpr int kNextRow = 2;         // one row between them may have escaped notice
+constexpr int kNextRow = 2;         // one row in between may be no outlier
 constexpr double kOneVector = 0.2;  // scatter about the mean, as a share of the mean
 
-/// Outliers in their order, cut where rows lie between them.
+/// Rows of the outliers, ascending, in runs of neighbours; shorter runs are left out.
 std::vector<std::vector<int>> neighbours(const std::vector<Outlier>& outliers) {
   std::vector<int> rows;
   for (const Outlier& outlier : outliers) rows.push_back(outlier.row);
@@ -33,7 +33,7 @@ std::vector<std::vector<int>> neighbours(const std::vector<Outlier>& outliers) {
 
 struct CommonVector {
   Vector3 mean;
-  double scatter = 0.0;  // RMS distance from the mean, as a share of it
+  double scatter = 0.0;  // RMS distance from the mean, as a share of its length
 };
 
 CommonVector common_vector(const Rows3& errors) {

@@ -9,16 +9,17 @@
 
 namespace plumb::offline {
 
-/// Neighbouring readings that all lie off by one and the same vector. Seen from the tool, that is a
-/// reflector which sat in another place; seen from the base, a tracker or base which stood there.
+/// Neighbouring readings with one common error vector. If it is constant in the tool frame, the
+/// reflector sat in another place; if in the measurement frame, the tracker or the base stood in
+/// another place.
 struct DisplacedRun {
   int first = 0, last = 0;  // rows of the measurements, both included
-  Vector3 by;               // mean error [m], in the tool frame or the measurement frame
-  bool of_tool = true;
+  Vector3 by;               // mean of measured - predicted [m], in the frame that `of_tool` says
+  bool of_tool = true;      // tool frame; false: measurement frame
 };
 
-/// The runs of at least three of these outliers. `state`: the arm as fitted without them. Cost: one
-/// prediction per outlier.
+/// The runs of at least three of these outliers; one row in between may be missing. `state`: the
+/// arm as fitted without the outliers. Cost: one prediction per outlier.
 std::vector<DisplacedRun> displaced_runs(const ArmState& state, const MeasurementFiles& measured,
                                          const std::vector<Outlier>& outliers);
 

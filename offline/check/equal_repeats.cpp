@@ -11,18 +11,18 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kNeighbours = 3;             // repeats further on that each one is compared with
-constexpr double kEnoughPairs = 5.0;       // that differ
+constexpr int kNeighbours = 3;             // following repeats that each one is compared with
+constexpr double kEnoughPairs = 5.0;       // pairs that differ
 constexpr double kQuietTracker_m = 3e-6;   // no instrument repeats a point much better
-constexpr int kMostRounds = 200;           // of the fixed point
-constexpr double kUnsureShare = 1.5;       // the chance itself is only estimated
+constexpr int kMostRounds = 200;           // of the fixed-point iteration
+constexpr double kUnsureShare = 1.5;       // factor: the probability is only estimated
 constexpr double kUnsureDeviations = 4.0;  // standard deviations of a count
 
 /// Pairs of neighbouring repeats of one pose.
 struct Pairs {
-  double differ = 0.0;               // in some coordinate
-  std::array<double, 3> agree_in{};  // of these: equal in that axis
-  double agree_in_joints = 0.0;      // of these
+  double differ = 0.0;               // pairs that differ in some coordinate
+  std::array<double, 3> agree_in{};  // of these: pairs that agree in x, y, z
+  double agree_in_joints = 0.0;      // of these: pairs that agree in all joint positions
 };
 
 std::vector<std::vector<int>> repeats_of(const Measurements& m) {
@@ -43,9 +43,9 @@ void compare(const Measurements& m, int a, int b, Pairs& out) {
   out.agree_in_joints += m.q.row(a) == m.q.row(b) ? 1.0 : 0.0;
 }
 
-/// The chance that two repeats agree in all axes, from those pairs that agree in some of them only:
-/// the pairs that agree in all of them are added in thought until both numbers go together. One
-/// pair more that agrees and one that does not keep few pairs from promising too much.
+/// Probability that two repeats agree in all axes, from the pairs that do not. The unknown number
+/// of pairs that do so by chance is found by fixed-point iteration. Adding one pair that agrees and
+/// one that differs (Laplace's rule) keeps the estimate cautious if there are few pairs.
 double chance_from_pairs(const Measurements& m, const Pairs& pairs) {
   double chance = 0.0;
   for (int round = 0; round < kMostRounds; ++round) {

@@ -13,13 +13,13 @@
 namespace plumb::offline {
 namespace {
 
-/// A row by its line, and its file.
+/// The line and file of a row.
 struct Spot {
   int line = 0;
   std::string file;
 };
 
-/// Rows that were read from no file count from 1.
+/// Rows that were not read from a file are numbered from 1.
 Spot spot_of(const MeasurementFiles& measured, int row) {
   if (measured.tables.empty()) return {row + 1, ""};
   const RowPlace at = row_place(measured, row);
@@ -36,7 +36,7 @@ std::string between(const MeasurementFiles& measured, int before, int after) {
   return fmt::format("between lines {} and {} of {}", a.line, b.line, a.file);
 }
 
-/// Where the moment is not sure to the row.
+/// Words for the possible range of the moment; empty if a single row is certain.
 std::string uncertainty(const MeasurementFiles& measured, const StepFound& step) {
   if (step.earliest == step.latest) return "";
   const Spot a = spot_of(measured, step.earliest), b = spot_of(measured, step.latest);

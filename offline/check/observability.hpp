@@ -15,7 +15,7 @@ struct Observability {
   double O5 = 0.0;  // 1 / (1/s_1 + ... + 1/s_m) [Sun, Hollerbach 2008]
 };
 
-/// s: not empty, >= 0, falling.
+/// s: not empty, >= 0, descending.
 Observability observability(const Eigen::VectorXd& s, int poses);
 
 }  // namespace plumb::offline

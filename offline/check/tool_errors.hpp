@@ -5,8 +5,8 @@
 
 namespace plumb::offline {
 
-/// Errors of the measured points, given in the measurement frame, as seen from the tool [m].
-/// `some`: the poses they were measured at. Shape (n, 3) both.
+/// Rotates errors [m] of measured points from the measurement frame into the tool frame, shape
+/// (n, 3) both. `some`: the poses at which they were measured.
 Rows3 errors_in_tool(const ArmState& state, const Measurements& some, const Rows3& errors_M);
 
 }  // namespace plumb::offline

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAsGoodAsTheArm_m = 50e-6;  // as plumb-rt compares poses with the controller
+constexpr double kAsGoodAsTheArm_m = 50e-6;  // tolerance of plumb-rt for poses of the controller
 
 void note_tables(const MeasurementFiles& measured, Outcome& outcome) {
   for (const auto& table : measured.tables) {
@@ -26,7 +26,8 @@ void note_tables(const MeasurementFiles& measured, Outcome& outcome) {
   }
 }
 
-/// -C names the folder itself: looking above a mistyped one would find another cell.
+/// With -C only that folder is searched: a search in the folders above a mistyped one would find
+/// another cell.
 fs::path cell_file(const Globals& globals) {
   if (globals.directory.empty()) return find_cell(fs::current_path());
   const fs::path file = fs::path(globals.directory) / "cell.toml";
@@ -85,7 +86,7 @@ Run current_or_new_run(const Cell& cell, const MeasurementFiles& measured, Keep 
   if (auto run = current_run(cell, measured)) return std::move(*run);
   if (keep_it == Keep::kRun) {
     lock_cell(cell.directory);
-    // Another plumb may have made it while this one waited.
+    // Another plumb process may have made the run while this one waited for the lock.
     if (auto run = current_run(cell, measured)) return std::move(*run);
   }
   Fit fit = fit_with_progress(cell, measured, outcome);

@@ -34,12 +34,13 @@ enum class Keep { kRun, kNothing };
 Run current_or_new_run(const Cell& cell, const MeasurementFiles& measured, Keep keep_it,
                        Outcome& outcome);
 
-/// From here on the measurements are compared with what the run was: the arm of the cell, or the
-/// controller's own positions.
+/// Puts the measurements on the base of the run, which is what its corrections are added to: the
+/// positions of the arm as the cell describes it, or those that the controller reported.
 void stand_on_base_of(const Run& run, const Cell& cell, MeasurementFiles& measured);
 
-/// Refuses (E-RUN-BASE) measurements, standing on the base of the run, whose positions only the
-/// controller knows: the controller-side PC computes with the arm of the cell.
+/// Refuses (E-RUN-BASE) a run based on positions of the controller that differ from those of the
+/// cell's arm, because plumb-rt knows only the arm of the cell. `measured` is on the base of the
+/// run.
 void check_known_to_runtime(const Run& run, const MeasurementFiles& measured);
 
 /// Whether a run is of the present cell file and data.

@@ -31,7 +31,7 @@ struct Compiled {
 Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOptions& write,
                   Outcome& outcome);
 
-/// What --gate asks: no warning of the audit, and held-out poses that keep the tolerance.
+/// What --gate requires: no warning of the audit, and held-out poses that keep the tolerance.
 /// What fails becomes an error of `outcome`, exit kGateFailed.
 void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
                 Outcome& outcome);

@@ -4,7 +4,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr double kNothing_m = 1e-9, kNothing_rad = 1e-9;  // of a correction
+constexpr double kNothing_m = 1e-9, kNothing_rad = 1e-9;  // smaller corrections count as none
 
 /// Without a quaternion the nominal orientation at the seed is meant.
 Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
@@ -19,8 +19,8 @@ Transformd target_pose(const Targets& targets, int row, const Chain& nominal,
   return X_BD;
 }
 
-/// Whether what is known of the surroundings may be to blame, rather than target and seed: with an
-/// arm under a load that no arm bears the solver finds nothing.
+/// Whether the context (payload, wrench, temperatures) may be the cause, rather than target and
+/// seed: for an arm under an impossible load the solver finds no solution.
 bool may_be_of_context(Status refusal) {
   return refusal == Status::kNotConverged || refusal == Status::kNotFinite ||
          refusal == Status::kFarFromSeed || refusal == Status::kOtherConfiguration;

@@ -23,8 +23,8 @@ struct CorrectedRow {
 };
 
 /// Corrects target `row` from `seed` [rad] or [m], cut to the guard's size: the one place that
-/// decides on result and status. `sensors` are the temperatures the model reads; `inputs` watches
-/// what is solved. Any thread that has `inputs` for itself.
+/// decides on result and status. `sensors` are the temperatures the model reads; `inputs` records
+/// what is solved. May be called by any thread, with `inputs` of its own.
 CorrectedRow corrected_row(const Corrector& corrector, const Targets& targets, int row,
                            std::span<const double> seed, SeedKind kind,
                            const std::vector<std::string>& sensors, KnownInputs& inputs);

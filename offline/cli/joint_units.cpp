@@ -12,11 +12,11 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr double kLargestRadians_deg = 2.0 * std::numbers::pi;  // of an angle in radians
-constexpr double kOffZero_deg = 0.05;    // less is a joint at zero in any unit
+constexpr double kLargestRadians_deg = 2.0 * std::numbers::pi;  // as read, if it is in radians
+constexpr double kOffZero_deg = 0.05;    // below: a joint at zero in any unit
 constexpr double kWideRange_deg = 20.0;  // range of a joint in the fit
-constexpr double kBesideRange = 0.1;     // of that range, on either side
-constexpr double kNearlyAllRows = 0.8;   // of the rows
+constexpr double kBesideRange = 0.1;     // margin on either side, share of that range
+constexpr double kNearlyAllRows = 0.8;   // share of the rows
 
 }  // namespace
 

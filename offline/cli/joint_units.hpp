@@ -13,14 +13,14 @@
 
 namespace plumb::offline::cli {
 
-/// Watches joint readings go by, and asks whether radians stand in columns of degrees: no angle is
+/// Looks at all joint readings and warns if columns in degrees seem to hold radians: no angle is
 /// beyond 2 pi degrees, the model was fitted over tens of degrees, and read as radians nearly all
 /// rows lie within what it was fitted with.
 class JointUnits {
  public:
   explicit JointUnits(const format::Model& model);
 
-  /// Takes over how the file calls its first joint, "q1_deg".
+  /// Takes the name of the first joint's column, "q1_deg".
   void name_column(const Table& rows);
 
   /// q [rad] or [m], shape (joints,), as read with the unit that the file states.

@@ -5,7 +5,8 @@
 
 #include "plumb/format/model.hpp"
 
-/// What no model file can hold, said where an effect is added and in the words of `plumb compile`.
+/// Limits of a model file that are checked when an effect is added, with the messages of
+/// `plumb compile`.
 /// Both throw Failure (kNumbersSayNo, E-MODEL-UNSOUND).
 namespace plumb::offline::cli {
 

@@ -6,7 +6,7 @@
 
 namespace plumb::offline::cli {
 
-/// What stands between the separators, one more than there are of them; empty ones too.
+/// The parts of a text between its separators, empty ones included: one more than separators.
 inline std::vector<std::string> parts(const std::string& text, char separator) {
   std::vector<std::string> out(1);
   for (const char c : text)

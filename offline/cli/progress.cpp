@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Whether a line can be written over again.
+/// Whether a line can be overwritten, as on a terminal.
 bool is_terminal() {
   const char* const term = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";

@@ -15,11 +15,11 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr double kNearlyAll = 0.8;      // of the refused targets a mistake must explain
-constexpr double kNearPosition = 0.15;  // of the reach: within it a target belongs to its seed
+constexpr double kNearlyAll = 0.8;      // share of refused targets that a mistake must explain
+constexpr double kNearPosition = 0.15;  // share of the reach: nearer targets fit their seeds
 constexpr double kNearTurn_rad = 0.5;
-constexpr double kTakesPart = 0.35;  // of a joint in a motion of unit length
-constexpr double kSpread = 0.1;      // of an offset that is the same for all
+constexpr double kTakesPart = 0.35;  // least share of a joint in a motion of unit length
+constexpr double kSpread = 0.1;      // scatter of a common offset, as a share of it
 constexpr double kNoticeable_m = 0.05;
 constexpr std::size_t kShownSets = 3;
 
@@ -34,7 +34,7 @@ double turn(const Matrix3& A, const Matrix3& B) {
   return rotation_vector(Matrix3(A * B.transpose())).norm();
 }
 
-/// The commonest sets of joints that cancel each other, and how often the others do.
+/// The most frequent sets of joints whose motions cancel, and the number of rows with other sets.
 std::string cancelling(const std::map<std::string, std::size_t>& by_joints, std::size_t rows) {
   std::vector<std::pair<std::string, std::size_t>> order(by_joints.begin(), by_joints.end());
   std::stable_sort(order.begin(), order.end(),
@@ -83,7 +83,8 @@ void Refusals::add(const Refusals& more) {
   offset_squares_ += more.offset_squares_;
 }
 
-/// The joints whose motions cancel at the tip: those of the smallest singular value's vector.
+/// The joints whose motions cancel at the tip: the large entries of the right singular vector of
+/// the smallest singular value.
 std::string Refusals::singular_joints(std::span<const double> seed) const {
   const Chain& chain = corrector_->nominal();
   ChainFrames frames;
@@ -172,7 +173,7 @@ void Refusals::name_columns(const Table& targets) {
     if (const Column* q = targets.find(name); q != nullptr) joint_ = q->header;
 }
 
-/// The targets lie at their seeds if their coordinates are multiplied by the factor.
+/// Says that the targets lie at their seeds if their coordinates are multiplied by the factor.
 std::string Refusals::wrong_unit(double factor) const {
   static constexpr std::array<std::pair<const char*, double>, 4> kUnits{
       {{"micrometres", 1e-6}, {"millimetres", 1e-3}, {"inches", 25.4e-3}, {"metres", 1.0}}};
@@ -191,7 +192,8 @@ std::string Refusals::likely_mistake() const {
     return static_cast<double>(count) >= kNearlyAll * static_cast<double>(rows_);
   };
   if (rows_ == 0) return "";
-  // Multiplied by next to nothing all of them lie in the base, which may be near their seeds.
+  // A very small factor moves all targets into the base, which may be near their seeds. So only
+  // factors above 1 count for targets that are in the base already.
   const bool tiny = farthest_m_ < 5e-3 * reach_m_;
   for (std::size_t k = 0; k < kFactors.size(); ++k)
     if (tiny ? kFactors[k] > 1.0 && nearly_all(scaled_[k]) : nearly_all(scaled_[k]))

@@ -18,7 +18,7 @@ class Refusals {
  public:
   explicit Refusals(const Corrector& corrector);
 
-  /// Takes over how the file calls its columns, "x_m" and "qc1_rad", for what is said of them.
+  /// Takes the names of the file's columns, "x_m" and "qc1_rad", for the messages.
   void name_columns(const Table& targets);
 
   /// has_orientation: the target's orientation is the user's, not that of the seed. Cost: some
@@ -29,11 +29,12 @@ class Refusals {
 
   std::size_t rows() const { return rows_; }
 
-  /// "16 lie farther than 0.2 rad from their seed, 4 near a singular pose (J4 and J6 about one
-  /// line)"
+  /// "16 lie farther than 0.2 rad from their seed, 4 lie near a singular pose (where motions
+  /// cancel: 4 of J4, J6)"
   std::string words() const;
 
-  /// "target 1.7 mm from the base: metres in x_mm?"; empty if no mistake explains them.
+  /// "no target is farther than 1.7 mm from the base: metres in x_mm?"; empty if no mistake
+  /// explains them.
   std::string likely_mistake() const;
 
  private:
@@ -49,12 +50,12 @@ class Refusals {
   double reach_m_ = 0.0;
   std::size_t rows_ = 0;
   std::map<Status, std::size_t> by_status_;
-  std::map<std::string, std::size_t> by_joints_;  // that cancel each other, of near-singular ones
+  std::map<std::string, std::size_t> by_joints_;  // near-singular rows, by joints that cancel
   std::array<std::size_t, kMistakes> explained_{};
-  std::array<std::size_t, kFactors.size()> scaled_{};  // that lie at their seeds times a factor
+  std::array<std::size_t, kFactors.size()> scaled_{};  // rows that fit their seeds times a factor
   std::string position_ = "x_mm", joint_ = "q1_deg";
   double position_unit_m_ = 1e-3;
-  double farthest_m_ = 0.0;  // target from the base
+  double farthest_m_ = 0.0;  // largest distance from the base
   std::size_t beyond_reach_ = 0;
   Vector3 offset_sum_ = Vector3::Zero();  // from the nominal pose at the seed to the target
   double offset_squares_ = 0.0;

@@ -16,7 +16,7 @@ namespace plumb::offline::cli {
 namespace {
 
 constexpr std::size_t kMostProblems = 1000;
-constexpr std::size_t kMostAfterError = 64 << 20;  // bytes read on of what may never end
+constexpr std::size_t kMostAfterError = 64 << 20;  // bytes, if the input may be endless
 
 struct Lines {
   std::string text;
@@ -26,7 +26,7 @@ struct Lines {
 /// What a worker found in a block.
 struct Block {
   std::vector<Problem> of_text;  // cells that are no numbers and the like
-  std::vector<Problem> of_rows;  // numbers that cannot be
+  std::vector<Problem> of_rows;  // impossible numbers
   RowStream::Computed computed;
   std::size_t rows = 0, bytes = 0;
   bool decimal_comma = false;
@@ -37,7 +37,8 @@ void append(std::vector<Problem>& to, const std::vector<Problem>& more) {
   to.insert(to.end(), more.begin(), more.begin() + static_cast<long>(std::min(room, more.size())));
 }
 
-/// Every block finds again what is wrong with the header or with the file as a whole.
+/// Only the problems of rows: every block would report those of the header and of the whole file
+/// again.
 std::vector<Problem> below(int header_line, std::vector<Problem> problems) {
   std::erase_if(problems, [&](const Problem& problem) {
     return !problem.place || problem.place->line <= header_line || problem.place->column == 0;

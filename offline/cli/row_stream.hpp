@@ -17,12 +17,12 @@
 
 namespace plumb::offline::cli {
 
-/// The cells of ours in one row: numbers as their shortest text.
+/// The cells that plumb adds to one row: numbers as their shortest text.
 class RowCells {
  public:
   void clear() { count_ = used_ = 0; }
   void add(double value);
-  void add(const char* text);  // which must live on
+  void add(const char* text);  // must outlive this object
   std::span<const std::string_view> cells() const { return std::span(cells_).first(count_); }
 
  private:

@@ -61,7 +61,7 @@ class TargetRows {
                      std::string& text);
 
   Corrector corrector_;
-  KnownInputs inputs_;  // that have seen no row yet
+  KnownInputs inputs_;  // without any row yet
   std::vector<std::string> sensors_;
   std::vector<bool> is_angle_;
   const format::Chain& chain_;

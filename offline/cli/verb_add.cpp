@@ -56,7 +56,7 @@ std::string judged(const std::string& what, const Fit& before, const Fit& after)
                      show::mm(before.held.mean), show::mm(after.held.mean), 100.0 * change);
 }
 
-/// Nothing where a tree has leaves, or none was asked for.
+/// A sentence if a tree was asked for and has no leaves; else nothing.
 std::string empty_tree_words(const Fit& fit) {
   if (!fit.tree || std::any_of(fit.tree->leaves.begin(), fit.tree->leaves.end(),
                                [](int leaves) { return leaves > 0; }))
@@ -65,8 +65,8 @@ std::string empty_tree_words(const Fit& fit) {
          "nothing.\n";
 }
 
-/// An effect of the command line stands in no file yet: what is wrong with it is said of the option
-/// it comes from.
+/// An effect of the command line is in no file yet: its problems are reported for the option from
+/// which it comes.
 void checked(const EffectOptions& options, const Cell& cell, const std::function<void()>& work) {
   try {
     work();
@@ -93,7 +93,7 @@ void checked(const EffectOptions& options, const Cell& cell, const std::function
 struct Change {
   std::string what, undo;
   std::vector<EffectEntry> effects;
-  bool adds = false;  // as against taking out
+  bool adds = false;  // false: it removes effects
 };
 
 /// Refits with other effects, shows before and after, and only then touches the cell file.

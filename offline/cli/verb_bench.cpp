@@ -22,7 +22,7 @@ struct Options {
   WriteOptions write;
 };
 
-/// Before the seconds that timing takes.
+/// Checked before the timing, which takes seconds.
 void refuse_existing(const Options& options) {
   if (options.figure.empty()) return;
   Outcome unused;

@@ -40,7 +40,7 @@ Json result_of(const Compiled& made, const Audit& audit, const std::string& file
   return out;
 }
 
-/// The model file; never the one that the C is meant for.
+/// The path of the model file. Refused if --emit-c names the same file.
 fs::path model_file(const Options& options, const Cell& cell) {
   const fs::path file =
       options.output.empty() ? cell.directory / "robot.plumb" : fs::path(options.output);

@@ -44,7 +44,7 @@ void refuse_existing(const Options& options) {
                                  .help = "to replace its files, rt.toml too, add --force"});
 }
 
-/// What the layout does not bring to the model.
+/// Warns of temperatures that the model reads and the bus does not carry.
 void warn_of_temperatures(const format::Model& model, const drivers::BusLayout& layout,
                           Outcome& outcome) {
   const auto missing = drivers::sensors_missing(layout, model);

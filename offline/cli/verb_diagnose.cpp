@@ -21,16 +21,18 @@ struct Options {
   bool dry_run = false;
 };
 
-/// Learnt leaves come after the physics, and only the user asks for them.
+/// The tree that the user has listed in the cell stays, behind the physical effects. The diagnosis
+/// never adds one.
 std::vector<EffectEntry> with_tree_of(const Cell& cell, std::vector<EffectEntry> effects) {
   for (const auto& effect : cell.effects)
     if (effect.name == "local_tree") effects.push_back(effect);
   return effects;
 }
 
-constexpr double kRose = 1.05;  // times the error before
+constexpr double kRose = 1.05;  // times the error before: more is refused
 
-/// All effects together, fitted from the start, may come to another solution than one by one.
+/// Reports that the effects are not kept: fitted together from the start, they may converge to
+/// another solution than when they were added one by one.
 void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
   show::put_null(outcome.result, "run", "fitted together, the effects raise the held-out error");
   outcome.text += fmt::format(

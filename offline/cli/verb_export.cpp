@@ -20,7 +20,7 @@ struct Options {
   WriteOptions write;
 };
 
-/// What a rigid chain cannot say.
+/// What a rigid chain cannot express.
 void warn_of_losses(const format::Model& arm, Outcome& outcome) {
   std::vector<std::string> lost;
   for (const auto& effect : arm.effects) lost.push_back(effect.name);

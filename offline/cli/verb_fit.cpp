@@ -21,7 +21,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr int kSearchedRows = 1500;  // for a jump: as check does
+constexpr int kSearchedRows = 1500;  // searched for a jump, as many as check does
 
 struct Options {
   bool dry_run = false;
@@ -73,7 +73,8 @@ void keep_run(const Options& options, const Cell& cell, const MeasurementFiles& 
   }
 }
 
-/// One sentence if a jump is what the fit leaves, held-out rows included; compare says more of it.
+/// One sentence if a jump explains the error that the fit leaves, held-out rows included; compare
+/// reports the details.
 std::string jump_words(const Cell& cell, const MeasurementFiles& measured, const Fit& fit) {
   std::vector<int> used;
   for (int i = 0; i < measured.size(); ++i)

@@ -69,7 +69,8 @@ JoinBy join_of(const std::string& word) {
   usage(fmt::format("--join: '{}' is none of pose, time, order", word), "--join order");
 }
 
-/// The nearest cell, if there is a sound one: its arm tells a shift.
+/// The nearest cell, if there is a valid one: by its arm a shift of rows between two files is
+/// found.
 std::optional<Cell> nearest_cell(const Globals& globals) {
   try {
     return read_cell(
@@ -149,7 +150,7 @@ bool reads(const Cell& cell, const fs::path& target) {
   });
 }
 
-/// Measurements cost a day: nobody is told to replace them without being told what he would lose.
+/// Measurements cost a day of work: the message that proposes --force also says what would be lost.
 void keep_what_is_measured(const Options& options, const std::optional<Cell>& cell,
                            const fs::path& target) {
   if (options.write.force || !cell || !fs::exists(target) || !reads(*cell, target)) return;
@@ -201,7 +202,7 @@ void import(const Options& options, const Globals& globals, Outcome& outcome) {
     return;
   }
   const std::string csv = imported_csv(data);
-  (void)parse_table(csv, "imported");  // what we write, we read
+  (void)parse_table(csv, "imported");  // our own reader must accept it
   keep_what_is_measured(options, cell, target);
   OutputFiles files;
   files.add(target, csv);

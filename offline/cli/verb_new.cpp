@@ -75,7 +75,7 @@ std::string joint_name(const std::string& given) {
   return out.empty() ? "J" : out;
 }
 
-/// Names that the reader of cell files takes; whatever is changed is said.
+/// Names that the reader of cell files accepts; every change is reported.
 void make_readable(Cell& cell, Outcome& outcome) {
   cell.name = valid_utf8(cell.name);
   cell.serial = valid_utf8(cell.serial);
@@ -124,7 +124,7 @@ void make(const Options& options, const Globals&, Outcome& outcome) {
   const fs::path file = fs::path(options.directory) / "cell.toml";
   OutputFiles files(options.directory);
   const std::string text = write_cell(cell);
-  (void)parse_cell(text, fs::absolute(file));  // what we write, we read
+  (void)parse_cell(text, fs::absolute(file));  // our own reader must accept it
   files.add(file, text);
   outcome.result = {{"cell", cell.name}, {"joints", cell.joints()}};
   files.commit(options.write, outcome);

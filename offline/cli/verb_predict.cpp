@@ -58,8 +58,8 @@ void set_points(const Rows3& p, show::CsvColumns& columns) {
   }
 }
 
-/// What a row comes to, and with which status: the one place for both ways of predicting. `placed`:
-/// whether it has a place in the cell's own series.
+/// The prediction of a row and its status, for both ways of predicting. `placed`: whether the row
+/// has a place in the order of the cell's own measurements.
 Prediction predicted_row(const MeasuredArm& arm, const MeasurementFiles& rows, int i,
                          const std::vector<std::string>& sensors, bool placed,
                          KnownInputs& inputs) {
@@ -152,9 +152,9 @@ class ModelRows {
   MeasuredArm arm_;
   Chain nominal_;
   format::GuardLimits guard_;
-  KnownInputs unused_;  // that have seen no row
+  KnownInputs unused_;  // without any row
   KnownInputs inputs_;
-  JointUnits unread_;  // that have seen no row
+  JointUnits unread_;  // without any row
   JointUnits units_;
   std::vector<std::string> sensors_;
   std::vector<bool> is_angle_;
@@ -206,7 +206,7 @@ Run chosen_run(const Options& options, const Cell& cell, const MeasurementFiles&
   return run;
 }
 
-/// `placed`: which rows have a place in the cell's own series.
+/// `placed`: which rows have a place in the order of the cell's own measurements.
 std::vector<Status> domain_status(const Run& run, const MeasurementFiles& rows,
                                   const std::vector<bool>& placed, Outcome& outcome) {
   const format::Model& model = run.fit.calibration.state.arm;

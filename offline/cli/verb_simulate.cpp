@@ -65,7 +65,7 @@ void note_setup(const Cell& cell, Outcome& outcome) {
        .help = "for each other set-up: a cell of its own with another --seed, and --output FILE"});
 }
 
-/// Sizes that no arm has end in numbers that are none.
+/// Absurd sizes lead to points that are kilometres away or not finite.
 void require_finite(const Simulation& simulation) {
   constexpr double kFarthest_m = 1e3;
   const auto& points = simulation.measured.p_M;

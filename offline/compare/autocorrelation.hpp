@@ -9,10 +9,11 @@ namespace plumb::offline::compare {
 struct Autocorrelation {
   int n = 0;           // visits
   double lag1 = 0.0;   // sum e_t . e_{t+1} / sum |e_t|^2, mean removed
-  double low95 = 0.0;  // where lag1 of independent residuals lies with 95 %
+  double low95 = 0.0;  // lag1 of independent residuals lies between these with 95 %
   double high95 = 0.0;
-  double closeness = 1.0;  // distance in joint space of successive poses / of any two; below 1/2
-                           // neighbours in order are neighbours in space, and lag1 may be the pose
+  /// RMS joint-space distance of successive poses over that of any two. Below 1/2, successive poses
+  /// are so close that lag1 may come from errors that depend on the pose.
+  double closeness = 1.0;
   bool beyond() const { return n > 0 && (lag1 < low95 || lag1 > high95); }
 };
 

@@ -10,7 +10,7 @@
 namespace plumb::offline::compare {
 namespace {
 
-/// Errors of the final model everywhere, and of what held-out poses are judged by.
+/// Errors at all poses: out of sample where a pose was held out, and of the final model.
 struct Errors {
   Rows3 judged_M;  // out of fold where held out
   Rows3 final_M;
@@ -88,7 +88,7 @@ Comparison comparison(const Cell& cell, const Measurements& measured, const Fit&
   });
   const ArmState& state = fit.calibration.state;
   out.profiles = profiles(cell, measured, state, samples_of(measured, errors, out.set));
-  // Rows that look like the rest: a gross outlier would pass for a change.
+  // Leaves gross outliers out: they would pass for a jump.
   const auto alike = [&](const std::vector<int>& all) {
     return without_outliers(without_outliers(all, fit.calibration.outliers), fit.held_outliers);
   };

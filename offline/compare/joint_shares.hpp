@@ -7,14 +7,14 @@
 
 namespace plumb::offline::compare {
 
-/// How much of the squared error a turn of one joint would take away that depends on nothing but
-/// the joint's own angle.
+/// How much of the squared error a correction of one joint angle would remove, if the correction is
+/// a function of that angle alone (one value per bin).
 struct JointShare {
   int joint = 0;
-  int bins = 0;          // of the angle, one turn each
-  double share = 0.0;    // of the squared error, less what so many numbers explain by chance
-  double rms_rad = 0.0;  // of that turn
-  double ln_p = 0.0;     // chance of it with independent errors
+  int bins = 0;          // of the angle, each with its own correction
+  double share = 0.0;    // of the squared error, corrected for what so many bins explain by chance
+  double rms_rad = 0.0;  // of the correction
+  double ln_p = 0.0;     // ln of its probability if the errors were independent
   bool matters = false;  // beyond chance, all joints counted
 };
 

@@ -34,7 +34,7 @@ struct ErrorProfile {
   std::vector<ErrorBin> bins;
   std::vector<std::string> names = {};  // kName: of the values 0, 1, 2 ...
   double explained = 0.0;  // share of the variance of the error's size that the bins explain
-  double ln_p = 0.0;       // ln of the chance of so much if the quantity did not matter
+  double ln_p = 0.0;       // ln of the probability of so much if the quantity did not matter
   bool matters = false;    // beyond chance, all profiles counted
 
   /// Highest over lowest bin mean; 1 if fewer than two bins are filled.
@@ -51,8 +51,8 @@ struct Sample {
 };
 
 /// Equal steps between the extremes of the quantity, at most 6, with 8 poses each on average;
-/// `labels`: one bin each of these values instead. Samples without a value (NaN) are left out.
-/// explained and ln_p are the analysis of variance over all samples but repeats, error_m each.
+/// With `labels`: one bin for each of these values instead. Samples without a value (NaN) are left
+/// out. explained and ln_p: one-way analysis of variance of error_m over all samples but repeats.
 ErrorProfile profile(ErrorProfile empty, const std::vector<Sample>& samples,
                      const std::vector<double>& labels = {});
 

@@ -16,10 +16,10 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kBorderPoints = 32;    // looked at on each leaf border
-constexpr int kHalvings = 60;        // down to neighbouring numbers
-constexpr double kStill = 1e-3;      // [rad] or [m]
-constexpr double kLargeJump = 0.1;   // of the guard's limit: worth a warning
+constexpr int kBorderPoints = 32;    // checked on each leaf border
+constexpr int kHalvings = 60;        // bisection steps, down to neighbouring doubles
+constexpr double kStill = 1e-3;      // [rad] or [m]; a joint with a smaller range did not move
+constexpr double kLargeJump = 0.1;   // share of the guard's limit; more gives a warning
 constexpr double kLargeSigma = 0.3;  // likewise
 
 using Box = std::vector<std::pair<double, double>>;
@@ -60,7 +60,7 @@ void look_at_corrections(const format::Model& model, Audit& out) {
   }
 }
 
-/// Jump over the border of `node`, somewhere inside the cell it divides.
+/// Largest jump across the border of `node`, at random points of the cell that it divides.
 double jump_at(const format::Tree& tree, const TreeView& view, int node, const Box& cell,
                Random& random) {
   const auto& border = tree.nodes[node];
@@ -75,7 +75,7 @@ double jump_at(const format::Tree& tree, const TreeView& view, int node, const B
   return worst;
 }
 
-/// Of an oblique tree: on both sides of borders met on the way through the box.
+/// Largest jump of an oblique tree, at borders found by bisection between random points of the box.
 double jump_on_the_way(const TreeView& view, const Box& box, Random& random) {
   double worst = 0.0;
   for (int i = 0; i < kAuditPoses; ++i) {
@@ -159,7 +159,7 @@ void look_at_uncertainty(const format::Model& model, Audit& out) {
   }
 }
 
-/// Numbers, from 1, of those whose trained range is a point.
+/// Numbers, counted from 1, of the joints whose trained range is a single point.
 std::vector<std::size_t> still_joints(const format::Model& model) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < model.domain.q_min.size(); ++i)

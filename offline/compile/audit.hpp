@@ -11,14 +11,14 @@ namespace plumb::offline {
 
 /// What a person should know before a model moves a robot. SI.
 struct Audit {
-  double worst_correction_m = 0.0;  // largest |T(q) - N(q)| at the tool over the trained domain
+  double worst_correction_m = 0.0;  // largest distance of the calibrated tool from the nominal one
   double worst_rotation_rad = 0.0;
-  std::vector<double> worst_q;     // where
+  std::vector<double> worst_q;     // the joint positions there [rad] or [m]
   double worst_jump_m = 0.0;       // largest step of a crisp tree at a leaf border, one axis
   double sigma_tool_mean_m = 0.0;  // predicted 1 sigma of the tool point (3-D), from the covariance
   double sigma_tool_max_m = 0.0;
   int leaves = 0;
-  int active_leaves = 0;  // at most so many have a say in one value, one axis
+  int active_leaves = 0;  // largest number of leaves with a weight at one point, one axis
   std::size_t bytes = 0;
   std::vector<Problem> remarks;  // a correction above the guard's limit, and such
 };

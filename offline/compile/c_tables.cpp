@@ -15,7 +15,7 @@ namespace {
 
 using format::Tree;
 
-/// What ForwardModel::tree_error refuses beyond, [rad] or [m].
+/// ForwardModel::tree_error refuses larger joint positions [rad] or [m].
 constexpr double kMaxPosition = 1e4;
 
 constexpr char kAxisNames[] = "xyz";

@@ -8,8 +8,8 @@
 namespace plumb::offline {
 
 /// An identifier that every C and C++ compiler takes, from the name of a file without its folders
-/// and last suffix: "arm-4.h" gives arm_4. What begins with a digit, or has nothing to offer, gets
-/// "model" in front. Never a reserved name.
+/// and last suffix: "arm-4.h" gives arm_4. What begins with a digit, or has no usable character,
+/// gets "model" in front. Never a reserved name.
 std::string c_identifier(const std::string& file);
 
 /// Text that can neither end a comment nor begin one, nor break its line or turn its direction. It

@@ -15,7 +15,7 @@
 namespace plumb::offline {
 namespace {
 
-/// The correction may cross its whole range in this time.
+/// The slew limit lets the correction grow from zero to its largest size in this time.
 constexpr double kSlewTime_s = 1.0;
 
 format::HeldOut held_out(const ErrorStats& s) {
@@ -26,7 +26,7 @@ format::HeldOut held_out(const ErrorStats& s) {
           .max_m = s.max};
 }
 
-/// Names of the parameters of effects that only clean the fit.
+/// Names of the parameters of effects that are fitted but not compiled.
 std::set<std::string> left_behind(const format::Model& fitted) {
   std::set<std::string> out;
   for (const auto& p : effect_parameters(fitted))
@@ -80,7 +80,8 @@ format::GuardLimits guard(const Cell& cell, const Run& run) {
 
 }  // namespace
 
-/// Of the robot, or of its surroundings with a sensor to read in the cycle.
+/// True for effects of the robot, and for those of its environment, which the cycle reads by
+/// sensors.
 bool runs_online(const format::Effect& effect) {
   const EffectDomain domain = domain_of(effect);
   return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;

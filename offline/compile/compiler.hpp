@@ -12,7 +12,8 @@ namespace plumb::offline {
 /// measured and fitted.
 format::Model compile(const Cell& cell, const Run& run);
 
-/// Whether an effect is in the model; others belong to the measurement and only clean the fit.
+/// Whether an effect goes into the model. The others belong to the measurement; they are fitted
+/// only so that they do not falsify the other parameters.
 bool runs_online(const format::Effect& effect);
 
 }  // namespace plumb::offline

@@ -118,7 +118,8 @@ std::string emit_c(const format::Model& model, const std::string& file) {
   std::string body = with_prefix(numbers.sizes, prefix) + with_prefix(c_tree_types(), prefix) +
                      with_prefix(numbers.tables, prefix) + with_prefix(c_tree_functions(), prefix) +
                      function_comment(model) + with_prefix(c_tree_error(), prefix);
-  // Two models of one prefix must clash, not hide each other.
+  // The guard contains a checksum of the body: two different models with one prefix then fail to
+  // compile together, where otherwise the second would silently be skipped.
   const auto guard =
       fmt::format("PLUMB_{}_{:08X}", prefix, format::crc32p4(std::as_bytes(std::span(body))));
   return fmt::format("{0}#ifndef {1}\n#define {1}\n\n{2}\n#endif\n", head(model, file), guard,

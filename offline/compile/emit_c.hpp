@@ -13,9 +13,11 @@ namespace plumb::offline {
 ///
 /// It says what ForwardModel::tree_error says, to the bit where double arithmetic is IEEE's and
 /// products are not contracted into sums, else to rounding. It includes nothing, calls nothing,
-/// allocates nothing and has no state. NAME comes from the file's: several go into one program.
+/// allocates nothing and has no state. NAME is made of the name of the file, so that one
+/// program can include several such headers.
 ///
-/// file: what the text will be called. The model is sound. Throws Failure (kInput, E-EMIT-NO-TREE).
+/// file: the name under which the text will be saved. The model is sound. Throws Failure (kInput,
+/// E-EMIT-NO-TREE).
 std::string emit_c(const format::Model& model, const std::string& file);
 
 }  // namespace plumb::offline

@@ -10,15 +10,15 @@ namespace plumb::offline {
 struct DeployFile {
   std::string name;
   std::string bytes;
-  enum class Summed { kYes, kNo } summed = Summed::kYes;  // kNo: made to be edited
+  enum class Summed { kYes, kNo } summed = Summed::kYes;  // kNo: users edit it
 };
 
 /// "hash  name" a line, as sha256sum -c reads it.
 std::string check_sums(const std::vector<DeployFile>& files);
 
-/// Writes the files and SHA256SUMS. A folder that is not there appears whole or not at all. Into
-/// one that is there each file goes whole, without SHA256SUMS from the first to the last; other
-/// files in it stay. Throws what the file system says.
+/// Writes the files and SHA256SUMS. A new folder appears whole or not at all. In an existing folder
+/// each file is replaced whole; SHA256SUMS is removed first and written last, and other files stay.
+/// Throws the errors of the file system.
 void write_deploy_folder(const std::filesystem::path& folder, const std::vector<DeployFile>& files);
 
 }  // namespace plumb::offline

@@ -25,7 +25,7 @@ std::string head(const Cell& cell) {
       toml_string(cell.serial), cell.deploy.cycle_s / kMicro);
 }
 
-/// The other kind stands beside as a comment.
+/// Tables [source] and [sink] for the link of the cell; comments show the other kinds.
 std::string source(const DeploySettings& deploy) {
   const bool can = deploy.link == drivers::BusUse::kCan;
   const std::string on_can =

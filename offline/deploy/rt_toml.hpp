@@ -8,8 +8,8 @@
 
 namespace plumb::offline {
 
-/// rt.toml for a cell: every table and key with what it is for, so nothing need be looked up on the
-/// machine. Its reader is that of plumb-rt.
+/// rt.toml for a cell: every table and key with what it is for, so that nothing need be looked up
+/// on the machine. plumb-rt reads it.
 std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout);
 
 }  // namespace plumb::offline

@@ -12,7 +12,7 @@
 namespace plumb::offline {
 namespace {
 
-/// One wave of many may come and go; what does so again stays away.
+/// A wave may be taken out twice and still be found again; any other effect is banned at once.
 void take_out(Selection& s, const EffectEntry& weak) {
   const std::string key = s.key(weak);
   if (!is_wave(weak.name) || ++s.dropped[key] > 2) s.ban(key);

@@ -5,8 +5,9 @@
 
 namespace plumb::offline {
 
-/// Adds what was found and refits jointly. What brings no real fall stays out for good; what loses
-/// its evidence to the new effect is taken out; what cannot be fitted is set aside.
+/// Adds the effect found and refits all jointly. If the error hardly falls, the effect stays out
+/// for good; an earlier effect that loses its evidence to the new one is taken out; an effect that
+/// cannot be fitted is set aside.
 void add_effect(Selection& selection, const Found& found);
 
 }  // namespace plumb::offline

@@ -8,9 +8,9 @@
 
 namespace plumb::offline {
 
-/// An effect of a size that hardly any arm has may describe something else: it does if its law
-/// rules that size out, if a pattern of no law explains as much, or if it leaves more than noise.
-/// Otherwise it is what it says, only large: a wrong constant, a worn gear.
+/// An effect of a size that hardly any arm has may stand for something else. That is assumed if its
+/// law rules the size out, if a pattern that belongs to no law explains as much, or if more than
+/// noise is left. Otherwise it is the effect itself, only large: a wrong constant, a worn gear.
 ///
 /// @param unlikely  Receives those that are only large, up to the first that is something else.
 std::optional<UnknownStructure> behind_oversized(Selection& selection,

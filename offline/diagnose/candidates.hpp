@@ -8,11 +8,11 @@
 
 namespace plumb::offline {
 
-/// What the first scan found, for the reader: best first, with held-out errors alone and after the
-/// best one, parameters, and what each cannot be told from.
+/// The candidates of the first scan for the report, best first: each with its held-out error alone
+/// and together with the best one, its parameters, and the effects it is confounded with.
 std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& scan);
 
-/// What the best pattern of a scan amounts to at that whitened fit.
+/// Size and share of the best pattern of a scan at that whitened fit.
 UnknownStructure unknown_structure(const WhitenedFit& whitened, const Found& pattern);
 
 }  // namespace plumb::offline

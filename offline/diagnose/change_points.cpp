@@ -51,8 +51,8 @@ struct Kind {
   }
 };
 
-/// Whether another tool hangs on the arm from this pose on: one payload before, one behind. Joints
-/// then yield by another torque; that is no slipped encoder.
+/// Whether the payload changes at this pose: constant before and constant behind. The joints then
+/// yield under another torque, which must not pass for a slipped encoder.
 bool changes_payload(const WhitenedFit& s, const std::vector<Eigen::Index>& order,
                      Eigen::Index cut) {
   const auto payload = [&](Eigen::Index i) { return s.context[order[i]].known.payload_kg; };
@@ -69,7 +69,7 @@ std::vector<Eigen::Index> poses_in_order(const WhitenedFit& s) {
   return order;
 }
 
-/// The row before the cut; of poses between the two that were not looked at the middle.
+/// The row before the cut; if rows between the two poses were not scanned, the middle of them.
 double row_before(const WhitenedFit& s, const std::vector<Eigen::Index>& order, int cut) {
   const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
   return std::floor(0.5 * (before + after + 1.0));

@@ -8,13 +8,13 @@
 
 namespace plumb::offline {
 
-/// How far each of some candidates can stand in for another: share of the fitted motion of row's
-/// candidate, cleared of the model, that the columns of column's candidate reproduce; shape (n, n).
+/// How well candidates can replace each other, shape (n, n). Element (i, k): share of the fitted
+/// motion of candidate i, orthogonal to the model, that the columns of candidate k reproduce.
 Eigen::MatrixXd reproduction(const WhitenedFit& whitened,
                              const std::vector<const Found*>& candidates);
 
-/// Effects that are another one in disguise at the same joint, whatever the poses: never searched,
-/// always named.
+/// Effects that cause the same motion at the same joint, whatever the poses. The scan does not try
+/// them; the report names them.
 std::vector<std::string> disguises(const EffectEntry& entry);
 
 /// Another effect that explains these poses exactly as well as the first supported one, or null.

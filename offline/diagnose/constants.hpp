@@ -25,7 +25,7 @@ namespace plumb::offline {
 
 // Evidence [nats: ln of a Bayes factor].
 
-/// An effect is supported beyond this, the search paid for: odds of 20 to 1. odds; kept by study.
+/// Least evidence of a supported effect, less the cost of the search: 20 to 1. odds; kept by study.
 inline constexpr double kSupported = 3.0;
 /// One explanation is clearly ahead of another: 22,000 to 1. study.
 inline constexpr double kAhead_nats = 10.0;
@@ -37,9 +37,9 @@ inline constexpr double kCertain_nats = 10.0;
 inline constexpr double kVeryLikely_nats = 5.0;
 /// Candidates this near to each other have the same evidence: 1.6 to 1. odds.
 inline constexpr double kSameEvidence = 0.5;
-/// A further wave of a joint pays so much beyond what its search costs: as kSupported. odds.
+/// Least evidence of a further wave of a joint, less the cost of its search: as kSupported. odds.
 inline constexpr double kWavePays = 3.0;
-/// Widths of the prior in typical sizes, half a decade apart: sizes are known to a decade. arms.
+/// Widths of the prior in typical sizes, half a decade apart. arms.
 inline constexpr std::array kPriorWidths = {0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
 
 // Mean square of the residuals, over that of the noise.
@@ -59,7 +59,7 @@ inline constexpr double kClearShare = 0.01;
 inline constexpr double kRealShare = 0.005;
 /// Less of the error on unseen poses than this is little. outside.
 inline constexpr double kLittleShare = 0.1;
-/// So many noise floors are left mostly by something else. outside.
+/// An error of more than so many noise floors is mostly due to something else. outside.
 inline constexpr double kFarAboveFloor = 3.0;
 /// The error on unseen poses may end so much above its smallest value along the steps. outside.
 inline constexpr double kMostRise = 1.05;
@@ -150,7 +150,7 @@ inline constexpr double kFinestFactor = 1.05;
 /// So many poses tell what lowers a held-out error by 1 %: its evidence is then above 100 nats.
 /// Small waves add up, and each is looked for with more. cost.
 inline constexpr Eigen::Index kScanPoses = 4000, kWavePoses = 10000;
-/// Times as many poses are worth thinning out. cost.
+/// Poses are thinned out if there are more than so many times the number wanted. cost.
 inline constexpr double kWorthThinning = 1.5;
 /// The best are judged again on all poses. cost.
 inline constexpr std::size_t kScoredAgain = 16;

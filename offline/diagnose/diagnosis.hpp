@@ -46,17 +46,17 @@ struct Candidate {
   bool plausible = true;
   std::vector<CandidateNumber> numbers;
   double explained = 0.0;                    // share of what the model leaves
-  double absorbed = 0.0;                     // share of its motion that the geometry imitates
-  double largest_m = 0.0;                    // it moves the measured point so far beyond that
+  double absorbed = 0.0;                     // share of its motion that the model imitates
+  double largest_m = 0.0;                    // largest motion that the model cannot imitate
   std::vector<std::string> confounded_with;  // "gear_harmonics:J2"
   std::string separate;                      // the measurement that tells them apart
-  std::optional<EffectEntry> rival;          // the first of them
+  std::optional<EffectEntry> rival;          // the first of confounded_with
 };
 
 /// An added effect, at one joint, of a size that hardly any arm has.
 struct Oversized {
   EffectEntry entry;
-  double times = 0.0;    // the usual size; 0: there is none
+  double times = 0.0;    // its size over the usual one; 0: there is no usual size
   bool possible = true;  // false: its law rules out that sign or size
 };
 
@@ -104,8 +104,9 @@ struct DiagnosisRequest {
   std::function<void(const std::string&)> tell;  // progress
 };
 
-/// Which physical effect is missing. Selection sees the fit poses alone; held-out poses give every
-/// figure, once. Below 60 poses the folds go around the whole diagnosis. Throws as `calibrate`.
+/// Finds missing physical effects. The selection uses the fit poses alone; the held-out poses are
+/// used once, for the reported errors. Below 60 poses these come from cross-validation of the whole
+/// diagnosis. Throws as `calibrate`.
 Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
                    const DiagnosisRequest& request);
 

@@ -14,7 +14,7 @@
 namespace plumb::offline {
 namespace {
 
-/// Takes out what lost its evidence to `fresh`.
+/// Takes out effects that lost their evidence to `fresh`.
 void drop_weak(Selection& s, const EffectEntry& fresh) {
   while (const auto weak =
              lost(s.cell(), s.whitened(), s.calibration(), s.start().cell.effects, fresh)) {

@@ -5,9 +5,9 @@
 
 namespace plumb::offline {
 
-/// What is clearly wrong, but too small to be an effect beside the strongest one, may be the trace
-/// of two others that the strongest one stands for; true if those leave only noise, and now stand
-/// there.
+/// A clear remainder, too small to count as an effect beside the strongest added one, may show that
+/// this one stands for several other effects. Tries to replace it by such effects; true if they
+/// leave only noise and have replaced it.
 bool doubt_strongest(Selection& selection);
 
 }  // namespace plumb::offline

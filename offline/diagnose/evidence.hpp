@@ -12,7 +12,7 @@ struct EvidenceScale {
   double lines = 0.0;     // independent coordinates: lines less rank of the model
 };
 
-/// What nothing would choose: ln B of columns whose sign is wrong, or that are not finite.
+/// ln B of columns that must not be chosen: their sign is wrong, or they are not finite.
 inline constexpr double kImpossible = -1e6;
 
 /// Evidence for one block of columns over none.
@@ -25,11 +25,11 @@ struct Evidence {
 /// and noise of a scaled inverse chi^2 around s^2, the residual y and X being cleared of the model:
 ///
 ///   ln B = -1/2 sum ln(1 + w_i tau^2 / s^2)
-///          - (n + nu)/2 ln[(nu s^2 + Q - sum v_i^2 / (w_i + s^2 / tau^2)) / (nu s^2 + Q)]
+///          - (n + nu)/2 ln[(nu s^2 + Q - sum u_i^2 / (w_i + s^2 / tau^2)) / (nu s^2 + Q)]
 ///
-/// with X^T X = V diag(w) V^T and v = V^T X^T y. Columns scaled so that 1 is a typical size, so
-/// wide nets of parameters pay for what they could have explained. [Bishop 2006, 3.4; Kass &
-/// Raftery 1995]
+/// with X^T X = V diag(w) V^T, u = V^T X^T y, Q = y^T y, n = scale.lines and nu = scale.dof.
+/// Columns are scaled so that 1 is a typical size; many parameters are penalised for their
+/// flexibility. [Bishop 2006, 3.4; Kass & Raftery 1995]
 ///
 /// @param gram  X^T X, shape (b, b).
 /// @param v     X^T y, shape (b,).

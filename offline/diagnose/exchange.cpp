@@ -9,7 +9,7 @@
 namespace plumb::offline {
 namespace {
 
-/// What does the work of an effect better, at the model without it; or nothing.
+/// An effect that replaces `key` better, in the model without it; or null.
 const Found* better_than(const Selection& s, const JudgedModel& without, const std::string& key) {
   const Found* other = without.look.supported();
   if (other == nullptr || s.key(other->entry) == key) return nullptr;

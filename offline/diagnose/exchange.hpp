@@ -5,8 +5,8 @@
 
 namespace plumb::offline {
 
-/// What was chosen first was chosen while the others were still missing. Each effect is taken out
-/// once and looked for again; true if another one does its work better, and now stands there.
+/// The first effects were chosen while the others were still missing. Each effect is therefore
+/// taken out once and searched for again; true if a better one has replaced it.
 bool exchange(Selection& selection);
 
 }  // namespace plumb::offline

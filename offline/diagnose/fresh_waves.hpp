@@ -5,9 +5,9 @@
 
 namespace plumb::offline {
 
-/// Waves of a joint that has some already: those were found while something else was missing. All
-/// of them are looked for again, together, where the model then stands. Returns what is to be added
-/// then; anything but waves, and waves of a joint that has none, as given.
+/// If `best` are waves of a joint to which the selection has added waves before: those were found
+/// while other effects were missing, so they are taken out, and all waves of the joint are searched
+/// for again together. Returns what is to be added then; any other `best` unchanged.
 Found with_fresh_waves(Selection& selection, Found best);
 
 }  // namespace plumb::offline

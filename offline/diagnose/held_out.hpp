@@ -7,8 +7,8 @@
 
 namespace plumb::offline {
 
-/// 3-D error on poses that had no say, to first order: the whitened fit's held-out poses, or where
-/// there are none, each fold by the others.
+/// 3-D error on poses that were not fitted, to first order: on the held-out poses of the whitened
+/// fit, or if there are none, by cross-validation over its folds.
 ErrorStats held_out_error(const Scorer& scorer);
 
 /// The same with a regressor in the model.

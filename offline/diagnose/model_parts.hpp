@@ -10,8 +10,8 @@
 
 namespace plumb::offline {
 
-/// Whether a candidate is small enough to be what the law of a stronger effect in the model leaves:
-/// no law is right to more than some percent. Waves of other lengths are other causes.
+/// Whether a candidate is so small that it may be the error of the law of a stronger effect in the
+/// model: laws are accurate to some percent only. Waves of other wave numbers have other causes.
 bool is_remainder(const Cell& cell, const WhitenedFit& whitened, const Calibration& calibration,
                   const Found& found);
 

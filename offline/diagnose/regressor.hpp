@@ -21,13 +21,13 @@ struct Pattern {
 };
 
 /// Something that may be missing from the model: how it would move the measured point, per typical
-/// size. Either a function of the pose times one joint, or any motion.
+/// size. Either functions of the pose that turn or shift one joint, or motions of the point itself.
 struct Regressor {
   EffectEntry entry;  // of the library, as it would stand in the cell; no name: a pattern
   Pattern pattern;
-  int joint = -1;              // `columns` multiply its motion; -1: they are motions themselves
-  Eigen::MatrixXd columns;     // (poses, b) times a joint, or (lines, b)
-  Eigen::VectorXd typical;     // SI value of each column's parameter that makes it 1
+  int joint = -1;              // the one that moves; -1: `columns` are motions of the point
+  Eigen::MatrixXd columns;     // shape (poses, b) with a joint, else (lines, b)
+  Eigen::VectorXd typical;     // SI value of the parameter of each column that counts as 1
   std::vector<int> members;    // place of each column among the effect's parameters
   std::vector<bool> positive;  // columns whose size cannot be negative; empty: none
   bool of_library() const { return !entry.name.empty(); }
@@ -38,8 +38,8 @@ Eigen::MatrixXd motions(const WhitenedFit& whitened, const Regressor& regressor)
 
 using RegressorVisitor = std::function<void(const Regressor&)>;
 
-/// Every law of the library that `testable` allows, joint by joint, with its non-linear numbers on
-/// a grid. Returns nothing twice; columns live only while they are visited.
+/// Every law of the library but those in `not_testable`, joint by joint, with its non-linear
+/// parameters on a grid. Nothing is visited twice; columns live only during the visit.
 void visit_library(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,
                    const RegressorVisitor& visit);
 
@@ -50,15 +50,15 @@ Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entr
 Regressor ripple_regressor(const WhitenedFit& whitened, int joint,
                            const std::vector<double>& cycles);
 
-/// What a scan of waves tries: k of every joint, in steps its range can tell apart. Usual: up to 40
-/// cycles a turn; fast: from there to 200, and those of the motor where the gear ratio is given.
+/// Wave numbers that a scan tries at a joint, in steps that its range can tell apart. Usual: up to
+/// 40 cycles a turn; fast: from there to 200, and those of the motor if the gear ratio is given.
 std::vector<double> ripple_grid(const WhitenedFit& whitened, int joint);
 std::vector<double> fast_ripple_grid(const WhitenedFit& whitened, int joint);
 
-/// Largest load of a joint at the poses [N m].
+/// Largest torque on a joint at the poses [N m].
 double largest_torque(const WhitenedFit& whitened, int joint);
 
-/// Generic structure, so that what no law explains is not forced into one.
+/// Visits generic patterns, so that an error that no law explains is not attributed to one.
 void visit_patterns(const WhitenedFit& whitened, const RegressorVisitor& visit);
 
 }  // namespace plumb::offline

@@ -142,7 +142,7 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
     }
     out.active.erase(out.active.begin() + worst);
   }
-  // What its sign holds at 0 was tried as well.
+  // Columns held at 0 because of their sign were tried too: each costs ln 2.
   out.evidence.ln_bayes -=
       std::log(2.0) *
       static_cast<double>(all.Xy.size() - static_cast<Eigen::Index>(out.active.size()));

@@ -36,11 +36,12 @@ struct RegressorScore {
 /// Mean square of the residuals over that of the noise; 1 if the noise is unknown.
 double times_noise(const WhitenedFit& whitened);
 
-/// As good as these poses can tell, in such terms: the noise is known as well as repeats make it.
+/// The value of times_noise up to which only noise is left, given how well the repeats tell the
+/// noise.
 double at_noise(const WhitenedFit& whitened);
 
-/// Whether a regressor takes residuals that are clearly above the noise down to it. What does that
-/// is an effect, however small beside others.
+/// Whether a regressor reduces residuals that are clearly above the noise to the noise. Then it is
+/// an effect, however small it is beside others.
 bool reaches_noise(const WhitenedFit& whitened, const RegressorScore& scored);
 
 /// Scores regressors at one whitened fit. Cost of a regressor: its columns times (rank + columns) a

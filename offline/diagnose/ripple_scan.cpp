@@ -65,7 +65,7 @@ Regressor with_slopes(const WhitenedFit& s, const Regressor& waves, const Eigen:
   return out;
 }
 
-/// All frequencies at once by Gauss and Newton, from the grid they were found on.
+/// Refines all wave numbers at once by Gauss-Newton steps, from the grid they were found on.
 void refine(const Scorer& scorer, Ripples& out, double step) {
   Regressor waves = ripple_regressor(scorer.whitened(), out.joint, out.cycles);
   RegressorScore now = scorer.score(waves);
@@ -73,7 +73,7 @@ void refine(const Scorer& scorer, Ripples& out, double step) {
     const Products all = scorer.products(with_slopes(scorer.whitened(), waves, now.theta));
     Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
     gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
-    // Two waves close together leave open which of them moves: none far, then.
+    // Two close waves hardly determine which of them should move: a prior keeps the steps small.
     const auto m = static_cast<Eigen::Index>(out.cycles.size());
     const double left = scorer.whitened().Q * (1.0 - now.explained) / scorer.scale().lines /
                         std::pow(0.25 * step, 2);

@@ -21,10 +21,9 @@ struct Ripples {
 Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tried);
 
 /// The best single wave of a joint beyond those of the usual scan, refined. Fast waves are rare,
-/// and trying them costs as much as all the rest of a look: for when nothing else explains what is
-/// left. Looked for by `some`, which may see fewer poses, and refined by `scorer`. Cost: poses of
-/// `some`
-/// * waves on the grid * (rank + 32).
+/// and trying them costs as much as the rest of a scan: use it if nothing else explains what is
+/// left. Searched with `some`, which may have fewer poses, and refined with `scorer`.
+/// Cost: poses of `some` * waves on the grid * (rank + 32).
 Ripples scan_fast_ripples(const Scorer& some, const Scorer& scorer, int joint, int& tried);
 
 }  // namespace plumb::offline

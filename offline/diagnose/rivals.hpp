@@ -12,8 +12,8 @@ namespace plumb::offline {
 /// Effects chosen one after another, each on what those before it leave, without a refit.
 struct Explanation {
   std::vector<Found> effects;
-  double score = 0.0;        // sum of theirs
-  double times_noise = 1.0;  // what they leave
+  double score = 0.0;        // sum of the scores of the effects
+  double times_noise = 1.0;  // mean square that they leave, over that of the noise
 };
 
 /// The first choice of a forward selection may be one wrong effect in the place of two right ones.

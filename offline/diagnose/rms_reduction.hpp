@@ -10,8 +10,8 @@
 namespace plumb::offline {
 
 /// By what share the weighted RMS error of the fit poses falls from one fitted model to another, on
-/// the poses that neither of them left out. A scan is linear and knows no limits of size: only this
-/// says what a refit made of its promise.
+/// the poses that neither of them left out. A scan is linear and ignores limits
+/// of size; this is what the refit really achieved.
 double rms_reduction(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
                      const Calibration& from, const Calibration& to);
 

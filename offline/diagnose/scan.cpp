@@ -134,9 +134,9 @@ void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& fou
   found.scored = scorer.score(library_regressor(whitened, found.entry));
 }
 
-/// The joints where waves faster than the usual ones are worth a look, while what is left is
-/// clearly wrong and would stay so: all of them if nothing was found, or no law; that of slow waves
-/// if they are the best, since fast ones may look like them.
+/// The joints at which fast waves are tried. None if the best candidate leaves hardly more than
+/// noise, or is another law; the joint of the best candidate if that is slow waves, as fast ones
+/// may look like them; all joints that turn if nothing was found, or only a pattern.
 std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& look) {
   const Found* best = look.unknown() ? &*look.pattern : look.supported();
   const double left = best == nullptr ? 1.0 : 1.0 - best->scored.explained;
@@ -183,8 +183,8 @@ void score_again(const Scorer& scorer, Found& found, const Regressor& regressor)
   found.score += found.ln_bayes() - before;
 }
 
-/// What some of the poses showed, by the evidence of all of them: the best of the library and all
-/// that is supported, and the best pattern.
+/// Scores again on all poses what was found on a part of them: the best of the library, all that is
+/// supported, and the best pattern.
 void score_on_all(const Scorer& scorer, Scan& out) {
   const WhitenedFit& whitened = scorer.whitened();
   for (std::size_t i = 0; i < out.library.size(); ++i) {

@@ -5,7 +5,7 @@
 
 namespace plumb::offline {
 
-/// The whitened fit as `most` of its fit poses show it, evenly spread, with none held out for good.
+/// The whitened fit on at most `most` of its fit poses, evenly spread, without held-out poses.
 WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most);
 
 }  // namespace plumb::offline

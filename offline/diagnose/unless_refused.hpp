@@ -5,9 +5,8 @@
 
 namespace plumb::offline {
 
-/// Runs what refits models. Returns false if a refit was refused because the numbers say no (too
-/// few coordinates, no convergence, another arm); any other failure, of files or of the program, is
-/// no answer of a fit and passes through.
+/// Runs `refits`, which refits models. Returns false if a refit failed because of the numbers (too
+/// few coordinates, no convergence, another arm); all other failures pass through.
 template <class Refits>
 bool unless_refused(Refits&& refits) {
   try {

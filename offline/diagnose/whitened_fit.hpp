@@ -24,9 +24,9 @@ struct Segment {
   Eigen::Index size() const { return end - begin; }
 };
 
-/// A fitted model as a diagnosis looks at it: what it leaves, cleared of all that its own
-/// parameters could still explain. Rows are sorted by fold; every whitened coordinate is one line,
-/// pose by pose. Memory: about (axes * parameters + 300) numbers a pose.
+/// A fitted model as a diagnosis looks at it: its whitened residuals, orthogonal to the columns of
+/// its own parameters. Rows are sorted by fold; every whitened coordinate is one line, pose by
+/// pose. Memory: about (axes * parameters + 300) numbers a pose.
 struct WhitenedFit {
   const Cell* cell = nullptr;
   const Measurements* measured = nullptr;
@@ -46,8 +46,8 @@ struct WhitenedFit {
 
   /// Whitened motion of the measured point, per unit of joint j: shape (lines,) each.
   std::vector<Eigen::VectorXd> joint;
-  /// The same folded with y and U, so that any function of the pose times a joint costs one line a
-  /// pose: shapes (poses,), (poses,), (poses, rank).
+  /// Its products with itself, y and U, summed over the lines of each pose, so that a function of
+  /// the pose times a joint costs one line a pose: shapes (poses,), (poses,), (poses, rank).
   std::vector<Eigen::VectorXd> joint_square, joint_y;
   std::vector<Eigen::MatrixXd> joint_U;
   Eigen::MatrixXd base;  // (lines, 6) twist of the base: shifts, turns
@@ -76,7 +76,7 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
                               const Calibration& calibration, const std::vector<int>& fit,
                               const std::vector<int>& held);
 
-/// Renews what is folded with y and U.
+/// Computes joint_square, joint_y and joint_U again.
 void fold_joints(WhitenedFit& whitened);
 
 }  // namespace plumb::offline

@@ -14,7 +14,7 @@ Testability can_show_weakly(std::string why);
 Testability cannot_show(std::string why);
 
 inline constexpr int kFewPoses = 40, kManyPoses = 150, kDensePoses = 500;
-inline constexpr double kLever_m = 0.02;  // gravity torque that varies by that times the weight
+inline constexpr double kLever_m = 0.02;  // least DataSense::lever_m that counts as a varying load
 inline constexpr double kWideRange_rad = 1.0471975511965976;  // 60 deg
 
 /// Names of the turning joints for which holds(joint) is true: "J2, J3".

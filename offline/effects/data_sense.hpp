@@ -6,7 +6,8 @@
 
 namespace plumb::offline {
 
-/// What the columns and poses of some measurements could show. SI; by joint where a list.
+/// What the columns and poses of some measurements could show. SI; vectors have one entry per
+/// joint.
 struct DataSense {
   int poses = 0;                    // distinct ones
   bool ordered = false;             // rows are known to be in the order of measuring
@@ -23,7 +24,7 @@ struct DataSense {
   bool tracker_frame = false;      // the origin of the coordinates is the instrument
   std::vector<std::string> names;  // of the joints
   std::vector<bool> turns;         // a turning joint
-  std::vector<double> range;       // used
+  std::vector<double> range;       // used by the poses [rad] or [m]
   std::vector<double> both_ways;   // share of the rarer approach direction, 0 .. 0.5; -1 unknown
   std::vector<bool> has_travel;
   std::vector<bool> has_gear_ratio;

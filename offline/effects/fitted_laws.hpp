@@ -12,8 +12,8 @@
 #include "effects/measurement/tracker.hpp"
 #include "plumb/runtime/detail/effect_library.hpp"
 
-/// All laws that a fit knows: those of the runtime, and those of the measurement, which are fitted
-/// so that they do not distort the rest and which no model file contains.
+/// All laws that a fit knows: those of the runtime, and those of the measurement. The latter are
+/// fitted so that they do not distort the other parameters; no model file contains them.
 namespace plumb::offline {
 
 using MeasurementLaws =
@@ -28,14 +28,15 @@ const EffectInfo& fitted_law_info(int law);
 /// Number of the law with this name, or -1.
 int find_fitted_law(std::string_view name);
 
-/// Whether the law is of the measurement, so that no model file contains it.
+/// Whether the law belongs to the measurement, so that no model file contains it.
 inline bool is_measurement_law(int law) { return law >= kEffectLaws; }
 
 /// How many parameters the law has for this shape.
 int fitted_parameter_count(int law, const EffectShape& shape);
 
 /// Adds the motion of the effect at one measured pose to `out`; theta: shape
-/// (fitted_parameter_count,). `at` holds what a cycle would know, `measured` all that is known.
+/// (fitted_parameter_count,). `at` holds what the runtime knows in a control cycle, `measured` all
+/// that is known of the pose.
 template <class S>
 void apply_fitted_law(int law, std::span<const S> theta, const EffectShape& shape,
                       const Situation& at, const MeasuredContext& measured, Motion<S>& out) {

@@ -3,7 +3,7 @@
 
 #include "effects/descriptor.hpp"
 
-/// What the laws have in common that turn over at some torque of their joint: torque_Nm.
+/// Shared by laws with a term that saturates beyond some torque of the joint, torque_Nm.
 namespace plumb::offline {
 
 inline constexpr double kTorqueShares[] = {0.03, 0.1, 0.3};
@@ -11,7 +11,7 @@ inline constexpr GridAxis kTorqueGrid[] = {{.key = OptionKey::kTorque_Nm,
                                             .kind = GridAxis::Values::kOfLargestTorque,
                                             .values = kTorqueShares}};
 
-/// A law that turns over beyond that share of the largest torque is a spring.
+/// With a larger share of the largest torque, that term is nearly linear, like a spring.
 inline constexpr Refinement kTorqueRefinement{
     .key = OptionKey::kTorque_Nm, .kind = Refinement::Most::kOfLargestTorque, .most = 0.35};
 

@@ -113,8 +113,8 @@ bool holds(const std::vector<Parameter>& all, const std::string& name) {
   return std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
 }
 
-/// `first`, then the rest of `all`: what acts strongly is preferred to what acts through another's
-/// small error, as a SCARA's target.z does through a tilt.
+/// `first`, then the rest of `all`. Parameters with a strong effect are thus preferred to those
+/// that act only through a small error of another one, as target.z of a SCARA does through a tilt.
 std::vector<Parameter> led_by(const std::vector<Parameter>& first,
                               const std::vector<Parameter>& all) {
   std::vector<Parameter> out = first;
@@ -182,7 +182,7 @@ Coarse coarse_from(const FitData& data, const ArmState& start,
   return out;
 }
 
-/// The best of all starts. Another one nearly as good leaves open which arm this is: said.
+/// The best of all starts. Adds W-FIT-AMBIGUOUS if a start with another frame is nearly as good.
 Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
                        const std::vector<Parameter>& candidates, std::vector<Problem>& remarks) {
   std::vector<Coarse> all;

@@ -83,8 +83,8 @@ class Scanner {
             e.sums->solve(e.cut, s.last) - e.sums->solve(s.first, e.cut), step(e, s)};
   }
 
-  /// The cut of one step again, the others taken away: where it was found they were still there,
-  /// or had been taken away together with a part of it.
+  /// Finds the cut of one step again with all other steps removed. In the first search some of
+  /// them were still present, or had been removed together with a part of this one.
   void refine(Jumped& one) {
     error_ = without_steps_;
     int first = 0, last = motions_.size();
@@ -110,7 +110,7 @@ class Scanner {
     DriftFound out{.source = e.sums->source(), .joint = e.sums->joint(), .ln_p = e.ln_p};
     out.from = motions_.rows()[static_cast<std::size_t>(s.first)];
     out.to = motions_.rows()[static_cast<std::size_t>(s.last - 1)];
-    // The pose changes the direction in which a drift shows, so its numbers are compared, not it.
+    // The same drift moves the points of different poses differently: compare its parameters.
     VisitRun head{s.first, s.first + static_cast<int>(tenth)};
     VisitRun tail{s.last - static_cast<int>(tenth), s.last};
     MotionSums again = *e.sums;
@@ -129,7 +129,7 @@ class Scanner {
     return std::sqrt(squares / s.size());
   }
 
-  /// Must be called with the sums of the residual in which it was found.
+  /// Must be called while `e.sums` still holds the residual in which the step was found.
   StepFound step(const Explained& e, const VisitRun& s) const {
     const MotionSums& sums = *e.sums;
     const MotionSums::Numbers moved = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
@@ -156,8 +156,8 @@ class Scanner {
   }
 
   const StepMotions& motions_;
-  Eigen::Matrix3Xd error_;          // less what was found so far
-  Eigen::Matrix3Xd without_steps_;  // the residuals less drifts
+  Eigen::Matrix3Xd error_;          // residuals minus steps and drifts found so far
+  Eigen::Matrix3Xd without_steps_;  // residuals minus drifts only
   std::vector<MotionSums> sources_;
   std::vector<Jumped> found_;
 };

@@ -16,7 +16,7 @@ struct StepFound {
   int earliest = 0, latest = 0;  // the last row before it lies between these with 95 %
   Eigen::VectorXd shift;         // as StepMotions::columns: 3 [m], 6 [m, rad], 1 [rad] or [m]
   double size_m = 0.0;           // RMS motion of the measured point
-  double ln_p = 0.0;             // chance of it in independent residuals, every cut counted
+  double ln_p = 0.0;             // ln of its probability by chance, corrected for all cuts tried
 };
 
 /// A smooth change in the order of measuring that explains more than a jump.
@@ -25,7 +25,7 @@ struct DriftFound {
   int joint = -1;
   int from = 0, to = 0;  // rows
   double size_m = 0.0;   // RMS motion of the measured point from the start to the end
-  double ln_p = 0.0;
+  double ln_p = 0.0;     // ln of its probability by chance
 };
 
 struct Changes {
@@ -34,11 +34,12 @@ struct Changes {
   std::vector<DriftFound> drifts;
 };
 
-/// Binary segmentation [Scott & Knott 1974]: the cut that explains most, if the chance of so much
-/// is below 1 % over all cuts and motion sources (Bonferroni), then each side again. Every segment
-/// has its own shift of tool, base or a joint; F counts their numbers and is divided by what uneven
-/// residuals and their memory add to the variance of a jump. A line and parabola in order is tried
-/// first: a smooth drift is not a row of jumps.
+/// Binary segmentation [Scott & Knott 1974]: takes the most significant cut if its probability by
+/// chance is below 1 % over all cuts and motion sources (Bonferroni), then searches either side in
+/// the same way. The two sides of a cut have separate shifts of the tool, the base or a joint. The
+/// F statistic is divided by the factor by which unequal variances and autocorrelation of the
+/// residuals inflate the variance of the jump. Where a drift that is linear and quadratic in the
+/// order is more significant than the cut, the drift is removed instead: it is no series of jumps.
 Changes change_points(const StepMotions& motions);
 
 }  // namespace plumb::offline

@@ -9,13 +9,15 @@
 namespace plumb::offline {
 
 /// From here on the measurements are compared with the controller's positions: what these say
-/// beyond the nominal arm goes to `departure_B`, and whatever is fitted comes on top. A frame that
-/// the controller sees otherwise does no harm; nor does a tool, but for what the controller knows
-/// of orientations, which its positions tell of their own point only. Measured points have no say.
+/// beyond the nominal arm goes to `departure_B`, and whatever is fitted comes on top. The
+/// controller may use another base frame and another tool: both are fitted first. With another
+/// tool, though, corrections of orientation that the controller makes are known at its own tool
+/// point only. Measured points play no part in this.
+///
 /// Throws Failure (kInput): no such columns, or positions of another arm.
 void stand_on_controller(const Cell& cell, MeasurementFiles& measured);
 
-/// The same of rows that are too few to tell frame and tool: those of `measured` are theirs.
+/// The same for rows that may be too few to fit frame and tool: these are fitted to `measured`.
 void stand_on_controller(const Cell& cell, const MeasurementFiles& measured,
                          MeasurementFiles& rows);
 

@@ -7,10 +7,10 @@
 
 namespace plumb::offline {
 
-/// The search for the moment at which something moved once. Whoever looks for it puts the visits in
-/// order, walks over the cuts between them, and gives each cut a score of his own.
+/// The search for the moment at which something moved once. The caller puts the visits (poses with
+/// their immediate repeats) in order, walks over the cuts between them, and scores each cut.
 
-/// Items in the order of what is measured of them; equal ones stay as they stood.
+/// Sorts items by their keys, for example times; items with equal keys keep their order.
 template <class Item, class Key>
 void put_in_order(std::vector<Item>& items, const Key& key_of) {
   std::stable_sort(items.begin(), items.end(),
@@ -23,18 +23,18 @@ struct VisitRun {
   int size() const { return last - first; }
 };
 
-/// Cuts from `first` to `last`, both included; a cut is the first visit behind it.
+/// Cuts from `first` to `last`, both included. A cut is numbered by the first visit behind it.
 struct CutRange {
   int first, last;
   int count() const { return std::max(0, last - first + 1); }
 };
 
-/// The cuts of a run that leave so many visits on either side.
+/// The cuts of a run that leave at least `fewest` visits on either side.
 inline CutRange cuts_of(const VisitRun& run, int fewest) {
   return {run.first + fewest, run.last - fewest};
 }
 
-/// Those of them that are at most so many visits away from one of them.
+/// Those of `cuts` that are at most `visits` visits away from `cut`.
 inline CutRange cuts_near(const CutRange& cuts, int cut, int visits) {
   return {std::max(cuts.first, cut - visits), std::min(cuts.last, cut + visits)};
 }
@@ -44,10 +44,11 @@ struct BestCut {
   double score = 0.0;
 };
 
-/// Walks over the cuts of the visits before `end`, the last cut first. `pass(visit)` is told of
-/// each visit when it comes to lie behind the cut, so that it can keep running sums;
-/// `score_of(cut)` is the caller's score, a std::optional<double>: nothing where the cut is not to
-/// be tried. Nothing if no cut was tried; of equal scores that of the last cut.
+/// The cut with the highest score; of equal scores, the last cut. Nothing if no cut was tried.
+///
+/// Walks from the visit before `end` to the front. `pass(visit)` is called for each visit as it
+/// comes to lie behind the cut, so that the caller can keep running sums. `score_of(cut)` returns a
+/// std::optional<double>: nothing if the cut is not to be tried.
 template <class Pass, class ScoreOf>
 std::optional<BestCut> best_cut(int end, const CutRange& cuts, const Pass& pass,
                                 const ScoreOf& score_of) {

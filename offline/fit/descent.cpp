@@ -13,15 +13,15 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kDescentNoChange = 1e-7;  // of the cost in the last iteration
-constexpr int kMostDescentSteps = 300;     // what is hardly seen comes to rest slowly
-constexpr std::size_t kFirstRows = 3000;   // of many, to come near first
+constexpr int kMostDescentSteps = 300;     // weakly observable parameters converge slowly
+constexpr std::size_t kFirstRows = 3000;   // rows on which a poor start is improved
 constexpr double kFirstTolerance = 1e-6;
-constexpr double kFarFromRest = 0.01;  // of the cost is to be gained: not near yet
-constexpr double kNoStep = 1e-6;       // to be gained: a thousandth of a standard deviation
+constexpr double kFarFromRest = 0.01;  // share of the cost to be gained at a poor start
+constexpr double kNoStep = 1e-6;       // of cost to be gained: a thousandth of a standard deviation
 constexpr double kLeastDamping = 1e-10, kFirstDamping = 1e-4, kMostDamping = 1e8;
 
-/// The change of all parameters that makes the linearised residuals smallest. Columns are made
-/// units first, so that metres and radians are damped alike.
+/// The damped least-squares step of all parameters. Columns are scaled to unit length first, so
+/// that metres and radians are damped alike.
 Eigen::VectorXd step_of(const Sums& at, double damping) {
   const Eigen::VectorXd length = at.information.diagonal().cwiseSqrt();
   const Eigen::VectorXd scale = (length.array() > 0.0).select(length.cwiseInverse(), 0.0);
@@ -30,7 +30,7 @@ Eigen::VectorXd step_of(const Sums& at, double damping) {
   return -(scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * at.gradient));
 }
 
-/// Gauss and Newton's steps from `state`, damped where they lead astray (Levenberg-Marquardt).
+/// Gauss-Newton steps from `state`, damped if they raise the cost (Levenberg-Marquardt).
 struct Descent {
   ArmState state;
   Sums at;
@@ -59,7 +59,7 @@ Descent descend(const FitData& data, const ArmState& state, Sums at,
     out.at = std::move(there);
     damping = damping > kFirstDamping ? 0.1 * damping : kLeastDamping;
   }
-  // The last digits of two parameters that do nearly the same nobody needs.
+  // Two parameters with nearly the same effect need not converge to the last digit.
   out.converged = out.converged || share < kDescentNoChange;
   return out;
 }
@@ -74,7 +74,8 @@ Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& information) {
   return R * length.asDiagonal();
 }
 
-/// What steps on some of the rows come to, which is close to the solution of all.
+/// Improves `state` by a solution on a part of the rows. Returns the sums over all rows there, or
+/// `here` if that is no better.
 Sums sums_nearer(const FitData& data, const std::vector<Parameter>& parameters, ArmState& state,
                  Sums here) {
   FitData few = data;

@@ -7,9 +7,9 @@
 
 namespace plumb::offline {
 
-/// `solve` for Jacobians that are too large to be kept (see is_many): Gauss and Newton's steps,
-/// damped where they lead astray, from sums over the rows. From a start that is nearly right one or
-/// two steps on all rows are enough; to one that is not, some of the rows lead.
+/// `solve` for Jacobians that are too large to be kept (see is_many): Gauss-Newton steps from sums
+/// over the rows, damped if they raise the cost. From a good start, one or two steps on all rows
+/// are enough; a poor start is improved on a part of the rows first.
 Solution solve_many(const FitData& data, const ArmState& start,
                     const std::vector<Parameter>& parameters, double tolerance);
 

@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kFewestInBin = 5;
 
-/// What the memory of a series adds to the variance of its mean: the sum of its autocorrelations
-/// with Bartlett weights, or as if it were autoregressive; at least 1.
+/// Factor by which the autocorrelation of a series inflates the variance of its mean: the sum of
+/// its autocorrelations with Bartlett weights, or that of a first-order autoregressive process if
+/// this is larger; at least 1.
 double memory(const Eigen::MatrixXd& series) {
   const auto n = static_cast<int>(series.cols());
   const double whole = series.squaredNorm();
@@ -29,10 +30,10 @@ double memory(const Eigen::MatrixXd& series) {
   return std::max({1.0, sum, (1.0 + first) / (1.0 - first)});
 }
 
-/// Variance of what is fitted over that which independent residuals of one size would give it:
-/// a law that the model lacks shakes some directions more than others, and neighbours alike. By
-/// the scores of each visit, X_i^T r_i on their average or along the jump found, and their
-/// autocorrelation; at least 1. [White 1980; Newey & West 1987]
+/// Variance of the fitted numbers, over the variance that independent residuals of equal variance
+/// would give them: a missing effect disturbs some directions more than others, and neighbouring
+/// visits alike. From the scores X_i^T r_i of the visits, on average or along the jump found, and
+/// their autocorrelation; at least 1. [White 1980; Newey & West 1987]
 double inflation(const VisitRun& s, const Explained& e, const Eigen::Matrix3Xd& rest) {
   const MotionSums& sums = *e.sums;
   Eigen::MatrixXd scores(sums.rank(), s.size());
@@ -61,7 +62,8 @@ double inflation(const VisitRun& s, const Explained& e, const Eigen::Matrix3Xd& 
   return std::max(out, memory(rest));
 }
 
-/// F with its chance, given what is fitted.
+/// Fills in the F test of `out.fitted`; tries: number of alternatives for the Bonferroni
+/// correction.
 void judge(const VisitRun& s, int numbers, double tries, const Unexplained& what, Explained& out) {
   const Eigen::Matrix3Xd rest = what.error.middleCols(s.first, s.size()) - out.fitted;
   out.inflation = std::max(1.0, inflation(s, out, rest));

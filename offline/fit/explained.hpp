@@ -9,28 +9,30 @@
 
 namespace plumb::offline {
 
-/// What one motion source explains of a segment, by a jump or by a drift, beyond its mean.
+/// How much of the residual of a segment one motion source explains by a jump or by a drift, beyond
+/// a constant shift.
 struct Explained {
   const MotionSums* sums = nullptr;
   int cut = 0;                    // first visit behind the jump; 0: a drift
-  double gain = 0.0, left = 0.0;  // sums of squares
-  double inflation = 1.0;   // of their variance ratio: residuals are uneven and remember each other
-  double free = 1.0;        // degrees of freedom left
-  double ln_p = 0.0;        // chance, every cut and motion source counted
+  double gain = 0.0, left = 0.0;  // sums of squares explained and left [m^2]
+  double inflation = 1.0;         // of F, by unequal variances and autocorrelation
+  double free = 1.0;              // degrees of freedom left
+  double ln_p = 0.0;        // ln of the probability by chance, over all cuts and motion sources
   Eigen::Matrix3Xd fitted;  // shape (3, segment)
 };
 
-/// What there is to explain; `sources`: how many are tried.
+/// The residual to explain [m], and how many motion sources are tried.
 struct Unexplained {
   const Eigen::Matrix3Xd& error;  // of all visits
   int axes;
   double sources;
 };
 
-/// Visits that a side of a cut has at least.
+/// The least number of visits on either side of a cut.
 int fewest_visits(const MotionSums& sums);
 
-/// The best cut of the segment; nothing if it is too short. `sums` must be of that error.
+/// The best cut of the segment; nothing if it is too short or no cut explains anything. `sums` must
+/// have been computed from what.error.
 std::optional<Explained> jump_of(const MotionSums& sums, const VisitRun& s,
                                  const Unexplained& what);
 

@@ -6,11 +6,11 @@
 #include "cell/measurements.hpp"
 #include "fit/split.hpp"
 
-/// What few poses leave even to a model that is right. Whether more than that is left says
-/// fit/left_over.hpp.
+/// The error that a correct model has on unseen poses if it was fitted to few of them.
+/// fit/held_out_excess.hpp tells whether a model has more than that.
 namespace plumb::offline {
 
-/// Readings in the smallest set that any fit of the split gets. With folds, each leaves one out.
+/// Number of readings of the smallest fit of the split. With folds, each fit leaves one fold out.
 std::size_t fewest_fitted(const Split& split);
 
 /// Coordinates of distinct poses that each fit of the split sees, on average over its folds. A
@@ -21,12 +21,12 @@ double fitted_coordinates(const Measurements& measured, const Split& split);
 ///
 ///   s sqrt(1 + p / (n - p - 1))
 ///
-/// [Miller 2002, Subset selection in regression, 5.2: random x]. That, over s.
+/// [Miller 2002, Subset selection in regression, 5.2: random x]. Returns this divided by s.
 double error_growth(double coordinates, double parameters);
 
-/// How many times the noise an arm that is right may miss poses it has not seen: the growth above,
-/// times what chance may add. The mean square of d = n - p - 1 free coordinates is known to
-/// sqrt(2 / d); two of these are allowed.
+/// The largest error on unseen poses, over that of noise alone, that is compatible with a correct
+/// model: the growth above, times the scatter that is allowed for. The relative standard deviation
+/// of a mean square of d = n - p - 1 free coordinates is sqrt(2 / d); two of these are allowed.
 double unavoidable_ratio(double coordinates, double parameters);
 
 }  // namespace plumb::offline

@@ -10,8 +10,8 @@
 
 namespace plumb::offline {
 
-/// The effects of an arm as a fit evaluates them: one at a time, with parameters of its own, those
-/// of the measurement among them. Refers to the model's memory.
+/// The effects of a model as a fit evaluates them: one at a time, with the parameters of the fit,
+/// and including effects of the measurement, which the runtime lacks. Refers to the model's memory.
 /// Precondition: every effect of the model is a law that a fit knows (find_fitted_law).
 class FittedEffects {
  public:
@@ -24,7 +24,7 @@ class FittedEffects {
   /// law of the measurement, or a formula that reads the last moves or the row.
   bool of_measurement(int i) const { return effects_[static_cast<std::size_t>(i)].of_measurement; }
 
-  /// Context and loads of one pose, which all effects share. Refers to the context.
+  /// Context and loads of one pose, shared by all effects. Points to the context that `survey` got.
   struct Surroundings {
     const MeasuredContext* context = nullptr;
     Loads loads;

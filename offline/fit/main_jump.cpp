@@ -9,11 +9,11 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kMostOfTheError = 0.3;  // of the squared error: a jump that is the cause
+constexpr double kMostOfTheError = 0.3;  // least share of the squared error of a cause
 constexpr double kClear_ln_p = -6.9;     // by chance once in a thousand
 constexpr double kOnePayload_kg = 1e-6;
 constexpr int kRowsOfOnePayload = 4;
-constexpr int kRowsAround = 2;  // a small jump is found a row or two beside its moment
+constexpr int kRowsAround = 2;  // a small jump may be found a row or two too early or too late
 
 /// Whether one payload hangs on the arm up to this row and another one behind it.
 bool payload_changes_behind(const Measurements& m, int row) {
@@ -27,8 +27,9 @@ bool payload_changes_behind(const Measurements& m, int row) {
   return true;
 }
 
-/// An arm or floor that yields to another payload looks like a zero or a base that moved; a tool
-/// that is changed is another tool.
+/// Whether a change of payload explains the jump: the arm or the floor then yields, which looks
+/// like a moved joint zero or base. A jump of the tool is always taken for a moved reflector or
+/// tool.
 bool may_be_payload(const Measurements& m, const StepFound& step) {
   if (step.source == MotionSource::kTool || m.context.payload.rows() == 0) return false;
   for (int row = step.earliest - kRowsAround; row <= step.latest + kRowsAround; ++row)

@@ -9,20 +9,22 @@
 
 namespace plumb::offline {
 
-/// Share of the squared error that a jump can cause at most, given the RMS error [m]: a fit takes
-/// the mean of the jump away. `rows`: of the measurements, in which it happened.
+/// The largest share of the squared error that a jump can cause. The fit absorbs its mean: a jump
+/// of size s after a share b of the rows leaves the mean square b (1 - b) s^2. rms_m: RMS error of
+/// the fit [m]; rows: number of the rows in which the jump was found.
 double share_of_error(const StepFound& step, double rms_m, double rows);
 
 /// Whether chance makes such a jump less than once in a thousand.
 bool is_clear(const StepFound& step);
 
-/// Whether a jump with such a share of the error is its cause. One with less may be what something
-/// else that is missing looks like where the poses change.
+/// Whether a jump with this share of the squared error counts as the cause of the error. A smaller
+/// jump may be another missing effect that shows where the series comes to other poses.
 bool is_cause(double share);
 
-/// The jump that causes most of what `fitted` leaves on these rows: clear, and a cause. Nothing if
-/// there is none, or if the payload changes at that moment. rows: of the measurements, ascending,
-/// outliers left out; so are those of the answer. Cost: 30 us a row.
+/// The jump with the largest share of the residual of `fitted` on these rows, among those that are
+/// clear and a cause. Jumps of base or joint at a change of payload do not count. rows: numbers of
+/// rows in `measured`, ascending, without outliers. The rows of the result are numbered like them.
+/// Cost: 30 us a row.
 std::optional<StepFound> main_jump(const ArmState& fitted, const Measurements& measured,
                                    const std::vector<int>& rows);
 

@@ -16,7 +16,7 @@ std::vector<int> effects_of_measurement(const FittedEffects& effects) {
   return out;
 }
 
-/// The model without these effects; nothing if there are none, as nobody then needs a copy.
+/// The model without these effects; an empty model if there are none, as no copy is needed then.
 format::Model without(const std::vector<int>& effects, const format::Model& model) {
   if (effects.empty()) return {};
   format::Model out = model;

@@ -10,20 +10,20 @@
 
 namespace plumb::offline {
 
-/// The arm as it was measured: what the runtime predicts, and the effects of the measurement
-/// besides, which the runtime does not know. Without such effects it is the runtime's prediction to
-/// the bit. Refers to the model's memory.
+/// The arm as it was measured: the runtime's prediction plus the effects of the measurement, which
+/// the runtime does not know. Without such effects it equals the runtime's prediction bit for bit.
+/// Refers to the model's memory.
 class MeasuredArm {
  public:
   explicit MeasuredArm(const format::Model& model);
   MeasuredArm(const MeasuredArm&) = delete;
   MeasuredArm& operator=(const MeasuredArm&) = delete;
 
-  /// As ForwardModel::predict. Any thread.
+  /// As ForwardModel::predict. May be called from any thread.
   Prediction predict(std::span<const double> q, const MeasuredContext& at) const;
 
  private:
-  /// The context as the runtime's part of the effects reads it.
+  /// The context with the temperatures in the order of `robot_`.
   Context of_robot(const MeasuredContext& at) const;
 
   /// Adds the motion of the effects of the measurement at q.
@@ -31,9 +31,9 @@ class MeasuredArm {
 
   const format::Model& model_;
   FittedEffects effects_;
-  std::vector<int> of_measurement_;   // effects that the runtime does not know
-  format::Model robot_;               // without those; unused if there are none
-  std::vector<std::size_t> sensors_;  // of robot_, as places among those of the whole model
+  std::vector<int> of_measurement_;   // indices of the effects that the runtime does not know
+  format::Model robot_;               // the model without them; unused if there are none
+  std::vector<std::size_t> sensors_;  // index in the whole model of each temperature of robot_
   ForwardModel arm_;
 };
 

@@ -8,8 +8,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kSeen = 1e-6;   // of the largest eigenvalue: directions below never show
-constexpr double kRidge = 1e-9;  // of a segment in which some direction never shows
+constexpr double kSeen = 1e-6;   // share of the largest eigenvalue: smaller ones are unobservable
+constexpr double kRidge = 1e-9;  // keeps segments solvable in which a direction is unobservable
 
 }  // namespace
 

@@ -10,8 +10,8 @@
 
 namespace plumb::offline {
 
-/// Least squares of the residual on the motions of one part, over any run of visits, from running
-/// sums. Its columns are combined to independent ones of unit size first.
+/// Least-squares fit of the residual by the motions of one part, over any run of visits, from
+/// running sums. The columns are first combined into independent ones of unit mean square.
 class MotionSums {
  public:
   using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6>;
@@ -25,18 +25,18 @@ class MotionSums {
   int rank() const { return rank_; }  // 0: nothing moves
   const Columns& at(int visit) const { return columns_[static_cast<std::size_t>(visit)]; }
 
-  /// Sums again for another residual, shape (3, visits).
+  /// Computes the sums for this residual, shape (3, visits) [m].
   void sum(const Eigen::Matrix3Xd& error);
 
-  /// Best numbers over the visits [first, last), and the sum of squares they explain.
+  /// Least-squares parameters over the visits [first, last), and the sum of squares they explain.
   Numbers solve(int first, int last) const;
   double explained(int first, int last) const;
-  /// Of the two sides of a cut, each with numbers of its own.
+  /// Sum of squares explained by separate parameters on the two sides of a cut.
   double gain(int first, int cut, int last) const {
     return explained(first, cut) + explained(cut, last);
   }
 
-  /// The same in the units of StepMotions::columns.
+  /// Converts parameters of `solve` into the units of StepMotions::columns.
   Eigen::VectorXd physical(const Numbers& numbers) const { return combine_ * numbers; }
 
  private:
@@ -44,7 +44,7 @@ class MotionSums {
   int rank_ = 0;
   Eigen::MatrixXd combine_;
   std::vector<Columns> columns_;
-  std::vector<RunningSums> before_;  // of the visits before each
+  std::vector<RunningSums> before_;  // sums over the visits before each one
 };
 
 }  // namespace plumb::offline

@@ -12,7 +12,7 @@ namespace plumb::offline {
 /// zero of a joint.
 enum class MotionSource { kTool, kBase, kJoint };
 
-/// One of them; `joint` is -1 for tool and base.
+/// A part that may shift; `joint` is -1 for tool and base.
 struct MovingPart {
   MotionSource source = MotionSource::kTool;
   int joint = -1;
@@ -25,12 +25,12 @@ inline std::vector<MovingPart> moving_parts(int joints) {
   return out;
 }
 
-/// Numbers that say how it moved: a shift; a shift and a turn; the one of the joint.
+/// How many numbers describe its motion: tool 3 (shift), base 6 (shift and turn), joint 1.
 inline int numbers_of(MotionSource source) {
   return source == MotionSource::kBase ? 6 : source == MotionSource::kTool ? 3 : 1;
 }
 
-/// "tool", "base", "joint": as [effects.step] says it.
+/// "tool", "base", "joint": the option `of` of [effects.step].
 inline const char* name_of(MotionSource source) {
   return source == MotionSource::kTool ? "tool" : source == MotionSource::kBase ? "base" : "joint";
 }

@@ -59,7 +59,7 @@ Eigen::RowVector3d mean_of(const Readings& readings) {
   return sum / static_cast<double>(readings.size());
 }
 
-/// Where most of them are; of two or three, where their mean is.
+/// The median of each coordinate; the mean if there are only two or three readings.
 Eigen::RowVector3d centre_of(const Readings& readings) {
   if (readings.size() < 4) return mean_of(readings);
   Eigen::RowVector3d out;
@@ -71,13 +71,13 @@ Eigen::RowVector3d centre_of(const Readings& readings) {
   return out;
 }
 
-/// One less is known of the distance from a mean.
+/// Factor that corrects distances from the mean of n readings for the lost degree of freedom.
 double unbiased(const Readings& readings) {
   const auto n = static_cast<double>(readings.size());
   return std::sqrt(n / (n - 1.0));
 }
 
-/// Per axis, of most of them, whatever a few say [m].
+/// Robust standard deviation per axis, from the median [m].
 double usual_sigma(const std::vector<Readings>& poses, const std::array<bool, 3>& has_axis) {
   std::vector<double> distances;
   for (const auto& readings : poses) {
@@ -89,7 +89,7 @@ double usual_sigma(const std::vector<Readings>& poses, const std::array<bool, 3>
   return kNormalMedian * median(std::move(distances));
 }
 
-/// A bad reading is no noise. Of two that contradict each other neither is believed.
+/// Leaves out bad readings, which are no noise. If only two contradict each other, both go.
 void drop_contradicted(std::vector<Readings>& poses, double far) {
   for (auto& readings : poses) {
     const Eigen::RowVector3d centre = centre_of(readings);

@@ -116,7 +116,7 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
     scatter = usual_scatter(distance, data.per_pose());
     const Far far = far_from_the_rest(data, distance, plain_distances(data, solution));
     if (many && far.rows.empty() && !of_this) {
-      // That of a fit with a few rows more was a guess.
+      // The leverage so far is from a fit with more rows: an approximation.
       leverage = Leverage(data, solution, parameters);
       of_this = true;
       continue;
@@ -139,8 +139,8 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
       data.rows.insert(data.rows.end(), back.begin(), back.end());
       std::sort(data.rows.begin(), data.rows.end());
     }
-    // What outliers pulled aside may be far along a flat valley: begin again, unless they are a
-    // small part of much.
+    // Outliers may have pulled the solution far along a flat valley: begin again from the start,
+    // unless there are many rows and the outliers caused a small share of the cost.
     const ArmState from = many && far.share < kLittle ? solution.state : start;
     solution = solve(data, from, parameters, tolerance);
   }

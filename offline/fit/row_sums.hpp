@@ -10,7 +10,7 @@
 
 namespace plumb::offline {
 
-/// Sums over all rows at one state: what Gauss and Newton need, and no more memory than that.
+/// Sums over all rows at one state: all that a Gauss-Newton step needs, in little memory.
 struct Sums {
   Eigen::MatrixXd information;  // J^T J
   Eigen::VectorXd gradient;     // J^T residual

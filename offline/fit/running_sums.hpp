@@ -5,9 +5,9 @@
 
 namespace plumb::offline {
 
-/// Running sums, visit by visit, of what least squares needs of the motions of one part: X has a
-/// column for each of its numbers (at most 6), y is the residual. `UX` is what the columns U of a
-/// model have in common with the motions, and empty where no model is looked at.
+/// Running sums over visits for a least-squares fit of the residual y by the motions of one part:
+/// X^T X and X^T y, where X has one column for each number of the motion (at most 6). UX is U^T X
+/// with the columns U of a model, and has no rows if there is no model.
 struct RunningSums {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
   using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -24,7 +24,7 @@ struct RunningSums {
     Xy.noalias() += X.transpose() * y;
   }
 
-  /// The same beside the columns of a model, shape (axes, model_columns).
+  /// The same with the columns U of a model, shape (axes, model_columns).
   template <class Motions, class Residual, class Model>
   void add(const Motions& X, const Residual& y, const Model& U) {
     add(X, y);

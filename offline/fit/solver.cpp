@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kNoChange = 1e-7;      // of the cost in the last iteration
 constexpr double kDenseQrUpTo = 2e5;    // numbers; beyond it the normal equations are much faster
-constexpr int kMostIterations = 300;    // what is hardly seen comes to rest slowly
+constexpr int kMostIterations = 300;    // weakly observable parameters converge slowly
 constexpr int kPatience = 50;           // iterations before predictions alone are judged
 constexpr int kLookBack = 10;           // iterations over which they are
 constexpr double kAtRest = 3e-3;        // of the noise: predictions that move no more have settled
@@ -199,7 +199,7 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   }
   Solution out = evaluate(data, moved(start, parameters, x), parameters);
   out.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  // Two parameters that do nearly the same make the last digits slow, and nobody needs them.
+  // Two parameters with nearly the same effect need not converge to the last digit.
   const auto& last = summary.iterations.back();
   out.converged = summary.termination_type == ceres::CONVERGENCE ||
                   summary.termination_type == ceres::USER_SUCCESS ||

@@ -10,11 +10,11 @@
 
 namespace plumb::offline {
 
-/// How the measured point of each visit moves when something of the cell moves by a unit, in the
-/// measurement frame, missing axes 0; and the residual beside it.
+/// How the measured point of each visit moves if the tool, the base or a joint moves by one unit,
+/// in the measurement frame, and the residual there [m]. Missing axes are 0.
 class StepMotions {
  public:
-  /// Chain frames at the visits; effects and trees move them too little to matter.
+  /// Uses the frames of the chain alone; effects and trees change them too little to matter.
   StepMotions(const ArmState& state, const Measurements& measured, const Series& series);
 
   int size() const { return static_cast<int>(rows_.size()); }
@@ -27,11 +27,12 @@ class StepMotions {
   Eigen::Vector3d error(int visit) const { return error_.col(visit); }
   double squares() const { return error_.squaredNorm(); }
 
-  /// By a turn [m/rad] or shift [m/m] of the joint.
+  /// Motion of the point per turn [m/rad] or shift [m/m] of joint j.
   Eigen::Vector3d joint(int visit, int j) const { return joint_[j].col(visit); }
 
-  /// 3 columns: shift of the reflector along the tool's axes. 6: shift of the base along the axes
-  /// of the measurement frame, turn about its axes through the middle of the points. 1: joint.
+  /// Tool, 3 columns: shift of the reflector along the tool's axes. Base, 6 columns: shift along
+  /// the axes of the measurement frame, then turn about these axes through the mean of the points.
+  /// Joint, 1 column.
   Eigen::MatrixXd columns(int visit, MotionSource source, int j) const;
 
  private:

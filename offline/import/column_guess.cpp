@@ -42,7 +42,7 @@ bool needs_unit(const std::string& name) {
                 {.code = code, .message = std::move(message), .help = std::move(help)});
 }
 
-/// A coordinate in degrees, a payload in millimetres.
+/// Refuses a unit of another quantity: a coordinate in degrees, a payload in millimetres.
 void refuse_other_kind(const std::string& from, const Heading& heading) {
   const auto allowed = allowed_quantities(heading.name);
   const Quantity given = unit_of(heading.unit)->quantity;
@@ -55,7 +55,8 @@ void refuse_other_kind(const std::string& from, const Heading& heading) {
          map_option({fmt::format("{}={}_{}", from, heading.name, usual_unit(heading.name))}));
 }
 
-/// A new name of --map: "x_mm"; "u95x_um" for an expanded uncertainty; "-" for none.
+/// Applies the new name that --map gives: "x_mm"; "u95x_um" for an expanded uncertainty; "-" leaves
+/// the column out.
 void take_name(const std::string& from, std::string to, ColumnPlan& plan) {
   plan.wished = true;
   plan.lacks_unit = false;
@@ -166,7 +167,7 @@ ColumnPlan guess_column(const std::string& header, const std::string& unit_row) 
     }
   }
   if (expanded) {
-    // Only of a measured point is an uncertainty of use, and only by axis.
+    // An uncertainty is used only if it is that of one coordinate of the measured point.
     const bool of_axis = out.name.size() == 2 && out.name[0] == 's' && out.name != "s";
     out.named.uncertain = !of_axis;
     if (of_axis) out.divisor = expanded->factor, out.said = expanded->said;
@@ -188,7 +189,7 @@ std::vector<ColumnWish> wishes_of(const std::vector<std::string>& texts,
   for (const auto& text : texts) {
     std::string_view rest = text;
     while (!rest.empty()) {
-      // A name of a column may hold commas and equals signs: known names come first.
+      // A column name may contain commas and equals signs, so the known names are tried first.
       std::size_t length = 0;
       for (const auto& column : columns)
         if (rest.starts_with(column) && rest.substr(column.size()).starts_with('='))
@@ -217,7 +218,7 @@ std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
     out.push_back(guess_column(header[i], i < units.size() ? units[i] : ""));
   for (const auto& wish : wishes) apply_wish(wish, elsewhere, out);
   decide_numbered(contents, out, remarks);
-  // A wish outdoes a guess of the same name.
+  // If --map and a guess give the same name, the guess is dropped.
   for (const auto& wished : out)
     for (auto& other : out)
       if (wished.wished && !other.wished && !wished.name.empty() && other.name == wished.name)

@@ -15,13 +15,13 @@ struct ColumnPlan {
   std::string from;       // as in the file
   std::string name = {};  // canonical, without unit: "q1", "x", "temp", "pose"; empty: left out
   std::string unit = {};  // of the file's numbers: "rad"; empty for texts and plain numbers
-  bool wished = false;    // by --map
+  bool wished = false;    // the user named it with --map
   bool lacks_unit = false;
   std::string foreign = {};         // a unit that plumb does not convert: "cm"
   double divisor = 1.0;             // of the numbers: 2 for an expanded uncertainty
-  std::string said = {};            // what says so: "U(95)"
-  std::string uncertain_unit = {};  // of an uncertainty that is left out, if its name says one
-  NamedColumn named = {};           // what the words of its name said
+  std::string said = {};            // the words that state the divisor: "U(95)"
+  std::string uncertain_unit = {};  // of an uncertainty that is left out, if its name states one
+  NamedColumn named = {};           // the meaning of the words of its name
 };
 
 /// Plans a column: "X [mm]", "x(mm)", "Joint 1 / deg", "Achse_3 deg", "Temp °C" are known; a unit
@@ -33,14 +33,14 @@ struct ColumnWish {
   std::string from, to;
 };
 
-/// Wishes of --map, several in one text: "x=x_mm,Y, measured=y_mm". `columns`: names in the files,
-/// which may hold commas. Throws Failure (kUsage, E-IMPORT-MAP).
+/// The requests of --map, several in one text: "x=x_mm,Y, measured=y_mm". `columns`: names in the
+/// files, which may hold commas. Throws Failure (kUsage, E-IMPORT-MAP).
 std::vector<ColumnWish> wishes_of(const std::vector<std::string>& texts,
                                   const std::vector<std::string>& columns);
 
 /// The plan of every column. `elsewhere`: columns of the other file, which wishes may also name.
 /// Throws Failure (kUsage): E-IMPORT-MAP for a column that is in no file (did you mean) or a new
-/// name without a known unit, E-IMPORT-TWICE for two of one name.
+/// name without a known unit, E-IMPORT-TWICE for two columns that would get the same name.
 std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
                                      const std::vector<std::string>& units,
                                      const std::vector<ColumnContent>& contents,

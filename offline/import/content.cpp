@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::size_t kLookedRows = 500;
 
-/// A unit and the sizes at which it is believed.
+/// A unit, and the range in which the largest number of a column makes it plausible.
 struct Candidate {
   const char* unit;
-  double least, most;  // of the largest number of the columns, in that unit
+  double least, most;  // bounds of that number, in the unit
 };
 
 using Candidates = std::vector<Candidate>;
 
-/// Trackers reach from 0.05 m to 30 m; joints move by more than 3 degrees and less than two turns
-/// in radians; a standard deviation lies between 0.1 um and 5 mm.
+/// Trackers reach from 0.05 m to 30 m; joint angles reach more than 3 degrees and, if
+/// they are in radians, less than two turns; a standard deviation lies between 0.1 um and 5 mm.
 const Candidates& candidates_of(const std::string& name) {
   static const Candidates kPoint{
       {"mm", 50, 3e4}, {"m", 0.05, 30}, {"in", 2, 390}, {"um", 5e5, 3e7}};

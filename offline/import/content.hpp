@@ -8,11 +8,11 @@
 
 namespace plumb::offline {
 
-/// What stands below a heading.
+/// The content of a column below its heading.
 struct ColumnContent {
-  bool empty = true;            // every cell
-  std::vector<double> numbers;  // of some rows all over the file; none if one cell is no number
-  double largest = 0.0;         // of their sizes
+  bool empty = true;            // all cells are empty
+  std::vector<double> numbers;  // of a sample of rows; none if a cell of the sample is no number
+  double largest = 0.0;         // largest absolute value of `numbers`
   bool numeric() const { return !numbers.empty(); }
 };
 

@@ -200,7 +200,7 @@ struct DecimalVotes {
   int comma = 0, point = 0, either = 0;
   int either_line = 0;
   int both = 0;            // "1.234,5": the point divides thousands
-  int grouped_points = 0;  // "1.234": thousands beside a decimal comma, else decimals
+  int grouped_points = 0;  // "1.234": thousands if commas are decimal signs, else decimals
   int grouped_line = 0;
 };
 
@@ -254,7 +254,7 @@ void add_comment(std::string_view line, RawRows& out) {
                             std::string(trimmed(line.substr(colon + 2))));
 }
 
-/// Beside a decimal comma every point must divide thousands: "1.234.567,8", not "0.125".
+/// If commas are decimal signs, every point must separate thousands: "1.234.567,8", not "0.125".
 bool divides_thousands(std::string_view cell) {
   const auto first = cell.find('.');
   if (first == cell.npos) return true;
@@ -272,7 +272,7 @@ bool divides_thousands(std::string_view cell) {
          cell.find('.', whole.size()) == cell.npos;
 }
 
-/// Cells behind the last heading: none in it, and empty in every row.
+/// Removes the columns after the last named one if they are empty in every row.
 void drop_empty_ends(const SourceText& text, RawRows& out) {
   auto& header = out.dialect.header;
   std::size_t named = header.size(), dropped = 0;

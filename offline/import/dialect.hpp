@@ -9,7 +9,7 @@
 
 namespace plumb::offline {
 
-/// What the user says of a file; what is not said is found out.
+/// What the user states about a file; the rest is detected.
 struct DialectWishes {
   std::optional<char> separator;  // ' ' stands for any run of blanks
   std::optional<char> decimal;    // '.' or ','

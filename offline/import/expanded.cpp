@@ -13,10 +13,10 @@ constexpr double kUsual = 2.0;  // the coverage factor of 95 %
 
 struct Pattern {
   std::regex regex;
-  double factor;  // 0: the number that was matched
+  double factor;  // 0: the matched number is the factor
 };
 
-// What is matched falls out of the heading, but for a letter U that says "uncertainty".
+// The matched text is removed from the heading.
 const std::vector<Pattern>& patterns() {
   static const std::vector<Pattern> all{
       {std::regex(R"([\(\[]?\s*\bk\s*=\s*([0-9]+(?:[.,][0-9]+)?)\s*[\)\]]?)", std::regex::icase),
@@ -35,7 +35,7 @@ const std::vector<Pattern>& patterns() {
   return all;
 }
 
-/// "[mm, k=2]" and "[k=2; mm]" as "[mm] (k=2)".
+/// Rewrites "[mm, k=2]" and "[k=2; mm]" as "[mm] (k=2)".
 std::string with_factor_apart(const std::string& heading) {
   static const std::regex kBehind(
       R"(([\[\(])\s*([^\[\]\(\),;]+?)\s*[,;\s]\s*(k\s*=\s*[0-9]+(?:[.,][0-9]+)?)\s*([\]\)]))",
@@ -51,7 +51,7 @@ bool is_unit(const std::string& text) {
   return !known_unit(text).empty() || !unit_of_others(text).empty();
 }
 
-/// The word "sigma" behind the name and the unit behind that, wherever the unit stood.
+/// The name, the word "sigma" and the unit in this order, wherever the unit was before.
 std::string with_sigma(const std::string& text) {
   static const std::regex kLast(R"(^(.*?)\s*([\[\(][^\[\]\(\)]*[\]\)])\s*$)");
   static const std::regex kFirst(R"(^\s*([\[\(][^\[\]\(\)]*[\]\)])\s*(.+)$)");

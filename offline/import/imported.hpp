@@ -19,10 +19,10 @@ struct ImportedColumn {
   std::string heading() const { return unit.empty() ? name : name + "_" + unit; }
 };
 
-/// A column of numbers that nothing was made of.
+/// A column of numbers that is not used.
 struct UnusedColumn {
   std::string from;
-  double largest = 0.0;  // of their sizes, as written
+  double largest = 0.0;  // largest absolute value, as written
 };
 
 /// A foreign file as plumb understood it.
@@ -32,8 +32,8 @@ struct Imported {
   std::string separator, decimal;  // in words
   std::vector<ImportedColumn> columns;
   std::vector<std::string> left_out;
-  std::vector<UnusedColumn> unused;  // those of numbers, but for what the user left out
-  std::vector<int> lines;            // of the rows
+  std::vector<UnusedColumn> unused;  // without those that the user left out
+  std::vector<int> lines;            // line number of each row
   std::vector<std::pair<std::string, std::string>> comments;
   std::vector<Problem> remarks;
 

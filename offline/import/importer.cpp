@@ -23,9 +23,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kOneTurn = 6.3;      // radians of a joint that turns once about
-constexpr double kLeastMove_m = 0.2;  // of the points: less may be a few degrees
-constexpr double kLongLever_m = 1.0;  // all joints moving the tool by that arm, one way
+constexpr double kOneTurn = 6.3;      // [rad], rounded up
+constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
+constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
 constexpr int kRowsToJudge = 8;
 constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
 
@@ -46,7 +46,7 @@ std::string in_words(char sign) {
   }
 }
 
-/// The digits of a number with a decimal point, thousands signs gone.
+/// The number with a decimal point and without thousands separators.
 std::string plain_number(std::string_view cell, char decimal) {
   std::string out;
   for (char c : cell) {
@@ -109,7 +109,7 @@ class Importer {
       out_.unused.push_back({plan.from, contents_[k].largest});
   }
 
-  /// A known column that holds nothing in any row is no column of bad numbers.
+  /// Leaves out known columns that are empty in every row; they are no errors.
   void leave_out_empty(std::vector<ColumnPlan>& plans) {
     for (std::size_t k = 0; k < plans.size(); ++k) {
       if (!contents_[k].empty || plans[k].name.empty() || plans[k].wished) continue;
@@ -139,7 +139,7 @@ class Importer {
     joined_date_ = true;
   }
 
-  /// A recognised column must say its unit, and one that plumb knows; a preview only warns.
+  /// A recognised column must state a unit that plumb knows; a preview only warns.
   void look_at_units(std::vector<ColumnPlan>& plans) {
     for (std::size_t k = 0; k < plans.size(); ++k) {
       ColumnPlan& plan = plans[k];
@@ -222,8 +222,8 @@ class Importer {
     return out;
   }
 
-  /// What --map calls it, so that pasting the line changes no number: an expanded uncertainty stays
-  /// one.
+  /// The name of the column in a proposed --map. An expanded uncertainty is named as one, so that
+  /// pasting the proposal changes no number.
   static std::string map_name(const ColumnPlan& plan) {
     return plan.divisor != 1.0 ? "u95" + plan.name.substr(1) : plan.name;
   }
@@ -243,7 +243,8 @@ class Importer {
                                plan.name, unit.use, map_option({plan.from + "=-"})));
   }
 
-  /// What was divided, and what was not used because nothing says by how much.
+  /// Reports the uncertainties that were divided to make them one standard deviation, and those
+  /// that were left out because the divisor or the axis is not known.
   void say_of_uncertainties(const std::vector<ColumnPlan>& plans) {
     std::vector<std::string> divided, as_they_are, unclear, wishes;
     bool unit_known = false;
@@ -281,7 +282,8 @@ class Importer {
                            unit_known ? "" : "; mm in place of um if that is the unit")});
   }
 
-  /// A joint in millimetres slides; of one that turns it is a slip that only the cell can tell.
+  /// Millimetres are right for a sliding joint only. Whether the joint slides is known to the cell
+  /// file alone, so this is a note.
   void say_of_sliding(const std::vector<ColumnPlan>& plans) {
     for (const auto& plan : plans) {
       const auto unit = unit_of(plan.unit);
@@ -309,8 +311,9 @@ class Importer {
     return high - low;
   }
 
-  /// Columns of degrees that hold a turn in radians at most, though the arm has moved by far more
-  /// than so few degrees would move it. Asked, never changed.
+  /// Warns of joint columns in degrees that probably hold radians: no number is larger than one
+  /// turn in radians, and the points moved much farther than such small angles could move them.
+  /// Nothing is converted.
   void say_of_radians(const std::vector<ColumnPlan>& plans) {
     std::vector<std::string> names, wishes;
     double largest = 0.0, turned = 0.0;
@@ -336,12 +339,12 @@ class Importer {
          .help = "if they are radians: " + map_option(wishes)});
   }
 
-  /// Of the column, or the usual one of uncertainties.
+  /// The unit of the column, or the usual one of uncertainties.
   static std::string unit_in_wish(const ColumnPlan& plan) {
     return plan.unit.empty() || plan.unit == "?" ? "um" : plan.unit;
   }
 
-  /// Where a name stands alone: 'x' is not the end of "index".
+  /// The position of a name as a whole word: 'x' is not found at the end of "index".
   static std::size_t place_of(const std::string& line, const std::string& name) {
     const auto part_of_word = [&](std::size_t at) {
       return at < line.size() && std::isalnum(static_cast<unsigned char>(line[at])) != 0;
@@ -404,7 +407,7 @@ class Importer {
                     plan.from));
   }
 
-  /// Cells of a time stamp, a date from another column before them.
+  /// The cells of a time stamp, preceded by the date if that is in another column.
   std::vector<std::string> stamps(std::size_t k) const {
     std::vector<std::string> out;
     for (const auto& row : rows_.cells)

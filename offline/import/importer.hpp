@@ -12,7 +12,7 @@
 
 namespace plumb::offline {
 
-/// What the user says of the files; the rest is found out and told.
+/// What the user states about the files; the rest is detected and reported.
 struct ImportWishes {
   DialectWishes dialect;
   std::vector<std::string> map;  // "Goal x=nx_m"

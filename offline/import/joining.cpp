@@ -18,7 +18,7 @@ namespace {
 using Pairs = std::vector<std::pair<int, int>>;
 
 constexpr int kMostShift = 5;
-constexpr double kClearlyBetter = 0.2;  // times the residual
+constexpr double kClearlyBetter = 0.2;  // a shift must lower the residual below this share
 constexpr int kFewPairs = 8;
 
 [[noreturn]] void refuse(const Imported& file, std::string message, std::string help) {
@@ -90,7 +90,8 @@ const ImportedColumn* either(const Imported& a, const Imported& b, const std::st
   return found != nullptr ? found : b.find(name);
 }
 
-/// RMS distance [m] once frame and target are placed; nothing if the files lack joints or points.
+/// RMS distance [m] of the measured points from the nominal arm, with frame and target fitted;
+/// nothing if the files lack joints or points.
 std::optional<double> residual(const Imported& a, const Imported& b, const Pairs& pairs,
                                const Cell& cell) {
   Measurements m;

@@ -13,13 +13,13 @@ enum class JoinBy { kPose, kTime, kOrder };
 
 struct JoinWishes {
   JoinBy by = JoinBy::kPose;
-  double max_gap_s = 1.0;      // kTime: farther apart is no partner
-  const Cell* cell = nullptr;  // kOrder: the arm that tells a shift, or null
+  double max_gap_s = 1.0;      // kTime: largest time between two rows that belong together
+  const Cell* cell = nullptr;  // kOrder: the arm by which a shift of rows is found, or null
 };
 
 /// Joins two files row by row; rows without a partner are dropped and counted in a warning.
 /// kOrder: if the counts differ, or if it fits the arm of `cell` clearly better, the second file is
-/// shifted by up to five rows, and both residuals are told.
+/// shifted by up to five rows, and both residuals are reported.
 /// Throws Failure (kInput, E-IMPORT-JOIN) if they cannot be joined.
 Imported join(const Imported& first, const Imported& second, const JoinWishes& wishes);
 

@@ -11,7 +11,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kUnitLength =
-    2e-3;  // how far the squares of a quaternion with four digits are off
+    2e-3;  // error of the sum of squares of a quaternion with four digits
 constexpr const char* kScalarFirst[] = {"qw", "qx", "qy", "qz"};
 constexpr const char* kScalarLast[] = {"qx", "qy", "qz", "qw"};
 

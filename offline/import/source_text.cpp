@@ -60,8 +60,8 @@ unsigned byte_at(std::string_view bytes, std::size_t i) {
   return static_cast<unsigned char>(bytes[i]);
 }
 
-/// True if all bytes beyond ASCII form characters of Shift-JIS, one of which is none of two
-/// characters that European text has side by side.
+/// True if all bytes beyond ASCII form characters of Shift-JIS, and at least one of these is a pair
+/// of bytes that does not occur in European text.
 bool looks_shift_jis(std::string_view bytes) {
   bool sure = false;
   for (std::size_t i = 0; i < bytes.size(); ++i) {

@@ -20,8 +20,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kDay_s = 86400.0;
-constexpr double kFirstDay = 20000.0, kLastDay = 80000.0;  // of a spreadsheet: 1954 to 2119
-constexpr double kMostDays = 1000.0;                       // that a measurement takes
+constexpr double kFirstDay = 20000.0, kLastDay = 80000.0;  // days of a spreadsheet: 1954 to 2119
+constexpr double kMostDays = 1000.0;                       // longest time that a measurement takes
 constexpr double kFirstEpoch_s = 9e8, kLastEpoch_s = 5e9;  // 1998 to 2128
 
 std::optional<double> seconds_of(int year, int month, int day) {
@@ -32,7 +32,7 @@ std::optional<double> seconds_of(int year, int month, int day) {
   return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count()) * kDay_s;
 }
 
-/// A cell read both ways, where both are dates.
+/// A cell read with the day first and with the month first; empty where that gives no date.
 struct Reading {
   std::string format;
   std::optional<double> day_first, month_first;
@@ -149,7 +149,7 @@ std::optional<Reading> date(Scanner& s) {
     const auto t = seconds_of(n[0], n[1], n[2]);
     return Reading{separator == '-' ? "ISO 8601" : fmt::format("YYYY{0}MM{0}DD", separator), t, t};
   }
-  // Two digits for the year may be its place at either end where dashes divide.
+  // With dashes, a year of two digits may stand first or last, so such a date is not accepted.
   if (digits[2] != 4 && (digits[2] != 2 || separator == '-')) return std::nullopt;
   const int year = full_year(n[2], digits[2]);
   return Reading{fmt::format("{}", separator), seconds_of(year, n[1], n[0]),
@@ -275,7 +275,8 @@ bool same_steps(const std::vector<double>& a, const std::vector<double>& b) {
   return true;
 }
 
-/// Times in the order that the column tells; says in `out` if it does not.
+/// The times, with day and month in the order that the whole column shows. If it shows none,
+/// `out.undecided` is set.
 std::vector<double> decided(const std::vector<Reading>& readings, DateOrder wished,
                             Timestamps& out) {
   auto day_first = times_of(readings, DateOrder::kDayFirst);

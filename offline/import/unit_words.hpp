@@ -9,7 +9,7 @@ namespace plumb::offline {
 /// is none.
 std::string known_unit(std::string text);
 
-/// The unit of others, which plumb does not convert, that a text is: "cm", "[ft]"; or empty.
+/// The unit that a text means if it is one that plumb does not convert: "cm", "[ft]"; else empty.
 std::string unit_of_others(std::string text);
 
 }  // namespace plumb::offline

@@ -19,17 +19,17 @@ enum class Kind {
   kMeasured,    // of a point
   kFiller,      // adds nothing: "actual", "value"
   kSigma,       // one standard deviation of a point
-  kUncertain,   // some multiple of it
-  kTurn,        // about an axis
-  kQuaternion,  // a part of one
-  kLabel,       // of a pose; beside a letter x, y, z it adds nothing
-  kName,        // stands for itself
+  kUncertain,   // an unknown multiple of a standard deviation
+  kTurn,        // a rotation about an axis
+  kQuaternion,  // a part of a quaternion
+  kLabel,       // the name of a pose; beside x, y or z it adds nothing
+  kName,        // means the column `Word::name`
   kAxis,        // x, y, z, w
   kNumber
 };
 
 struct Word {
-  std::string_view text;  // folded
+  std::string_view text;  // as `folded` returns it
   Kind kind;
   std::string_view name = {};  // of kName
 };

@@ -14,7 +14,7 @@ struct NamedColumn {
   int number = -1;               // of a joint or of a part of a quaternion, as written
   bool letter_q = false;         // "Q1": a joint, or a part of a quaternion
   bool quaternion_part = false;  // "Quaternion 1": name is empty, number says which
-  bool uncertain = false;        // "Uncertainty X": name is "sx", but not of how many sigma
+  bool uncertain = false;        // "Uncertainty X": name is "sx", the number of sigma unknown
 };
 
 NamedColumn named_column(std::string_view header);

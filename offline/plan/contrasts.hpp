@@ -20,7 +20,7 @@ enum class Contrast {
   kPulled        // free, and pulled by a known force
 };
 
-/// Contrasts that change what the effect does while geometry stays.
+/// Contrasts that change the motion of the effect, but not that of the geometry.
 std::vector<Contrast> contrasts_of(const EffectInfo& effect);
 
 /// Those that change one of two effects and not the other, the cheapest first.

@@ -11,8 +11,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kPlausible = 5e-3;  // [m] or [rad] of a robot parameter; [m] of an effect's motion
-constexpr double kAnywhere = 1.0;    // of frame and target
-constexpr double kMoves = 1e-9;      // [m] per width: less is nothing
+constexpr double kAnywhere = 1.0;    // [m] or [rad] of frame and target
+constexpr double kMoves = 1e-9;      // [m] per width: less counts as no motion
 constexpr double kRoom_degC = 20.0;
 
 double mean_of(const Eigen::VectorXd& values) {

@@ -12,8 +12,8 @@
 
 namespace plumb::offline {
 
-/// The parameters of a cell and what poses tell about them, in numbers that are 1 where a parameter
-/// is as large as anybody expects: a prior of 1 for each.
+/// The parameters of a cell and what poses tell about them. Parameters are scaled by the largest
+/// deviation that is expected (`width`), so that each has a prior of 1 sigma = 1.
 struct DesignSpace {
   const Cell* cell = nullptr;
   ArmState state;  // where the derivatives are taken; carries the effects

@@ -9,9 +9,9 @@
 namespace plumb::offline {
 
 /// An order in which to drive through poses: nearest neighbour after nearest neighbour, then pairs
-/// of moves uncrossed until nothing shortens (2-opt). A move is as long as the joint that needs the
-/// largest share of its range. q: shape (n, joints); range: of each joint, > 0; start: where the
-/// arm stands.
+/// of moves uncrossed until nothing shortens (2-opt). The length of a move is the largest
+/// share of its range that any joint needs. q: shape (n, joints); range: of each joint, > 0; start:
+/// where the arm stands.
 std::vector<int> driving_order(const RowsN& q, const Eigen::VectorXd& range,
                                const Eigen::VectorXd& start);
 

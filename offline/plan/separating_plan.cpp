@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUsualLoad_kg = 5.0;
 constexpr double kRidge = 1e-9;
-constexpr double kShown = 0.2;  // of what counts as 1: a larger 1 sigma shows nothing
+constexpr double kShown = 0.2;  // largest 1 sigma, in widths, of a parameter that poses show
 
 /// The two effects among the parameters.
 struct Pair {
@@ -66,7 +66,7 @@ DesignCriterion apart(const Pair& pair) {
   return {{{pair.both(), 2.0}, {pair.with(pair.a), -1.0}, {pair.with(pair.b), -1.0}}};
 }
 
-/// Both effects cleared of the rest, then each of the other.
+/// Projects the other parameters out of both effects, then compares each with the other.
 Reproduction reproduction(const Eigen::MatrixXd& lines, const Pair& pair) {
   Eigen::MatrixXd M = lines.transpose() * lines;
   M.diagonal().array() += 1.0;
@@ -123,7 +123,7 @@ ContrastSizes sizes_of(const Cell& cell, const Measurements& used) {
   return out;
 }
 
-/// What the first poses of the pool would tell under a contrast: enough to choose one.
+/// Value of the first poses of the pool under a contrast; a part of the pool is enough to choose.
 double promise(const Candidates& candidates, const Eigen::MatrixXd& known, const DesignSpace& space,
                const DesignCriterion& criterion, int n) {
   double out = 0.0;

@@ -26,7 +26,8 @@ std::string readings_text(const Cell& cell, const Detection& d) {
   std::vector<Reading> rows = d.table;
   const auto is_best = [&](const Reading& r) { return r.convention == d.best.convention; };
   std::stable_partition(rows.begin(), rows.end(), is_best);
-  // Readings that predict the same points name the same arm, mirrored or counted otherwise.
+  // Ways to read the files that predict the same points describe the same arm, mirrored or counted
+  // otherwise. They are not listed.
   const std::size_t all = rows.size();
   std::erase_if(rows, [&](const Reading& r) {
     return !(r.convention == labels) &&
@@ -110,7 +111,7 @@ std::string parameters_text(const IdentifiabilityReport& p) {
   return out;
 }
 
-/// "Testable" in one line; of the others, what is in the way and what to measure.
+/// The testable effects on one line; for the others, why they are not and what to measure.
 std::string effects_text(const std::vector<Testable>& effects) {
   std::string yes, weakly, no;
   for (const auto& e : effects) {

@@ -151,8 +151,8 @@ std::string setups_text(const Comparison& comparison) {
   return "";
 }
 
-/// A jump that causes the error explains more than the size of the error does; beside one that does
-/// not, something else is missing, and may look like a jump where the poses change.
+/// A jump is called the cause only if it explains enough of the squared error. Otherwise something
+/// else is missing, and that may look like a jump where the poses change.
 std::string compare_verdict(const Cell& cell, const Measurements& measured,
                             const Comparison& comparison, const Run& run) {
   const std::string error = verdict(run.fit, cell.tolerance_m);

@@ -17,7 +17,7 @@ Json compare_json(const Cell& cell, const Measurements& measured,
 std::string compare_text(const Cell& cell, const Measurements& measured,
                          const compare::Comparison& comparison, const Run& run);
 
-/// What `plumb` should be told next.
+/// The command to type next, without `plumb`.
 std::string after_comparison(const Cell& cell, const compare::Comparison& comparison,
                              const Run& run);
 

@@ -9,7 +9,7 @@
 
 namespace plumb::offline::show {
 
-/// What a comparison found, a sentence each, the same on the screen and for programs.
+/// The findings of a comparison as sentences, the same on the screen and for programs.
 
 /// Whether the error of the fitted readings is more than noise, said so that it never contradicts
 /// what is left on the held-out poses (`held`; none without a noise floor or without such poses).
@@ -23,14 +23,14 @@ std::string changes_words(const Changes& found);
 std::string step_words(const Cell& cell, const Measurements& measured, const StepFound& step);
 std::string drift_words(const Cell& cell, const Measurements& measured, const DriftFound& drift);
 
-/// "angle of J4", "height", "torque of J2".
+/// "joint J4", "height in the base frame", "J2 torque".
 std::string quantity_words(const compare::ErrorProfile& profile);
 
 /// A value of a profile in the unit shown, and that unit; "" if it has none.
 double in_unit(double value, compare::ErrorProfile::Unit unit);
 const char* unit_name(compare::ErrorProfile::Unit unit);
 
-/// "1 in 20,000" of a natural logarithm of a probability; "below 1 in 10^12".
+/// A probability, given by its natural logarithm, as "1 in 20000" or "below 1 in 10^12".
 std::string chance(double ln_p);
 
 }  // namespace plumb::offline::show

@@ -8,7 +8,7 @@
 
 namespace plumb::offline::show {
 
-/// A measurement file passed through, with columns of ours behind it.
+/// Measurement files passed through, with columns that plumb adds behind theirs ("ours").
 ///
 /// Input cells stay as written. Several tables are stacked; a column that one of them lacks is
 /// empty there. A column of ours takes the place of an input column of the same name.
@@ -31,16 +31,16 @@ class CsvColumns {
   std::size_t column(const std::string& name);
 
   struct Part {
-    std::vector<std::size_t> columns;  // where each of its columns stands
+    std::vector<std::size_t> columns;  // the output column of each of its columns
     KeptRows rows;
   };
   void append(const Part& part, std::size_t row, std::size_t row_of_all, std::string& out) const;
 
   std::vector<std::string> header_;
-  std::vector<Part> parts_;  // one a table
+  std::vector<Part> parts_;  // one for each table
   int rows_ = 0;
   std::size_t inputs_ = 0;
-  std::vector<std::vector<std::string>> ours_;  // cells of each column; empty: not one of ours
+  std::vector<std::vector<std::string>> ours_;  // cells of each column; empty for input columns
   std::vector<std::string> replaced_;
 };
 

@@ -64,7 +64,7 @@ std::string full_table(const Cell& cell, const Diagnosis& d) {
   return table.text();
 }
 
-/// Its size where it counts, and what it may be mistaken for.
+/// How far the first candidate moves the measured point, and what it may be mistaken for.
 std::string first_text(const Cell& cell, const Diagnosis& d) {
   const Candidate& first = d.candidates.front();
   std::string out = fmt::format(

@@ -19,7 +19,7 @@ enum class Candidates { kFirst, kAll };
 /// cannot show.
 std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis, Candidates shown);
 
-/// What `plumb` should be told next; the first helps most.
+/// The commands to type next, without `plumb`; the first helps most.
 std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& diagnosis);
 
 /// ["J2", "J3"]

@@ -8,7 +8,7 @@
 
 namespace plumb::offline::show {
 
-/// What `plumb add` takes, a ripple with all its waves:
+/// The arguments of `plumb add`; a ripple with all its waves:
 /// gear_ripple --joints J2 --set cycles_per_turn=7.91,17.49.
 std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
                              const std::vector<double>& cycles);

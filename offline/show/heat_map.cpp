@@ -14,7 +14,7 @@ constexpr double kLeft = 70, kTop = 48, kWidth = 560, kHeight = 400, kBar = 18, 
                  kBottom = 56;
 constexpr int kColours = 64;  // steps of the scale
 constexpr int kTicks = 5;
-constexpr double kSeam = 0.4;  // rectangles overlap: no background shines through
+constexpr double kSeam = 0.4;  // overlap of rectangles: no background shows between them
 
 using Colour = std::array<double, 3>;
 

@@ -15,7 +15,7 @@ using drivers::LatencyHistogram;
 
 constexpr double kPlotLeft = 80, kPlotTop = 72, kPlotWidth = 600, kPlotHeight = 320,
                  kPlotRight = 40, kPlotAxis = 52, kPlotLine = 18;
-constexpr double kFloor = 0.5;  // count at the foot of the axis: one call still shows
+constexpr double kFloor = 0.5;  // lowest count of the axis; below 1, so that one call is seen
 
 struct Style {
   const char* colour;
@@ -110,7 +110,7 @@ class HistogramDrawing {
     label(kPlotLeft - 66, kPlotTop - 10, "start", "number of calls [logarithmic]");
   }
 
-  /// The outline of the bins, from the foot to the foot.
+  /// The outline of the bins, which begins and ends at the bottom of the plot.
   std::string outline(const LatencyHistogram& histogram) const {
     std::string path = fmt::format("M{:.1f} {:.1f}", kPlotLeft, y(0.0));
     for (std::size_t i = 0; i + 1 < LatencyHistogram::kBins; ++i) {

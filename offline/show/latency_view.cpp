@@ -125,7 +125,7 @@ std::string row_name(const Timing& timing) {
 
 std::string ns_text(double ns) { return fmt::format("{:.0f}", ns); }
 
-/// Medians of all ways; of what is added to the kinematics, by how much.
+/// The medians warm, chained and cold; for an effect or the trees, what they add to the kinematics.
 std::vector<std::string> row(const Timings& all, std::size_t kernel) {
   const std::size_t kernels = all.all.size() / 3;
   const Timing &warm = all.all[kernel], &chain = all.all[kernels + kernel],

@@ -12,7 +12,7 @@ namespace plumb::offline::show {
 struct ParameterUnit {
   std::string name;
   double per_si = 1.0;
-  bool plain = true;  // four decimals say it; else four digits
+  bool plain = true;  // shown with four decimals, else with four digits
 
   std::string text(double si) const;
 };

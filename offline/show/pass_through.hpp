@@ -8,8 +8,8 @@
 
 namespace plumb::offline::show {
 
-/// Rows of a CSV file passed through as written, with columns of ours behind them. A column of ours
-/// takes the place of an input column of the same name.
+/// Rows of a CSV file passed through as written, with columns that plumb adds ("ours") behind them.
+/// A column of ours takes the place of an input column of the same name.
 class PassThrough {
  public:
   PassThrough(std::string_view raw_header, const std::vector<std::string>& ours);
@@ -25,8 +25,8 @@ class PassThrough {
               std::string& out) const;
 
  private:
-  std::vector<int> own_of_input_;    // which of ours stands in this input column, or -1
-  std::vector<std::size_t> behind_;  // those of ours that are new columns
+  std::vector<int> own_of_input_;    // which of ours replaces this input column, or -1
+  std::vector<std::size_t> behind_;  // those of ours that replace none
   std::string header_;
   std::vector<std::string> replaced_;
 };

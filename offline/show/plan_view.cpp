@@ -13,7 +13,7 @@ namespace plumb::offline::show {
 namespace {
 
 constexpr std::size_t kNumbersShown = 12;
-constexpr double kConfounded = 0.8;  // mutual reproduction above it leaves the choice open
+constexpr double kConfounded = 0.8;  // above: two effects imitate each other too well to choose
 
 Vector3 nominal_point(const Cell& cell, const Eigen::VectorXd& q) {
   ChainFrames frames;

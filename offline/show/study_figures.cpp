@@ -17,7 +17,7 @@ using study::StudyRow;
 
 constexpr const char* kAxisName[] = {"x", "y"};
 
-/// One quantity of the test grid, its rows phi12 and its columns phi23, as the grid is listed.
+/// One quantity on the test grid: a row for each phi12, a column for each phi23.
 HeatMap map_of(const PlanarStudy& study, const Eigen::VectorXd& value_mm) {
   const RowsN& q = study.test_q;
   Eigen::Index columns = 0;

@@ -7,7 +7,8 @@
 
 #include "robot.hpp"
 
-/// What the C interface finds out about pointers and sizes. No heap; any thread; fixed cost.
+/// Checks of the pointers and struct sizes passed to the C interface. No heap; any thread; fixed
+/// cost.
 namespace plumb::c {
 
 template <class T>
@@ -22,7 +23,8 @@ inline plumb_result check_robot(const plumb_robot* robot) noexcept {
   return robot->mark == plumb_robot::kMark ? PLUMB_OK : PLUMB_NOT_A_ROBOT;
 }
 
-/// Structs begin with their size; no version of T is smaller than `smallest`.
+/// Checks the pointer and the size that the struct states in its first member. `smallest`: the
+/// smallest size that any version of T has had.
 template <class T>
 plumb_result check_struct(const T* pointer, std::size_t smallest = sizeof(T)) noexcept {
   const plumb_result found = check_pointer(pointer);
@@ -34,7 +36,8 @@ inline plumb_result first_of(plumb_result a, plumb_result b) noexcept {
   return a != PLUMB_OK ? a : b;
 }
 
-/// The caller's struct as far as both sides know it. Precondition: check_struct found nothing.
+/// Copies the members that both the caller's version of T and ours have; the others keep their
+/// defaults. Precondition: check_struct returned PLUMB_OK.
 template <class T>
 T copy_in(const T* from) noexcept {
   T out{};
@@ -42,7 +45,7 @@ T copy_in(const T* from) noexcept {
   return out;
 }
 
-/// Writes no further than the caller's size, which stays what it was.
+/// Copies `value` to the caller's struct, but not beyond the size stated there, which is kept.
 template <class T>
 void copy_out(T value, T* to) noexcept {
   value.size = to->size;

@@ -34,7 +34,7 @@ plumb_pose pose_of(const Transformd& X) noexcept {
 
 Reading reading_of(const plumb_input& in, std::uint32_t bit, const plumb_reading& came) noexcept {
   if ((in.arrived & bit) == 0) return {};
-  // An age that is no number is not "nothing came": nobody knows how old it is.
+  // The reading did arrive, so an age of NaN means that its age is unknown: it counts as too old.
   const bool aged = came.age_s == came.age_s;
   return {came.value, aged ? came.age_s : std::numeric_limits<double>::infinity()};
 }
@@ -78,7 +78,7 @@ plumb_output output_of(const CycleOutput& step) noexcept {
   return out;
 }
 
-/// After an error: nothing to send, nothing to trip over.
+/// The output after an error: has_output is false, and all numbers are valid.
 plumb_output no_output() noexcept {
   plumb_output out{};
   out.status = out.solved = PLUMB_STATUS_NO_MODEL;

@@ -11,7 +11,7 @@ namespace {
 using plumb::LoadError;
 using plumb::format::Model;
 
-/// What a call says about an error.
+/// The caller's buffer for the text of an error.
 struct Message {
   char* text;
   std::size_t capacity;
@@ -71,7 +71,7 @@ plumb_result swap(plumb_robot& robot, const Source& source, const Message& messa
   return error ? failed(result_of(error->fault), message, error->text) : PLUMB_OK;
 }
 
-/// Runs a call of the load phase; what it throws becomes a result.
+/// Runs a call of the load phase and turns exceptions into results.
 template <class Call>
 plumb_result guarded(const Message& message, Call call) noexcept {
   try {

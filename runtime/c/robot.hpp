@@ -10,14 +10,14 @@
 #include "plumb.h"
 #include "plumb/robot.hpp"
 
-/// What stands behind the opaque pointer.
+/// The definition of the opaque type of plumb.h.
 struct plumb_robot {
   static constexpr std::uint64_t kMark = 0x31304d554c503a29;
 
-  std::uint64_t mark = kMark;  // tells a robot from other aligned memory
+  std::uint64_t mark = kMark;  // recognises a pointer that is not to a robot
   std::unique_ptr<plumb::Robot> robot;
 
-  // Any thread; never change.
+  // These members never change and may be read from any thread.
   int joints = 0;
   std::string serial;
   std::array<std::string, PLUMB_MAX_TEMPERATURES> sensors;

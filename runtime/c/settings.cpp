@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The limits of the cycle, before it begins.
+// The calls that change the settings of the cycle before its first step.
 #include <cfloat>
 
 #include "check.hpp"

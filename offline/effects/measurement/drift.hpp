@@ -6,9 +6,9 @@
 
 namespace plumb::effects {
 
-/// The tracker's stand or the floor moves: twist of the base, u t + v f(t), t in units of the
-/// series' length; f = t^2, or where the stand warms up with time constant T, 1 - e^(-t / T). Of
-/// the measurement: fitted and thrown away.
+/// The tracker's stand or the floor moves: twist of the base u t + v f(t), where t runs from 0 to 1
+/// over the series. f(t) = t^2, or 1 - e^(-t / T) for a stand that warms up with time constant T.
+/// Belongs to the measurement: fitted, never compiled.
 struct Drift {
   static constexpr EffectParameter kParameters[] = {
       {"dx1", "m", 50e-6, 0, 0},   {"dy1", "m", 50e-6, 0, 0},   {"dz1", "m", 50e-6, 0, 0},

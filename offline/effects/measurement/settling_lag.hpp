@@ -7,7 +7,7 @@
 namespace plumb::effects {
 
 /// Joints read before the arm stood still: dq_j = T_j u_j, u_j the joint's last move as a share of
-/// the largest move of all joints. Of the procedure: fitted and thrown away.
+/// the largest move of all joints. Belongs to the procedure: fitted, never compiled.
 struct SettlingLag {
   static constexpr EffectParameter kParameters[] = {{"T", "rad", 100e-6, -5e-3, 5e-3}};
   static constexpr EffectInfo kInfo{.name = "settling_lag",

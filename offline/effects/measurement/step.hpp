@@ -6,8 +6,10 @@
 
 namespace plumb::effects {
 
-/// Something moved once: from row n on a twist of the tool (0: a bumped reflector), of the base
-/// (1: a bumped tracker or base) or a joint offset (2: a slipped encoder; joints = the joint).
+/// Something moved once. All later rows have a shift of the tool (of = 0: a bumped reflector), a
+/// twist of the base (1: a bumped tracker or base) or an offset of a joint (2: a slipped encoder;
+/// `joints` holds that joint). Constant `row`: number (from 1) of the last row before it, minus
+/// 0.5.
 struct Step {
   static constexpr EffectParameter kParameters[] = {
       {"dx", "m", 300e-6, 0, 0},   {"dy", "m", 300e-6, 0, 0},   {"dz", "m", 300e-6, 0, 0},

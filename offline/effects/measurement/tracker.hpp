@@ -6,8 +6,9 @@
 
 namespace plumb::effects {
 
-/// What a tracker adds: an offset and a share of the distance along the beam, and two waves a turn
-/// of its azimuth and elevation across it. Of the measurement: fitted and thrown away.
+/// Errors of the tracker: an offset and a scale error of the distance along the beam, and across it
+/// second harmonics of the azimuth and elevation angles. Belongs to the measurement: fitted, never
+/// compiled.
 struct Tracker {
   static constexpr EffectParameter kParameters[] = {
       {"offset", "m", 30e-6, -1e-2, 1e-2},   {"scale", "1", 2e-6, -1e-2, 1e-2},

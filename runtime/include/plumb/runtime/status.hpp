@@ -8,19 +8,19 @@ namespace plumb {
 /// 0: ok. > 0: valid, but degraded. < 0: refused, and the correction decays to zero.
 enum class [[nodiscard]] Status : std::int8_t{
     kOk = 0,
-    kOutsideDomain = 1,    // outside the trained joint domain: the tree has faded, physics only
+    kOutsideDomain = 1,    // a joint or context input is outside the range of the fit (KnownRange)
     kContextFallback = 2,  // an effect's input was missing or stale: its declared fallback was used
     kLimited = 3,          // the guard cut the correction to its size or slew limit
-    kRamping = 4,          // the correction is still being ramped in
+    kRamping = 4,          // the correction is being ramped in, or out because the guard is off
 
-    kNotFinite = -1,           // a target, joint position or context is NaN or infinite
-    kNearSingular = -2,        // the smallest singular value is under its limit
+    kNotFinite = -1,           // the target is no pose, or a joint or predicted pose not finite
+    kNearSingular = -2,        // the nominal Jacobian's smallest singular value is under its limit
     kOtherConfiguration = -3,  // the solution lies in another configuration than the seed
     kFarFromSeed = -4,         // the solution is farther from the seed than allowed
-    kNotConverged = -5,        // the residual exceeds 1 um or 1 urad
+    kNotConverged = -5,        // the residual exceeds 1 um or 1 urad after the fixed steps
     kSeedNotCommanded = -6,    // more than six joints need the commanded joints as seed
-    kNoModel = -7,
-    kStale = -8,  // no fresh target or joint state for too long
+    kNoModel = -7,             // nothing was computed; the default value
+    kStale = -8,               // no fresh target or joint state for too long
 };
 
 constexpr bool refused(Status s) noexcept { return static_cast<std::int8_t>(s) < 0; }

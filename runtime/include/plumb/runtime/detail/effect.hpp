@@ -11,8 +11,9 @@
 #include "plumb/runtime/context.hpp"
 #include "plumb/runtime/detail/loads.hpp"
 
-/// The types that a physical effect is built from. Every law has its own header in effects/, and
-/// effect_library.hpp lists them all.
+/// The types that a physical effect is built from. Every law that the cycle evaluates has its own
+/// header in effects/ and is listed in effect_library.hpp. Laws of the measurement and of its
+/// procedure are not part of the runtime: they are in offline/effects/measurement.
 namespace plumb {
 
 /// What causes an effect. A model file contains only effects of the robot, and of the environment
@@ -21,8 +22,9 @@ namespace plumb {
 enum class EffectDomain : std::uint8_t { kRobot, kEnvironment, kProcedure, kMeasurement };
 
 /// The inputs that must be known, and must vary between poses, for an effect to be identifiable.
-/// Order, steps (the joints' last moves relative to each other) and tracker are known only of
-/// measured poses.
+/// kNeedsOrder (order of the poses), kNeedsSteps (last moves of the joints relative to each other)
+/// and kNeedsTracker (position of the tracker) exist only for measured poses; only laws outside the
+/// runtime need them.
 enum Need : unsigned {
   kNeedsMasses = 1U << 0,
   kNeedsPayload = 1U << 1,
