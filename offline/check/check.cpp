@@ -22,6 +22,7 @@
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
+#include "fit/main_jump.hpp"
 #include "fit/parameter_subset.hpp"
 
 namespace plumb::offline {
@@ -36,7 +37,6 @@ constexpr double kEnough = 1.5;              // coordinates for each number
 constexpr std::size_t kMostSentences = 4;
 constexpr double kOneChange = 1.05;  // of the labels
 constexpr int kPlacedRows = 300;
-constexpr int kSearchedRows = 1500;  // for a jump: those that identifiability fits
 
 std::vector<int> used_rows(const MeasurementFiles& measured) {
   std::vector<int> rows;
@@ -311,12 +311,15 @@ class Checker {
          "record more digits; exact commanded values are no harm");
   }
 
+  /// `rows` without the outliers of the fit, if there was one.
+  std::vector<int> not_outliers(const std::vector<int>& rows) const {
+    return out_.parameters ? without_outliers(rows, out_.parameters->calibration.outliers) : rows;
+  }
+
   /// RMS 3-D error [m] of the rows that are no outliers.
   double left_by_fit(const MeasurementFiles& measured, const std::vector<int>& rows,
                      const ArmState& placed) const {
-    const auto fitted =
-        out_.parameters ? without_outliers(rows, out_.parameters->calibration.outliers) : rows;
-    const Measurements some = pick(measured, thinned(fitted, kPlacedRows));
+    const Measurements some = pick(measured, thinned(not_outliers(rows), kPlacedRows));
     return std::sqrt(residuals(some, predict_points(placed, some)).squaredNorm() /
                      static_cast<double>(some.size()));
   }
@@ -377,11 +380,8 @@ class Checker {
         std::any_of(out_.findings.begin(), out_.findings.end(),
                     [](const Problem& p) { return p.code == "W-CHECK-SAME"; }))
       return "";
-    const std::vector<int> some = thinned(rows, kSearchedRows);
-    auto found = moved_part(
-        cell, measured,
-        out_.parameters ? without_outliers(some, out_.parameters->calibration.outliers) : some,
-        placed);
+    auto found =
+        moved_part(cell, measured, not_outliers(thinned(rows, kRowsSearchedForJump)), placed);
     if (!found) return "";
     out_.moved = std::move(found->words);
     add({std::move(found->finding)});
@@ -397,10 +397,7 @@ class Checker {
 
   std::string contradiction_findings(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows, const ArmState& placed) {
-    auto found = contradiction(
-        cell, measured,
-        out_.parameters ? without_outliers(rows, out_.parameters->calibration.outliers) : rows,
-        placed);
+    auto found = contradiction(cell, measured, not_outliers(rows), placed);
     if (!found) return "";
     std::erase_if(out_.findings, [](const Problem& p) { return p.code == "W-CHECK-OUTLIER"; });
     add({std::move(*found)});

@@ -297,7 +297,7 @@ class ConventionSearch {
   }
 
   const Cell& cell_;
-  const MeasurementFiles& measured_;
+  const Measurements& measured_;  // the search reads numbers only
   Convention labels_;
   std::vector<int> few_, some_;
   std::vector<Lead> leads_;

@@ -21,8 +21,6 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr int kSearchedRows = 1500;  // searched for a jump, as many as check does
-
 struct Options {
   bool dry_run = false;
   std::optional<double> max_rms_mm;
@@ -80,7 +78,8 @@ std::string jump_words(const Cell& cell, const MeasurementFiles& measured, const
   for (int i = 0; i < measured.size(); ++i)
     if (fit.split.used[i]) used.push_back(i);
   const auto rows = without_outliers(
-      without_outliers(thinned(used, kSearchedRows), fit.calibration.outliers), fit.held_outliers);
+      without_outliers(thinned(used, kRowsSearchedForJump), fit.calibration.outliers),
+      fit.held_outliers);
   const auto step = main_jump(fit.calibration.state, measured, rows);
   if (!step) return "";
   return fmt::format(

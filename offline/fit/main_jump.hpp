@@ -28,6 +28,9 @@ bool is_cause(double share);
 std::optional<StepFound> main_jump(const ArmState& fitted, const Measurements& measured,
                                    const std::vector<int>& rows);
 
+/// Where there are more rows, those who only want to know of a jump search so many, evenly spread.
+inline constexpr int kRowsSearchedForJump = 1500;
+
 /// How far the measured points jump, in mm: "0.29", "16", "156".
 std::string size_in_mm(const StepFound& step);
 
