@@ -68,7 +68,8 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
   Eigen::VectorXd motion = motions(s, regressor).topRows(s.fit_lines) * scored.theta;
   const auto U = s.U.topRows(s.fit_lines);
   motion -= U * (U.transpose() * motion).eval();
-  for (Eigen::Index i = 0; i < s.fit_lines; ++i) motion(i) *= s.sigma[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
+    unwhiten(s, i, motion.segment(i * s.axes, s.axes));
   return motion.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
 }
 

@@ -104,6 +104,15 @@ inline constexpr double kSmallestSigma_m = 0.1e-6;
 /// Coordinates beyond the parameters below which nothing can be told. data.
 inline constexpr double kFewestFreeLines = 20.0;
 
+// Scatter of the joints.
+
+/// Scatter that explains no more than this needs no second look [nats]. odds.
+inline constexpr double kScatterMatters = 2.0;
+/// Poses from which its likelihood is taken; for more it is extrapolated. cost.
+inline constexpr Eigen::Index kScatterPoses = 2500;
+/// Estimates of the scatter beside the best candidate, should that become another one. cost.
+inline constexpr int kScatterRounds = 2;
+
 // Waves of a joint [cycles a turn].
 
 /// Slow waves: up to the last one, in such steps or finer where the joint turns far. arms.

@@ -10,6 +10,7 @@
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/forward_selection.hpp"
+#include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/refit.hpp"
 #include "effects/registry.hpp"
@@ -97,10 +98,10 @@ HeldOut nested_held_out(const Work& w) {
       w.request.tell(fmt::format("step 4 of 4, fold {} of {}", k + 1, w.split.folds));
     const auto inside = fit_rows(w.split, k);
     const Calibration base = calibrate(w.cell, w.measured, inside);
-    const WhitenedFit whitened =
-        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {});
-    const ForwardSelection found = forward_selection(w.start(inside, true), base, whitened,
-                                                     scan(whitened, w.not_testable, {}));
+    const auto [whitened, look] = judged(
+        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {}),
+        w.not_testable, {});
+    const ForwardSelection found = forward_selection(w.start(inside, true), base, whitened, look);
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
   }
   return out;
@@ -253,8 +254,8 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   const Calibration base = calibrate(w.cell, measured, w.fit);
   tell_step(request, 1);
   const auto rows = without_outliers(w.fit, base.outliers);
-  const WhitenedFit whitened = make_whitened_fit(w.cell, measured, base, rows, w.held);
-  const Scan first = scan(whitened, w.not_testable, {});
+  const auto [whitened, first] = judged(
+      make_whitened_fit(w.cell, measured, base, rows, w.held), w.not_testable, {});
   out.floor = noise_floor(w.cell, measured, base.state);
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());

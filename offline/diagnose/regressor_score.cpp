@@ -146,6 +146,7 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
   out.evidence.ln_bayes -=
       std::log(2.0) *
       static_cast<double>(all.Xy.size() - static_cast<Eigen::Index>(out.active.size()));
+  out.evidence.ln_bayes -= whitened_.scatter_nats;
   if (out.active.empty()) out.evidence.ln_bayes = kImpossible;
   const double seen = out.theta.dot(whole * out.theta), moved = out.theta.dot(all.XX * out.theta);
   out.explained = whitened_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / whitened_.Q : 0.0;
