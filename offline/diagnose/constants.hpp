@@ -97,8 +97,6 @@ inline constexpr double kTypicalStep = 300e-6;
 /// Below so many fit poses there are more folds, so that each leaves enough to fit. study.
 inline constexpr int kManyPoses = 100;
 inline constexpr int kFoldCount = 6, kManyFoldCount = 10;
-/// Degrees of freedom with which a stated sigma is believed: good to some 35 %. study.
-inline constexpr double kStatedDof = 4.0;
 /// No tracker is better [m]. arms.
 inline constexpr double kSmallestSigma_m = 0.1e-6;
 /// Coordinates beyond the parameters below which nothing can be told. data.

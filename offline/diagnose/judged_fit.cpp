@@ -52,36 +52,49 @@ void pay(Scan& look, double nats) {
   if (look.pattern) pays(*look.pattern);
 }
 
+/// Scatter of which `lines` tell, and how much better it explains them than noise alone.
+Repeatability scatter_seen(const WhitenedFit& whitened, const ScatterLines& lines,
+                           const JointScatter& scatter) {
+  Repeatability out = repeatability_of(whitened, scatter);
+  out.ln_bayes = nats_over(lines, scatter, noise_alone(lines));
+  return out;
+}
+
 }  // namespace
 
 JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testable,
                  const std::vector<std::string>& banned) {
-  Scan look = scan(whitened, not_testable, banned);
-  const Found* best = best_of(look);
-  if (best == nullptr) return {std::move(whitened), std::move(look)};
-  const ScatterLines lines = scatter_lines(whitened);
-  const JointScatter noise = noise_alone(lines), null = noise_and_scatter(lines);
-  if (nats_over(lines, null, noise) < kScatterMatters)
-    return {std::move(whitened), std::move(look)};
   JudgedFit out;
-  std::string name = name_of(whitened, *best);
-  const Found* beside = best;
-  for (int round = 0; round < kScatterRounds; ++round) {
-    const JointScatter left = noise_and_scatter(
-        scatter_lines(whitened, over_fit_lines(whitened, columns_of(whitened, *beside))));
+  out.look = scan(whitened, not_testable, banned);
+  const ScatterLines lines = scatter_lines(whitened);
+  const JointScatter null = noise_and_scatter(lines);
+  out.repeatability = scatter_seen(whitened, lines, null);
+  const Found* beside = best_of(out.look);
+  if (beside == nullptr || out.repeatability.ln_bayes < kScatterMatters) {
+    out.whitened = std::move(whitened);
+    return out;
+  }
+  for (int round = 0; round < kScatterRounds && beside != nullptr; ++round) {
+    const std::string name = name_of(whitened, *beside);
+    const ScatterLines with =
+        scatter_lines(whitened, over_fit_lines(whitened, columns_of(whitened, *beside)));
+    const JointScatter left = noise_and_scatter(with);
     const double nats = nats_over(lines, null, left);
+    out.repeatability = scatter_seen(whitened, with, left);
     if (left.none() && round == 0) {
       whitened.scatter_nats = nats;
-      pay(look, nats);
-      return {std::move(whitened), std::move(look)};
+      pay(out.look, nats);
+      out.whitened = std::move(whitened);
+      return out;
     }
     out.whitened = with_scatter(whitened, left);
     out.whitened.scatter_nats = nats;
     out.look = scan(out.whitened, not_testable, banned);
     beside = best_of(out.look);
-    if (beside == nullptr || name_of(whitened, *beside) == name) break;
-    name = name_of(whitened, *beside);
+    if (beside != nullptr && name_of(whitened, *beside) == name) break;
   }
+  // Where nothing holds its own, scatter explains it all.
+  if (beside == nullptr) out.repeatability = scatter_seen(whitened, lines, null);
   return out;
 }
 

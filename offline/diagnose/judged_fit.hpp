@@ -6,6 +6,7 @@
 
 #include "diagnose/scan.hpp"
 #include "diagnose/whitened_fit.hpp"
+#include "fit/repeatability.hpp"
 
 namespace plumb::offline {
 
@@ -13,6 +14,7 @@ namespace plumb::offline {
 struct JudgedFit {
   WhitenedFit whitened;
   Scan look;
+  Repeatability repeatability;  // beside the best candidate, if one is supported
 };
 
 /// Scans a whitened fit. What the scan finds must hold its own against the scatter of the joints:

@@ -144,7 +144,8 @@ std::vector<Oversized> oversized(const Cell& cell, const WhitenedFit& whitened,
       const Parameter& p = calibration.parameters[static_cast<std::size_t>(i)];
       const auto info = effect_parameter(calibration.state.arm, p.joint, p.component);
       const double value = value_of(calibration.state, p);
-      const double std = s * std::sqrt(std::max(0.0, whitened.half_information.row(i).squaredNorm()));
+      const double std =
+          s * std::sqrt(std::max(0.0, whitened.half_information.row(i).squaredNorm()));
       fine = fine && plausible(value, std, info);
       one.possible = one.possible && possible(value, std, info);
       one.times = std::max(one.times, times_usual(value, std, info));

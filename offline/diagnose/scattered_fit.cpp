@@ -4,22 +4,10 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "fit/repeatability.hpp"
+
 namespace plumb::offline {
 namespace {
-
-bool same_or_both_unknown(double a, double b) { return a == b || (a != a && b != b); }
-
-/// Whether the arm stood still between two neighbours of the whitened fit.
-bool in_place(const WhitenedFit& s, Eigen::Index a, Eigen::Index b) {
-  const auto &first = s.context[a], &second = s.context[b];
-  if (s.measured->replicate_group[s.row[a]] != s.measured->replicate_group[s.row[b]] ||
-      second.order - first.order != 1.0 ||
-      !same_or_both_unknown(first.known.payload_kg, second.known.payload_kg))
-    return false;
-  for (int j = 0; j < s.joints(); ++j)
-    if (!same_or_both_unknown(first.known.direction[j], second.known.direction[j])) return false;
-  return true;
-}
 
 /// Poses first to last - 1 of the whitened fit, read at one stop.
 struct Stop {
@@ -27,13 +15,14 @@ struct Stop {
 };
 
 std::vector<Stop> stops_of(const WhitenedFit& s, const Segment& at) {
+  const std::vector<int> stop =
+      stops(*s.measured, {s.row.begin() + at.begin, s.row.begin() + at.end});
   std::vector<Stop> out;
-  for (Eigen::Index i = at.begin; i < at.end; ++i) {
-    if (i > at.begin && in_place(s, i - 1, i))
-      out.back().last = i + 1;
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+    if (i > 0 && stop[i] == stop[i - 1])
+      out.back().last = at.begin + i + 1;
     else
-      out.push_back({i, i + 1});
-  }
+      out.push_back({at.begin + i, at.begin + i + 1});
   return out;
 }
 
@@ -119,6 +108,12 @@ ScatterLines scatter_lines(const WhitenedFit& s, const Eigen::MatrixXd& columns)
   J << out.U, merged(columns, stops, s.axes);
   out.U = orthonormal(J, J.rows()).U;
   return out;
+}
+
+Repeatability repeatability_of(const WhitenedFit& s, const JointScatter& scatter) {
+  ScatterLines lines;
+  for (const auto& motion : s.joint) lines.joint.emplace_back(motion.head(s.fit_lines));
+  return repeatability_of(lines, scatter, {s.sigma.begin(), s.sigma.begin() + s.fit_lines});
 }
 
 WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {

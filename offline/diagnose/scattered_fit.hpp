@@ -3,6 +3,7 @@
 
 #include "diagnose/whitened_fit.hpp"
 #include "fit/joint_scatter.hpp"
+#include "fit/repeatability.hpp"
 
 namespace plumb::offline {
 
@@ -13,6 +14,9 @@ ScatterLines scatter_lines(const WhitenedFit& whitened);
 
 /// The same beside further columns of the model, shape (lines of the whitened fit, b).
 ScatterLines scatter_lines(const WhitenedFit& whitened, const Eigen::MatrixXd& columns);
+
+/// `whitened` must know of no scatter yet; ln_bayes is not set.
+Repeatability repeatability_of(const WhitenedFit& whitened, const JointScatter& scatter);
 
 /// A whitened fit once more, whitened by noise and joint scatter: what moves all coordinates of a
 /// point together as a joint would counts less. One pose a stop. `whitened` must know of no scatter

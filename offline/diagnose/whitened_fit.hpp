@@ -7,6 +7,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/orthonormal.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::offline {
@@ -45,9 +46,9 @@ struct WhitenedFit {
   /// has to explain that much more before it counts.
   double scatter_nats = 0.0;
 
-  Eigen::VectorXd y;  // (lines,) residual; held lines keep all of theirs
-  Eigen::MatrixXd U;  // (lines, rank) model columns, orthonormal over the fit lines
-  double Q = 0.0;     // sum of squares of y over the fit lines
+  Eigen::VectorXd y;                 // (lines,) residual; held lines keep all of theirs
+  Eigen::MatrixXd U;                 // (lines, rank) model columns, orthonormal over the fit lines
+  double Q = 0.0;                    // sum of squares of y over the fit lines
   Eigen::MatrixXd half_information;  // H of the parameters, (parameters, rank): H H^T is
                                      // the inverse information, SI, in this whitening
   Eigen::VectorXd correction;        // of the fitted parameters that this whitening asks for, SI
@@ -95,12 +96,6 @@ void fold_joints(WhitenedFit& whitened);
 /// deviations, and back.
 void whiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
 void unwhiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
-
-/// Independent columns of J, made orthonormal over the first `fit_lines`: U = J * half.
-struct Orthonormal {
-  Eigen::MatrixXd U, half;
-};
-Orthonormal orthonormal(const Eigen::MatrixXd& J, Eigen::Index fit_lines);
 
 /// Takes out of y what the columns explain; the sizes of the columns that do so, shape (rank,).
 Eigen::VectorXd clear_residual(WhitenedFit& whitened);
