@@ -33,7 +33,7 @@ void check(const Cell& cell, const SimulationPlan& plan) {
            "give one column per joint");
   }
   if (plan.revisits < 0 || plan.revisits > (plan.q.rows() > 0 ? plan.q.rows() : plan.poses)) {
-    refuse("no more poses can be visited again than there are", "use for example 10");
+    refuse("from none to all poses can be visited again", "use for example 10");
   }
   if (plan.repeats < 1) refuse("a pose is measured at least once", "use repeats of 1 or more");
   if (!sigma(plan.noise_m) || !sigma(plan.noise_rad.value_or(0.0)) ||
@@ -79,7 +79,8 @@ void check(const Cell& cell, const SimulationPlan& plan) {
       return rows[static_cast<std::size_t>(j)].type == format::JointType::kRevolute;
     };
     if (joint < 1 || joint >= cell.joints() || !turns(joint) || !turns(joint - 1)) {
-      refuse("a coupled joint is one that turns behind another that turns", "name such a joint");
+      refuse("a coupled joint is one that turns behind another that turns",
+             "as J3 of a palletiser, which turns behind J2");
     }
   }
   for (const auto& row : cell.nominal.joints) {
