@@ -42,7 +42,7 @@ Json result_of(const Compiled& made, const Audit& audit, const std::string& file
 
 /// The path of the model file. Refused if --emit-c names the same file.
 fs::path model_file(const CompileArguments& options, const Cell& cell) {
-  const fs::path file =
+  fs::path file =
       options.output.empty() ? cell.directory / "robot.plumb" : fs::path(options.output);
   if (!options.c_output.empty() &&
       fs::weakly_canonical(file) == fs::weakly_canonical(options.c_output))
