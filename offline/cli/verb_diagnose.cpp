@@ -15,7 +15,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct DiagnoseArguments {
   bool apply = false;
   bool all = false;
   bool dry_run = false;
@@ -50,7 +50,7 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
 }
 
 /// False if the effects were refused.
-bool keep(const Options& options, const Cell& cell, const MeasurementFiles& measured,
+bool keep(const DiagnoseArguments& options, const Cell& cell, const MeasurementFiles& measured,
           const Diagnosis& found, double before_m, Outcome& outcome) {
   if (found.added.empty()) {
     show::put_null(outcome.result, "run", "nothing was added");
@@ -74,7 +74,7 @@ bool keep(const Options& options, const Cell& cell, const MeasurementFiles& meas
   return true;
 }
 
-void diagnose_cell(const Options& options, const Globals& globals, Outcome& outcome) {
+void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = options.apply && !options.dry_run ? open_cell_to_change(globals, outcome)
                                                       : open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
@@ -104,7 +104,7 @@ void diagnose_cell(const Options& options, const Globals& globals, Outcome& outc
 }  // namespace
 
 void add_diagnose(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiagnoseArguments>();
   VerbOptions verb = program.verb(
       {.name = "diagnose",
        .summary = "Which physical effect is missing: ranked, with evidence",
