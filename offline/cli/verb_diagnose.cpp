@@ -50,8 +50,9 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
 }
 
 /// False if the effects were refused.
-bool keep(const DiagnoseArguments& options, const Cell& cell, const MeasurementFiles& measured,
-          const Diagnosis& found, double before_m, Outcome& outcome) {
+bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
+                  const MeasurementFiles& measured, const Diagnosis& found, double before_m,
+                  Outcome& outcome) {
   if (found.added.empty()) {
     show::put_null(outcome.result, "run", "nothing was added");
     return true;
@@ -68,7 +69,7 @@ bool keep(const DiagnoseArguments& options, const Cell& cell, const MeasurementF
     return false;
   }
   // The cell file last: if the run cannot be written, nothing has changed.
-  const Run run = cli::keep(edited, measured, std::move(fitted));
+  const Run run = keep(edited, measured, std::move(fitted));
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
   return true;
@@ -96,7 +97,7 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
   outcome.result = show::diagnose_json(cell, found);
   outcome.text = show::diagnose_text(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);
-  if (options.apply && !keep(options, cell, measured, found, before_m, outcome))
+  if (options.apply && !keep_applied(options, cell, measured, found, before_m, outcome))
     return say_next(globals, "compare   # where does the model fail?", outcome);
   say_next(globals, show::after_diagnosis(cell, found), outcome);
 }
