@@ -56,7 +56,7 @@ void pay(Scan& look, double nats) {
 Repeatability scatter_seen(const WhitenedFit& whitened, const ScatterLines& lines,
                            const JointScatter& scatter) {
   Repeatability out = repeatability_of(whitened, scatter);
-  out.ln_bayes = nats_over(lines, scatter, noise_alone(lines));
+  out.ln_ratio = nats_over(lines, scatter, noise_alone(lines));
   return out;
 }
 
@@ -70,7 +70,7 @@ JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testa
   const JointScatter null = noise_and_scatter(lines);
   out.repeatability = scatter_seen(whitened, lines, null);
   const Found* beside = best_of(out.look);
-  if (beside == nullptr || out.repeatability.ln_bayes < kScatterMatters) {
+  if (beside == nullptr || out.repeatability.ln_ratio < kScatterMatters) {
     out.whitened = std::move(whitened);
     return out;
   }
