@@ -35,12 +35,16 @@ std::string name_of(const WhitenedFit& s, const Found& found) {
                                : found.pattern.subject + found.pattern.words;
 }
 
-/// How much better `a` explains the residual than `b`, without any effect [nats].
+/// How much better `a` explains the lines than `b` [nats]; each variance of a joint costs one.
 double nats_over(const ScatterLines& lines, const JointScatter& a, const JointScatter& b) {
+  const auto cost = [](const JointScatter& at) {
+    return static_cast<double>((at.variance.array() > 0.0).count());
+  };
   const ScatterLines some = thinned(lines, kScatterPoses);
   const double nats = ln_likelihood_of_ratios(some, a) - ln_likelihood_of_ratios(some, b);
-  return std::max(0.0, nats) * static_cast<double>(lines.poses()) /
-         static_cast<double>(std::max<Eigen::Index>(1, some.poses()));
+  return nats * static_cast<double>(lines.poses()) /
+             static_cast<double>(std::max<Eigen::Index>(1, some.poses())) -
+         cost(a) + cost(b);
 }
 
 void pay(Scan& look, double nats) {
@@ -52,11 +56,32 @@ void pay(Scan& look, double nats) {
   if (look.pattern) pays(*look.pattern);
 }
 
-/// Scatter of which `lines` tell, and how much better it explains them than noise alone.
 Repeatability scatter_seen(const WhitenedFit& whitened, const ScatterLines& lines,
                            const JointScatter& scatter) {
   Repeatability out = repeatability_of(whitened, scatter);
-  out.ln_ratio = nats_over(lines, scatter, noise_alone(lines));
+  out.nats = nats_over(lines, scatter, noise_alone(lines));
+  return out;
+}
+
+/// The score of the best candidate, where one is supported.
+double score_of(const Scan& look) {
+  const Found* best = best_of(look);
+  return best == nullptr ? kImpossible : best->score;
+}
+
+/// The fit whitened by the scatter that is left beside a candidate, and scanned again.
+JudgedFit scattered(const WhitenedFit& whitened, const ScatterLines& lines,
+                    const JointScatter& null, const Found& beside,
+                    const std::vector<std::string>& not_testable,
+                    const std::vector<std::string>& banned) {
+  const ScatterLines with =
+      scatter_lines(whitened, over_fit_lines(whitened, columns_of(whitened, beside)));
+  const JointScatter left = noise_and_scatter(with);
+  JudgedFit out;
+  out.repeatability = scatter_seen(whitened, with, left);
+  out.whitened = with_scatter(whitened, left);
+  out.whitened.scatter_nats = std::max(0.0, nats_over(lines, null, left));
+  out.look = scan(out.whitened, not_testable, banned);
   return out;
 }
 
@@ -67,34 +92,35 @@ JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testa
   JudgedFit out;
   out.look = scan(whitened, not_testable, banned);
   const ScatterLines lines = scatter_lines(whitened);
-  const JointScatter null = noise_and_scatter(lines);
-  out.repeatability = scatter_seen(whitened, lines, null);
+  const JointScatter noise = noise_alone(lines), null = noise_and_scatter(lines);
+  const Repeatability alone = scatter_seen(whitened, lines, null);
   const Found* beside = best_of(out.look);
-  if (beside == nullptr || out.repeatability.ln_ratio < kScatterMatters) {
+  if (beside == nullptr || alone.nats < kScatterMatters) {
     out.whitened = std::move(whitened);
+    out.repeatability = alone;
     return out;
   }
+  // Three explanations: the best candidate and noise; the best candidate and scatter; scatter.
+  const WhitenedFit white = whitened;
+  const Scan first = out.look;
+  whitened.scatter_nats = std::max(0.0, nats_over(lines, null, noise));
+  pay(out.look, whitened.scatter_nats);
+  out.repeatability = repeatability_of(white, noise);
+  out.whitened = std::move(whitened);
+  std::string name;
+  beside = best_of(first);
+  JudgedFit next;
   for (int round = 0; round < kScatterRounds && beside != nullptr; ++round) {
-    const std::string name = name_of(whitened, *beside);
-    const ScatterLines with =
-        scatter_lines(whitened, over_fit_lines(whitened, columns_of(whitened, *beside)));
-    const JointScatter left = noise_and_scatter(with);
-    const double nats = nats_over(lines, null, left);
-    out.repeatability = scatter_seen(whitened, with, left);
-    if (left.none() && round == 0) {
-      whitened.scatter_nats = nats;
-      pay(out.look, nats);
-      out.whitened = std::move(whitened);
-      return out;
-    }
-    out.whitened = with_scatter(whitened, left);
-    out.whitened.scatter_nats = nats;
-    out.look = scan(out.whitened, not_testable, banned);
-    beside = best_of(out.look);
-    if (beside != nullptr && name_of(whitened, *beside) == name) break;
+    if (name_of(white, *beside) == name) break;
+    name = name_of(white, *beside);
+    next = scattered(white, lines, null, *beside, not_testable, banned);
+    if (score_of(next.look) > score_of(out.look)) out = next;
+    beside = best_of(next.look);
   }
+  if (best_of(out.look) != nullptr) return out;
   // Where nothing holds its own, scatter explains it all.
-  if (beside == nullptr) out.repeatability = scatter_seen(whitened, lines, null);
+  out = std::move(next);
+  out.repeatability = alone;
   return out;
 }
 

@@ -15,7 +15,7 @@ ScatterLines scatter_lines(const WhitenedFit& whitened);
 /// The same beside further columns of the model, shape (lines of the whitened fit, b).
 ScatterLines scatter_lines(const WhitenedFit& whitened, const Eigen::MatrixXd& columns);
 
-/// `whitened` must know of no scatter yet; ln_ratio is not set.
+/// `whitened` must know of no scatter yet; its nats are not set.
 Repeatability repeatability_of(const WhitenedFit& whitened, const JointScatter& scatter);
 
 /// A whitened fit once more, whitened by noise and joint scatter: what moves all coordinates of a

@@ -53,10 +53,7 @@ bool stood_still(const Measurements& m, int a, int b) {
 
 }  // namespace
 
-bool Repeatability::supported() const {
-  const auto fitted = std::count_if(std.begin(), std.end(), [](double s) { return s > 0.0; });
-  return ln_ratio - static_cast<double>(fitted) > kSupported_nats;
-}
+bool Repeatability::supported() const { return nats > kSupported_nats; }
 
 bool Repeatability::usual() const {
   return std::all_of(std.begin(), std.end(), [](double s) { return s <= kUsual_rad; });
@@ -105,8 +102,9 @@ Repeatability repeatability(const Cell& cell, const Measurements& measured,
   const ScatterLines merged = by_stop(lines, stops(measured, rows));
   const JointScatter scatter = noise_and_scatter(merged);
   Repeatability out = repeatability_of(lines, scatter, sigma_m);
-  out.ln_ratio = ln_likelihood_of_ratios(merged, scatter) -
-                 ln_likelihood_of_ratios(merged, noise_alone(merged));
+  out.nats = ln_likelihood_of_ratios(merged, scatter) -
+             ln_likelihood_of_ratios(merged, noise_alone(merged)) -
+             static_cast<double>((scatter.variance.array() > 0.0).count());
   return out;
 }
 

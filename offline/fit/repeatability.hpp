@@ -16,11 +16,11 @@ namespace plumb::offline {
 /// every stop. No model can correct it.
 struct Repeatability {
   std::vector<double> std;  // of each joint [rad or m]; 0: none is seen
-  double ln_ratio = 0.0;    // of its likelihood, over that of noise alone
+  double nats = 0.0;        // by which it explains the lines better than noise alone; each variance
+                            // that is fitted costs one [Akaike 1974]
   double sigma_m = 0.0;     // of a measured coordinate, noise and scatter together
 
-  /// Whether the readings speak for it at odds of 20 to 1; each variance that is fitted costs one
-  /// nat [Akaike 1974].
+  /// Whether the readings speak for it at odds of 20 to 1.
   bool supported() const;
   /// Whether every joint repeats as well as industrial arms do, within 60 urad. Beyond it something
   /// that a model lacks is the likelier cause.
