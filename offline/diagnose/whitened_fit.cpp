@@ -112,7 +112,7 @@ void fill_carriers(WhitenedFit& s) {
 }  // namespace
 
 Eigen::VectorXd clear_residual(WhitenedFit& s) {
-  const Eigen::VectorXd left = s.U.topRows(s.fit_lines).transpose() * s.y.head(s.fit_lines);
+  Eigen::VectorXd left = s.U.topRows(s.fit_lines).transpose() * s.y.head(s.fit_lines);
   s.y -= s.U * left;
   s.Q = s.y.head(s.fit_lines).squaredNorm();
   return left;

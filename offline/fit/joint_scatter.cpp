@@ -14,7 +14,7 @@ constexpr double kSettled = 3e-3;          // relative change of the largest con
 constexpr double kNothing = 1e-4;          // of the noise: less is no scatter
 constexpr Eigen::Index kSomePoses = 400, kMorePoses = 2500;
 constexpr int kIterations = 40, kMoreIterations = 4;
-constexpr double kRidge = 1e-9;
+constexpr double kScatterRidge = 1e-9;
 
 /// Everything of one model of the noise: lines divided by the Cholesky factor of each pose's
 /// covariance, and the model's columns taken out.
@@ -58,7 +58,7 @@ Whitened whitened_by(const ScatterLines& s, const JointScatter& at, bool with_mo
     divide(out.unit.middleRows(line, s.axes));
   }
   Eigen::MatrixXd information = out.U.transpose() * out.U;
-  information.diagonal().array() *= 1.0 + kRidge;
+  information.diagonal().array() *= 1.0 + kScatterRidge;
   out.information.compute(information);
   const Eigen::VectorXd b = out.information.solve(out.U.transpose() * out.residual);
   out.residual -= out.U * b;
@@ -157,7 +157,7 @@ JointScatter noise_and_scatter(const ScatterLines& s) {
   for (Eigen::Index j = 0; j < start.variance.size(); ++j)
     if (some.joint[static_cast<std::size_t>(j)].squaredNorm() > 0.0)
       start.variance(j) = kFirstGuess_rad * kFirstGuess_rad;
-  const JointScatter out = estimated_scatter(some, start, kIterations);
+  JointScatter out = estimated_scatter(some, start, kIterations);
   if (s.poses() <= kSomePoses) return out;
   return estimated_scatter(thinned(s, kMorePoses), out, kMoreIterations);
 }

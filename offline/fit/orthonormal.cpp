@@ -12,7 +12,7 @@ constexpr Eigen::Index kQrLines = 1024;
 
 /// R of J = Q R, a part of the rows at a time: what does not fit into the processor's cache is
 /// slow.
-Eigen::MatrixXd triangle_of(const Eigen::Ref<const Eigen::MatrixXd>& J) {
+Eigen::MatrixXd triangle_by_parts(const Eigen::Ref<const Eigen::MatrixXd>& J) {
   const Eigen::Index count = J.cols(), part = std::max(kQrLines, 4 * count);
   Eigen::MatrixXd R(0, count);
   for (Eigen::Index first = 0; first < J.rows(); first += part) {
@@ -33,7 +33,7 @@ Orthonormal orthonormal(const Eigen::MatrixXd& J, Eigen::Index fit_lines) {
   const Eigen::VectorXd scale =
       J.topRows(fit_lines).colwise().norm().cwiseMax(1e-300).cwiseInverse();
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle_of(scaled.topRows(fit_lines)));
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle_by_parts(scaled.topRows(fit_lines)));
   qr.setThreshold(kIndependent);
   const Eigen::Index rank = qr.rank();
   Orthonormal out;

@@ -140,7 +140,9 @@ std::vector<std::string> row(const Timings& all, std::size_t kernel) {
 
 std::string conditions_text(const Benchmark& found) {
   const bench::Machine& machine = found.machine;
-  const auto known = [](std::string text) { return text.empty() ? "not known" : text; };
+  const auto known = [](const std::string& text) {
+    return text.empty() ? std::string("not known") : text;
+  };
   return fmt::format(
       "Kernel {}{}; {}; governor {}; isolated CPUs: {}; built for {} by {}.\n"
       "warm: back to back. chain: each call waits for the one before. cold: one call after {} MiB "
