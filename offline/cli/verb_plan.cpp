@@ -88,8 +88,7 @@ bool measured_already(const Cell& cell) {
 /// A file beside the cell that does not exist yet: the measurements made so far are kept.
 fs::path new_measurements(const Cell& cell) {
   for (int day = 2;; ++day)
-    if (fs::path file = cell.directory / fmt::format("measurements_{}.csv", day);
-        !fs::exists(file))
+    if (fs::path file = cell.directory / fmt::format("measurements_{}.csv", day); !fs::exists(file))
       return file;
 }
 
