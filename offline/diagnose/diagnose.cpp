@@ -215,6 +215,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     const Calibration& fitted = found.steps.back().calibration;
     out.repeatability =
         repeatability(with, w.measured, fitted, without_outliers(w.fit, fitted.outliers));
+    // As long as more is supported, what is left is no repeatability.
+    if (found.full) out.repeatability = {};
     out.floor =
         with_repeatability(noise_floor(w.cell, w.measured, fitted.state), out.repeatability);
   }

@@ -53,24 +53,25 @@ bool stood_still(const Measurements& m, int a, int b) {
 
 }  // namespace
 
-bool Repeatability::supported() const { return nats > kSupported_nats; }
+bool Repeatability::supported() const { return nats > kSupported_nats && usual(); }
 
-bool Repeatability::usual() const {
-  return std::all_of(std.begin(), std.end(), [](double s) { return s <= kUsual_rad; });
-}
+bool Repeatability::usual() const { return sigma_m <= usual_sigma_m; }
 
 Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& scatter,
                                const std::vector<double>& sigma_m) {
   Repeatability out;
-  double variance = scatter.noise_variance * mean_square(sigma_m);
+  double variance = scatter.noise_variance * mean_square(sigma_m), usual = variance;
   for (std::size_t j = 0; j < lines.joint.size(); ++j) {
     const double joint = scatter.variance(static_cast<Eigen::Index>(j));
     out.std.push_back(std::sqrt(joint));
     double moved = 0.0;
     for (std::size_t i = 0; i < sigma_m.size(); ++i)
       moved += std::pow(lines.joint[j](static_cast<Eigen::Index>(i)) * sigma_m[i], 2);
-    variance += joint * moved / static_cast<double>(std::max<std::size_t>(1, sigma_m.size()));
+    moved /= static_cast<double>(std::max<std::size_t>(1, sigma_m.size()));
+    variance += joint * moved;
+    usual += kUsual_rad * kUsual_rad * moved;
   }
+  out.usual_sigma_m = std::sqrt(usual);
   out.sigma_m = std::sqrt(variance);
   return out;
 }
@@ -128,7 +129,7 @@ std::string in_words(const Cell& cell, const Repeatability& r) {
   for (const std::size_t j : order) {
     if (!(r.std[j] > 0.0) || r.std[j] < kWorthSaying * r.std[order.front()]) continue;
     const bool turns = cell.nominal.joints[j].type == format::JointType::kRevolute;
-    out.push_back(fmt::format("{} {:.2g} {}", cell.nominal.joints[j].name, r.std[j] * 1e6,
+    out.push_back(fmt::format("{} {:.0f} {}", cell.nominal.joints[j].name, r.std[j] * 1e6,
                               turns ? "µrad" : "µm"));
   }
   return fmt::format("{}", fmt::join(out, ", "));

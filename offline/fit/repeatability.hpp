@@ -19,11 +19,12 @@ struct Repeatability {
   double nats = 0.0;        // by which it explains the lines better than noise alone; each variance
                             // that is fitted costs one [Akaike 1974]
   double sigma_m = 0.0;     // of a measured coordinate, noise and scatter together
+  double usual_sigma_m = 0.0;  // the same if every joint had 60 urad
 
-  /// Whether the readings speak for it at odds of 20 to 1.
+  /// Whether the readings speak for it at odds of 20 to 1, and it is of a usual size.
   bool supported() const;
-  /// Whether every joint repeats as well as industrial arms do, within 60 urad. Beyond it something
-  /// that a model lacks is the likelier cause.
+  /// Whether every joint scatters by less than 100 urad, as industrial arms do (10 to 60). Beyond
+  /// it something that the model lacks is the likelier cause.
   bool usual() const;
 };
 
