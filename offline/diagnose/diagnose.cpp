@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/data_sense.hpp"
+#include "diagnose/alternatives.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
@@ -69,13 +70,14 @@ struct Work {
   std::vector<int> fit, held;  // held: for good, none with folds
   std::vector<Testable> testable;
   std::vector<std::string> not_testable;
+  std::vector<Testable> excluded;  // the same with the reasons
   const DiagnosisRequest& request;
 
   ForwardStart start(const std::vector<int>& rows, bool quiet) const {
     std::function<void(const std::string&)> tell;
     if (!quiet && request.tell)
       tell = [this](const std::string& key) { request.tell("step 4 of 4, adding " + key); };
-    return {cell, measured, rows, not_testable, std::move(tell)};
+    return {cell, measured, rows, not_testable, std::move(tell), excluded};
   }
 };
 
@@ -191,7 +193,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   std::vector<HeldOut> held_by_step;
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
-    out.added.push_back({step.entry, step.cycles, step.ln_bayes, held_by_step.back().stats()});
+    out.added.push_back(
+        {step.entry, step.cycles, step.ln_bayes, held_by_step.back().stats(), step.alternatives});
   }
   const std::size_t kept = steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
@@ -206,6 +209,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   std::optional<HeldOut> held;
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
   out.full = found.full;
+  if (!refused) out.undecided = found.undecided;
   out.unlikely = found.unlikely;
   say_what_was_not_judged(found, out);
   if (!found.steps.empty()) {
@@ -233,7 +237,10 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   if (found.unknown) {
     out.finding_after = Finding::kUnknown;
     out.unknown_after = found.unknown;
-  } else if (!whitened.noise.known || !judgeable(whitened) || out.tied) {
+  } else if (!whitened.noise.known || !judgeable(whitened) || out.tied || out.undecided ||
+             std::any_of(out.added.begin(), out.added.end(), [](const Addition& a) {
+               return names_what_is_not_shown(a.alternatives);
+             })) {
     out.finding_after = Finding::kUndecidable;
   }
 }
@@ -249,6 +256,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
          {},
          {},
          {},
+         {},
          request};
   w.fit = fit_rows(w.split);
   if (w.split.folds == 0) w.held = held_rows(w.split);
@@ -257,6 +265,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   for (const auto& answer : w.testable)
     if (answer.answer == Testable::Answer::kNo) {
       out.not_testable.push_back(answer);
+      w.excluded.push_back(answer);
       w.not_testable.push_back(answer.effect);
     }
   tell_step(request, 0);
@@ -275,6 +284,10 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, whitened, base);
   out.candidates = candidates_of(whitened, first);
+  if (out.finding == Finding::kMissing) {
+    out.alternatives = alternatives(whitened, first, *first.supported(), w.excluded);
+    if (names_what_is_not_shown(out.alternatives)) out.finding = Finding::kUndecidable;
+  }
   if (const Found* other =
           out.finding == Finding::kMissing ? tied_with_first(whitened, first) : nullptr) {
     out.finding = Finding::kUndecidable;

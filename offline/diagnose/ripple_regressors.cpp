@@ -32,6 +32,9 @@ std::vector<double> ripple_grid(const WhitenedFit& s, int joint) {
   const int last = static_cast<int>(std::floor(kLastRipple / step));
   for (int k = static_cast<int>(std::ceil(first_ripple(range) / step)); k <= last; ++k)
     out.push_back(k * step);
+  if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
+    for (const double waves : kAlwaysMotorWaves)
+      if (waves * std::abs(*ratio) > kLastRipple) out.push_back(waves * std::abs(*ratio));
   return out;
 }
 

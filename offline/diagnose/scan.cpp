@@ -135,14 +135,15 @@ void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& fou
 }
 
 /// The joints at which fast waves are tried. None if the best candidate leaves hardly more than
-/// noise, or is another law; the joint of the best candidate if that is slow waves, as fast ones
-/// may look like them; all joints that turn if nothing was found, or only a pattern.
+/// noise, or is another law that explains most of what is left; the joint of the best candidate if
+/// that is slow waves, as fast ones may look like them; all joints that turn if nothing was found,
+/// or only a pattern or a weak effect.
 std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& look) {
   const Found* best = look.unknown() ? &*look.pattern : look.supported();
   const double left = best == nullptr ? 1.0 : 1.0 - best->scored.explained;
   if (left * times_noise(whitened) < kAboveNoise) return {};
   if (best != nullptr && is_wave(best->entry.name)) return best->entry.joints;
-  if (best != nullptr && best->pattern.empty()) return {};
+  if (best != nullptr && best->pattern.empty() && best->scored.explained > kMostOfIt) return {};
   std::vector<int> out;
   for (int j = 0; j < whitened.joints(); ++j)
     if (whitened.chain.revolute(j)) out.push_back(j);

@@ -22,11 +22,16 @@ bool Selection::leaves_as_remainder(const Found& found) const {
   return is_remainder(cell(), whitened(), calibration(), found);
 }
 
-FittedModel Selection::fitted(const std::vector<EffectEntry>& effects, Refit how) const {
+FittedModel Selection::fitted_from(const Calibration& from, const std::vector<EffectEntry>& effects,
+                                   Refit how) const {
   Cell with = start_.cell;
   with.effects = effects;
   return {std::make_shared<const Cell>(std::move(with)),
-          refitted(start_.cell, start_.measured, start_.fit, effects, calibration(), how)};
+          refitted(start_.cell, start_.measured, start_.fit, effects, from, how)};
+}
+
+FittedModel Selection::fitted(const std::vector<EffectEntry>& effects, Refit how) const {
+  return fitted_from(calibration(), effects, how);
 }
 
 FittedModel Selection::fitted_somehow(const std::vector<EffectEntry>& effects) const {

@@ -81,6 +81,24 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
   return out;
 }
 
+Json alternatives_json(const Cell& cell, const std::vector<Alternative>& all) {
+  Json out = Json::array();
+  for (const auto& other : all) {
+    Json one{{"effect", other.entry.name},
+             {"joints", joints_json(cell, other.entry)},
+             {"options", options_json(other.entry)},
+             {"cycles_per_turn", other.cycles},
+             {"domain", other.domain}};
+    put(one, "behind_nats", other.behind_nats);
+    if (!other.not_shown.empty()) {
+      one["not_shown"] = other.not_shown;
+      one["measure"] = other.measure;
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 Json unknown_json(const UnknownStructure& unknown) {
   Json out{{"subject", unknown.pattern.subject},
            {"words", unknown.pattern.words},
@@ -119,10 +137,19 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
              {"cycles_per_turn", a.cycles}};
     put(one, "ln_bayes", a.ln_bayes);
     put_error(one, "held_out", a.held);
+    one["alternatives"] = alternatives_json(cell, a.alternatives);
     out["added"].push_back(std::move(one));
   }
   out["candidates"] = Json::array();
   for (const auto& c : d.candidates) out["candidates"].push_back(candidate_json(cell, c));
+  out["alternatives"] = alternatives_json(cell, d.alternatives);
+  if (d.undecided)
+    out["not_added"] = {{"effect", d.undecided->entry.name},
+                        {"joints", joints_json(cell, d.undecided->entry)},
+                        {"options", options_json(d.undecided->entry)},
+                        {"cycles_per_turn", d.undecided->cycles},
+                        {"domain", d.undecided->domain},
+                        {"alternatives", alternatives_json(cell, d.undecided->alternatives)}};
   out["not_testable"] = Json::array();
   for (const auto& t : d.not_testable)
     out["not_testable"].push_back({{"effect", t.effect}, {"why", t.why}, {"measure", t.measure}});
