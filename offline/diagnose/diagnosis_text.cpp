@@ -165,8 +165,7 @@ std::string sure_words(const Cell& cell, const Diagnosis& d) {
 
 std::string missing_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
-  std::string effect =
-      either_words(cell, effect_sentence(cell, best), d.alternatives);
+  std::string effect = either_words(cell, effect_sentence(cell, best), d.alternatives);
   if (!d.alternatives.empty()) effect += ": these poses cannot tell";
   if (!falls(d.before.mean, best.alone.mean))
     return fmt::format(

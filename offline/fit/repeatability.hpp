@@ -23,8 +23,8 @@ struct Repeatability {
 
   /// Whether the readings speak for it at odds of 20 to 1, and it is of a usual size.
   bool supported() const;
-  /// Whether every joint scatters by less than 100 urad, as industrial arms do (10 to 60). Beyond
-  /// it something that the model lacks is the likelier cause.
+  /// Whether the poses scatter by no more than if every joint had 60 urad; industrial arms have 10
+  /// to 60. Beyond it something that the model lacks is the likelier cause.
   bool usual() const;
 };
 

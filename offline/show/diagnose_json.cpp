@@ -49,6 +49,18 @@ Json parameters_json(const Candidate& candidate) {
   return out;
 }
 
+/// What each joint scatters from stop to stop, where the readings speak for it.
+Json repeatability_json(const Cell& cell, const Repeatability& repeatability) {
+  Json out = Json::array();
+  for (std::size_t j = 0; j < repeatability.std.size(); ++j) {
+    const auto& row = cell.nominal.joints[j];
+    Json one{{"joint", row.name}, {"unit", slides(row) ? "m" : "rad"}};
+    put(one, "std", repeatability.std[j]);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 /// Effect names, each once: "gear_harmonics:J2" is gear_harmonics.
 Json effects_of(const std::vector<std::string>& keys) {
   Json out = Json::array();
@@ -122,6 +134,7 @@ Json joints_json(const Cell& cell, const EffectEntry& effect) {
 Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   Json out{{"verdict", name_of(d.finding)}, {"verdict_text", d.text}};
   add_floor(d.floor, out);
+  if (d.repeatability.supported()) out["repeatability"] = repeatability_json(cell, d.repeatability);
   out["poses_fit"] = d.poses_fit;
   out["poses_held_out"] = d.poses_held;
   out["nested"] = d.nested;
