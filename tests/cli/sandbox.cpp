@@ -92,6 +92,8 @@ Sandbox::~Sandbox() {
   fs::remove_all(path_.parent_path(), ignored);
 }
 
+nlohmann::ordered_json Ran::json() const { return nlohmann::ordered_json::parse(out); }
+
 Ran Sandbox::plumb(const std::vector<std::string>& words) const {
   return plumb_into((path_.parent_path() / "out").string(), words);
 }

@@ -12,7 +12,7 @@ struct Ran {
   int exit = -1;
   std::string out;
   std::string err;
-  nlohmann::ordered_json json() const { return nlohmann::ordered_json::parse(out); }
+  nlohmann::ordered_json json() const;
 };
 
 /// A CSV file as text, column by column. Written apart from the program's own reader.
