@@ -11,13 +11,14 @@ namespace {
 
 std::atomic<std::atomic<bool>*> flag{nullptr};
 std::atomic<bool> told{false};
-struct sigaction before {};  // of the program: it says its last words
+struct sigaction handler_before {};  // of the program: it says its last words
 
 [[noreturn]] void end_at_once(int signal) {
   const char message[] =
       "\nplumb-rt: ended at once; it is the receiver that takes the correction away now";
   [[maybe_unused]] const auto said = ::write(STDERR_FILENO, message, sizeof(message) - 1);
-  if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) before.sa_handler(signal);
+  if (handler_before.sa_handler != SIG_DFL && handler_before.sa_handler != SIG_IGN)
+    handler_before.sa_handler(signal);
   ::_exit(static_cast<int>(Exit::kInterrupted));
 }
 
@@ -34,7 +35,7 @@ void stop_on_signal(std::atomic<bool>& stop) {
   action.sa_handler = heard;
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, &before);
+  sigaction(SIGTERM, &action, &handler_before);
 }
 
 }  // namespace plumb::drivers::rt
