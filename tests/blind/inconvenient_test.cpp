@@ -13,6 +13,7 @@
 namespace plumb::tests {
 namespace {
 
+using offline::Addition;
 using offline::Candidate;
 using offline::Diagnosis;
 using offline::EffectEntry;
@@ -117,13 +118,21 @@ TEST(Claims, OfTwoAlternativesOneMustBeRight) {
   EXPECT_FALSE(claims_of(drawn, either).either_right);
 }
 
+Addition added(EffectEntry entry, double ln_bayes) {
+  return {.entry = std::move(entry),
+          .cycles = {},
+          .ln_bayes = ln_bayes,
+          .held = {},
+          .alternatives = {}};
+}
+
 TEST(Claims, CountAdditionsThatHaveNothingToDoWithWhatIsHidden) {
   const auto drawn = hiding_gear_harmonics();
   Diagnosis d = naming(entry("gear_harmonics", {1}), 20.0);
-  d.added.push_back({entry("gear_harmonics", {1}), {}, 50.0, {}});
-  d.added.push_back({entry("joint_table", {1}), {}, 5.0, {}});
+  d.added.push_back(added(entry("gear_harmonics", {1}), 50.0));
+  d.added.push_back(added(entry("joint_table", {1}), 5.0));
   EXPECT_EQ(claims_of(drawn, d).unrelated, 0) << "the same joint";
-  d.added.push_back({entry("joint_compliance", {2}), {}, 5.0, {}});
+  d.added.push_back(added(entry("joint_compliance", {2}), 5.0));
   EXPECT_EQ(claims_of(drawn, d).unrelated, 1);
 }
 
@@ -135,7 +144,7 @@ TEST(InconvenientMarks, AGuessThatIsAlwaysTheSameMissesThem) {
     s.drawn = draw_inconvenient_case(7, i);
     s.made = true;
     Diagnosis d = naming(entry("link_flexure", {2}), 15.0);
-    d.added.push_back({entry("link_flexure", {2}), {}, 45.0, {}});
+    d.added.push_back(added(entry("link_flexure", {2}), 45.0));
     s.finding = d.finding;
     s.claims = claims_of(s.drawn, d);
     s.before = 5.0;
