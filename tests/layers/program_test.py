@@ -5,27 +5,17 @@
     program_test.py NINJA BUILD_FOLDER LIBRARY SOURCE_FOLDER
 """
 import os
-import re
 import subprocess
 import sys
 
 ALLOWED = ("drivers/program/", "model_format/")
 
 
-def compiled_as_one(path):
-    """The files of ours that CMake compiles as one through this file; the file itself if it is no such file."""
-    if not path.endswith(".cxx"):
-        return [path]
-    with open(path, encoding="utf-8") as file:
-        return re.findall(r'^#include "(.*)"$', file.read(), re.MULTILINE)
-
-
 def sources(ninja, build, library, top):
     """Every source file of ours that ninja compiles on the way to the library, from the top."""
     target = os.path.relpath(library, build)
     inputs = subprocess.run([ninja, "-C", build, "-t", "inputs", target], check=True, capture_output=True, text=True)
-    read = [path for line in inputs.stdout.splitlines() for path in compiled_as_one(os.path.join(build, line.strip()))]
-    paths = [os.path.relpath(path, top) for path in read]
+    paths = [os.path.relpath(os.path.join(build, line.strip()), top) for line in inputs.stdout.splitlines()]
     return [path for path in paths if path.endswith((".cpp", ".fbs"))]
 
 
