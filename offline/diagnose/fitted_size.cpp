@@ -17,17 +17,10 @@ FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prio
   const Eigen::Index b = scored.theta.size();
   FittedSize out{Eigen::VectorXd::Zero(b), Eigen::VectorXd::Zero(b)};
   if (scored.active.empty() || scored.folds.empty()) return out;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(b, b), UX = scored.folds.front().UX;
-  UX.setZero();
-  Eigen::VectorXd Xy = Eigen::VectorXd::Zero(b);
-  for (const auto& fold : scored.folds) {
-    gram += fold.XX;
-    UX += fold.UX;
-    Xy += fold.Xy;
-  }
-  gram -= UX.transpose() * UX;
+  const Products all = sum_of(scored.folds);
+  const Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
   const Eigen::MatrixXd own = gram(scored.active, scored.active);
-  const Eigen::VectorXd v = Xy(scored.active), sigma = prior(scored.active);
+  const Eigen::VectorXd v = all.Xy(scored.active), sigma = prior(scored.active);
   const double left = scored.variance;
   const Eigen::VectorXd pull = (sigma.array() > 0.0).select(left / sigma.array().square(), 0.0);
   Eigen::VectorXd theta = Eigen::VectorXd::Zero(own.rows()), weight = pull;

@@ -35,6 +35,12 @@ Products products_of_motions(const WhitenedFit& s, const Regressor& regressor, c
   return out;
 }
 
+Products active_of(const Products& all, const std::vector<Eigen::Index>& active) {
+  return {all.XX(active, active), all.UX(Eigen::all, active), all.Xy(active)};
+}
+
+}  // namespace
+
 Products sum_of(const std::vector<Products>& all) {
   Products out = all.front();
   for (std::size_t f = 1; f < all.size(); ++f) {
@@ -44,12 +50,6 @@ Products sum_of(const std::vector<Products>& all) {
   }
   return out;
 }
-
-Products active_of(const Products& all, const std::vector<Eigen::Index>& active) {
-  return {all.XX(active, active), all.UX(Eigen::all, active), all.Xy(active)};
-}
-
-}  // namespace
 
 Eigen::MatrixXd motions(const WhitenedFit& s, const Regressor& regressor) {
   if (regressor.joint < 0) return regressor.columns;

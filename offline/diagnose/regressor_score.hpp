@@ -16,6 +16,9 @@ struct Products {
   Eigen::VectorXd Xy;  // (b,)
 };
 
+/// Over all of these segments; there is one at least.
+Products sum_of(const std::vector<Products>& segments);
+
 /// How far a held-out error falls, fold by fold inside the fit poses.
 struct Gain {
   double share = 0.0;     // of the RMS
