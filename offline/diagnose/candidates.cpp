@@ -4,12 +4,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/extension.hpp"
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
+#include "diagnose/thinned_fit.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
@@ -28,6 +30,22 @@ const char* word(EffectDomain domain) {
     default:
       return "measurement";
   }
+}
+
+/// The columns whose sizes are listed: all, but of a series only its largest waves.
+std::vector<Eigen::Index> numbers_told(const Regressor& regressor, const RegressorScore& scored) {
+  std::vector<Eigen::Index> out(static_cast<std::size_t>(scored.theta.size()));
+  std::iota(out.begin(), out.end(), Eigen::Index{0});
+  if (!is_series(regressor.entry.name)) return out;
+  const auto size = [&](Eigen::Index c) {
+    const Eigen::Index k = c / 2 * 2;
+    return std::hypot(scored.theta(k) * regressor.typical(k),
+                      scored.theta(k + 1) * regressor.typical(k + 1));
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
+  out.resize(std::min(out.size(), 2 * kPeaksListed));
+  return out;
 }
 
 std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scorer,
@@ -49,10 +67,14 @@ std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scor
   const Eigen::MatrixXd C =
       left * gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
   std::vector<CandidateNumber> out;
-  for (Eigen::Index c = 0; c < scored.theta.size(); ++c) {
+  const std::vector<Eigen::Index> told = numbers_told(regressor, scored);
+  for (const Eigen::Index c : told) {
     const int member = regressor.members[c];
     if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
-    const EffectParameter& info = effect_parameter(model, 0, member);
+    EffectParameter info = effect_parameter(model, 0, member);
+    // How large a wave may be does not depend on how the others fall off.
+    if (is_series(regressor.entry.name))
+      info.typical = descriptor_of(regressor.entry.name).law->parameters.front().typical;
     const double value = scored.theta(c) * regressor.typical(c);
     const double std = std::sqrt(std::max(0.0, C(c, c))) * regressor.typical(c);
     out.push_back({effect_parameter_name(model, 0, member), info.unit, value, std, info.typical,
@@ -65,7 +87,7 @@ std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scor
 /// [m].
 double largest_motion(const WhitenedFit& s, const Regressor& regressor,
                       const RegressorScore& scored) {
-  Eigen::VectorXd motion = motions(s, regressor).topRows(s.fit_lines) * scored.theta;
+  Eigen::VectorXd motion = plumb::offline::motion(s, regressor, scored.theta).head(s.fit_lines);
   const auto U = s.U.topRows(s.fit_lines);
   motion -= U * (U.transpose() * motion).eval();
   for (Eigen::Index i = 0; i < s.fit_lines; ++i) motion(i) *= s.sigma[static_cast<std::size_t>(i)];
@@ -87,6 +109,7 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   if (out.cycles.empty() && has_option(found.entry, OptionKey::kCyclesPerTurn))
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
   out.supported = found.score > kSupported && gain.clear;
+  out.peaks = found.peaks;
   out.numbers = numbers_of(s, scorer, regressor, found.scored, found.cycles);
   out.plausible = std::all_of(out.numbers.begin(), out.numbers.end(),
                               [](const CandidateNumber& n) { return n.plausible; });
@@ -108,7 +131,11 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
                      std::vector<Candidate>& out) {
   const std::vector<const Found*> some(found.begin(),
                                        found.begin() + std::min(found.size(), kCompared));
-  const Eigen::MatrixXd share = reproduction(s, some);
+  const bool many_columns = std::any_of(some.begin(), some.end(),
+                                        [](const Found* f) { return is_series(f->entry.name); });
+  const Eigen::MatrixXd share = many_columns && s.fit_poses() > kComparedPoses
+                                    ? reproduction(thinned(s, kComparedPoses), some)
+                                    : reproduction(s, some);
   for (std::size_t i = 0; i < some.size(); ++i) {
     for (std::size_t k = 0; k < some.size(); ++k) {
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
@@ -127,7 +154,8 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
 /// Held-out error of each with the best one already in.
 void add_after(const WhitenedFit& s, const std::vector<const Found*>& found,
                std::vector<Candidate>& out) {
-  const WhitenedFit next = extended(s, regressor_of(s, *found.front()));
+  const WhitenedFit next =
+      extended(s, regressor_of(s, *found.front()), found.front()->scored.theta);
   const Scorer scorer(next);
   out.front().after = out.front().alone;
   for (std::size_t i = 1; i < found.size(); ++i) {

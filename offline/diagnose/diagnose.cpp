@@ -189,7 +189,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   std::vector<HeldOut> held_by_step;
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
-    out.added.push_back({step.entry, step.cycles, step.ln_bayes, held_by_step.back().stats()});
+    out.added.push_back(
+        {step.entry, step.cycles, step.peaks, step.ln_bayes, held_by_step.back().stats()});
   }
   const std::size_t kept = steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();

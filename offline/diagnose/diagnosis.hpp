@@ -42,6 +42,7 @@ struct Candidate {
   ErrorStats alone;                  // held out, with this effect
   ErrorStats after;                  // with the best one and this one
   std::vector<double> cycles;
+  std::string peaks = {};  // of a series of waves: its largest ones in words
   bool supported = false;
   bool plausible = true;
   std::vector<CandidateNumber> numbers;
@@ -72,6 +73,7 @@ struct UnknownStructure {
 struct Addition {
   EffectEntry entry;
   std::vector<double> cycles;  // of a ripple: all its waves
+  std::string peaks;           // of a series of waves: its largest ones in words
   double ln_bayes = 0.0;
   ErrorStats held;
 };

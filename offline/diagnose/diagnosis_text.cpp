@@ -118,10 +118,10 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
         "Doubtful: perhaps {}. The fitted poses speak for it, but {}, {}. More poses would tell.",
         effect_sentence(cell, best.entry, best.cycles), fall_words(d.before.mean, best.alone.mean),
         floor_words(d.floor));
-  return fmt::format("{}: {}. Adding it: {}, {}. {}", explains_little(d) ? "Perhaps" : "Missing",
-                     effect_sentence(cell, best.entry, best.cycles),
-                     fall_words(d.before.mean, best.alone.mean), floor_words(d.floor),
-                     sure_words(cell, d));
+  return fmt::format(
+      "{}: {}{}. Adding it: {}, {}. {}", explains_little(d) ? "Perhaps" : "Missing",
+      effect_sentence(cell, best.entry, best.cycles), best.peaks.empty() ? "" : ", " + best.peaks,
+      fall_words(d.before.mean, best.alone.mean), floor_words(d.floor), sure_words(cell, d));
 }
 
 /// Effects that were added although hardly any arm has them that large.

@@ -33,8 +33,8 @@ bool exchange_one(Selection& s, const EffectEntry& entry) {
 bool exchange(Selection& s) {
   if (s.added.size() < 2) return false;
   for (const Found& found : std::vector<Found>(s.added)) {
-    if (is_wave(found.entry.name) || s.exchanged.contains(s.key(found.entry)) ||
-        s.exchanged.size() >= kMostExchanges)
+    if (is_wave(found.entry.name) || is_series(found.entry.name) ||
+        s.exchanged.contains(s.key(found.entry)) || s.exchanged.size() >= kMostExchanges)
       continue;
     s.exchanged.insert(s.key(found.entry));
     bool done = false;

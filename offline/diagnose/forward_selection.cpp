@@ -64,7 +64,12 @@ std::vector<ForwardStep> steps(Selection& s) {
     const bool last = out.size() + 1 == s.added.size();
     EffectEntry entry = found.entry;
     if (!found.cycles.empty()) set_option(entry, OptionKey::kCyclesPerTurn, found.cycles.front());
-    out.push_back({entry, found.cycles, found.ln_bayes(), last ? s.cell().effects : effects, {}});
+    out.push_back({entry,
+                   found.cycles,
+                   found.peaks,
+                   found.ln_bayes(),
+                   last ? s.cell().effects : effects,
+                   {}});
   }
   if (out.empty()) return out;
   if (!unless_refused([&] { s.refit_fully(); })) s.not_refitted_from_the_start();
