@@ -110,9 +110,10 @@ HeldOut nested_held_out(const Work& w) {
 std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
-  return held_out_excess(held.usual_mean(), floor,
-                         unavoidable_ratio(fitted_coordinates(w.measured, w.split),
-                                           static_cast<double>(fitted.parameters.size())));
+  return held_out_excess(
+      held.usual_mean(), floor,
+      unavoidable_ratio(fitted_coordinates(w.measured, w.split),
+                        static_cast<double>(fitted.parameters.size()) + fitted.series_dof));
 }
 
 /// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.

@@ -176,6 +176,7 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
   out.parameters = subset.kept;
   out.held = subset.held;
+  out.series_dof = solution.series_dof;
   return out;
 }
 
