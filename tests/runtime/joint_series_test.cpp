@@ -22,10 +22,10 @@ constexpr double kBound = 1e-12;  // of the sum of all numbers, as the header pr
 
 /// What the law adds to the position of the one joint there is.
 double moved(const std::vector<double>& numbers, double q) {
-  const Chain chain;
-  const ChainFrames frames;
-  const Loads loads;
-  const Context context;
+  const Chain chain{};
+  const ChainFrames frames{};
+  const Loads loads{};
+  const Context context{};
   const std::array<double, 1> at{q};
   const std::array<std::uint8_t, 1> joints{0};
   const std::array<double, 3> constants{static_cast<double>(numbers.size() / 2), 1e-4, 1.0};
