@@ -87,7 +87,8 @@ constexpr Explanation kTerms[] = {
      "--apply would add it; the held-out poses have no say in that. no gain: the same, but the "
      "error on the held-out poses does not fall. unlikely: the same, but hardly any arm has this "
      "effect so large, so "
-     "another cause may be behind it."},
+     "another cause may be behind it. one of 2, one of 3 ...: these poses cannot tell the first "
+     "from as many."},
     {"Complete",
      "Of a diagnosis: no effect of the library is supported by these readings beside those that "
      "the "
@@ -99,8 +100,16 @@ constexpr Explanation kTerms[] = {
      "Of a diagnosis: the errors have a structure that no effect of the library explains. The "
      "sentence names what it depends on, and how much of the error it is."},
     {"Undecidable",
-     "Of a diagnosis: these readings cannot tell: there are too few poses, no noise is known, or "
-     "two effects explain them exactly as well."},
+     "Of a diagnosis: these readings cannot tell: there are too few poses, no noise is known, two "
+     "effects explain them exactly as well, or an effect that so few poses cannot show would "
+     "explain them as well."},
+    {"these poses cannot tell",
+     "Of a diagnosis: two or more effects explain the readings nearly as well (a lead of less "
+     "than 10 nats names the wrong one in every third case), and each can imitate the other. The "
+     "error falls as far with either. plumb diagnose --apply adds the first, but nothing where one "
+     "of "
+     "them would be compiled and another thrown away. plumb plan --separate A,B proposes poses "
+     "that tell."},
     {"Certain",
      "Of the first candidate: the evidence speaks for it by far, and no other candidate is near "
      "it. Rivals that the data cannot test are listed under Not testable."},

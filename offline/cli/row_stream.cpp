@@ -99,7 +99,7 @@ class Pass {
     first_.reset();
     in_order(
         usable_threads(), [&] { return more ? next() : std::nullopt; },
-        [this](Lines lines) { return computed(std::move(lines)); },
+        [this](const Lines& lines) { return computed(lines); },
         [&](Block block) { return take(std::move(block)); });
     finish();
   }

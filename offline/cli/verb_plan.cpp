@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlanArguments {
   int n = 30, pool = 5000;
   std::uint64_t seed = 1;
   std::string limits, separate, output = "plan.csv";
@@ -66,7 +66,7 @@ double share_of(const std::string& text) {
   return share;
 }
 
-PlanRequest request_of(const Options& options, const Cell& cell) {
+PlanRequest request_of(const PlanArguments& options, const Cell& cell) {
   PlanRequest out;
   out.n = options.n;
   out.rules.pool = std::max(options.pool, options.n);
@@ -88,12 +88,11 @@ bool measured_already(const Cell& cell) {
 /// A file beside the cell that does not exist yet: the measurements made so far are kept.
 fs::path new_measurements(const Cell& cell) {
   for (int day = 2;; ++day)
-    if (const fs::path file = cell.directory / fmt::format("measurements_{}.csv", day);
-        !fs::exists(file))
+    if (fs::path file = cell.directory / fmt::format("measurements_{}.csv", day); !fs::exists(file))
       return file;
 }
 
-void plan(const Options& options, const Globals& globals, Outcome& outcome) {
+void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const PlanRequest request = request_of(options, cell);
   const MeasurementFiles measured = measured_already(cell)
@@ -118,7 +117,7 @@ void plan(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_plan(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanArguments>();
   VerbOptions verb = program.verb(
       {.name = "plan",
        .summary = "The next poses to measure: for the arm, or to tell two effects apart",

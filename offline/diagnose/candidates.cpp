@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/candidates.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +8,7 @@
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/extension.hpp"
+#include "diagnose/fitted_size.hpp"
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
 #include "diagnose/thinned_fit.hpp"
@@ -19,28 +19,22 @@
 namespace plumb::offline {
 namespace {
 
-const char* word(EffectDomain domain) {
-  switch (domain) {
-    case EffectDomain::kRobot:
-      return "robot";
-    case EffectDomain::kEnvironment:
-      return "environment";
-    case EffectDomain::kProcedure:
-      return "procedure";
-    default:
-      return "measurement";
-  }
+/// A candidate as a model that holds it alone, to ask for the names and bounds of its numbers.
+format::Model model_of(const WhitenedFit& s, const Regressor& regressor) {
+  format::Model out;
+  out.calibrated = s.cell->nominal;
+  out.effects = {bind_effect(*s.cell, *s.measured, regressor.entry)};
+  return out;
 }
 
 /// The columns whose sizes are listed: all, but of a series only its largest waves.
-std::vector<Eigen::Index> numbers_told(const Regressor& regressor, const RegressorScore& scored) {
-  std::vector<Eigen::Index> out(static_cast<std::size_t>(scored.theta.size()));
+std::vector<Eigen::Index> numbers_told(const Regressor& regressor, const Eigen::VectorXd& theta) {
+  std::vector<Eigen::Index> out(static_cast<std::size_t>(theta.size()));
   std::iota(out.begin(), out.end(), Eigen::Index{0});
   if (!is_series(regressor.entry.name)) return out;
   const auto size = [&](Eigen::Index c) {
     const Eigen::Index k = c / 2 * 2;
-    return std::hypot(scored.theta(k) * regressor.typical(k),
-                      scored.theta(k + 1) * regressor.typical(k + 1));
+    return std::hypot(theta(k) * regressor.typical(k), theta(k + 1) * regressor.typical(k + 1));
   };
   std::stable_sort(out.begin(), out.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
@@ -48,35 +42,30 @@ std::vector<Eigen::Index> numbers_told(const Regressor& regressor, const Regress
   return out;
 }
 
-std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scorer,
-                                        const Regressor& regressor, const RegressorScore& scored,
-                                        const std::vector<double>& cycles) {
-  format::Model model;
-  model.calibrated = s.cell->nominal;
-  model.effects = {bind_effect(*s.cell, *s.measured, regressor.entry)};
-  Eigen::MatrixXd gram = scored.folds.front().XX;
-  Eigen::MatrixXd UX = scored.folds.front().UX;
-  for (std::size_t f = 1; f < scored.folds.size(); ++f) {
-    gram += scored.folds[f].XX;
-    UX += scored.folds[f].UX;
+/// The prior of a fit of each column, in units of its typical size; 0 where there is none.
+Eigen::VectorXd fit_prior(const format::Model& model, const Regressor& regressor) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(regressor.typical.size());
+  const double width = descriptor_of(regressor.entry.name).prior_width;
+  for (Eigen::Index c = 0; c < out.size(); ++c) {
+    const auto place = static_cast<std::size_t>(c);
+    const double typical = effect_parameter(model, 0, regressor.members[place]).typical;
+    if (regressor.typical(c) != 0.0) out(c) = width * typical / std::abs(regressor.typical(c));
   }
-  gram -= UX.transpose() * UX;
-  const double left =
-      std::max(scorer.scale().variance, s.Q * (1.0 - scored.explained) / scorer.scale().lines);
-  gram.diagonal().array() += left / std::pow(scored.evidence.width, 2);
-  const Eigen::MatrixXd C =
-      left * gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
+  return out;
+}
+
+std::vector<CandidateNumber> numbers_of(format::Model model, const Regressor& regressor,
+                                        const FittedSize& size, const std::vector<double>& cycles) {
   std::vector<CandidateNumber> out;
-  const std::vector<Eigen::Index> told = numbers_told(regressor, scored);
-  for (const Eigen::Index c : told) {
-    const int member = regressor.members[c];
+  for (const Eigen::Index c : numbers_told(regressor, size.theta)) {
+    const int member = regressor.members[static_cast<std::size_t>(c)];
     if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
     EffectParameter info = effect_parameter(model, 0, member);
     // How large a wave may be does not depend on how the others fall off.
     if (is_series(regressor.entry.name))
       info.typical = descriptor_of(regressor.entry.name).law->parameters.front().typical;
-    const double value = scored.theta(c) * regressor.typical(c);
-    const double std = std::sqrt(std::max(0.0, C(c, c))) * regressor.typical(c);
+    const double value = size.theta(c) * regressor.typical(c);
+    const double std = size.std(c) * std::abs(regressor.typical(c));
     out.push_back({effect_parameter_name(model, 0, member), info.unit, value, std, info.typical,
                    plausible(value, std, info)});
   }
@@ -86,12 +75,13 @@ std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scor
 /// Largest motion of the measured point at the fit poses, cleared of what the model can imitate
 /// [m].
 double largest_motion(const WhitenedFit& s, const Regressor& regressor,
-                      const RegressorScore& scored) {
-  Eigen::VectorXd motion = plumb::offline::motion(s, regressor, scored.theta).head(s.fit_lines);
+                      const Eigen::VectorXd& theta) {
+  Eigen::VectorXd moved = motion(s, regressor, theta).head(s.fit_lines);
   const auto U = s.U.topRows(s.fit_lines);
-  motion -= U * (U.transpose() * motion).eval();
-  for (Eigen::Index i = 0; i < s.fit_lines; ++i) motion(i) *= s.sigma[static_cast<std::size_t>(i)];
-  return motion.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
+  moved -= U * (U.transpose() * moved).eval();
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
+    unwhiten(s, i, moved.segment(i * s.axes, s.axes));
+  return moved.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
 }
 
 Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
@@ -100,7 +90,7 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   Candidate out;
   out.entry = found.entry;
   out.title = info.title;
-  out.domain = word(info.domain);
+  out.domain = domain_word(found.entry);
   out.ln_bayes = found.ln_bayes();
   const Gain gain = scorer.gain(found.scored);
   out.gain = gain.share;
@@ -110,13 +100,33 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
   out.supported = found.score > kSupported && gain.clear;
   out.peaks = found.peaks;
-  out.numbers = numbers_of(s, scorer, regressor, found.scored, found.cycles);
+  const format::Model model = model_of(s, regressor);
+  const FittedSize size = fitted_size(found.scored, fit_prior(model, regressor),
+                                      descriptor_of(found.entry.name).prior_tail);
+  out.numbers = numbers_of(model, regressor, size, found.cycles);
   out.plausible = std::all_of(out.numbers.begin(), out.numbers.end(),
                               [](const CandidateNumber& n) { return n.plausible; });
   out.explained = found.scored.explained;
   out.absorbed = found.scored.absorbed;
-  out.largest_m = largest_motion(s, regressor, found.scored);
+  out.largest_m = largest_motion(s, regressor, size.theta);
   out.alone = held_out_error(scorer, regressor, found.scored);
+  return out;
+}
+
+/// RMS over the fit poses of what the joint of a pattern turns, as fitted; 0 if it is no joint's.
+double joint_rms(const WhitenedFit& s, const Pattern& pattern) {
+  double out = 0.0;
+  const Scorer scorer(s);
+  visit_patterns(s, [&](const Regressor& regressor) {
+    if (regressor.joint < 0 || regressor.pattern.subject != pattern.subject ||
+        regressor.pattern.words != pattern.words)
+      return;
+    const double width = descriptor_of(wave_effect()).prior_width;  // as of any error of a joint
+    const FittedSize size = fitted_size(scorer.score(regressor),
+                                        Eigen::VectorXd::Constant(regressor.columns.cols(), width));
+    const Eigen::VectorXd angle = regressor.columns.topRows(s.fit_poses()) * size.theta;
+    out = std::sqrt(angle.squaredNorm() / static_cast<double>(angle.size()));
+  });
   return out;
 }
 
@@ -184,13 +194,26 @@ std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& sc
   return out;
 }
 
+std::string domain_word(const EffectEntry& entry) {
+  switch (descriptor_of(entry.name).law->domain) {
+    case EffectDomain::kRobot:
+      return "robot";
+    case EffectDomain::kEnvironment:
+      return "environment";
+    case EffectDomain::kProcedure:
+      return "procedure";
+    default:
+      return "measurement";
+  }
+}
+
 UnknownStructure unknown_structure(const WhitenedFit& s, const Found& found) {
   UnknownStructure out;
   out.pattern = found.pattern;
   out.share = found.scored.explained;
   const double lines = static_cast<double>(std::max<Eigen::Index>(1, s.fit_poses()));
   out.rms_m = std::sqrt(std::max(0.0, found.scored.explained) * s.Q / lines) * s.sigma_m;
-  out.rms_rad = found.rms_joint;
+  out.rms_rad = joint_rms(s, found.pattern);
   return out;
 }
 

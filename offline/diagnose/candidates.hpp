@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "diagnose/diagnosis.hpp"
@@ -11,6 +12,9 @@ namespace plumb::offline {
 /// The candidates of the first scan for the report, best first: each with its held-out error alone
 /// and together with the best one, its parameters, and the effects it is confounded with.
 std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& scan);
+
+/// What an effect belongs to: "robot", "environment", "procedure" or "measurement".
+std::string domain_word(const EffectEntry& entry);
 
 /// Size and share of the best pattern of a scan at that whitened fit.
 UnknownStructure unknown_structure(const WhitenedFit& whitened, const Found& pattern);

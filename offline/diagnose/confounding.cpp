@@ -31,6 +31,13 @@ Seen seen_of(const WhitenedFit& s, const Found& found) {
   return out;
 }
 
+/// Share of the motion of one that the columns of the other reproduce.
+double share_of(const Seen& moved, const Seen& by) {
+  const Eigen::VectorXd c = by.X.transpose() * moved.motion;
+  const double whole = moved.motion.squaredNorm();
+  return whole > 0.0 ? std::clamp(c.dot(by.gram.solve(c)) / whole, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 Eigen::MatrixXd reproduction(const WhitenedFit& whitened,
@@ -41,11 +48,20 @@ Eigen::MatrixXd reproduction(const WhitenedFit& whitened,
   Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (i == k) continue;
-      const Eigen::VectorXd c = seen[k].X.transpose() * seen[i].motion;
-      const double whole = seen[i].motion.squaredNorm();
-      out(i, k) = whole > 0.0 ? std::clamp(c.dot(seen[k].gram.solve(c)) / whole, 0.0, 1.0) : 0.0;
+      if (i != k) out(i, k) = share_of(seen[i], seen[k]);
     }
+  return out;
+}
+
+std::vector<double> mutual_reproduction(const WhitenedFit& whitened, const Found& first,
+                                        const std::vector<const Found*>& others) {
+  std::vector<double> out;
+  if (others.empty()) return out;
+  const Seen own = seen_of(whitened, first);
+  for (const Found* other : others) {
+    const Seen its = seen_of(whitened, *other);
+    out.push_back(std::min(share_of(own, its), share_of(its, own)));
+  }
   return out;
 }
 

@@ -13,6 +13,11 @@ namespace plumb::offline {
 Eigen::MatrixXd reproduction(const WhitenedFit& whitened,
                              const std::vector<const Found*>& candidates);
 
+/// The smaller of the two shares, of `first` by each of `others` and the other way round: how well
+/// the two can replace each other. Cost: one pass over the poses for each.
+std::vector<double> mutual_reproduction(const WhitenedFit& whitened, const Found& first,
+                                        const std::vector<const Found*>& others);
+
 /// Effects that cause the same motion at the same joint, whatever the poses. The scan does not try
 /// them; the report names them.
 std::vector<std::string> disguises(const EffectEntry& entry);

@@ -4,12 +4,14 @@
 #include <algorithm>
 
 #include "check/data_sense.hpp"
+#include "diagnose/alternatives.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/forward_selection.hpp"
+#include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/refit.hpp"
 #include "effects/registry.hpp"
@@ -68,13 +70,14 @@ struct Work {
   std::vector<int> fit, held;  // held: for good, none with folds
   std::vector<Testable> testable;
   std::vector<std::string> not_testable;
+  std::vector<Testable> excluded;  // the same with the reasons
   const DiagnosisRequest& request;
 
   ForwardStart start(const std::vector<int>& rows, bool quiet) const {
     std::function<void(const std::string&)> tell;
     if (!quiet && request.tell)
       tell = [this](const std::string& key) { request.tell("step 4 of 4, adding " + key); };
-    return {cell, measured, rows, not_testable, std::move(tell)};
+    return {cell, measured, rows, not_testable, std::move(tell), excluded};
   }
 };
 
@@ -97,10 +100,11 @@ HeldOut nested_held_out(const Work& w) {
       w.request.tell(fmt::format("step 4 of 4, fold {} of {}", k + 1, w.split.folds));
     const auto inside = fit_rows(w.split, k);
     const Calibration base = calibrate(w.cell, w.measured, inside);
-    const WhitenedFit whitened =
-        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {});
-    const ForwardSelection found = forward_selection(w.start(inside, true), base, whitened,
-                                                     scan(whitened, w.not_testable, {}));
+    const JudgedFit at = judged(
+        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {}),
+        w.not_testable, {});
+    const ForwardSelection found =
+        forward_selection(w.start(inside, true), base, at.whitened, at.look);
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
   }
   return out;
@@ -190,8 +194,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   std::vector<HeldOut> held_by_step;
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
-    out.added.push_back(
-        {step.entry, step.cycles, step.peaks, step.ln_bayes, held_by_step.back().stats()});
+    out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
+                         held_by_step.back().stats(), step.alternatives});
   }
   const std::size_t kept = steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
@@ -206,11 +210,20 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   std::optional<HeldOut> held;
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
   out.full = found.full;
+  if (!refused) out.undecided = found.undecided;
   out.unlikely = found.unlikely;
   say_what_was_not_judged(found, out);
   if (!found.steps.empty()) {
     out.effects = found.steps.back().effects;
-    out.floor = noise_floor(w.cell, w.measured, found.steps.back().calibration.state);
+    Cell with = w.cell;
+    with.effects = out.effects;
+    const Calibration& fitted = found.steps.back().calibration;
+    out.repeatability =
+        repeatability(with, w.measured, fitted, without_outliers(w.fit, fitted.outliers));
+    // As long as more is supported, what is left is no repeatability.
+    if (found.full) out.repeatability = {};
+    out.floor =
+        with_repeatability(noise_floor(w.cell, w.measured, fitted.state), out.repeatability);
   }
   if (w.split.folds > 0 && !(refused && kept == 0)) {
     out.nested = true;
@@ -225,7 +238,10 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   if (found.unknown) {
     out.finding_after = Finding::kUnknown;
     out.unknown_after = found.unknown;
-  } else if (!whitened.noise.known || !judgeable(whitened) || out.tied) {
+  } else if (!whitened.noise.known || !judgeable(whitened) || out.tied || out.undecided ||
+             std::any_of(out.added.begin(), out.added.end(), [](const Addition& a) {
+               return names_what_is_not_shown(a.alternatives);
+             })) {
     out.finding_after = Finding::kUndecidable;
   }
 }
@@ -241,6 +257,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
          {},
          {},
          {},
+         {},
          request};
   w.fit = fit_rows(w.split);
   if (w.split.folds == 0) w.held = held_rows(w.split);
@@ -249,21 +266,29 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   for (const auto& answer : w.testable)
     if (answer.answer == Testable::Answer::kNo) {
       out.not_testable.push_back(answer);
+      w.excluded.push_back(answer);
       w.not_testable.push_back(answer.effect);
     }
   tell_step(request, 0);
   const Calibration base = calibrate(w.cell, measured, w.fit);
   tell_step(request, 1);
   const auto rows = without_outliers(w.fit, base.outliers);
-  const WhitenedFit whitened = make_whitened_fit(w.cell, measured, base, rows, w.held);
-  const Scan first = scan(whitened, w.not_testable, {});
-  out.floor = noise_floor(w.cell, measured, base.state);
+  const JudgedFit at =
+      judged(make_whitened_fit(w.cell, measured, base, rows, w.held), w.not_testable, {});
+  const WhitenedFit& whitened = at.whitened;
+  const Scan& first = at.look;
+  out.repeatability = at.repeatability;
+  out.floor = with_repeatability(noise_floor(w.cell, measured, base.state), out.repeatability);
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());
   out.regressors = first.regressors;
   for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, whitened, base);
   out.candidates = candidates_of(whitened, first);
+  if (out.finding == Finding::kMissing) {
+    out.alternatives = alternatives(whitened, first, *first.supported(), w.excluded);
+    if (names_what_is_not_shown(out.alternatives)) out.finding = Finding::kUndecidable;
+  }
   if (const Found* other =
           out.finding == Finding::kMissing ? tied_with_first(whitened, first) : nullptr) {
     out.finding = Finding::kUndecidable;

@@ -13,6 +13,7 @@
 #include "fit/error_stats.hpp"
 #include "fit/held_out_excess.hpp"
 #include "fit/noise_floor.hpp"
+#include "fit/repeatability.hpp"
 
 namespace plumb::offline {
 
@@ -21,7 +22,7 @@ enum class Finding {
   kComplete,    // nothing more is supported
   kMissing,     // an effect of the library is
   kUnknown,     // structure that none of them explains
-  kUndecidable  // too few poses, no noise floor, or an exact tie
+  kUndecidable  // too few poses, no noise floor, an exact tie, or a law that they cannot show
 };
 
 /// A fitted number of a candidate. SI.
@@ -54,6 +55,18 @@ struct Candidate {
   std::optional<EffectEntry> rival;          // the first of confounded_with
 };
 
+/// An effect that these poses cannot tell from another one: it explains them nearly as well, and
+/// each of the two can imitate the other.
+struct Alternative {
+  EffectEntry entry;
+  std::vector<double> cycles;  // of a ripple: all its waves
+  std::string domain;          // "robot"
+  double behind_nats = 0.0;    // ln B of the other one less its own; below 0: it explains more
+  bool compiled = true;        // whether an effect of its domain becomes part of the model file
+  std::string not_shown;       // why these data cannot show it; empty: it was searched for
+  std::string measure;         // what would show it
+};
+
 /// An added effect, at one joint, of a size that hardly any arm has.
 struct Oversized {
   EffectEntry entry;
@@ -76,20 +89,35 @@ struct Addition {
   std::string peaks;           // of a series of waves: its largest ones in words
   double ln_bayes = 0.0;
   ErrorStats held;
+  std::vector<Alternative> alternatives;  // what it may be instead; all of its fate
+};
+
+/// Why a selection ended: an effect and its alternatives, some of which would be compiled and some
+/// not. Adding either would decide what the compiled arm is, so neither is added.
+struct Undecided {
+  EffectEntry entry;
+  std::vector<double> cycles;
+  std::string domain;
+  std::vector<Alternative> alternatives;
 };
 
 struct Diagnosis {
   Finding finding = Finding::kComplete;
   std::optional<Finding> finding_after;  // with `apply`
   std::string text, text_after;          // the verdicts in words
-  NoiseFloor floor;
+  NoiseFloor floor;             // with the repeatability of the arm in it, where it is known
+  Repeatability repeatability;  // beside the first candidate; with `apply`, at the end
   int poses_fit = 0, poses_held = 0;
   bool nested = false;  // held-out figures come from folds around the whole diagnosis
   ErrorStats before, after;
   std::vector<Addition> added;
-  std::optional<EffectEntry> tied;    // explains these poses exactly as well as the first candidate
-  bool full = false;                  // more would be supported, but a model holds no more effects
-  std::vector<Candidate> candidates;  // by ln B
+  std::optional<EffectEntry> tied;  // explains these poses exactly as well as the first candidate
+  /// What the first candidate may be instead: within 10 nats of it, and mutually confounded with
+  /// it.
+  std::vector<Alternative> alternatives;
+  std::optional<Undecided> undecided;  // with `apply`: where it stopped for that reason
+  bool full = false;                   // more would be supported, but a model holds no more effects
+  std::vector<Candidate> candidates;   // by ln B
   std::vector<Testable> not_testable;
   std::optional<UnknownStructure> unknown;        // at the start
   std::optional<UnknownStructure> unknown_after;  // at the end

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
+#include "diagnose/alternatives.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_sentence.hpp"
@@ -15,13 +17,23 @@
 namespace plumb::offline {
 namespace {
 
+std::string title_of(const std::string& effect);
+
 constexpr std::size_t kWavesShown = 2;
+constexpr std::size_t kAlternativesShown = 3;
 
 std::string mm(double metres) { return fmt::format("{:.3f} mm", metres * 1e3); }
 
 std::string floor_words(const NoiseFloor& floor) {
   if (floor.source == NoiseFloor::Source::kNone) return "noise floor unknown";
   return "noise floor " + mm(floor.mean_m);
+}
+
+/// What of the floor is the arm's, as a sentence of its own; empty: nothing is seen of it.
+std::string repeatability_words(const Cell& cell, const Diagnosis& d) {
+  if (!d.repeatability.supported()) return "";
+  return fmt::format(" Repeatability of the joints, which is in the floor: {} (1 sigma).",
+                     in_words(cell, d.repeatability));
 }
 
 std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
@@ -94,8 +106,48 @@ bool explains_little(const Diagnosis& d) {
          after_m > (1.0 - kLittleShare) * d.before.mean;
 }
 
+/// "J2 yields under load, or the error of J3 repeats once and twice a turn": an effect and what it
+/// may be instead.
+std::string either_words(const Cell& cell, const std::string& first,
+                         const std::vector<Alternative>& others) {
+  std::string out = first;
+  const std::size_t shown = std::min(others.size(), kAlternativesShown);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Alternative& other = others[i];
+    if (other.not_shown.empty())
+      out += ", or " + effect_sentence(cell, other.entry, other.cycles);
+    else
+      out += fmt::format(", or a law that these poses cannot show, {} ({})",
+                         in_words(cell, other.entry, other.cycles), other.not_shown);
+  }
+  if (others.size() > shown)
+    out += fmt::format(", or one of {} others (--json)", others.size() - shown);
+  return out;
+}
+
+/// What to measure so that an effect can be told from what it may be instead.
+std::string telling_words(const Cell& cell, const EffectEntry& first,
+                          const std::vector<Alternative>& others) {
+  std::string out;
+  for (const auto& other : others) {
+    if (!other.not_shown.empty()) continue;
+    out = fmt::format("To tell them apart: {} (plumb plan --separate {},{}).",
+                      separating_measurement(first, other.entry), planning_argument(cell, first),
+                      planning_argument(cell, other.entry));
+    break;
+  }
+  for (const auto& other : others) {
+    if (other.not_shown.empty() || other.measure.empty()) continue;
+    out += fmt::format("{}To show {}: {}.", out.empty() ? "" : " ", title_of(other.entry.name),
+                       other.measure);
+    break;
+  }
+  return out;
+}
+
 std::string sure_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
+  if (!d.alternatives.empty()) return telling_words(cell, best.entry, d.alternatives);
   if (explains_little(d))
     return fmt::format(
         "It explains {:.0f} % of the error only: most of it has another cause, and "
@@ -113,15 +165,46 @@ std::string sure_words(const Cell& cell, const Diagnosis& d) {
 
 std::string missing_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
+  const std::string peaks = best.peaks.empty() ? "" : ", " + best.peaks;
+  std::string effect = either_words(cell, effect_sentence(cell, best) + peaks, d.alternatives);
+  if (!d.alternatives.empty()) effect += ": these poses cannot tell";
   if (!falls(d.before.mean, best.alone.mean))
     return fmt::format(
         "Doubtful: perhaps {}. The fitted poses speak for it, but {}, {}. More poses would tell.",
-        effect_sentence(cell, best.entry, best.cycles), fall_words(d.before.mean, best.alone.mean),
-        floor_words(d.floor));
+        effect, fall_words(d.before.mean, best.alone.mean), floor_words(d.floor));
+  const bool undecidable = d.finding == Finding::kUndecidable;
+  return fmt::format("{}: {}. Adding {}: {}, {}. {}",
+                     undecidable          ? "Undecidable"
+                     : explains_little(d) ? "Perhaps"
+                                          : "Missing",
+                     effect, d.alternatives.empty() ? "it" : "the first",
+                     fall_words(d.before.mean, best.alone.mean), floor_words(d.floor),
+                     sure_words(cell, d));
+}
+
+/// Effects that were added, but may be something else.
+std::string unsure_words(const Cell& cell, const Diagnosis& d) {
+  std::string out;
+  for (const auto& added : d.added)
+    if (!added.alternatives.empty())
+      out += fmt::format(
+          "; {}: these poses cannot tell, and predict as well with either",
+          either_words(cell, effect_sentence(cell, added.entry, added.cycles), added.alternatives));
+  return out;
+}
+
+/// Why an effect was not added, though it is supported: "joint compliance (joint_compliance:J2) is
+/// supported, but it may be drift (drift) instead ...".
+std::string undecided_words(const Cell& cell, const Undecided& u) {
+  const auto other =
+      std::find_if(u.alternatives.begin(), u.alternatives.end(),
+                   [&](const Alternative& a) { return a.compiled != is_compiled(u.entry); });
+  if (other == u.alternatives.end()) return {};
   return fmt::format(
-      "{}: {}{}. Adding it: {}, {}. {}", explains_little(d) ? "Perhaps" : "Missing",
-      effect_sentence(cell, best.entry, best.cycles), best.peaks.empty() ? "" : ", " + best.peaks,
-      fall_words(d.before.mean, best.alone.mean), floor_words(d.floor), sure_words(cell, d));
+      "{} is supported, but it may be {} instead, and these poses cannot tell: one is an error of "
+      "the arm, which is compiled, the other one of the measurement, which is not. {}",
+      in_words(cell, u.entry, u.cycles), in_words(cell, other->entry, other->cycles),
+      telling_words(cell, u.entry, {*other}));
 }
 
 /// Effects that were added although hardly any arm has them that large.
@@ -157,6 +240,13 @@ std::string title_of(const Cell& cell, const EffectEntry& entry) {
 
 bool falls(double before_m, double after_m) {
   return digits(after_m) != digits(before_m) && after_m < before_m;
+}
+
+bool is_either(const Diagnosis& d, const EffectEntry& entry) {
+  if (d.alternatives.empty()) return false;
+  return same_effect(d.candidates.front().entry, entry) ||
+         std::any_of(d.alternatives.begin(), d.alternatives.end(),
+                     [&](const Alternative& other) { return same_effect(other.entry, entry); });
 }
 
 bool is_near_rival(const Cell& cell, const Diagnosis& d, const std::string& key) {
@@ -205,6 +295,14 @@ std::string command_name(const Cell& cell, const EffectEntry& entry) {
   return out;
 }
 
+std::string planning_argument(const Cell& cell, const EffectEntry& effect) {
+  std::string out = command_name(cell, effect);
+  for (const auto& [key, value] : effect.options)
+    if (const auto* number = std::get_if<double>(&value))
+      out += fmt::format("@{}={}", key, *number);
+  return out;
+}
+
 std::string verdict_text(const Cell& cell, const Diagnosis& d) {
   switch (d.finding) {
     case Finding::kMissing:
@@ -214,6 +312,7 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
           "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
           unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
+      if (!d.tied && !d.alternatives.empty()) return missing_words(cell, d);
       if (d.tied)
         return fmt::format(
             "Undecidable: {} and {} explain these poses equally well. With either: {}, {}. To tell "
@@ -228,7 +327,8 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
             mm(d.before.mean));
       return fmt::format("Undecidable: {} poses cannot tell what is missing.", d.poses_fit);
     default:
-      return "Complete: " + complete_words(d, d.before, Held::kSay) + ".";
+      return "Complete: " + complete_words(d, d.before, Held::kSay) + "." +
+             repeatability_words(cell, d);
   }
 }
 
@@ -246,12 +346,17 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
                                                   : "unknown structure is left",
                          unknown_words(cell, *d.unknown_after));
     case Finding::kUndecidable:
+      if (d.undecided)
+        return fmt::format("{}{}; {}", fall, unsure_words(cell, d),
+                           undecided_words(cell, *d.undecided));
       if (d.tied && !d.added.empty()) return fmt::format("{}; {}.", fall, tie_words(cell, d));
+      if (const std::string unsure = unsure_words(cell, d); !unsure.empty())
+        return fall + unsure + ".";
       return fall + "; what is left cannot be judged without a noise floor.";
     default:
-      return fmt::format("{}; {}{}.", fall,
+      return fmt::format("{}{}; {}{}.{}", fall, unsure_words(cell, d),
                          complete_words(d, d.after, d.added.empty() ? Held::kSay : Held::kSaid),
-                         unlikely_words(cell, d));
+                         unlikely_words(cell, d), repeatability_words(cell, d));
   }
 }
 

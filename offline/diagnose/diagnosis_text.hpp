@@ -21,6 +21,9 @@ std::string key_in_words(std::string key);
 /// "gravity_free:J2+J3": the effect as the command line names it.
 std::string command_name(const Cell& cell, const EffectEntry& entry);
 
+/// The same with its numbers, as `plumb plan --separate` takes two of.
+std::string planning_argument(const Cell& cell, const EffectEntry& effect);
+
 /// "20 and 8.5 cycles a turn"; "12 waves, the largest at 16.9 cycles a turn".
 ///
 /// @param cycles  The largest wave first.
@@ -28,6 +31,9 @@ std::string waves_words(const std::vector<double>& cycles);
 
 /// Whether the error on unseen poses falls, in the digits that are shown.
 bool falls(double before_m, double after_m);
+
+/// Whether an effect is the first candidate or one of what it may be instead.
+bool is_either(const Diagnosis& diagnosis, const EffectEntry& entry);
 
 /// Whether another effect, known by its key, explains these poses nearly as well as the first
 /// candidate: the evidence hardly sets them apart.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cell/cell.hpp"
+#include "diagnose/diagnosis.hpp"
 
 namespace plumb::offline {
 
@@ -12,5 +13,9 @@ namespace plumb::offline {
 /// not given)".
 std::string effect_sentence(const Cell& cell, const EffectEntry& entry,
                             const std::vector<double>& cycles);
+
+/// The same of a candidate with its fitted numbers, whose sign may say something else: "J3 is
+/// over-compensated on reversal".
+std::string effect_sentence(const Cell& cell, const Candidate& candidate);
 
 }  // namespace plumb::offline

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/exchange.hpp"
 
+#include <algorithm>
+
 #include "diagnose/constants.hpp"
 #include "diagnose/found_list.hpp"
+#include "diagnose/model_parts.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
 
@@ -28,15 +31,72 @@ bool exchange_one(Selection& s, const EffectEntry& entry) {
   return true;
 }
 
+/// Effects of the model that gravity or the payload causes.
+std::size_t loads_in(const Selection& s) {
+  const auto& effects = s.cell().effects;
+  return static_cast<std::size_t>(
+      std::count_if(effects.begin(), effects.end(),
+                    [](const EffectEntry& e) { return grows_with_load(descriptor_of(e.name)); }));
+}
+
+/// Whether an effect is to be taken out now; remembers that it was.
+bool is_due(Selection& s, const EffectEntry& entry) {
+  const std::string key = s.key(entry);
+  if (is_wave(entry.name) || is_series(entry.name)) return false;
+  if (is_change_point(entry.name)) {
+    const auto [last, fresh] = s.steps_ranked.try_emplace(key, loads_in(s));
+    if (!fresh && last->second == loads_in(s)) return false;
+    last->second = loads_in(s);
+    return true;
+  }
+  return s.exchanged.size() < kMostExchanges && s.exchanged.insert(key).second;
+}
+
+bool is_oversized(const Cell& cell, const WhitenedFit& whitened, const Calibration& calibration,
+                  const std::vector<EffectEntry>& given, const EffectEntry& entry) {
+  const auto all = oversized(cell, whitened, calibration, given);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Oversized& one) { return one.entry.name == entry.name; });
+}
+
+bool exchange_for_size(Selection& s, const EffectEntry& entry) {
+  const JudgedModel without = s.without(entry, s.banned());
+  const Found* own = without.look.find(s.cell(), s.key(entry));
+  const Found* other = without.look.supported(
+      [&](const Found& f) { return f.entry.name != entry.name || f.entry.joints != entry.joints; });
+  if (own == nullptr || other == nullptr || other->ln_bayes() < own->ln_bayes() - kTold_nats)
+    return false;
+  FittedModel next = s.fitted(with_found(without.model.cell->effects, *other));
+  WhitenedFit whitened = s.whitened_fit_of(next);
+  if (is_oversized(*next.cell, whitened, next.calibration, s.start().cell.effects, other->entry))
+    return false;
+  const Found chosen = *other;
+  s.look_at(std::move(next), std::move(whitened));
+  forget(s.added, entry);
+  s.added.push_back(chosen);
+  return true;
+}
+
 }  // namespace
+
+bool exchange_oversized(Selection& s) {
+  for (const auto& one :
+       oversized(s.cell(), s.whitened(), s.calibration(), s.start().cell.effects)) {
+    if (is_wave(one.entry.name) || is_series(one.entry.name) ||
+        !s.sizes_doubted.insert(s.key(one.entry)).second)
+      continue;
+    bool done = false;
+    if (!unless_refused([&] { done = exchange_for_size(s, one.entry); }))
+      s.not_compared_without(one.entry);
+    if (done) return true;
+  }
+  return false;
+}
 
 bool exchange(Selection& s) {
   if (s.added.size() < 2) return false;
   for (const Found& found : std::vector<Found>(s.added)) {
-    if (is_wave(found.entry.name) || is_series(found.entry.name) ||
-        s.exchanged.contains(s.key(found.entry)) || s.exchanged.size() >= kMostExchanges)
-      continue;
-    s.exchanged.insert(s.key(found.entry));
+    if (!is_due(s, found.entry)) continue;
     bool done = false;
     if (!unless_refused([&] { done = exchange_one(s, found.entry); }))
       s.not_compared_without(found.entry);

@@ -7,6 +7,12 @@ namespace plumb::offline {
 
 /// The first effects were chosen while the others were still missing. Each effect is therefore
 /// taken out once and searched for again; true if a better one has replaced it.
+/// A step is taken out again whenever the yielding of the arm has come into the model since: what
+/// gravity does may have passed for the slip of an encoder, or hidden that of the tool.
 bool exchange(Selection& selection);
+
+/// An effect of a size that hardly any arm has is taken out once, and replaced by another one of a
+/// usual size that these poses cannot tell from it; true if one was.
+bool exchange_oversized(Selection& selection);
 
 }  // namespace plumb::offline

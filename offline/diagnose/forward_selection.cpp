@@ -5,6 +5,7 @@
 
 #include "cell/effects_edit.hpp"
 #include "diagnose/add_effect.hpp"
+#include "diagnose/alternatives.hpp"
 #include "diagnose/behind_oversized.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/constants.hpp"
@@ -13,6 +14,7 @@
 #include "diagnose/found_list.hpp"
 #include "diagnose/fresh_waves.hpp"
 #include "diagnose/unless_refused.hpp"
+#include "diagnose/untrim_ends.hpp"
 #include "effects/effect_option.hpp"
 
 namespace plumb::offline {
@@ -25,10 +27,25 @@ Found as_many_as_fit(const Selection& s, Found found) {
   return found;
 }
 
+/// Whether an effect may be added. Of several that these poses cannot tell apart the first is added
+/// where all share its fate, since the prediction is as good with any of them. Where some would be
+/// compiled and others thrown away, it would be a guess about the arm.
+bool may_be_added(Selection& s, const Found& best, ForwardSelection& out) {
+  auto others = alternatives(s.whitened(), s.look(), best, s.start().excluded);
+  if (of_different_fate(best.entry, others)) {
+    out.undecided = Undecided{best.entry, best.cycles, domain_word(best.entry), std::move(others)};
+    return false;
+  }
+  s.unsure[s.key(best.entry)] = std::move(others);
+  return true;
+}
+
 /// What the selection ends with by itself: unknown structure, a full model, or nothing more.
 void select(Selection& s, ForwardSelection& out) {
   for (int step = 0; step < kMostSteps; ++step) {
     if (s.look().unknown() && !s.leaves_as_remainder(*s.look().pattern)) {
+      // A structure of no law comes last: it may be what a wrongly named effect leaves.
+      if (untrim_ends(s) || exchange_oversized(s) || exchange(s)) continue;
       out.unknown = unknown_structure(s.whitened(), *s.look().pattern);
       return;
     }
@@ -36,9 +53,10 @@ void select(Selection& s, ForwardSelection& out) {
         s.look().supported([&](const Found& f) { return !s.leaves_as_remainder(f); });
     out.full = best != nullptr && s.cell().effects.size() >= kMostEffects;
     if (out.full) return;
-    if (best != nullptr)
+    out.undecided.reset();
+    if (best != nullptr && may_be_added(s, *best, out))
       add_effect(s, as_many_as_fit(s, with_fresh_waves(s, *best)));
-    else if (!exchange(s) && !doubt_strongest(s))
+    else if (!exchange(s) && !doubt_strongest(s) && !exchange_oversized(s) && !untrim_ends(s))
       return;
   }
 }
@@ -64,10 +82,12 @@ std::vector<ForwardStep> steps(Selection& s) {
     const bool last = out.size() + 1 == s.added.size();
     EffectEntry entry = found.entry;
     if (!found.cycles.empty()) set_option(entry, OptionKey::kCyclesPerTurn, found.cycles.front());
+    const auto others = s.unsure.find(s.key(found.entry));
     out.push_back({entry,
                    found.cycles,
                    found.peaks,
                    found.ln_bayes(),
+                   others == s.unsure.end() ? std::vector<Alternative>() : others->second,
                    last ? s.cell().effects : effects,
                    {}});
   }

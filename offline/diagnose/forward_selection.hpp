@@ -17,7 +17,8 @@ struct ForwardStep {
   std::vector<double> cycles;  // of a ripple: all its waves
   std::string peaks;           // of a series of waves: its largest ones in words
   double ln_bayes = 0.0;
-  std::vector<EffectEntry> effects;  // the whole list
+  std::vector<Alternative> alternatives;  // what it may be instead
+  std::vector<EffectEntry> effects;       // the whole list
   Calibration calibration;
 };
 
@@ -28,6 +29,7 @@ struct ForwardSelection {
   bool full = false;  // more is supported, but a model holds no more effects
   std::optional<UnknownStructure>
       unknown;                          // left at the end, or what an oversized effect stands for
+  std::optional<Undecided> undecided;   // where it ended for that reason
   std::vector<Oversized> unlikely;      // of the steps: large, but nothing else explains as much
   std::vector<std::string> not_judged;  // models that could not be refitted, in words
 };
@@ -40,6 +42,7 @@ struct ForwardStart {
   std::vector<int> fit;  // rows
   std::vector<std::string> not_testable;
   std::function<void(const std::string&)> tell;  // progress; may be empty
+  std::vector<Testable> excluded = {};  // not_testable, and why; empty: nobody asks for look-alikes
 };
 
 /// `first` is the scan of `whitened`, the calibration's.

@@ -35,6 +35,46 @@ std::optional<Found> with_one_more(const Scorer& scorer, const Found& group,
   return best;
 }
 
+/// The group that grows as long as the evidence pays, however little a further joint moves.
+Found by_evidence_alone(const Scorer& scorer, const std::vector<const Found*>& single) {
+  Found out = *single.front();
+  while (auto larger = with_one_more(scorer, out, single, -1.0)) out = std::move(*larger);
+  return out;
+}
+
+/// All joints of the law that carry a load, together.
+Found all_joints(const Scorer& scorer, const std::vector<const Found*>& single) {
+  EffectEntry entry = single.front()->entry;
+  for (const Found* other : single)
+    if (other->entry.options == entry.options &&
+        std::find(entry.joints.begin(), entry.joints.end(), other->entry.joints.front()) ==
+            entry.joints.end())
+      entry.joints.push_back(other->entry.joints.front());
+  std::sort(entry.joints.begin(), entry.joints.end());
+  const Regressor regressor = library_regressor(scorer.whitened(), entry);
+  Found out{entry, {}, scorer.score(regressor), {}, 0.0, {}, 0.0};
+  out.score = single.front()->score + out.ln_bayes() - single.front()->ln_bayes();
+  return out;
+}
+
+/// Joints that yield together, of which each but one moves too little to be added by itself, look
+/// like a law of another cause: a link that bends. They are put into one candidate if that explains
+/// more than the other law, by a clear margin.
+std::optional<Found> against_another_cause(const Scorer& scorer, const EffectDescriptor& effect,
+                                           const std::vector<const Found*>& single,
+                                           const std::optional<Found>& group,
+                                           const Found& strongest) {
+  const double own = group ? group->ln_bayes() : single.front()->ln_bayes();
+  if (effect.cause != Cause::kYieldingJoint || strongest.ln_bayes() <= own ||
+      descriptor_of(strongest.entry.name).cause == effect.cause)
+    return std::nullopt;
+  Found best = by_evidence_alone(scorer, single);
+  if (Found all = all_joints(scorer, single); all.ln_bayes() > best.ln_bayes() + kSupported)
+    best = std::move(all);
+  if (best.ln_bayes() < strongest.ln_bayes() + kSupported) return std::nullopt;
+  return best;
+}
+
 }  // namespace
 
 std::vector<Found> joint_groups(const Scorer& scorer, const std::vector<Found>& library) {
@@ -48,9 +88,14 @@ std::vector<Found> joint_groups(const Scorer& scorer, const std::vector<Found>& 
     const double least =
         effect->group_share * effect->group_share * single.front()->scored.explained;
     std::optional<Found> group = with_one_more(scorer, *single.front(), single, least);
-    if (!group) continue;
-    while (auto larger = with_one_more(scorer, *group, single, least)) group = std::move(larger);
-    out.push_back(std::move(*group));
+    while (group) {
+      auto larger = with_one_more(scorer, *group, single, least);
+      if (!larger) break;
+      group = std::move(larger);
+    }
+    if (auto wider = against_another_cause(scorer, *effect, single, group, library.front()))
+      group = std::move(wider);
+    if (group) out.push_back(std::move(*group));
   }
   return out;
 }

@@ -32,6 +32,9 @@ std::vector<double> ripple_grid(const WhitenedFit& s, int joint) {
   const int last = static_cast<int>(std::floor(kLastRipple / step));
   for (int k = static_cast<int>(std::ceil(first_ripple(range) / step)); k <= last; ++k)
     out.push_back(k * step);
+  if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
+    for (const double waves : kAlwaysMotorWaves)
+      if (waves * std::abs(*ratio) > kLastRipple) out.push_back(waves * std::abs(*ratio));
   return out;
 }
 
@@ -40,7 +43,11 @@ std::vector<double> fast_ripple_grid(const WhitenedFit& s, int joint) {
   const double range = range_of(s, joint);
   if (range < kLeastRange_rad) return out;
   const double step = std::min(kRippleStep, M_PI / range);
-  for (double k = kLastRipple + step; k <= kFastest; k += step) out.push_back(k);
+  double k = kLastRipple + step;
+  while (k <= kFastest) {
+    out.push_back(k);
+    k += step;
+  }
   if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
     for (const double waves : kMotorWaves)
       if (waves * std::abs(*ratio) > kLastRipple) out.push_back(waves * std::abs(*ratio));

@@ -71,8 +71,9 @@ std::optional<Found> found_ripples(const Scorer& scorer, Ripples waves, double p
   const Regressor regressor = ripple_regressor(scorer.whitened(), waves.joint, waves.cycles);
   Found out{regressor.entry, {}, scorer.score(regressor), {}, 0.0, waves.cycles, 0.0};
   const auto count = static_cast<double>(waves.cycles.size());
-  out.score = waves.cycles.size() == 1 && !in_series ? waves.strongest_ln_bayes - paid
-                                                     : out.ln_bayes() - count * paid;
+  const double strongest = waves.strongest_ln_bayes - scorer.whitened().scatter_nats;
+  out.score =
+      waves.cycles.size() == 1 && !in_series ? strongest - paid : out.ln_bayes() - count * paid;
   // Beside a series only a wave that it clearly cannot make.
   if (in_series) out.score -= kAhead_nats;
   return out;
@@ -205,14 +206,15 @@ void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& fou
 }
 
 /// The joints at which fast waves are tried. None if the best candidate leaves hardly more than
-/// noise, or is another law; the joint of the best candidate if that is slow waves, as fast ones
-/// may look like them; all joints that turn if nothing was found, or only a pattern.
+/// noise, or is another law that explains most of what is left; the joint of the best candidate if
+/// that is slow waves, as fast ones may look like them; all joints that turn if nothing was found,
+/// or only a pattern or a weak effect.
 std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& look) {
   const Found* best = look.unknown() ? &*look.pattern : look.supported();
   const double left = best == nullptr ? 1.0 : 1.0 - best->scored.explained;
   if (left * times_noise(whitened) < kAboveNoise) return {};
   if (best != nullptr && is_wave(best->entry.name)) return best->entry.joints;
-  if (best != nullptr && best->pattern.empty()) return {};
+  if (best != nullptr && best->pattern.empty() && best->scored.explained > kMostOfIt) return {};
   std::vector<int> out;
   for (int j = 0; j < whitened.joints(); ++j)
     if (whitened.chain.revolute(j)) out.push_back(j);

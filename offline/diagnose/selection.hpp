@@ -35,6 +35,9 @@ class Selection {
   FittedModel fitted(const std::vector<EffectEntry>& effects, Refit how = Refit::kNearby) const;
   /// A nearby fit starts from what was there before; where that is refused, a full one may not be.
   FittedModel fitted_somehow(const std::vector<EffectEntry>& effects) const;
+  /// The same from another calibration, whose outliers stay out.
+  FittedModel fitted_from(const Calibration& from, const std::vector<EffectEntry>& effects,
+                          Refit how = Refit::kNearby) const;
   WhitenedFit whitened_fit_of(const FittedModel& model) const;
   /// The present model less an effect, and what is then missing.
   JudgedModel without(const EffectEntry& entry, const std::vector<std::string>& banned) const;
@@ -66,11 +69,15 @@ class Selection {
   /// Models that could not be refitted, in words.
   std::vector<std::string> not_judged() const;
 
-  std::vector<Found> added;            // in the order of their choice
-  std::map<std::string, int> dropped;  // how often each was taken out, by key
-  std::set<std::string> exchanged;     // taken out once and looked for again
-  std::set<std::string> doubted;       // their rivals were followed
-  std::set<std::string> renewed;       // waves that were looked for again, together
+  std::vector<Found> added;                                // in the order of their choice
+  std::map<std::string, std::vector<Alternative>> unsure;  // what they may be instead, by key
+  std::map<std::string, int> dropped;                      // how often each was taken out, by key
+  std::set<std::string> exchanged;                         // taken out once and looked for again
+  std::set<std::string> sizes_doubted;                     // taken out once because of their size
+  std::map<std::string, std::size_t> steps_ranked;  // by key: loads in the model when it was ranked
+  bool untrimmed = false;                           // the first and last poses were looked at again
+  std::set<std::string> doubted;                    // their rivals were followed
+  std::set<std::string> renewed;                    // waves that were looked for again, together
   const std::vector<FittedModel>& seen() const { return seen_; }  // the present one is the last
 
  private:

@@ -285,6 +285,8 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
     out.evidence = {-paid - 0.5 * n * std::log(after / before), 1.0};
     left = after / n;
   }
+  out.variance = left;
+  out.evidence.ln_bayes -= s.scatter_nats;
   const double seen = out.theta.dot(gram * out.theta), moved = out.theta.dot(all.XX * out.theta);
   out.explained = s.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / s.Q : 0.0;
   out.absorbed = moved > 0.0 ? std::clamp(1.0 - seen / moved, 0.0, 1.0) : 0.0;
@@ -319,7 +321,7 @@ std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<i
   set_option(out.entry, OptionKey::kSize_urad, three_digits(1e6 * best.prior.ratio * best.scatter));
   set_option(out.entry, OptionKey::kSlope, std::round(100.0 * best.prior.slope) / 100.0);
   out.scored = score_series(scorer, out.entry);
-  out.scored.evidence.ln_bayes = grid.ln_mean;
+  out.scored.evidence.ln_bayes = grid.ln_mean - s.scatter_nats;
   return out;
 }
 

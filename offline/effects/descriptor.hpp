@@ -99,6 +99,9 @@ struct EffectDescriptor {
   // What it is called. {0}: its joints; {1}: "s" behind a verb of one joint, nothing behind that of
   // several; {2}: the waves of a ripple in words.
   const char* sentence = "";  // empty: the title says it
+  /// The same where all its numbers are below zero, if that says something else. {3}: "is" or
+  /// "are".
+  const char* negative_sentence = nullptr;
   /// The title of one entry, if it says more than the law's title. `joint` is the first one listed.
   std::string (*entry_title)(const EffectEntry& entry, const std::string& joint) = nullptr;
 

@@ -61,13 +61,15 @@ constexpr EffectDescriptor kReversalDescriptor{
     .law = &effects::Reversal::kInfo,
     .explanation =
         "The joint stops short of where it came from: dq = -h sign(d)(1 - exp(-|travel|/q_c)). "
-        "Typical: 30 to 300 urad. Needs: columns dir_jN and travel_jN, or rows in order of "
-        "moving.",
+        "Typical: 30 to 300 urad. It runs ahead instead, h below 0, where the controller "
+        "compensates more backlash than the joint has. Needs: columns dir_jN and travel_jN, or "
+        "rows in order of moving.",
     .options = kReversalOptions,
     .joints = JointList::kSet,
     .testable = reversal_testable,
     .measure = "each pose from the + and the - side, with dir_jN (import --dir from-order)",
     .sentence = "{0} stop{1} short of the place, depending on the side it came from",
+    .negative_sentence = "{0} {3} over-compensated on reversal",
     .search = Search::kGrid,
     .candidate_joints = CandidateJoints::kEach,
     .grid = kReversalGrid,

@@ -31,7 +31,7 @@ void put_error(Json& out, const std::string& key, const ErrorStats& stats) {
 Json options_json(const EffectEntry& effect) {
   Json out = Json::object();
   for (const auto& [key, value] : effect.options)
-    std::visit([&](const auto& v) { out[key] = v; }, value);
+    std::visit([&out, &name = key](const auto& v) { out[name] = v; }, value);
   return out;
 }
 
@@ -44,6 +44,18 @@ Json parameters_json(const Candidate& candidate) {
     put(one, "ci95", 1.96 * n.std);
     put(one, "typical", n.typical > 0.0 ? n.typical : NAN, "the arm decides");
     one["plausible"] = n.plausible;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// What each joint scatters from stop to stop, where the readings speak for it.
+Json repeatability_json(const Cell& cell, const Repeatability& repeatability) {
+  Json out = Json::array();
+  for (std::size_t j = 0; j < repeatability.std.size(); ++j) {
+    const auto& row = cell.nominal.joints[j];
+    Json one{{"joint", row.name}, {"unit", slides(row) ? "m" : "rad"}};
+    put(one, "std", repeatability.std[j]);
     out.push_back(std::move(one));
   }
   return out;
@@ -81,6 +93,24 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
   return out;
 }
 
+Json alternatives_json(const Cell& cell, const std::vector<Alternative>& all) {
+  Json out = Json::array();
+  for (const auto& other : all) {
+    Json one{{"effect", other.entry.name},
+             {"joints", joints_json(cell, other.entry)},
+             {"options", options_json(other.entry)},
+             {"cycles_per_turn", other.cycles},
+             {"domain", other.domain}};
+    put(one, "behind_nats", other.behind_nats);
+    if (!other.not_shown.empty()) {
+      one["not_shown"] = other.not_shown;
+      one["measure"] = other.measure;
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 Json unknown_json(const UnknownStructure& unknown) {
   Json out{{"subject", unknown.pattern.subject},
            {"words", unknown.pattern.words},
@@ -104,6 +134,7 @@ Json joints_json(const Cell& cell, const EffectEntry& effect) {
 Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   Json out{{"verdict", name_of(d.finding)}, {"verdict_text", d.text}};
   add_floor(d.floor, out);
+  if (d.repeatability.supported()) out["repeatability"] = repeatability_json(cell, d.repeatability);
   out["poses_fit"] = d.poses_fit;
   out["poses_held_out"] = d.poses_held;
   out["nested"] = d.nested;
@@ -119,10 +150,19 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
              {"cycles_per_turn", a.cycles}};
     put(one, "ln_bayes", a.ln_bayes);
     put_error(one, "held_out", a.held);
+    one["alternatives"] = alternatives_json(cell, a.alternatives);
     out["added"].push_back(std::move(one));
   }
   out["candidates"] = Json::array();
   for (const auto& c : d.candidates) out["candidates"].push_back(candidate_json(cell, c));
+  out["alternatives"] = alternatives_json(cell, d.alternatives);
+  if (d.undecided)
+    out["not_added"] = {{"effect", d.undecided->entry.name},
+                        {"joints", joints_json(cell, d.undecided->entry)},
+                        {"options", options_json(d.undecided->entry)},
+                        {"cycles_per_turn", d.undecided->cycles},
+                        {"domain", d.undecided->domain},
+                        {"alternatives", alternatives_json(cell, d.undecided->alternatives)}};
   out["not_testable"] = Json::array();
   for (const auto& t : d.not_testable)
     out["not_testable"].push_back({{"effect", t.effect}, {"why", t.why}, {"measure", t.measure}});

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "diagnose/alternatives.hpp"
 #include "diagnose/diagnosis_text.hpp"
+#include "diagnose/scan.hpp"
 #include "show/effect_arguments.hpp"
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
@@ -29,10 +31,12 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   return table.text();
 }
 
-const char* support_words(const Diagnosis& d, const Candidate& c) {
-  if (!c.supported) return "no";
+std::string support_words(const Diagnosis& d, const Candidate& c) {
+  const bool either = is_either(d, c.entry);
+  if (!c.supported && !either) return "no";
   if (!c.plausible) return "unlikely";
-  return falls(d.before.mean, c.alone.mean) ? "yes" : "no gain";
+  if (!falls(d.before.mean, c.alone.mean)) return "no gain";
+  return either ? fmt::format("one of {}", 1 + d.alternatives.size()) : "yes";
 }
 
 /// What most people need: which effect, and how far the error falls.
@@ -64,6 +68,12 @@ std::string full_table(const Cell& cell, const Diagnosis& d) {
   return table.text();
 }
 
+/// Whether an effect, known by its key, is one of what the first candidate may be instead.
+bool is_alternative(const Cell& cell, const Diagnosis& d, const std::string& key) {
+  return std::any_of(d.alternatives.begin(), d.alternatives.end(),
+                     [&](const Alternative& other) { return key_of(cell, other.entry) == key; });
+}
+
 /// How far the first candidate moves the measured point, and what it may be mistaken for.
 std::string first_text(const Cell& cell, const Diagnosis& d) {
   const Candidate& first = d.candidates.front();
@@ -72,8 +82,12 @@ std::string first_text(const Cell& cell, const Diagnosis& d) {
       "cannot imitate.\n",
       mm(first.largest_m));
   std::vector<std::string> near, similar;
-  for (const auto& key : first.confounded_with)
+  for (const auto& other : d.alternatives)
+    near.push_back(in_words(cell, other.entry, other.cycles));
+  for (const auto& key : first.confounded_with) {
+    if (is_alternative(cell, d, key)) continue;
     (is_near_rival(cell, d, key) ? near : similar).push_back(key_in_words(key));
+  }
   if (!near.empty())
     out += fmt::format(
         "Hard to tell from: {}.{}\n", fmt::join(near, ", "),
@@ -133,11 +147,18 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
       return {good_enough(cell, d.before) ? kCompile : kMeasure};
     std::vector<std::string> out{"add " + adding_arguments(cell, first.entry, first.cycles),
                                  "diagnose --apply   # all that is supported, one by one"};
-    if (first.rival)
+    if (!d.alternatives.empty())
+      out.insert(out.begin(), separating(cell, first.entry, d.alternatives.front().entry) +
+                                  "   # which of them is it?");
+    else if (first.rival)
       out.push_back(separating(cell, first.entry, *first.rival) + "   # to be sure which it is");
     return out;
   }
   if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
+  if (d.undecided)
+    for (const auto& other : d.undecided->alternatives)
+      if (other.compiled != is_compiled(d.undecided->entry))
+        return {separating(cell, d.undecided->entry, other.entry)};
   if (d.tied) return {separating(cell, d.candidates.front().entry, *d.tied)};
   return {good_enough(cell, d.after) ? kCompile : kMeasure};
 }

@@ -75,14 +75,4 @@ std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>&
   return fmt::format("{}", fmt::join(adding_arguments(cell, effects), " && plumb drop "));
 }
 
-std::string planning_argument(const Cell& cell, const EffectEntry& effect) {
-  std::string out = effect.name;
-  for (std::size_t i = 0; i < effect.joints.size(); ++i)
-    out += (i == 0 ? ":" : "+") + cell.nominal.joints[effect.joints[i]].name;
-  for (const auto& [key, value] : effect.options)
-    if (const auto* number = std::get_if<double>(&value))
-      out += fmt::format("@{}={}", key, *number);
-  return out;
-}
-
 }  // namespace plumb::offline::show

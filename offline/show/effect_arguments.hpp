@@ -20,7 +20,4 @@ std::vector<std::string> adding_arguments(const Cell& cell,
 /// What `plumb drop` takes of effects that were added together: a formula goes by its name.
 std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>& effects);
 
-/// gravity_free:J2+J3: what `plumb plan --separate` takes two of.
-std::string planning_argument(const Cell& cell, const EffectEntry& effect);
-
 }  // namespace plumb::offline::show

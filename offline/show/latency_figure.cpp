@@ -92,15 +92,15 @@ class HistogramDrawing {
   }
 
   void axes() {
-    for (double decade = low_; decade <= high_; ++decade) {
-      const double at = x(std::pow(10.0, decade));
+    for (int decade = 0; low_ + decade <= high_; ++decade) {
+      const double time = std::pow(10.0, low_ + decade), at = x(time);
       line(at, kPlotTop, at, kPlotTop + kPlotHeight, "#dddddd");
-      label(at, kPlotTop + kPlotHeight + 18, "middle", duration(std::pow(10.0, decade)));
+      label(at, kPlotTop + kPlotHeight + 18, "middle", duration(time));
     }
-    for (double decade = 0.0; decade <= most_; ++decade) {
-      const double at = y(std::pow(10.0, decade));
+    for (int decade = 0; decade <= most_; ++decade) {
+      const double calls = std::pow(10.0, decade), at = y(calls);
       line(kPlotLeft, at, kPlotLeft + kPlotWidth, at, "#dddddd");
-      label(kPlotLeft - 6, at + 4, "end", fmt::format("{:.0f}", std::pow(10.0, decade)));
+      label(kPlotLeft - 6, at + 4, "end", fmt::format("{:.0f}", calls));
     }
     out_ += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n",

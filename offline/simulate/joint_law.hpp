@@ -19,6 +19,7 @@ struct JointError {
 std::unique_ptr<Law> joint_law(std::vector<JointError> joints);
 
 /// A law that acts on the whole arm.
+// NOLINTNEXTLINE(bugprone-exception-escape): the JSON library's null constructor is taken to throw
 struct ArmBending {
   std::function<void(const Moment&, Deflection&)> bend;
   nlohmann::ordered_json truth;

@@ -111,7 +111,7 @@ drivers::BusLayout read_layout(const Cell& cell, const std::filesystem::path& fi
   const toml::table* found = at.as_table();
   TomlTable bus(found != nullptr ? *found : empty, root.contains("bus") ? "bus" : "deploy.bus",
                 source);
-  const auto layout = drivers::read_bus(bus, arm, use);
+  auto layout = drivers::read_bus(bus, arm, use);
   source.stop_on_errors();
   return layout;
 }

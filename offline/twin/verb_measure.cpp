@@ -12,14 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MeasureArguments {
   std::string directory, output;
   int poses = 200;
   int repeats = 3;
   WriteOptions write;
 };
 
-void measure(const Options& options, Outcome& outcome) {
+void measure(const MeasureArguments& options, Outcome& outcome) {
   const fs::path folder = options.directory;
   const auto [cell, hidden] = open_folder(folder, outcome);
   SimulationPlan plan;
@@ -45,7 +45,7 @@ void measure(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_measure(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MeasureArguments>();
   VerbOptions verb = program.verb(
       {.name = "measure",
        .summary = "The tracker reads the true arm at random poses: measurements.csv",

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct NewArguments {
   std::string directory;
   std::string robot = "six-axis";
   std::vector<std::string> hidden;
@@ -53,7 +53,7 @@ const Robot& find_robot(const std::string& name) {
 
 /// The tracker is aligned to the base of the arm, and its reflector is at the tool centre point, so
 /// that an error of the tool can be stated in the base frame.
-Cell cell_of(const Robot& robot, const Options& options) {
+Cell cell_of(const Robot& robot, const NewArguments& options) {
   Cell cell = make_demo(robot.demo).cell;
   cell.directory = fs::absolute(options.directory);
   cell.name = fmt::format("Twin: {} arm", robot.name);
@@ -94,7 +94,7 @@ void report_temperatures(const Hidden& hidden, Cell& cell) {
   cell.deploy.bus = std::make_shared<const drivers::BusLayout>(std::move(layout));
 }
 
-void make(const Options& options, Outcome& outcome) {
+void make(const NewArguments& options, Outcome& outcome) {
   const Robot& robot = find_robot(options.robot);
   Cell cell = cell_of(robot, options);
   Hidden hidden{.seed = options.seed,
@@ -121,7 +121,7 @@ void make(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_new(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NewArguments>();
   VerbOptions verb = program.verb(
       {.name = "new",
        .summary = "Write a cell and what its arm hides",

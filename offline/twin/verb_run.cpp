@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr double kDegree = M_PI / 180.0;
 
-struct Options {
+struct RunArguments {
   std::string directory, path, layout;
   LinkChoice link;
   std::string correction = "both";
@@ -40,7 +40,7 @@ void list(Outcome& outcome) {
   }
 }
 
-ControllerSettings settings_of(const Options& options, const Cell& cell) {
+ControllerSettings settings_of(const RunArguments& options, const Cell& cell) {
   return {.cycle_s = cell.deploy.cycle_s,
           .fastest = {.joint_rad_per_s = options.fastest_deg_s * kDegree,
                       .tool_m_per_s = options.fastest_mm_s * 1e-3},
@@ -48,7 +48,7 @@ ControllerSettings settings_of(const Options& options, const Cell& cell) {
           .wait_s = options.wait_s};
 }
 
-FaultPlan faults_of(const Options& options) {
+FaultPlan faults_of(const RunArguments& options) {
   std::vector<Fault> out;
   for (const auto& text : options.faults) out.push_back(parse_fault(text));
   return FaultPlan(std::move(out));
@@ -60,7 +60,7 @@ struct Twin : TwinFolder {
   Path path;
 };
 
-Twin open(const Options& options, Outcome& outcome) {
+Twin open(const RunArguments& options, Outcome& outcome) {
   Twin out{open_folder(options.directory, outcome), {}, {}};
   out.truth = truth_of(out.cell, out.hidden);
   out.path = options.path.empty() ? generated_path(out.cell, options.stations,
@@ -70,7 +70,7 @@ Twin open(const Options& options, Outcome& outcome) {
 }
 
 /// Drives the path in real time with corrections from plumb-rt.
-std::vector<Stop> drive_corrected(const Options& options, const Twin& twin, Outcome& outcome) {
+std::vector<Stop> drive_corrected(const RunArguments& options, const Twin& twin, Outcome& outcome) {
   const fs::path layout_file =
       options.layout.empty() ? fs::path(options.directory) / "cell.toml" : fs::path(options.layout);
   const auto use = options.link.is_can() ? drivers::BusUse::kCan : drivers::BusUse::kModbus;
@@ -95,7 +95,7 @@ int unsettled(const std::vector<Stop>& stops) {
   return out;
 }
 
-void check(const Options& options) {
+void check(const RunArguments& options) {
   if (options.correction == "off" || options.link.any()) return;
   if (options.correction == "both") return;
   throw Failure(Exit::kUsage, {.code = "E-USAGE",
@@ -103,7 +103,7 @@ void check(const Options& options) {
                                .help = "for example: plumb-twin run mytwin --can vcan0"});
 }
 
-void run(const Options& options, Outcome& outcome) {
+void run(const RunArguments& options, Outcome& outcome) {
   if (options.list_faults) return list(outcome);
   check(options);
   (void)faults_of(options);
@@ -131,7 +131,7 @@ void run(const Options& options, Outcome& outcome) {
                             .help = "plumb-rt monitor"});
 }
 
-void add_options(Options& o, VerbOptions& verb) {
+void add_options(RunArguments& o, VerbOptions& verb) {
   verb.add_option("DIR", o.directory, "Folder of the twin");
   verb.add_option("--can", o.link.can, "CAN interface").type_name("NAME");
   verb.add_option("--modbus", o.link.modbus, "plumb-rt is the Modbus server there")
@@ -186,7 +186,7 @@ void add_options(Options& o, VerbOptions& verb) {
 }  // namespace
 
 void add_run(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   VerbOptions verb = program.verb(
       {.name = "run",
        .summary =

@@ -105,11 +105,13 @@ std::optional<LoadError> Robot::swap_from(const Source& source) {
   return std::nullopt;
 }
 
-Robot::Loaded Robot::load(const std::filesystem::path& file, std::optional<std::string> serial) {
+Robot::Loaded Robot::load(const std::filesystem::path& file,
+                          const std::optional<std::string>& serial) {
   return load_from(file, serial);
 }
 
-Robot::Loaded Robot::load(std::span<const std::byte> bytes, std::optional<std::string> serial) {
+Robot::Loaded Robot::load(std::span<const std::byte> bytes,
+                          const std::optional<std::string>& serial) {
   return load_from(bytes, serial);
 }
 
@@ -119,9 +121,11 @@ bool Robot::configure(const CycleSettings& settings) noexcept {
   return true;
 }
 
+// NOLINTBEGIN(bugprone-exception-escape): see the header
 std::optional<LoadError> Robot::swap(const std::filesystem::path& file) { return swap_from(file); }
 
 std::optional<LoadError> Robot::swap(std::span<const std::byte> bytes) { return swap_from(bytes); }
+// NOLINTEND(bugprone-exception-escape)
 
 bool Robot::collect() noexcept {
   if (!slot_.settled()) return false;

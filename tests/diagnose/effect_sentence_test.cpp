@@ -37,6 +37,17 @@ TEST(EffectSentence, SpeaksOfOneJointAndOfTwo) {
   EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 and J3 yield under gravity (masses not given)");
 }
 
+TEST(EffectSentence, ANegativeReversalIsOneThatIsOverCompensated) {
+  const Cell cell = three_joints();
+  Candidate found;
+  found.entry = {.name = "reversal", .joints = {2}, .options = {}, .place = {}};
+  found.numbers = {{"reversal.J3.h", "rad", -40e-6, 1e-6, 100e-6, true}};
+  EXPECT_EQ(effect_sentence(cell, found), "J3 is over-compensated on reversal");
+  found.numbers.front().value = 40e-6;
+  EXPECT_EQ(effect_sentence(cell, found),
+            "J3 stops short of the place, depending on the side it came from");
+}
+
 TEST(EffectSentence, TheNameOfAnEffectHoldsWhatTheCommandLineTakes) {
   const Cell cell = three_joints();
   const EffectEntry spring{

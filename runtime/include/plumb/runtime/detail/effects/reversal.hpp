@@ -9,9 +9,10 @@ namespace plumb::effects {
 
 /// Lost motion: after a reversal a joint lags behind by h_j, once it has travelled farther than
 /// about r: dq_j = -h_j d_j (1 - e^(-travel_j / r)), with direction d_j = +1 or -1, or 0 where
-/// unknown.
+/// unknown. h_j is negative where the controller compensates more backlash than the joint has: it
+/// then runs ahead.
 struct Reversal {
-  static constexpr EffectParameter kParameters[] = {{"h", "rad", 100e-6, 0.0, 5e-3}};
+  static constexpr EffectParameter kParameters[] = {{"h", "rad", 100e-6, -5e-3, 5e-3}};
   static constexpr const char* kConstants[] = {"transition_rad"};
   static constexpr EffectInfo kInfo{.name = "reversal",
                                     .version = 1,

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/alternatives.hpp"
+
+#include <algorithm>
+
+#include "diagnose/candidates.hpp"
+#include "diagnose/confounding.hpp"
+#include "diagnose/constants.hpp"
+#include "diagnose/excluded_laws.hpp"
+#include "effects/registry.hpp"
+
+namespace plumb::offline {
+namespace {
+
+bool share_a_joint(const EffectEntry& a, const EffectEntry& b) {
+  return std::any_of(a.joints.begin(), a.joints.end(), [&](int joint) {
+    return std::find(b.joints.begin(), b.joints.end(), joint) != b.joints.end();
+  });
+}
+
+/// Laws by which a joint turns in proportion to a load, whichever load it is.
+bool yields_in_proportion(const EffectDescriptor& effect) {
+  return effect.turns_listed_joint_only && grows_with_load(effect) && !effect.once_a_joint &&
+         effect.joints == JointList::kSet;
+}
+
+bool lists(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether two candidates are one finding, named more or less finely.
+bool one_finding(const EffectEntry& a, const EffectEntry& b) {
+  const EffectDescriptor &x = descriptor_of(a.name), &y = descriptor_of(b.name);
+  if (!share_a_joint(a, b)) return false;
+  if (a.name == b.name) return true;
+  return (x.cause != Cause::kItsOwn && x.cause == y.cause) ||
+         (yields_in_proportion(x) && yields_in_proportion(y)) ||
+         (a.joints == b.joints && (lists(x.same_motion, b.name) || lists(y.same_motion, a.name)));
+}
+
+/// Those near `first` in evidence that are another finding.
+std::vector<const Found*> near(const std::vector<Found>& all, const Found& first) {
+  std::vector<const Found*> out;
+  for (const auto& other : all)
+    if (&other != &first && other.ln_bayes() > 0.0 &&
+        first.ln_bayes() - other.ln_bayes() < kTold_nats && !one_finding(other.entry, first.entry))
+      out.push_back(&other);
+  return out;
+}
+
+Alternative alternative(const Found& first, const Found& other) {
+  Alternative out;
+  out.entry = other.entry;
+  out.cycles = other.cycles;
+  out.domain = domain_word(other.entry);
+  out.behind_nats = first.ln_bayes() - other.ln_bayes();
+  out.compiled = is_compiled(other.entry);
+  return out;
+}
+
+std::vector<std::string> names_of(const std::vector<Testable>& excluded) {
+  std::vector<std::string> out;
+  for (const auto& one : excluded) out.push_back(one.effect);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
+                                      const Found& first, const std::vector<Testable>& excluded) {
+  std::vector<Alternative> out;
+  const std::vector<const Found*> searched = near(look.library, first);
+  const std::vector<double> alike = mutual_reproduction(whitened, first, searched);
+  for (std::size_t i = 0; i < searched.size(); ++i)
+    if (alike[i] >= kConfounded) out.push_back(alternative(first, *searched[i]));
+  if (excluded.empty()) return out;
+  const std::vector<Found> laws = excluded_laws(whitened, names_of(excluded));
+  const std::vector<const Found*> hidden = near(laws, first);
+  const std::vector<double> hidden_alike = mutual_reproduction(whitened, first, hidden);
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    if (hidden_alike[i] < kConfounded && hidden[i]->score < first.score) continue;
+    out.push_back(alternative(first, *hidden[i]));
+    const auto why = std::find_if(excluded.begin(), excluded.end(), [&](const Testable& t) {
+      return t.effect == hidden[i]->entry.name;
+    });
+    out.back().not_shown = why->why;
+    out.back().measure = why->measure;
+  }
+  return out;
+}
+
+bool names_what_is_not_shown(const std::vector<Alternative>& all) {
+  return std::any_of(all.begin(), all.end(),
+                     [](const Alternative& other) { return !other.not_shown.empty(); });
+}
+
+bool is_compiled(const EffectEntry& entry) {
+  const EffectDomain domain = descriptor_of(entry.name).law->domain;
+  return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
+}
+
+bool of_different_fate(const EffectEntry& first, const std::vector<Alternative>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const Alternative& other) {
+    return other.compiled != is_compiled(first);
+  });
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/effect_rules.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/scan.hpp"
+
+namespace plumb::offline {
+
+/// What `first` may be instead, by evidence: other laws, or the same law at other joints, that come
+/// within 10 nats of it or ahead of it, and that can imitate it as it can imitate them (80 % of the
+/// motion, either way). Finer laws of the same cause are no alternatives: a joint that yields is
+/// one finding, whatever law describes it best.
+///
+/// @param excluded  Laws that the data cannot show, and that the scan has therefore left out. One
+///                  of them is also an alternative if it explains these poses better than `first`.
+///
+/// Cost: a pass over the poses for each candidate near `first`, and one scan of the excluded laws.
+std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
+                                      const Found& first, const std::vector<Testable>& excluded);
+
+/// Whether one of them is a law that the data cannot show.
+bool names_what_is_not_shown(const std::vector<Alternative>& alternatives);
+
+/// Whether effects of that law become part of the model file: those of the robot and, as far as
+/// their input is known online, of the environment.
+bool is_compiled(const EffectEntry& entry);
+
+/// Whether some of these would be compiled and others would not.
+bool of_different_fate(const EffectEntry& first, const std::vector<Alternative>& alternatives);
+
+}  // namespace plumb::offline

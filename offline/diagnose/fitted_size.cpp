@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/fitted_size.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kTailSteps = 20;       // of the heavy tail, each with the weights of the step before
+constexpr double kSolvable = 1e-12;  // of the largest column; columns may repeat each other
+
+}  // namespace
+
+FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prior, PriorTail tail) {
+  const Eigen::Index b = scored.theta.size();
+  FittedSize out{Eigen::VectorXd::Zero(b), Eigen::VectorXd::Zero(b)};
+  if (scored.active.empty() || scored.folds.empty()) return out;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(b, b), UX = scored.folds.front().UX;
+  UX.setZero();
+  Eigen::VectorXd Xy = Eigen::VectorXd::Zero(b);
+  for (const auto& fold : scored.folds) {
+    gram += fold.XX;
+    UX += fold.UX;
+    Xy += fold.Xy;
+  }
+  gram -= UX.transpose() * UX;
+  const Eigen::MatrixXd own = gram(scored.active, scored.active);
+  const Eigen::VectorXd v = Xy(scored.active), sigma = prior(scored.active);
+  const double left = scored.variance;
+  const Eigen::VectorXd pull = (sigma.array() > 0.0).select(left / sigma.array().square(), 0.0);
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(own.rows()), weight = pull;
+  Eigen::MatrixXd C;
+  for (int step = 0; step < kTailSteps; ++step) {
+    Eigen::MatrixXd sum = own;
+    sum.diagonal() += weight;
+    sum.diagonal().array() += kSolvable * std::max(own.diagonal().maxCoeff(), 1e-300);
+    C = sum.ldlt().solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
+    const Eigen::VectorXd next = C * v;
+    const double change = (next - theta).norm();
+    theta = next;
+    if (tail == PriorTail::kNormal || change <= 1e-6 * theta.norm()) break;
+    // Beyond one sigma the prior pulls with constant force.
+    for (Eigen::Index i = 0; i < theta.size(); ++i)
+      if (sigma(i) > 0.0) weight(i) = pull(i) / std::max(1.0, std::abs(theta(i)) / sigma(i));
+  }
+  out.theta(scored.active) = theta;
+  out.std(scored.active) = (left * C.diagonal().array().max(0.0)).sqrt().matrix();
+  return out;
+}
+
+}  // namespace plumb::offline
