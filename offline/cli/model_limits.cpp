@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "compile/compiler.hpp"
+#include "effects/registry.hpp"
 #include "plumb/format/limits.hpp"
 #include "program/problem.hpp"
 
@@ -20,9 +21,12 @@ namespace {
 
 void check_effect_sizes(const std::vector<format::Effect>& bound) {
   for (const auto& effect : bound) {
-    if (!runs_online(effect) || effect.parameters.size() <= format::kMaxEffectParameters) continue;
+    // The numbers of a series have no covariance; those of all others share one.
+    const std::size_t most =
+        is_series(effect.name) ? format::kMaxEffectParameters : format::kMaxParameters;
+    if (!runs_online(effect) || effect.parameters.size() <= most) continue;
     unsound(fmt::format("effect '{}' has too many parameters: {}, at most {}", effect.name,
-                        effect.parameters.size(), format::kMaxEffectParameters),
+                        effect.parameters.size(), most),
             effect.joints.size() > 1
                 ? fmt::format("name fewer joints, for example: plumb add {} --joints J{}",
                               effect.name, effect.joints.front() + 1)

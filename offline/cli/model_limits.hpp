@@ -10,7 +10,9 @@
 /// Both throw Failure (kNumbersSayNo, E-MODEL-UNSOUND).
 namespace plumb::offline::cli {
 
-/// An effect of more than kMaxEffectParameters parameters. Before the fit, which would be long.
+/// An effect of more parameters than a model holds: kMaxParameters, all of which have a covariance,
+/// or of a series of waves, whose numbers have none, kMaxEffectParameters. Before the fit, which
+/// would be long.
 void check_effect_sizes(const std::vector<format::Effect>& bound);
 
 /// More than kMaxParameters fitted parameters. Which of them these poses tell is known only after

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
@@ -10,6 +11,7 @@
 #include "diagnose/fitted_size.hpp"
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
+#include "diagnose/thinned_fit.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
@@ -22,6 +24,21 @@ format::Model model_of(const WhitenedFit& s, const Regressor& regressor) {
   format::Model out;
   out.calibrated = s.cell->nominal;
   out.effects = {bind_effect(*s.cell, *s.measured, regressor.entry)};
+  return out;
+}
+
+/// The columns whose sizes are listed: all, but of a series only its largest waves.
+std::vector<Eigen::Index> numbers_told(const Regressor& regressor, const Eigen::VectorXd& theta) {
+  std::vector<Eigen::Index> out(static_cast<std::size_t>(theta.size()));
+  std::iota(out.begin(), out.end(), Eigen::Index{0});
+  if (!is_series(regressor.entry.name)) return out;
+  const auto size = [&](Eigen::Index c) {
+    const Eigen::Index k = c / 2 * 2;
+    return std::hypot(theta(k) * regressor.typical(k), theta(k + 1) * regressor.typical(k + 1));
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
+  out.resize(std::min(out.size(), 2 * kPeaksListed));
   return out;
 }
 
@@ -40,10 +57,13 @@ Eigen::VectorXd fit_prior(const format::Model& model, const Regressor& regressor
 std::vector<CandidateNumber> numbers_of(format::Model model, const Regressor& regressor,
                                         const FittedSize& size, const std::vector<double>& cycles) {
   std::vector<CandidateNumber> out;
-  for (Eigen::Index c = 0; c < size.theta.size(); ++c) {
-    const int member = regressor.members[c];
+  for (const Eigen::Index c : numbers_told(regressor, size.theta)) {
+    const int member = regressor.members[static_cast<std::size_t>(c)];
     if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
-    const EffectParameter& info = effect_parameter(model, 0, member);
+    EffectParameter info = effect_parameter(model, 0, member);
+    // How large a wave may be does not depend on how the others fall off.
+    if (is_series(regressor.entry.name))
+      info.typical = descriptor_of(regressor.entry.name).law->parameters.front().typical;
     const double value = size.theta(c) * regressor.typical(c);
     const double std = size.std(c) * std::abs(regressor.typical(c));
     out.push_back({effect_parameter_name(model, 0, member), info.unit, value, std, info.typical,
@@ -56,12 +76,12 @@ std::vector<CandidateNumber> numbers_of(format::Model model, const Regressor& re
 /// [m].
 double largest_motion(const WhitenedFit& s, const Regressor& regressor,
                       const Eigen::VectorXd& theta) {
-  Eigen::VectorXd motion = motions(s, regressor).topRows(s.fit_lines) * theta;
+  Eigen::VectorXd moved = motion(s, regressor, theta).head(s.fit_lines);
   const auto U = s.U.topRows(s.fit_lines);
-  motion -= U * (U.transpose() * motion).eval();
+  moved -= U * (U.transpose() * moved).eval();
   for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
-    unwhiten(s, i, motion.segment(i * s.axes, s.axes));
-  return motion.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
+    unwhiten(s, i, moved.segment(i * s.axes, s.axes));
+  return moved.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
 }
 
 Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
@@ -79,8 +99,10 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   if (out.cycles.empty() && has_option(found.entry, OptionKey::kCyclesPerTurn))
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
   out.supported = found.score > kSupported && gain.clear;
+  out.peaks = found.peaks;
   const format::Model model = model_of(s, regressor);
-  const FittedSize size = fitted_size(found.scored, fit_prior(model, regressor));
+  const FittedSize size = fitted_size(found.scored, fit_prior(model, regressor),
+                                      descriptor_of(found.entry.name).prior_tail);
   out.numbers = numbers_of(model, regressor, size, found.cycles);
   out.plausible = std::all_of(out.numbers.begin(), out.numbers.end(),
                               [](const CandidateNumber& n) { return n.plausible; });
@@ -119,7 +141,11 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
                      std::vector<Candidate>& out) {
   const std::vector<const Found*> some(found.begin(),
                                        found.begin() + std::min(found.size(), kCompared));
-  const Eigen::MatrixXd share = reproduction(s, some);
+  const bool many_columns = std::any_of(some.begin(), some.end(),
+                                        [](const Found* f) { return is_series(f->entry.name); });
+  const Eigen::MatrixXd share = many_columns && s.fit_poses() > kComparedPoses
+                                    ? reproduction(thinned(s, kComparedPoses), some)
+                                    : reproduction(s, some);
   for (std::size_t i = 0; i < some.size(); ++i) {
     for (std::size_t k = 0; k < some.size(); ++k) {
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
@@ -138,7 +164,8 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
 /// Held-out error of each with the best one already in.
 void add_after(const WhitenedFit& s, const std::vector<const Found*>& found,
                std::vector<Candidate>& out) {
-  const WhitenedFit next = extended(s, regressor_of(s, *found.front()));
+  const WhitenedFit next =
+      extended(s, regressor_of(s, *found.front()), found.front()->scored.theta);
   const Scorer scorer(next);
   out.front().after = out.front().alone;
   for (std::size_t i = 1; i < found.size(); ++i) {

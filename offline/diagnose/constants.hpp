@@ -135,6 +135,15 @@ inline constexpr double kMostRange_rad = 8.0 * std::numbers::pi;
 inline constexpr double kLeastSteps = 1.6;
 /// Waves of one joint. cost.
 inline constexpr std::size_t kMostWaves = 12;
+/// Waves of a series at each of its joints. arms; cost.
+inline constexpr int kSeriesWaves = 40;
+/// The first waves of a series are those that a smooth law could be mistaken for. cost.
+inline constexpr Eigen::Index kSmoothWaves = 4;
+/// A series takes the place of single waves where one joint has so many, or several joints some.
+/// odds.
+inline constexpr std::size_t kFewestForSeries = 3;
+/// A wave at a joint that has a series is a whole number of cycles if it is so near to one. study.
+inline constexpr double kWholeWave = 0.15;
 
 // Patterns and steps.
 
@@ -170,5 +179,8 @@ inline constexpr double kWorthThinning = 1.5;
 inline constexpr std::size_t kScoredAgain = 16;
 /// Candidates in the list, and those of it that are compared for confounding. cost.
 inline constexpr std::size_t kListed = 12, kCompared = 8;
+/// Waves of a series whose sizes are listed, and poses on which it is compared with others. cost.
+inline constexpr std::size_t kPeaksListed = 6;
+inline constexpr Eigen::Index kComparedPoses = 1000;
 
 }  // namespace plumb::offline

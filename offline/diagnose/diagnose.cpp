@@ -114,9 +114,10 @@ HeldOut nested_held_out(const Work& w) {
 std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
-  return held_out_excess(held.usual_mean(), floor,
-                         unavoidable_ratio(fitted_coordinates(w.measured, w.split),
-                                           static_cast<double>(fitted.parameters.size())));
+  return held_out_excess(
+      held.usual_mean(), floor,
+      unavoidable_ratio(fitted_coordinates(w.measured, w.split),
+                        static_cast<double>(fitted.parameters.size()) + fitted.series_dof));
 }
 
 /// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.
@@ -193,8 +194,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   std::vector<HeldOut> held_by_step;
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
-    out.added.push_back(
-        {step.entry, step.cycles, step.ln_bayes, held_by_step.back().stats(), step.alternatives});
+    out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
+                         held_by_step.back().stats(), step.alternatives});
   }
   const std::size_t kept = steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();

@@ -43,6 +43,7 @@ struct Candidate {
   ErrorStats alone;                  // held out, with this effect
   ErrorStats after;                  // with the best one and this one
   std::vector<double> cycles;
+  std::string peaks = {};  // of a series of waves: its largest ones in words
   bool supported = false;
   bool plausible = true;
   std::vector<CandidateNumber> numbers;
@@ -85,6 +86,7 @@ struct UnknownStructure {
 struct Addition {
   EffectEntry entry;
   std::vector<double> cycles;  // of a ripple: all its waves
+  std::string peaks;           // of a series of waves: its largest ones in words
   double ln_bayes = 0.0;
   ErrorStats held;
   std::vector<Alternative> alternatives;  // what it may be instead; all of its fate

@@ -165,7 +165,8 @@ std::string sure_words(const Cell& cell, const Diagnosis& d) {
 
 std::string missing_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
-  std::string effect = either_words(cell, effect_sentence(cell, best), d.alternatives);
+  const std::string peaks = best.peaks.empty() ? "" : ", " + best.peaks;
+  std::string effect = either_words(cell, effect_sentence(cell, best) + peaks, d.alternatives);
   if (!d.alternatives.empty()) effect += ": these poses cannot tell";
   if (!falls(d.before.mean, best.alone.mean))
     return fmt::format(

@@ -44,7 +44,9 @@ bool doubt_strongest(Selection& s) {
   const auto strongest =
       std::max_element(s.added.begin(), s.added.end(),
                        [](const Found& a, const Found& b) { return a.ln_bayes() < b.ln_bayes(); });
-  if (strongest == s.added.end() || is_wave(strongest->entry.name)) return false;
+  if (strongest == s.added.end() || is_wave(strongest->entry.name) ||
+      is_series(strongest->entry.name))
+    return false;
   const EffectEntry entry = strongest->entry;
   if (!s.doubted.insert(s.key(entry)).second) return false;
   bool replaced = false;

@@ -42,7 +42,7 @@ std::size_t loads_in(const Selection& s) {
 /// Whether an effect is to be taken out now; remembers that it was.
 bool is_due(Selection& s, const EffectEntry& entry) {
   const std::string key = s.key(entry);
-  if (is_wave(entry.name)) return false;
+  if (is_wave(entry.name) || is_series(entry.name)) return false;
   if (is_change_point(entry.name)) {
     const auto [last, fresh] = s.steps_ranked.try_emplace(key, loads_in(s));
     if (!fresh && last->second == loads_in(s)) return false;
@@ -82,7 +82,9 @@ bool exchange_for_size(Selection& s, const EffectEntry& entry) {
 bool exchange_oversized(Selection& s) {
   for (const auto& one :
        oversized(s.cell(), s.whitened(), s.calibration(), s.start().cell.effects)) {
-    if (is_wave(one.entry.name) || !s.sizes_doubted.insert(s.key(one.entry)).second) continue;
+    if (is_wave(one.entry.name) || is_series(one.entry.name) ||
+        !s.sizes_doubted.insert(s.key(one.entry)).second)
+      continue;
     bool done = false;
     if (!unless_refused([&] { done = exchange_for_size(s, one.entry); }))
       s.not_compared_without(one.entry);

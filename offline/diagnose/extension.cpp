@@ -3,6 +3,8 @@
 
 #include <Eigen/QR>
 
+#include "diagnose/series_scan.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -10,10 +12,17 @@ constexpr double kIndependentColumn = 1e-7;
 
 }  // namespace
 
-WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor) {
+WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor,
+                     const Eigen::VectorXd& theta) {
   WhitenedFit out = whitened;
-  Eigen::MatrixXd X = motions(whitened, regressor);
   const Eigen::Index fit = whitened.fit_lines;
+  if (!regressor.joints.empty()) {
+    const Eigen::VectorXd moved = motion(whitened, regressor, theta);
+    out.y -= moved - whitened.U * (whitened.U.topRows(fit).transpose() * moved.head(fit));
+  }
+  Eigen::MatrixXd X = regressor.joints.empty()
+                          ? motions(whitened, regressor)
+                          : motions(whitened, smooth_part(whitened, regressor));
   const Eigen::VectorXd norm = X.topRows(fit).colwise().norm().cwiseMax(1e-300);
   X = X * norm.cwiseInverse().asDiagonal();
   // Twice: what the first pass leaves of the model is rounding of large numbers.
@@ -25,7 +34,7 @@ WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor) {
   Eigen::MatrixXd fresh = (X * qr.colsPermutation()).leftCols(rank);
   const Eigen::MatrixXd R = qr.matrixQR().topLeftCorner(rank, rank);
   R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(fresh);
-  const Eigen::VectorXd explained = fresh.topRows(fit).transpose() * whitened.y.head(fit);
+  const Eigen::VectorXd explained = fresh.topRows(fit).transpose() * out.y.head(fit);
   out.y -= fresh * explained;
   out.Q = out.y.head(fit).squaredNorm();
   out.U.conservativeResize(Eigen::NoChange, whitened.rank + rank);

@@ -13,7 +13,7 @@ constexpr double kSolvable = 1e-12;  // of the largest column; columns may repea
 
 }  // namespace
 
-FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prior) {
+FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prior, PriorTail tail) {
   const Eigen::Index b = scored.theta.size();
   FittedSize out{Eigen::VectorXd::Zero(b), Eigen::VectorXd::Zero(b)};
   if (scored.active.empty() || scored.folds.empty()) return out;
@@ -33,7 +33,7 @@ FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prio
     const Eigen::VectorXd next = C * v;
     const double change = (next - theta).norm();
     theta = next;
-    if (change <= 1e-6 * theta.norm()) break;
+    if (tail == PriorTail::kNormal || change <= 1e-6 * theta.norm()) break;
     // Beyond one sigma the prior pulls with constant force.
     for (Eigen::Index i = 0; i < theta.size(); ++i)
       if (sigma(i) > 0.0) weight(i) = pull(i) / std::max(1.0, std::abs(theta(i)) / sigma(i));

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "diagnose/regressor_score.hpp"
+#include "effects/descriptor.hpp"
 
 namespace plumb::offline {
 
@@ -15,8 +16,8 @@ struct FittedSize {
   Eigen::VectorXd std;
 };
 
-/// @param prior  1 sigma of the fit's prior of each column, 1 = typical; 0: none. Its tail is
-/// heavy.
-FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prior);
+/// @param prior  1 sigma of the fit's prior of each column, 1 = typical; 0: none.
+FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prior,
+                       PriorTail tail = PriorTail::kHeavy);
 
 }  // namespace plumb::offline

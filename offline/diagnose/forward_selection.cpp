@@ -85,6 +85,7 @@ std::vector<ForwardStep> steps(Selection& s) {
     const auto others = s.unsure.find(s.key(found.entry));
     out.push_back({entry,
                    found.cycles,
+                   found.peaks,
                    found.ln_bayes(),
                    others == s.unsure.end() ? std::vector<Alternative>() : others->second,
                    last ? s.cell().effects : effects,

@@ -37,22 +37,21 @@ ErrorStats held_out_error(const Scorer& scorer) {
 ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
                           const RegressorScore& scored) {
   const WhitenedFit& s = scorer.whitened();
-  const Eigen::MatrixXd X = motions(s, regressor);
   std::vector<double> norms;
   if (s.held.size() > 0) {
     const auto at = lines_of(s, s.held);
-    const Eigen::VectorXd a =
-        -(s.U.topRows(s.fit_lines).transpose() * (X.topRows(s.fit_lines) * scored.theta));
-    add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - X(at, Eigen::all) * scored.theta,
-              norms);
+    const Eigen::VectorXd moved = motion(s, regressor, scored.theta);
+    const Eigen::VectorXd a = -(s.U.topRows(s.fit_lines).transpose() * moved.head(s.fit_lines));
+    add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - moved(at), norms);
     return summarise(std::move(norms));
   }
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
     const auto at = lines_of(s, s.folds[f]);
     const auto fitted = scorer.without(f, scored);
-    add_norms(s, s.folds[f],
-              s.y(at) - s.U(at, Eigen::all) * fitted.model - X(at, Eigen::all) * fitted.regressor,
-              norms);
+    add_norms(
+        s, s.folds[f],
+        s.y(at) - s.U(at, Eigen::all) * fitted.model - motion(s, regressor, fitted.regressor)(at),
+        norms);
   }
   return summarise(std::move(norms));
 }

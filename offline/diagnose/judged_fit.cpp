@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "diagnose/constants.hpp"
+#include "diagnose/extension.hpp"
 #include "diagnose/scattered_fit.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -28,6 +30,14 @@ Eigen::MatrixXd columns_of(const WhitenedFit& whitened, const Found& found) {
 
 Eigen::MatrixXd over_fit_lines(const WhitenedFit& s, Eigen::MatrixXd columns) {
   return columns.topRows(s.fit_lines);
+}
+
+/// What scatters beside a candidate. A series has so many columns that its prior decides what they
+/// take; so its motion is taken off as fitted.
+ScatterLines lines_beside(const WhitenedFit& s, const Found& found) {
+  if (found.pattern.empty() && is_series(found.entry.name))
+    return scatter_lines(extended(s, regressor_of(s, found), found.scored.theta));
+  return scatter_lines(s, over_fit_lines(s, columns_of(s, found)));
 }
 
 std::string name_of(const WhitenedFit& s, const Found& found) {
@@ -74,8 +84,7 @@ JudgedFit scattered(const WhitenedFit& whitened, const ScatterLines& lines,
                     const JointScatter& null, const Found& beside,
                     const std::vector<std::string>& not_testable,
                     const std::vector<std::string>& banned) {
-  const ScatterLines with =
-      scatter_lines(whitened, over_fit_lines(whitened, columns_of(whitened, beside)));
+  const ScatterLines with = lines_beside(whitened, beside);
   const JointScatter left = noise_and_scatter(with);
   JudgedFit out;
   out.repeatability = scatter_seen(whitened, with, left);

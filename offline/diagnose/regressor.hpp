@@ -21,12 +21,14 @@ struct Pattern {
 };
 
 /// Something that may be missing from the model: how it would move the measured point, per typical
-/// size. Either functions of the pose that turn or shift one joint, or motions of the point itself.
+/// size. Either functions of the pose that turn or shift one joint, or as many functions for each
+/// of several joints, or motions of the point itself.
 struct Regressor {
   EffectEntry entry;  // of the library, as it would stand in the cell; no name: a pattern
   Pattern pattern;
   int joint = -1;              // the one that moves; -1: `columns` are motions of the point
-  Eigen::MatrixXd columns;     // shape (poses, b) with a joint, else (lines, b)
+  std::vector<int> joints;     // of a series, each with its share of the columns; else empty
+  Eigen::MatrixXd columns;     // shape (poses, b) with joints, else (lines, b)
   Eigen::VectorXd typical;     // SI value of the parameter of each column that counts as 1
   std::vector<int> members;    // place of each column among the effect's parameters
   std::vector<bool> positive;  // columns whose size cannot be negative; empty: none
@@ -35,6 +37,10 @@ struct Regressor {
 
 /// Motions of a regressor, whitened, shape (lines, b).
 Eigen::MatrixXd motions(const WhitenedFit& whitened, const Regressor& regressor);
+
+/// The motion with these sizes, shape (lines,).
+Eigen::VectorXd motion(const WhitenedFit& whitened, const Regressor& regressor,
+                       const Eigen::VectorXd& theta);
 
 using RegressorVisitor = std::function<void(const Regressor&)>;
 

@@ -7,6 +7,7 @@
 
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
+#include "diagnose/series_scan.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -52,6 +53,7 @@ Products sum_of(const std::vector<Products>& all) {
 }
 
 Eigen::MatrixXd motions(const WhitenedFit& s, const Regressor& regressor) {
+  if (!regressor.joints.empty()) return series_motions(s, regressor);
   if (regressor.joint < 0) return regressor.columns;
   Eigen::MatrixXd out(s.poses() * s.axes, regressor.columns.cols());
   for (Eigen::Index i = 0; i < out.rows(); ++i)

@@ -14,7 +14,7 @@ Explanation followed(const WhitenedFit& from, const Found& first,
                      const std::vector<std::string>& not_testable,
                      const std::vector<std::string>& banned) {
   Explanation out{{first}, first.score};
-  WhitenedFit whitened = extended(from, regressor_of(from, first));
+  WhitenedFit whitened = extended(from, regressor_of(from, first), first.scored.theta);
   const double strongest = first.scored.explained * from.Q;
   const auto is_one = [&](const Found& f) {
     return f.scored.explained * whitened.Q > kRemainder * kRemainder * strongest ||
@@ -26,7 +26,7 @@ Explanation followed(const WhitenedFit& from, const Found& first,
     if (next == nullptr) break;
     out.effects.push_back(*next);
     out.score += next->score;
-    whitened = extended(whitened, regressor_of(whitened, *next));
+    whitened = extended(whitened, regressor_of(whitened, *next), next->scored.theta);
   }
   out.times_noise = times_noise(whitened);
   return out;

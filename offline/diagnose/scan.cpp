@@ -13,8 +13,11 @@
 #include "diagnose/few_digits.hpp"
 #include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
+#include "diagnose/series_scan.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/registry.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -36,21 +39,43 @@ bool has_with_other_constant(const WhitenedFit& whitened, const EffectEntry& ent
                      });
 }
 
+/// Whether the model has a series of waves at that joint.
+bool has_series_at(const WhitenedFit& whitened, int joint) {
+  return std::any_of(
+      whitened.cell->effects.begin(), whitened.cell->effects.end(), [&](const EffectEntry& e) {
+        return is_series(e.name) && (e.joints.empty() || std::find(e.joints.begin(), e.joints.end(),
+                                                                   joint) != e.joints.end());
+      });
+}
+
+/// Whether a series that the model has describes the same motion.
+bool is_in_a_series(const WhitenedFit& whitened, const EffectEntry& entry) {
+  return descriptor_of(entry.name).cause == Cause::kUnevenGear && entry.joints.size() == 1 &&
+         has_series_at(whitened, entry.joints.front());
+}
+
 /// Whether an entry is not to be tried: it failed before, or the model has it.
 bool is_out(const WhitenedFit& whitened, const std::vector<std::string>& banned,
             const std::string& key, const EffectEntry& entry) {
   return contains(banned, key) || has_effect(whitened.cell->effects, entry) ||
-         has_with_other_constant(whitened, entry);
+         has_with_other_constant(whitened, entry) ||
+         (!is_wave(entry.name) && is_in_a_series(whitened, entry));
 }
 
 /// Waves of one joint as one candidate. Each of them was searched for, so each pays.
-std::optional<Found> found_ripples(const Scorer& scorer, const Ripples& waves, double paid) {
+std::optional<Found> found_ripples(const Scorer& scorer, Ripples waves, double paid) {
+  const bool in_series = has_series_at(scorer.whitened(), waves.joint);
+  if (in_series)
+    std::erase_if(waves.cycles, [](double k) { return std::abs(k - std::round(k)) < kWholeWave; });
   if (waves.cycles.empty()) return std::nullopt;
   const Regressor regressor = ripple_regressor(scorer.whitened(), waves.joint, waves.cycles);
   Found out{regressor.entry, {}, scorer.score(regressor), {}, 0.0, waves.cycles, 0.0};
   const auto count = static_cast<double>(waves.cycles.size());
   const double strongest = waves.strongest_ln_bayes - scorer.whitened().scatter_nats;
-  out.score = waves.cycles.size() == 1 ? strongest - paid : out.ln_bayes() - count * paid;
+  out.score =
+      waves.cycles.size() == 1 && !in_series ? strongest - paid : out.ln_bayes() - count * paid;
+  // Beside a series only a wave that it clearly cannot make.
+  if (in_series) out.score -= kAhead_nats;
   return out;
 }
 
@@ -90,6 +115,52 @@ class Collector {
   const Scorer& scorer_;
   const std::vector<std::string>& banned_;
 };
+
+/// Whether single waves are many enough for a series: several at one joint, or at several joints.
+/// Sets what the supported ones are worth together.
+bool worth_a_series(const std::vector<Found>& library, double& waves_score) {
+  std::size_t joints = 0, most = 0;
+  waves_score = 0.0;
+  for (const auto& found : library) {
+    if (!is_wave(found.entry.name) || !(found.score > kSupported)) continue;
+    ++joints;
+    most = std::max(most, found.cycles.size());
+    waves_score += found.score;
+  }
+  return joints > 1 || most >= kFewestForSeries;
+}
+
+std::string peaks_of(const WhitenedFit& s, const Found& found) {
+  const Regressor series = series_regressor(s, found.entry);
+  format::Model model;
+  model.calibrated = s.cell->nominal;
+  model.effects = {bind_effect(*s.cell, *s.measured, found.entry)};
+  for (Eigen::Index c = 0; c < found.scored.theta.size(); ++c)
+    model.effects[0].parameters[static_cast<std::size_t>(c)] =
+        found.scored.theta(c) * series.typical(c);
+  return series_words(*s.cell, model);
+}
+
+/// A series of waves at all joints that have none yet, if that clearly beats the single waves.
+/// some: the poses on which waves are looked for.
+std::optional<Found> found_series(const Scorer& some, const Scorer& all,
+                                  const std::vector<Found>& library, double paid) {
+  double waves_score = 0.0;
+  if (!worth_a_series(library, waves_score)) return std::nullopt;
+  const WhitenedFit& s = some.whitened();
+  std::vector<int> joints;
+  for (int j = 0; j < s.joints(); ++j)
+    if (s.chain.revolute(j) && !has_series_at(s, j)) joints.push_back(j);
+  int tried = 0;
+  auto series = scan_series(some, joints, tried);
+  if (!series) return std::nullopt;
+  Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
+  if (&some.whitened() != &all.whitened()) out.scored = score_series(all, out.entry);
+  out.score = out.ln_bayes() - paid;
+  if (!(out.score > waves_score + kAhead_nats)) return std::nullopt;
+  out.peaks = peaks_of(all.whitened(), out);
+  return out;
+}
 
 /// Largest value of the refined option for which the entry is still the law that it is named after.
 double most_of(const WhitenedFit& whitened, const EffectEntry& entry,
@@ -235,6 +306,7 @@ std::vector<EffectEntry> Found::entries() const {
 }
 
 Regressor regressor_of(const WhitenedFit& whitened, const Found& found) {
+  if (is_series(found.entry.name)) return series_regressor(whitened, found.entry);
   return is_wave(found.entry.name)
              ? ripple_regressor(whitened, found.entry.joints.front(), found.cycles)
              : library_regressor(whitened, found.entry);
@@ -321,6 +393,10 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
   if (out.pattern) out.pattern->score = out.pattern->ln_bayes() - paid;
   sort_by_evidence(out);
   if (&whitened != &all_poses) score_on_all(scorer_of_all, out);
+  if (!contains(not_testable, series_effect()))
+    if (auto series = found_series(wave_scorer, scorer_of_all, out.library, paid);
+        series && !contains(banned, key_of(*whitened.cell, series->entry)))
+      out.library.push_back(std::move(*series));
   sort_by_evidence(out);
   for (auto& found : out.library)
     if (found.score > kSupported) found.gain = scorer_of_all.gain(found.scored);

@@ -20,6 +20,7 @@ struct Found {
   double score = 0.0;          // ln B less ln of the number of regressors tried
   std::vector<double> cycles;  // of ripple: all its waves, strongest first
   double rms_joint = 0.0;      // of a pattern at a joint: its fitted size [rad]
+  std::string peaks = {};      // of a series: its largest waves in words
   double ln_bayes() const { return scored.evidence.ln_bayes; }
 
   /// As it would stand in the cell: every wave of a ripple is an entry.

@@ -9,6 +9,7 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "fit/noise_floor.hpp"
+#include "fit/series_numbers.hpp"
 #include "fit/solver.hpp"
 #include "fit/split.hpp"
 #include "fit/weights.hpp"
@@ -120,13 +121,23 @@ Eigen::VectorXd clear_residual(WhitenedFit& s) {
 
 namespace {
 
+/// The parameters, and the first waves of every series: what a smooth law could be mistaken for.
+/// The other waves of a series are held by their prior and do not look like any law.
+std::vector<Parameter> with_smooth_waves(const ArmState& state, std::vector<Parameter> parameters) {
+  for (const auto& series : series_numbers(state.arm))
+    for (int k = 0; k < std::min(series.count, static_cast<int>(2 * kSmoothWaves)); ++k)
+      parameters.push_back({Parameter::Kind::kEffect, series.effect, series.first + k, ""});
+  return parameters;
+}
+
 /// Residual and model columns of all rows; the columns made orthonormal over the fit lines.
 void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3& sigma_m) {
   FitData data;
   data.measured = s.measured;
   data.rows = s.row;
   data.sigma_m = sigma_m;
-  const Solution at = evaluate(data, calibration.state, calibration.parameters);
+  const Solution at = evaluate(data, calibration.state,
+                               with_smooth_waves(calibration.state, calibration.parameters));
   s.y = at.residual;
   s.fit_lines = s.fit_poses() * s.axes;
   auto [U, half] = orthonormal(at.jacobian, s.fit_lines);

@@ -29,6 +29,7 @@ enum class Search {
   kGrid,         // one candidate for each joint and each point of the grid of its options
   kWaves,        // scanned over the wave number of each joint; several waves are one candidate
   kChangePoint,  // scanned over the row after which something moved
+  kSeries,       // all joints at once, with a prior whose size the evidence chooses
 };
 
 /// For which joints diagnose makes candidates of a law that is searched on a grid.
@@ -69,6 +70,10 @@ struct Refinement {
 /// Laws of one cause describe the same motion more or less finely: what a coarse one leaves is no
 /// new effect.
 enum class Cause { kItsOwn, kYieldingJoint, kUnevenGear };
+
+/// How a parameter's prior falls off beyond its width: a heavy tail lets what the poses clearly
+/// show be as large as it is.
+enum class PriorTail { kHeavy, kNormal };
 
 /// Data of the cell that state the size of a parameter better than the law's typical size does.
 enum class StatedSize { kNone, kJointStiffness, kLinkStiffness };
@@ -121,6 +126,9 @@ struct EffectDescriptor {
   void (*bind)(const EffectEntry& entry, const ConstantsSource& source,
                format::Effect& out) = nullptr;
   double prior_width = 5.0;  // of a parameter, in typical sizes
+  PriorTail prior_tail = PriorTail::kHeavy;
+  /// Typical size of parameter `place` of a joint of this effect; null: that of the law.
+  double (*typical)(const format::Effect& effect, int place) = nullptr;
   /// Number of parameters of one joint; null: those of the law.
   int (*parameters_of_joint)(int arm_joints, int joint) = nullptr;
   /// Parameters behind those of the joints, which belong to the arm.

@@ -25,6 +25,7 @@ const EffectDescriptor& law_descriptor(effects::GravityCompensator);
 const EffectDescriptor& law_descriptor(effects::GravityFree);
 const EffectDescriptor& law_descriptor(effects::JointCompliance);
 const EffectDescriptor& law_descriptor(effects::JointComplianceSoft);
+const EffectDescriptor& law_descriptor(effects::JointSeries);
 const EffectDescriptor& law_descriptor(effects::JointTable);
 const EffectDescriptor& law_descriptor(effects::LinkFlexure);
 const EffectDescriptor& law_descriptor(effects::PayloadCompliance);

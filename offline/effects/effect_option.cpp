@@ -35,6 +35,12 @@ const char* option_name(OptionKey key) {
       return "splits";
     case OptionKey::kTreeDegree:
       return "degree";
+    case OptionKey::kWaves:
+      return "waves";
+    case OptionKey::kSize_urad:
+      return "size_urad";
+    case OptionKey::kSlope:
+      return "slope";
   }
   return "";
 }

@@ -26,6 +26,9 @@ enum class OptionKey {
   kForm,
   kSplits,
   kTreeDegree,
+  kWaves,
+  kSize_urad,
+  kSlope,
 };
 
 /// What the cell file and --set call it, with the unit as suffix: "torque_Nm".

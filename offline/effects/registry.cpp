@@ -57,6 +57,7 @@ const EffectDescriptor& descriptor_of(std::string_view name) {
 bool is_geometry(std::string_view name) { return name == geometry_descriptor().name; }
 bool is_local_tree(std::string_view name) { return name == local_tree_descriptor().name; }
 bool is_wave(std::string_view name) { return is_searched_as(name, Search::kWaves); }
+bool is_series(std::string_view name) { return is_searched_as(name, Search::kSeries); }
 bool is_change_point(std::string_view name) { return is_searched_as(name, Search::kChangePoint); }
 bool is_formula(std::string_view name) { return name == effects::Formula::kInfo.name; }
 
@@ -67,6 +68,7 @@ bool grows_with_load(const EffectDescriptor& effect) {
 
 std::string geometry_effect() { return std::string(geometry_descriptor().name); }
 std::string wave_effect() { return effect_searched_as(Search::kWaves); }
+std::string series_effect() { return effect_searched_as(Search::kSeries); }
 std::string change_point_effect() { return effect_searched_as(Search::kChangePoint); }
 std::string formula_effect() { return std::string(effects::Formula::kInfo.name); }
 

@@ -20,11 +20,12 @@ const EffectDescriptor* find_descriptor(std::string_view name);
 /// The same for a name that is known to be one; throws std::out_of_range otherwise.
 const EffectDescriptor& descriptor_of(std::string_view name);
 
-/// Whether entries of that name are the geometry, the local tree, waves of a joint, a change point,
-/// or a formula of the user's own. False for an unknown name.
+/// Whether entries of that name are the geometry, the local tree, waves of a joint, a series of
+/// waves, a change point, or a formula of the user's own. False for an unknown name.
 bool is_geometry(std::string_view name);
 bool is_local_tree(std::string_view name);
 bool is_wave(std::string_view name);
+bool is_series(std::string_view name);
 bool is_change_point(std::string_view name);
 bool is_formula(std::string_view name);
 
@@ -35,6 +36,7 @@ bool grows_with_load(const EffectDescriptor& effect);
 /// wave number, a change point one of the law that is scanned over the rows.
 std::string geometry_effect();
 std::string wave_effect();
+std::string series_effect();
 std::string change_point_effect();
 std::string formula_effect();
 

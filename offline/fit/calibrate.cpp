@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
+#include "fit/descent.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/formula_binding.hpp"
@@ -15,6 +17,7 @@
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/series_solver.hpp"
 #include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
 
@@ -123,11 +126,31 @@ std::vector<Parameter> led_by(const std::vector<Parameter>& first,
   return out;
 }
 
+/// What the residuals scatter beyond the stated sigma, by a model of so many parameters.
 double excess_of(const FitData& data, const Solution& solution, std::size_t parameters) {
   const Measurements some = pick(*data.measured, data.rows);
   const Rows3 residual = residuals(some, predict_points(solution.state, some));
   return excess_sigma(residual, picked(data.sigma_m, data.rows), data.measured->has_axis,
-                      static_cast<int>(parameters));
+                      static_cast<int>(parameters + std::lround(solution.series_dof)));
+}
+
+/// `stated` with its sigma widened by what the residuals scatter beyond it. The prior of a series
+/// weighs against that scatter, which is known only once the series is there: so `solution` becomes
+/// a rough one on some of the rows first, twice.
+FitData weighed_for_series(const FitData& stated, const ParameterSubset& subset,
+                           Solution& solution) {
+  const auto widened = [&] {
+    FitData out = stated;
+    out.series = true;
+    widen(out, excess_of(stated, solution, subset.kept.size()));
+    return out;
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    FitData some = widened();
+    some.rows = thinned(stated.rows, kEnoughRows);
+    solution = solve(some, ArmState(solution.state), subset.kept, kRoughly);
+  }
+  return widened();
 }
 
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
@@ -139,9 +162,11 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   const auto count = static_cast<Eigen::Index>(subset.kept.size());
   const Eigen::Index without_weak = solution.residual.size() - data.weak.weights.rows();
   // A weak direction uses up none of the measured coordinates: nominal holds it.
-  const auto dof = std::max<Eigen::Index>(1, solution.residual.size() - count);
+  const auto dof = std::max<Eigen::Index>(
+      1, solution.residual.size() - count - std::lround(solution.series_dof));
   const double sigma = data.sigma_m(data.rows.front(), 0);
-  const Eigen::MatrixXd& J = solution.jacobian;
+  const Eigen::MatrixXd J =
+      solution.marginal.size() > 0 ? triangle_of(solution.marginal) : solution.jacobian;
   Calibration out;
   out.sigma0 =
       std::sqrt(solution.residual.head(without_weak).squaredNorm() / static_cast<double>(dof));
@@ -151,6 +176,7 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
   out.parameters = subset.kept;
   out.held = subset.held;
+  out.series_dof = solution.series_dof;
   return out;
 }
 
@@ -234,6 +260,11 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   // What poses say is a matter of the instrument, not of what the model still lacks.
   data.weak = weak_directions(whole, solution.state, fine.kept);
   const int coarse_iterations = solution.iterations;
+  if (has_series(solution.state)) {
+    FitData stated = whole;
+    stated.weak = data.weak;
+    data = weighed_for_series(stated, fine, solution);
+  }
   const auto outliers = solve_without_outliers(data, fine.kept, solution);
   check_converged(solution);
   check_meets(cell, data, solution);
@@ -297,13 +328,17 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   widen(data, excess_of(data, solution, candidates.size()));
   const auto subset = identifiable_parameters(data, solution.state, candidates, kFine);
   data.weak = weak_directions(stated, solution.state, subset.kept);
-  // This tells only what the model still lacks, and a start.
-  data.rows = thinned(stated.rows, kEnoughRows);
-  solution = solve(data, ArmState(solution.state), subset.kept, kRoughly);
-  const WeakDirections weak = std::move(data.weak);
-  data = stated;
-  data.weak = weak;
-  widen(data, excess_of(data, solution, subset.kept.size()));
+  FitData weakly_held = stated;
+  weakly_held.weak = data.weak;
+  if (has_series(solution.state)) {
+    data = weighed_for_series(weakly_held, subset, solution);
+  } else {
+    // This tells only what the model still lacks, and a start.
+    data.rows = thinned(stated.rows, kEnoughRows);
+    solution = solve(data, ArmState(solution.state), subset.kept, kRoughly);
+    data = weakly_held;
+    widen(data, excess_of(data, solution, subset.kept.size()));
+  }
   auto outliers = solve_without_outliers(data, subset.kept, solution);
   check_converged(solution);
   Calibration out = summary(data, nominal_state(cell, measured), solution, subset);
@@ -318,8 +353,9 @@ std::vector<Parameter> calibration_candidates(const Cell& cell, const Measuremen
                                               const ArmState& state) {
   const bool turns = measured.has_orientation() && cell.measurement.sigma_rad.value_or(0.0) > 0.0;
   auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
-  const auto effects = effect_parameters(state.arm);
-  out.insert(out.end(), effects.begin(), effects.end());
+  // The numbers of a series of waves are found beside the parameters.
+  for (const auto& p : effect_parameters(state.arm))
+    if (!is_series(state.arm.effects[static_cast<std::size_t>(p.joint)].name)) out.push_back(p);
   return out;
 }
 

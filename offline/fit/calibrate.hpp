@@ -34,6 +34,7 @@ struct Calibration {
   Eigen::MatrixXd covariance;         // SI
   int rank = 0;                       // independent columns, of all candidates
   double calibrability = 0.0;         // cond_2(J^T J), SI columns
+  double series_dof = 0.0;            // of series of waves, see Solution
   double sigma0 = 0.0;                // sqrt(chi^2 / dof) of the weighted residuals
   int iterations = 0;
 };

@@ -64,7 +64,8 @@ Descent descend(const FitData& data, const ArmState& state, Sums at,
   return out;
 }
 
-/// R with R^T R = information.
+}  // namespace
+
 Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd length = information.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Eigen::VectorXd scale = length.cwiseInverse();
@@ -73,6 +74,8 @@ Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& information) {
   const Eigen::MatrixXd R = unit.llt().matrixU();
   return R * length.asDiagonal();
 }
+
+namespace {
 
 /// Improves `state` by a solution on a part of the rows. Returns the sums over all rows there, or
 /// `here` if that is no better.

@@ -13,4 +13,7 @@ namespace plumb::offline {
 Solution solve_many(const FitData& data, const ArmState& start,
                     const std::vector<Parameter>& parameters, double tolerance);
 
+/// R with R^T R = information.
+Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& information);
+
 }  // namespace plumb::offline

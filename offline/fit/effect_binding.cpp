@@ -196,7 +196,10 @@ struct ParameterPlace {
 /// Parameters of one of the joints that the effect lists.
 int parameters_of_joint(const format::Model& model, const format::Effect& effect,
                         const EffectDescriptor& law, std::size_t joint) {
-  if (law.parameters_of_joint == nullptr) return static_cast<int>(law.law->parameters.size());
+  if (law.parameters_of_joint == nullptr)
+    return law.arm_parameters.empty()
+               ? static_cast<int>(effect.parameters.size() / effect.joints.size())
+               : static_cast<int>(law.law->parameters.size());
   return law.parameters_of_joint(static_cast<int>(model.calibrated.joints.size()),
                                  effect.joints[joint]);
 }
@@ -234,7 +237,10 @@ EffectParameter effect_parameter(const format::Model& model, int effect, int par
   const auto place = static_cast<std::size_t>(parameter);
   if (!law.arm_parameters.empty() && place >= own.size() * e.joints.size())
     return law.arm_parameters[place - own.size() * e.joints.size()];
-  return own[place % own.size()];
+  EffectParameter out = own[place % own.size()];
+  if (law.typical != nullptr)
+    out.typical = law.typical(e, static_cast<int>(place % (e.parameters.size() / e.joints.size())));
+  return out;
 }
 
 std::string effect_parameter_name(const format::Model& model, int effect, int parameter) {

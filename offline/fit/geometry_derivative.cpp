@@ -126,6 +126,10 @@ GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p)
 
 void GeometryDerivative::add_column(const Parameter& p, Eigen::Index column) {
   const format::Effect& effect = state_.arm.effects[static_cast<std::size_t>(p.joint)];
+  if (is_series(effect.name)) {
+    add_series_column(p, column);
+    return;
+  }
   if (!is_wave(effect.name) || effect.joints.size() != 1) {
     effect_columns_.push_back({p.joint, p.component, column});
     return;
@@ -136,6 +140,17 @@ void GeometryDerivative::add_column(const Parameter& p, Eigen::Index column) {
     waves_.push_back({.effect = p.joint, .joint = effect.joints.front()});
   }
   waves_[static_cast<std::size_t>(place)].column[static_cast<std::size_t>(p.component)] = column;
+}
+
+void GeometryDerivative::add_series_column(const Parameter& p, Eigen::Index column) {
+  const format::Effect& effect = state_.arm.effects[static_cast<std::size_t>(p.joint)];
+  const std::size_t each = effect.parameters.size() / effect.joints.size();
+  const auto place = static_cast<std::size_t>(p.component);
+  const int joint = effect.joints[place / each];
+  if (series_.empty() || series_.back().effect != p.joint || series_.back().joint != joint)
+    series_.push_back(
+        {.effect = p.joint, .joint = joint, .column = std::vector<Eigen::Index>(each, -1)});
+  series_.back().column[place % each] = column;
 }
 
 /// One pose before and after the effects moved it.
@@ -208,6 +223,15 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
     for (std::size_t k = 0; k < 2; ++k)
       if (waves_[w].column[k] >= 0)
         out.columns.col(waves_[w].column[k]) = by_joint[waves_[w].joint] * bent.wave_slope[w][k];
+  std::array<double, 2 * format::kMaxSeriesWaves> slopes;
+  for (const auto& series : series_) {
+    const auto count = series.column.size();
+    effects::JointSeries::slopes(portable::sin_cos(q[static_cast<std::size_t>(series.joint)]),
+                                 std::span(slopes).first(count));
+    for (std::size_t k = 0; k < count; ++k)
+      if (series.column[k] >= 0)
+        out.columns.col(series.column[k]) = by_joint[series.joint] * slopes[k];
+  }
   std::vector<Dual> theta;
   // Eight parameters at a time, of as many effects as they belong to: motions add up, and so do
   // their derivatives.
@@ -279,7 +303,8 @@ void GeometryDerivative::evaluate(std::span<const double> q, const MeasuredConte
     }
     out.columns.col(k) << d_M, e_M;
   }
-  if (!effect_columns_.empty() || !waves_.empty()) effect_columns(q, bent, arm_B, R_MB, out);
+  if (!effect_columns_.empty() || !waves_.empty() || !series_.empty())
+    effect_columns(q, bent, arm_B, R_MB, out);
 }
 
 }  // namespace plumb::offline

@@ -54,6 +54,7 @@ class GeometryDerivative {
   void bend(std::span<const double> q, const MeasuredContext& context, Bent& out) const;
   void add_column(const Parameter& parameter, Eigen::Index column);
   void apply_wave(std::size_t wave, std::span<const double> q, Bent& out) const;
+  void add_series_column(const Parameter& parameter, Eigen::Index column);
   void effect_columns(std::span<const double> q, const Bent& bent, const Vector3& arm_B,
                       const Matrix3& R_MB, Point& out) const;
 
@@ -73,7 +74,15 @@ class GeometryDerivative {
     int effect, joint;
     std::array<Eigen::Index, 2> column{-1, -1};  // -1: not fitted
   };
-  std::vector<Wave> waves_;   // those of which a number is fitted
+  std::vector<Wave> waves_;  // those of which a number is fitted
+
+  /// Numbers of a series of waves at one joint, by their place in it. Each turns that joint in
+  /// proportion to itself.
+  struct SeriesColumns {
+    int effect, joint;
+    std::vector<Eigen::Index> column;  // -1: not fitted
+  };
+  std::vector<SeriesColumns> series_;
   FittedEffects effects_;     // refers to state_
   std::vector<int> wave_of_;  // place of every effect among the waves, or -1
   std::vector<std::string> sensors_;

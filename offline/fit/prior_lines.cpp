@@ -35,12 +35,13 @@ std::vector<PriorLines::KnownParameter> PriorLines::known(
     const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
     const double typical = effect_parameter(start.arm, joint, component).typical;
     const format::Effect& effect = start.arm.effects[joint];
-    const double width = descriptor_of(effect.name).prior_width;
+    const EffectDescriptor& law = descriptor_of(effect.name);
+    const double width = law.prior_width;
+    const auto tail = law.prior_tail == PriorTail::kNormal ? KnownParameter::Tail::kNormal
+                                                           : KnownParameter::Tail::kHeavy;
     const double mean =
         effect.formula.code.empty() ? 0.0 : effect.formula.parameters[component].start;
-    if (typical > 0.0)
-      out.push_back(
-          {static_cast<Eigen::Index>(i), mean, width * typical, KnownParameter::Tail::kHeavy});
+    if (typical > 0.0) out.push_back({static_cast<Eigen::Index>(i), mean, width * typical, tail});
   }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;

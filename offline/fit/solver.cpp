@@ -14,6 +14,7 @@
 #include "fit/many_rows.hpp"
 #include "fit/pose_lines.hpp"
 #include "fit/prior_lines.hpp"
+#include "fit/series_solver.hpp"
 #include "tree/jobs.hpp"
 
 namespace plumb::offline {
@@ -171,6 +172,8 @@ void visit_jacobian(const FitData& data, const ArmState& state,
 
 Solution solve(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters,
                double tolerance) {
+  if (data.series && has_series(start))
+    return solve_with_series(data, start, parameters, tolerance);
   if (parameters.empty()) return evaluate(data, start, parameters);
   if (is_many(data, parameters)) return solve_many(data, start, parameters, tolerance);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));

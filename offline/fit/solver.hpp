@@ -27,6 +27,7 @@ struct FitData {
   double sigma_rad = 0.0;      // 0: orientation is not used
   const Cell* cell = nullptr;  // with its priors, or null: none
   WeakDirections weak = {};    // held near nominal; the parameters of a fit must contain theirs
+  bool series = false;         // solves for the numbers of series of waves as well
 
   int per_pose() const;        // residuals of one pose
   int residual_count() const;  // of all poses, priors not counted
@@ -36,6 +37,9 @@ struct Solution {
   ArmState state;
   Eigen::VectorXd residual;  // whitened, measured - predicted, pose by pose; then the priors
   Eigen::MatrixXd jacobian;  // whitened, of the prediction, shape (residuals, parameters)
+  Eigen::MatrixXd marginal;  // where series of waves were fitted as well: J^T J of the parameters,
+                             // less what the series could make of them; else empty
+  double series_dof = 0.0;   // numbers of the series, each by how much the poses decide it
   double cost = 0.0;         // half the sum of squares
   int iterations = 0;
   bool converged = false;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "cell/random.hpp"
+#include "effects/registry.hpp"
 #include "fit/solver.hpp"
 
 namespace plumb::offline {
@@ -13,6 +14,7 @@ namespace {
 constexpr double kPlausible = 5e-3;  // [m] or [rad] of a robot parameter; [m] of an effect's motion
 constexpr double kAnywhere = 1.0;    // [m] or [rad] of frame and target
 constexpr double kMoves = 1e-9;      // [m] per width: less counts as no motion
+constexpr int kFirstNumbers = 8;     // of a series at a joint: its first four waves
 constexpr double kRoom_degC = 20.0;
 
 double mean_of(const Eigen::VectorXd& values) {
@@ -20,6 +22,14 @@ double mean_of(const Eigen::VectorXd& values) {
   for (const double v : values)
     if (!std::isnan(v)) sum += v, count += 1.0;
   return count > 0.0 ? sum / count : kRoom_degC;
+}
+
+/// Of a series of waves all numbers but the first: a plan need not show hundreds of them.
+bool is_held_by_its_prior(const format::Model& arm, const Parameter& p) {
+  const format::Effect& effect = arm.effects[static_cast<std::size_t>(p.joint)];
+  if (!is_series(effect.name)) return false;
+  const auto each = static_cast<int>(effect.parameters.size() / effect.joints.size());
+  return p.component % each >= kFirstNumbers;
 }
 
 }  // namespace
@@ -57,8 +67,8 @@ DesignSpace design_space(const Cell& cell, const ArmState& state, const Measurem
                   .sigma_m = 1.0,
                   .sigma_rad = sigma_rad > 0.0 ? 1.0 : 0.0,
                   .has_axis = typical.has_axis};
-  const auto effects = effect_parameters(state.arm);
-  out.parameters.insert(out.parameters.end(), effects.begin(), effects.end());
+  for (const auto& parameter : effect_parameters(state.arm))
+    if (!is_held_by_its_prior(state.arm, parameter)) out.parameters.push_back(parameter);
   out.width = Eigen::VectorXd::Ones(out.size());
   const Eigen::MatrixXd J = out.lines(typical);
   std::vector<Parameter> kept;

@@ -7,6 +7,7 @@
 
 #include "cell/formula_reader.hpp"
 #include "cell/setups.hpp"
+#include "fit/series_numbers.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
@@ -147,6 +148,12 @@ std::string held_text(const std::vector<std::string>& held) {
                      fmt::join(held, ", "));
 }
 
+/// What the series of waves came to: their numbers are too many to be listed.
+std::string series_text(const Cell& cell, const ArmState& state) {
+  const std::string waves = series_words(cell, state.arm);
+  return waves.empty() ? "" : fmt::format("  series of waves: {}\n", waves);
+}
+
 }  // namespace
 
 Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
@@ -194,7 +201,7 @@ std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& 
   const Calibration& c = fit.calibration;
   std::string out = verdict(fit, cell.tolerance_m) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
-  out += measurement_text(cell, c.state) + tree_text(fit);
+  out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",
                            c.estimates.size(), c.iterations);
 }

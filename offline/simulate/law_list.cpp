@@ -56,7 +56,7 @@ void add_joint_laws(std::vector<LawEntry>& all) {
                 {"cycles"}));
   all.push_back(like(of_joints("joint_table", "any periodic error of a joint and one worn tooth",
                                make_joint_table),
-                     {"gear_harmonics", "gear_ripple"}));
+                     {"gear_harmonics", "gear_ripple", "joint_series"}));
   all.push_back(of_joints("encoder_scale", "a wrong number of increments; size: error a radian",
                           make_encoder_scale));
   all.push_back(like(of_joints("encoder_eccentricity", "code wheel beside its axis; size: in radii",

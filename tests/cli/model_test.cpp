@@ -66,7 +66,7 @@ TEST_F(ModelVerbs, AnEffectThatNoModelCanHoldIsRefusedWhenItIsAdded) {
   EXPECT_EQ(added.exit, 4) << added.err;
   EXPECT_EQ(message(added),
             "the model is not sound: effect 'joint_table' has too many parameters: 240, at most "
-            "128");
+            "160");
   EXPECT_EQ(box->read("big/cell.toml"), before);
   std::string text = before;
   const std::string geometry = "geometry = true";

@@ -137,7 +137,7 @@ TEST_F(RegressorScoreTest, ASignThatIsForbiddenIsNeverFitted) {
 
 TEST_F(RegressorScoreTest, ExtendingAStageExplainsWhatTheBlockExplains) {
   const Regressor regressor = library_regressor(*whitened, entry("gear_harmonics", {1}));
-  const WhitenedFit next = extended(*whitened, regressor);
+  const WhitenedFit next = extended(*whitened, regressor, {});
   const Eigen::Index fit = whitened->fit_lines;
   Eigen::MatrixXd both(fit, whitened->rank + regressor.columns.cols());
   both << whitened->U.topRows(fit), motions(*whitened, regressor).topRows(fit);

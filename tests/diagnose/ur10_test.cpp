@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <ctime>
 #include <filesystem>
 
 #include "diagnose/diagnosis.hpp"
@@ -32,17 +34,28 @@ class Ur10Diagnosis : public ::testing::Test {
   }
   static Diagnosis diagnosed(const char* series, long seed) {
     const Cell c = cell(series, seed);
-    const Diagnosis d = diagnose(c, read_cell_measurements(c), {.apply = true, .tell = {}});
-    std::printf("%s, seed %ld: %s\n  %s\n", series, seed, d.text.c_str(), d.text_after.c_str());
+    const MeasurementFiles measured = read_cell_measurements(c);
+    const std::clock_t begin = std::clock();
+    const Diagnosis d = diagnose(c, measured, {.apply = true, .tell = {}});
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    std::printf("%s, seed %ld, %.1f s of processor: %s\n  %s\n", series, seed, seconds,
+                d.text.c_str(), d.text_after.c_str());
+    // Single waves, one after the other, took 40 s and 166 s.
+    EXPECT_LT(seconds, 25.0);
     return d;
   }
-  static void names_the_gear_and_falls(const Diagnosis& d, double from_m, double below_m) {
+  /// One series for all gears, whose largest wave is J2's, in place of dozens of single waves.
+  static void names_the_gears_and_falls(const Diagnosis& d, double from_m, double below_m) {
     EXPECT_GT(d.before.mean, from_m);
     EXPECT_LE(d.after.mean, below_m);
     EXPECT_EQ(d.finding, Finding::kMissing);
-    EXPECT_EQ(d.candidates.front().entry.name, "gear_ripple");
-    EXPECT_EQ(d.candidates.front().entry.joints, std::vector<int>{1});
-    EXPECT_FALSE(d.candidates.front().cycles.empty());
+    const Candidate& best = d.candidates.front();
+    EXPECT_EQ(best.entry.name, "joint_series");
+    EXPECT_NE(std::find(best.entry.joints.begin(), best.entry.joints.end(), 1),
+              best.entry.joints.end());
+    EXPECT_NE(best.peaks.find("cycles a turn of J2"), std::string::npos) << best.peaks;
+    EXPECT_LT(d.effects.size(), 12U);
+    EXPECT_FALSE(d.full);
   }
   static long seeds() { return std::min(5L, tests::scaled(1)); }
 };
@@ -56,10 +69,10 @@ void a_tree_does_no_harm(Cell c, const Diagnosis& d) {
   EXPECT_LE(fit.held.mean, 1.01 * d.after.mean);
 }
 
-TEST_F(Ur10Diagnosis, SeriesBNamesTheGearOfJ2AndFallsBelowTheMark) {
+TEST_F(Ur10Diagnosis, SeriesBNamesTheGearsAndFallsBelowTheMark) {
   for (long seed = 1; seed <= seeds(); ++seed) {
     const Diagnosis d = diagnosed("series_B.csv", seed);
-    names_the_gear_and_falls(d, 0.37e-3, 0.15e-3);
+    names_the_gears_and_falls(d, 0.37e-3, 0.088e-3);
     a_tree_does_no_harm(cell("series_B.csv", seed), d);
   }
 }
@@ -153,14 +166,18 @@ void carries_to_series_b(const Cell& a, const Cell& b, const Diagnosis& d) {
       "%.3f (geometry %.3f, %d poses), outside %.3f (geometry %.3f, %d poses)\n",
       1e3 * inside.with, 1e3 * inside.without, inside.n, 1e3 * outside.with, 1e3 * outside.without,
       outside.n);
-  EXPECT_LT(inside.with, 0.8 * inside.without);
-  EXPECT_LE(outside.with, outside.without);
+  // All of them: whole waves are the same a turn further.
+  const double all = (inside.with * inside.n + outside.with * outside.n) / (inside.n + outside.n);
+  std::printf("  all %.3f\n", 1e3 * all);
+  EXPECT_LE(all, 0.20e-3);
+  EXPECT_LT(inside.with, 0.5 * inside.without);
+  EXPECT_LT(outside.with, 0.8 * outside.without);
 }
 
-TEST_F(Ur10Diagnosis, SeriesANamesTheGearOfJ2AndWhatItTaughtHoldsForSeriesBMonthsLater) {
+TEST_F(Ur10Diagnosis, SeriesANamesTheGearsAndWhatItTaughtHoldsForSeriesBMonthsLater) {
   for (long seed = 1; seed <= seeds(); ++seed) {
     const Diagnosis d = diagnosed("series_A.csv", seed);
-    names_the_gear_and_falls(d, 0.38e-3, 0.12e-3);
+    names_the_gears_and_falls(d, 0.38e-3, 0.075e-3);
     if (seed > 1) continue;
     a_tree_does_no_harm(cell("series_A.csv", seed), d);
     carries_to_series_b(cell("series_A.csv", seed), cell("series_B.csv", seed), d);

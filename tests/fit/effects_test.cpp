@@ -61,6 +61,7 @@ EffectEntry entry_of(const std::string& name) {
   if (name == "gear_ripple") out.options["cycles_per_turn"] = 8.5;
   if (name == "cross_compliance") out.joints = {2, 1};
   if (name == "joint_table") out.joints = {1};
+  if (name == "joint_series") out.joints = {1, 4};
   if (name == "gravity_free") out.joints = {1, 2};
   if (name == "axis_wobble") out.joints = {0, 3};
   if (name == "step") out.options["after_row"] = 3.0;

@@ -43,7 +43,10 @@ inline format::Effect typical_effect(format::Model model, int law, int joints) {
   for (int tries = 0; tries < 2; ++tries) {
     model.effects = {out};
     const EffectFault fault = find_effect_fault(model);
-    if (fault.kind == EffectFault::Kind::kConstants) out.constants.assign(fault.count, 1.0);
+    if (fault.kind == EffectFault::Kind::kConstants) {
+      out.constants.assign(fault.count, 1.0);
+      if (info.name == "joint_series") out.constants.front() = 21.0;  // waves
+    }
     if (fault.kind == EffectFault::Kind::kParameters) fill_parameters(info, fault.count, out);
   }
   return out;

@@ -7,7 +7,8 @@ namespace plumb::format {
 
 inline constexpr int kMaxJoints = 9;
 inline constexpr int kMaxEffects = 64;
-inline constexpr int kMaxEffectParameters = 128;
+inline constexpr int kMaxSeriesWaves = 64;  // of one joint
+inline constexpr int kMaxEffectParameters = 2 * kMaxSeriesWaves * kMaxJoints;
 inline constexpr int kMaxEffectConstants = 64;
 inline constexpr int kMaxFormulaCode = 128;  // instructions
 inline constexpr int kMaxFormulaDepth = 24;  // numbers on the stack of a formula

@@ -18,6 +18,7 @@
 #include "plumb/runtime/detail/effects/gravity_free.hpp"
 #include "plumb/runtime/detail/effects/joint_compliance.hpp"
 #include "plumb/runtime/detail/effects/joint_compliance_soft.hpp"
+#include "plumb/runtime/detail/effects/joint_series.hpp"
 #include "plumb/runtime/detail/effects/joint_table.hpp"
 #include "plumb/runtime/detail/effects/link_flexure.hpp"
 #include "plumb/runtime/detail/effects/payload_compliance.hpp"
@@ -30,14 +31,13 @@
 namespace plumb {
 
 /// All laws of the robot and of its surroundings. A new law is one header and one line here.
-using EffectLaws =
-    std::tuple<effects::JointCompliance, effects::JointComplianceSoft, effects::GravityFree,
-               effects::LinkFlexure, effects::GearHarmonics, effects::GearRipple,
-               effects::JointTable, effects::EncoderScale, effects::EncoderEccentricity,
-               effects::Reversal, effects::BacklashLoad, effects::AxisWobble,
-               effects::WristCoupling, effects::CrossCompliance, effects::ThermalGrowth,
-               effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
-               effects::PayloadCompliance, effects::WrenchCompliance, effects::Formula>;
+using EffectLaws = std::tuple<
+    effects::JointCompliance, effects::JointComplianceSoft, effects::GravityFree,
+    effects::LinkFlexure, effects::GearHarmonics, effects::GearRipple, effects::JointTable,
+    effects::JointSeries, effects::EncoderScale, effects::EncoderEccentricity, effects::Reversal,
+    effects::BacklashLoad, effects::AxisWobble, effects::WristCoupling, effects::CrossCompliance,
+    effects::ThermalGrowth, effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
+    effects::PayloadCompliance, effects::WrenchCompliance, effects::Formula>;
 
 inline constexpr int kEffectLaws = static_cast<int>(std::tuple_size_v<EffectLaws>);
 

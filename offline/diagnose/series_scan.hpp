@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "diagnose/regressor.hpp"
+#include "diagnose/regressor_score.hpp"
+
+namespace plumb::offline {
+
+/// A series of whole waves at one joint or several, as one candidate.
+struct SeriesFound {
+  EffectEntry entry;  // with the number of waves, and size and slope of the prior
+  RegressorScore scored;
+};
+
+/// The series of these joints, in one solve. A joint stays in it if its own evidence beside the
+/// others is above kSupported, and the prior is that of the largest evidence: wave k of a standard
+/// deviation of size k^-slope. The evidence given is the mean over the grid of both that was tried,
+/// so that the choice costs what it should. [MacKay 1992] None if no joint is left. Cost: poses *
+/// (waves of all joints)^2, then (waves of all joints)^3 / 3 for each prior that is tried.
+std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints,
+                                       int& tried);
+
+/// The same candidate at other poses, with its prior as it is.
+RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);
+
+/// Its columns: 1 is one standard deviation of the prior.
+Regressor series_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
+
+/// Its motions, whitened, shape (lines, b).
+Eigen::MatrixXd series_motions(const WhitenedFit& whitened, const Regressor& series);
+
+/// The first waves of a series alone: what a smooth law could be mistaken for.
+Regressor smooth_part(const WhitenedFit& whitened, const Regressor& series);
+
+}  // namespace plumb::offline
