@@ -132,8 +132,8 @@ void load(std::vector<Visit>& visits, const Cell& cell, const SimulationPlan& pl
 void warm(std::vector<Visit>& visits, const SimulationPlan& plan, const sim::Climate& climate) {
   if (plan.climate == SimulationPlan::Climate::kConstant) return;
   for (auto& visit : visits) {
-    visit.room_K = climate.air(visit.time_s);
-    visit.zone_K = climate.zones(visit.time_s);
+    visit.room_K = climate.air(visit.running_s);
+    visit.zone_K = climate.zones(visit.running_s);
   }
 }
 
@@ -154,6 +154,7 @@ Simulation simulate(const Cell& cell, const SimulationPlan& plan) {
   auto visits = sim::drive(recording.joint_rows(), 0.5 * (q_min + q_max), plan.seconds_per_pose);
   const double session_s = plan.session_s.value_or(recording.rows() * plan.seconds_per_pose);
   load(visits, cell, plan);
+  sim::put_stated(plan.stated, visits);
   warm(visits, plan,
        sim::Climate(cell.joints(), session_s, plan.truth.richness, Random(arm_seed, "climate")));
 
