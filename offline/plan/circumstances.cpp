@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "cell/random.hpp"
 #include "effects/registry.hpp"
 
 namespace plumb::offline {
@@ -107,6 +106,15 @@ Circumstances circumstances_of(const Cell& cell, const Measurements& measured, c
   out.late = (only & kNeedsLater) != 0;
   out.load_matters = grows_with_load(first) || grows_with_load(second);
   if (out.load_matters) out.payloads = loads_of(cell, measured, given_kg);
+  return out;
+}
+
+ReadingOption option_at(const Cell& cell, const Circumstances& circumstances,
+                        const Eigen::VectorXd& q, const ReadingOption& like, Random& random) {
+  ReadingOption out = like;
+  out.q = q;
+  out.again = -1;
+  if (circumstances.approach) out.approach = random_approach(cell, circumstances, q, random);
   return out;
 }
 

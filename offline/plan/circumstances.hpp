@@ -6,6 +6,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "cell/random.hpp"
 #include "plan/contrasts.hpp"
 
 namespace plumb::offline {
@@ -48,6 +49,10 @@ struct ReadingOption {
 std::vector<ReadingOption> reading_options(const Cell& cell, const Measurements& measured,
                                            const RowsN& pool, const Circumstances& circumstances,
                                            int most, std::uint64_t seed);
+
+/// Another option at pose q, under the same circumstances as `like`, with a random approach.
+ReadingOption option_at(const Cell& cell, const Circumstances& circumstances,
+                        const Eigen::VectorXd& q, const ReadingOption& like, Random& random);
 
 /// Measured readings, then the options, as one table; what is not measured of the latter is 0.
 /// Payloads that no file states are those of the cell.

@@ -12,6 +12,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr int kMostOptions = 3000;
+constexpr int kRoundsBeside = 6;
+constexpr std::size_t kMostBeside = 1000;
 constexpr double kTrace = 1e-9;        // keeps columns that repeat each other solvable
 constexpr double kOneMotion = 0.9999;  // of either by the other: one and the same
 constexpr double kShown = 100.0;       // largest 1 sigma, in typical sizes, of what poses show
@@ -119,30 +121,72 @@ void write_down(const Cell& cell, const PlanStart& start, const std::vector<Read
   }
 }
 
+/// Readings that are chosen of options, and what they tell.
+struct Chosen {
+  RivalColumns columns;
+  std::vector<ReadingOption> readings;
+  Choice choice;
+  double least() const {
+    return quick_leads(columns.rivals, choice.products, choice.further).least();
+  }
+};
+
+Chosen chosen_of(const std::vector<ReadingOption>& options, RivalColumns columns, int n) {
+  const ClearedProducts known(columns.known_G, columns.known_Z);
+  Choice choice = choose_readings(columns.rivals, known, columns.G, columns.Z, n);
+  std::vector<ReadingOption> readings;
+  for (const int i : choice.chosen) readings.push_back(options[static_cast<std::size_t>(i)]);
+  return {std::move(columns), std::move(readings), std::move(choice)};
+}
+
+/// The chosen readings, and about `most` more at poses beside theirs.
+std::vector<ReadingOption> options_beside(const Cell& cell, const PlanStart& start,
+                                          const PoseRules& rules,
+                                          const Circumstances& circumstances,
+                                          const std::vector<ReadingOption>& chosen,
+                                          std::size_t most, Random& random) {
+  std::vector<ReadingOption> out = chosen;
+  while (out.size() < std::max(most, 2 * chosen.size())) {
+    const std::size_t i = out.size() % chosen.size();
+    const Eigen::VectorXd q = pose_beside(cell, start.state, rules, chosen[i].q, random);
+    out.push_back(option_at(cell, circumstances, q, chosen[i], random));
+  }
+  return out;
+}
+
 }  // namespace
 
 void plan_separation(const Cell& cell, const PlanStart& start, const PlanRequest& request,
                      PosePlan& out) {
   const EffectEntry &a = request.separate[0], &b = request.separate[1];
-  const Measurements& used = start.used;
-  out.circumstances = circumstances_of(cell, used, a, b, request.payloads_kg);
+  const PoseRules& rules = request.rules;
+  out.circumstances = circumstances_of(cell, start.used, a, b, request.payloads_kg);
   say_which_load(out.circumstances, out);
-  const auto options =
-      reading_options(cell, used, start.pool.q, out.circumstances,
-                      std::min(kMostOptions, request.rules.pool), request.rules.seed);
-  const RivalColumns columns = rival_columns(cell, start, a, b, options, out.circumstances);
+  const auto columns_of = [&](const std::vector<ReadingOption>& options) {
+    return rival_columns(cell, start, a, b, options, out.circumstances);
+  };
+  const auto options = reading_options(cell, start.used, start.pool.q, out.circumstances,
+                                       std::min(kMostOptions, rules.pool), rules.seed);
+  RivalColumns columns = columns_of(options);
   refuse_one_motion(cell, request, columns, out.circumstances);
-  const ClearedProducts known(columns.known_G, columns.known_Z);
-  const Choice choice = choose_readings(columns.rivals, known, columns.G, columns.Z, request.n);
-  const Leads leads = exact_leads(columns.rivals, choice.products, choice.further);
-  out.parameters = columns.parameters;
-  out.expected = {columns.today, leads.if_a, leads.if_b};
-  out.apart_before = reproduction_of(known.products(), columns.rivals);
-  out.apart_after = reproduction_of(choice.products, columns.rivals);
-  tell_numbers(known.products(), choice.products, columns, out);
-  std::vector<ReadingOption> chosen;
-  for (const int i : choice.chosen) chosen.push_back(options[static_cast<std::size_t>(i)]);
-  write_down(cell, start, chosen, out);
+  Chosen best = chosen_of(options, std::move(columns), request.n);
+  Random random(rules.seed ^ 0xbe51deU);
+  for (int round = 0; round < kRoundsBeside; ++round) {
+    const auto more = options_beside(cell, start, rules, out.circumstances, best.readings,
+                                     std::min(options.size(), kMostBeside), random);
+    Chosen other = chosen_of(more, columns_of(more), request.n);
+    if (other.least() > best.least()) best = std::move(other);
+  }
+  const RivalColumns& at = best.columns;
+  const ClearedProducts known(at.known_G, at.known_Z);
+  const Eigen::MatrixXd& products = best.choice.products;
+  const Leads leads = exact_leads(at.rivals, products, best.choice.further);
+  out.parameters = at.parameters;
+  out.expected = {at.today, leads.if_a, leads.if_b};
+  out.apart_before = reproduction_of(known.products(), at.rivals);
+  out.apart_after = reproduction_of(products, at.rivals);
+  tell_numbers(known.products(), products, at, out);
+  write_down(cell, start, best.readings, out);
 }
 
 }  // namespace plumb::offline

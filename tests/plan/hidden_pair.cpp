@@ -86,8 +86,9 @@ SimulationPlan recipe_of(const Cell& cell, std::uint64_t number, tests::Random& 
   out.seconds_per_pose = *out.session_s / (1.2 * out.poses);
   out.truth.geometry_m = out.truth.geometry_rad = 0.4e-3;
   out.truth.mass_share = 0.15;
-  const double size = pick(1.0, 1.5, 2.0, 3.0, 4.0);
+  const double size = pick(1.0, 2.0, 5.0, 10.0);
   out.truth.effects = {name + ":" + std::to_string(size)};
+  if (getenv("USUAL")) out.truth.effects = {name.substr(0, name.size() - (name.ends_with(':') ? 1 : 0))};
   if (pick(0, 1) == 1)
     for (const double share : {0.15, 0.55, 1.0}) {
       out.payloads.push_back(cell.payload);
@@ -128,6 +129,7 @@ std::optional<HiddenPair> hidden_pair(std::uint64_t number) {
   const bool is_heavy = random.uniform(0.0, 1.0) < 0.5;
   HiddenPair out;
   out.cell = arm_of(is_heavy ? BlindArm::kHeavy : BlindArm::kLight);
+  out.carries_kg = is_heavy ? 60.0 : 10.0;
   out.recipe = recipe_of(out.cell, number, random);
   out.cell.measurement.sigma_m = out.recipe.noise_m;
   try {
@@ -147,7 +149,7 @@ std::optional<HiddenPair> hidden_pair(std::uint64_t number) {
     for (const auto& other : all) {
       if (is_right(other.entry, hidden) || !confounded(*right, other)) continue;
       if (&other != &all.front() && &*right != &all.front()) continue;
-      if (right->ln_bayes - other.ln_bayes >= kUndecided_nats) continue;
+      if (std::abs(right->ln_bayes - other.ln_bayes) >= kUndecided_nats) continue;
       out.truth = right->entry;
       out.rival = other.entry;
       out.lead = right->ln_bayes - other.ln_bayes;
@@ -206,12 +208,11 @@ double lead_with(const HiddenPair& pair, const std::string& second_csv) {
       diagnose(pair.cell, read_files(pair.cell, {pair.first_csv, second_csv}), {});
   if (found.candidates.empty()) return 0.0;
   const auto ln_bayes = [&](const EffectEntry& entry) {
-    double out = found.candidates.back().ln_bayes;
-    for (const auto& c : found.candidates)
-      if (c.entry.name == entry.name && !c.entry.joints.empty() == !entry.joints.empty() &&
-          (entry.joints.empty() || c.entry.joints.front() == entry.joints.front()))
-        return c.ln_bayes;
-    return out;
+    const auto same = std::find_if(
+        found.candidates.begin(), found.candidates.end(), [&](const Candidate& c) {
+          return c.entry.name == entry.name && c.entry.joints == entry.joints;
+        });
+    return same == found.candidates.end() ? found.candidates.back().ln_bayes : same->ln_bayes;
   };
   return ln_bayes(pair.truth) - ln_bayes(pair.rival);
 }

@@ -28,17 +28,18 @@ struct HiddenPair {
   Simulation first;
   std::string first_csv;
   EffectEntry truth, rival;
-  double lead = 0.0;     // ln B of the true one less that of the other [nats]
-  std::string separate;  // the measurement that the diagnosis recommends
-  std::string words;     // "gear_harmonics:J2 or gravity_compensator:J2"
+  double lead = 0.0;        // ln B of the true one less that of the other [nats]
+  double carries_kg = 0.0;  // the heaviest load of the arm
+  std::string separate;     // the measurement that the diagnosis recommends
+  std::string words;        // "gear_harmonics:J2 or gravity_compensator:J2"
 };
 
 /// Joins measurement files as the programs read them.
 MeasurementFiles read_files(const Cell& cell, const std::vector<std::string>& texts);
 
 /// The arm of a number, if a diagnosis of its first measurement (45 to 150 poses) lists the truth,
-/// one of the two is its first candidate, both can replace each other, and the truth leads by less
-/// than 10 nats.
+/// one of the two is its first candidate, both can replace each other, and neither leads the other
+/// by 10 nats.
 std::optional<HiddenPair> hidden_pair(std::uint64_t number);
 
 /// The measurement file of planned readings on the arm of a pair, taken after the first ones.
