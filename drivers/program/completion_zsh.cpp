@@ -46,7 +46,7 @@ std::string positional_spec(const OptionRow& row) {
                      quotable(row.names.front()), action(row));
 }
 
-std::string verb_case(const VerbRow& verb) {
+std::string zsh_verb_case(const VerbRow& verb) {
   std::string out = fmt::format("    {})\n      _arguments", verb.name);
   for (const auto& row : verb.options) out += option_spec(row);
   for (const auto& row : verb.positionals) out += positional_spec(row);
@@ -69,7 +69,7 @@ std::string zsh_completion(const CommandTable& table) {
   out += " \\\n        '1:verb:->verb' \\\n        '*::word:->words'\n";
   out += "  if [[ $state == verb ]]; then\n    _describe -t verbs verb verbs\n    return\n  fi\n";
   out += "  [[ $state == words ]] || return\n  case $words[1] in\n";
-  for (const auto& verb : table.verbs) out += verb_case(verb);
+  for (const auto& verb : table.verbs) out += zsh_verb_case(verb);
   // zsh runs the file as the function itself where it finds it by its name; else it is sourced.
   return out + fmt::format(
                    "  esac\n}}\nif [[ $funcstack[1] == _{0} ]]; then\n  _{0} \"$@\"\nelse\n"

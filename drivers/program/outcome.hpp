@@ -23,6 +23,8 @@ struct InputFile {
 
 /// The result of a verb. It is filled step by step, so after a failure it still lists the files
 /// read.
+// The JSON library makes null by a constructor that may throw for other values, never for this one.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct Outcome {
   std::vector<InputFile> inputs;
   std::vector<Problem> remarks;  // warnings and notes

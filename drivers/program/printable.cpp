@@ -36,7 +36,7 @@ std::string shown(std::string_view sequence) {
   return byte < 0x20 || byte >= 0x7F ? shown_byte(sequence[0]) : std::string(sequence);
 }
 
-std::size_t sequence_length(std::string_view text) {
+std::size_t shown_length(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   const std::size_t length = first < 0x80 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
   if (text.size() < length || find_invalid_utf8(text.substr(0, length)) == 0) return 1;
@@ -58,7 +58,7 @@ std::string printable_text(std::string_view text) {
   std::string out;
   out.reserve(text.size() + 16);
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = sequence_length(text.substr(i, 4));
+    const std::size_t length = shown_length(text.substr(i, 4));
     if (text[i] == '\n' || text[i] == '\t')
       out += text[i];
     else

@@ -172,7 +172,7 @@ void Program::name_the_cell(std::vector<Problem>& problems) const {
 }
 
 int Program::dispatch(const CLI::App& verb) {
-  const std::string name = verb.get_name();
+  const std::string& name = verb.get_name();
   Outcome interrupted;
   interrupted.exit = Exit::kInterrupted;
   interrupted.errors.push_back({.code = "E-INTERRUPTED", .message = "interrupted"});

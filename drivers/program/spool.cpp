@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kCopied = 1 << 20;  // bytes at a time
 
-[[noreturn]] void cannot_write(const fs::path& file, int error) {
+[[noreturn]] void cannot_spool(const fs::path& file, int error) {
   const std::string name = file.empty() ? "to stdout" : display_name(file);
   throw Failure(Exit::kEnvironment,
                 {.code = "E-WRITE",
@@ -59,13 +59,13 @@ Spool::Spool(fs::path file) : file_(std::move(file)) {
   std::error_code ignored;
   if (!goes_to_a_stream(file_)) fd_ = open_nameless(present_folder(file_));
   if (fd_ < 0) fd_ = open_nameless(fs::temp_directory_path(ignored));
-  if (fd_ < 0) cannot_write(file_, errno);
+  if (fd_ < 0) cannot_spool(file_, errno);
 }
 
 Spool::~Spool() { ::close(fd_); }
 
 void Spool::write(std::string_view bytes) {
-  if (const int error = write_all(fd_, bytes); error != 0) cannot_write(file_, error);
+  if (const int error = write_all(fd_, bytes); error != 0) cannot_spool(file_, error);
 }
 
 void Spool::commit(Overwrite overwrite) {
@@ -80,12 +80,12 @@ void Spool::commit_to_stream() {
       file_.empty() ? STDOUT_FILENO : ::open(file_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
   const int error = out < 0 ? errno : copy_to(out);
   if (out >= 0 && !file_.empty()) ::close(out);
-  if (error != 0) cannot_write(file_, error);
+  if (error != 0) cannot_spool(file_, error);
 }
 
 void Spool::commit_to_file(Overwrite overwrite) {
   std::error_code ignored;
-  if (fs::is_directory(file_, ignored)) cannot_write(file_, EISDIR);
+  if (fs::is_directory(file_, ignored)) cannot_spool(file_, EISDIR);
   if (overwrite == Overwrite::kNo && would_replace(file_))
     throw Failure(Exit::kUsage, {.code = "E-EXISTS",
                                  .message = fmt::format("{} is already there", display_name(file_)),
@@ -99,7 +99,7 @@ void Spool::commit_to_file(Overwrite overwrite) {
   if (error == 0 && ::rename(draft.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(draft.c_str());
-    cannot_write(file_, error);
+    cannot_spool(file_, error);
   }
   const int folder = ::open(present_folder(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;

@@ -25,7 +25,7 @@ std::filesystem::path free_name(const std::filesystem::path& file) {
   return out;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, int error) {
+[[noreturn]] void refuse_record(const std::filesystem::path& file, int error) {
   throw Failure(Exit::kEnvironment,
                 {.code = "E-RT-RECORD",
                  .message = fmt::format("cannot write the record {}: {}", display_name(file),
@@ -37,14 +37,14 @@ std::filesystem::path free_name(const std::filesystem::path& file) {
 
 void RecordWriter::check(const std::filesystem::path& file) {
   const std::filesystem::path free = free_name(file);
-  if (const int error = creation_error(free); error != 0) refuse(free, error);
+  if (const int error = creation_error(free); error != 0) refuse_record(free, error);
 }
 
 RecordWriter::RecordWriter(const std::filesystem::path& file, const BusLayout& layout,
                            std::string bus, int most_mb)
     : file_(free_name(file)), codec_(layout), bus_(std::move(bus)), most_mb_(most_mb) {
   fd_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd_ < 0) refuse(file_, errno);
+  if (fd_ < 0) refuse_record(file_, errno);
 }
 
 RecordWriter::~RecordWriter() {

@@ -21,7 +21,7 @@ std::string percent(double share) {
   return text;
 }
 
-std::string whole(double number) {
+std::string rounded(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.0f", number);
   return text;
@@ -96,9 +96,9 @@ class Faults {
     const double period_us = 1e6 * m.period_s;
     if (period_us <= most_us * (1.0 + 1e-9)) return;
     add(m.name, "period_us",
-        "every " + whole(period_us) + " us is too seldom for " + m.name + ": after " +
-            whole(2.0 * most_us) + " us without one its sender counts as silent",
-        "at most " + whole(most_us) + ", of period_us or, without one, of cycle_us");
+        "every " + rounded(period_us) + " us is too seldom for " + m.name + ": after " +
+            rounded(2.0 * most_us) + " us without one its sender counts as silent",
+        "at most " + rounded(most_us) + ", of period_us or, without one, of cycle_us");
   }
 
   void check_id(const MessageLayout& m) {

@@ -9,10 +9,10 @@ namespace {
 
 using Finding = std::optional<std::string>;
 
-constexpr double kMaxError_m = 1.0;     // no correction of an arm is larger
-constexpr double kMinHalfWidth = 1e-9;  // it is a divisor
-constexpr double kUnitSlack = 1e-9;     // tolerance for the sum of a direction's |numbers|
-constexpr float kFarRegion = 4.0F;      // normalised; the trained box is -1 .. 1
+constexpr double kMaxCorrection_m = 1.0;  // no correction of an arm is larger
+constexpr double kMinHalfWidth = 1e-9;    // it is a divisor
+constexpr double kDirectionSlack = 1e-9;  // tolerance for the sum of a direction's |numbers|
+constexpr float kFarRegion = 4.0F;        // normalised; the trained box is -1 .. 1
 
 Finding check_sizes(const Tree& tree, std::size_t joints) {
   const std::size_t leaves = tree.leaves(), nodes = tree.nodes.size();
@@ -36,10 +36,10 @@ Finding check_sizes(const Tree& tree, std::size_t joints) {
 
 Finding check_numbers(const Tree& tree) {
   for (double w : tree.coefficients)
-    if (!(std::abs(w) <= kMaxError_m * 1e3)) return "a coefficient is out of range";
+    if (!(std::abs(w) <= kMaxCorrection_m * 1e3)) return "a coefficient is out of range";
   for (std::size_t i = 0; i + 1 < tree.bounds.size(); i += 2) {
     const double low = tree.bounds[i], high = tree.bounds[i + 1];
-    if (!(low <= high && low >= -kMaxError_m && high <= kMaxError_m))
+    if (!(low <= high && low >= -kMaxCorrection_m && high <= kMaxCorrection_m))
       return "the bounds of leaf " + std::to_string(i / 2) + " are no range";
   }
   for (double h : tree.blend_half_width)
@@ -49,7 +49,7 @@ Finding check_numbers(const Tree& tree) {
           std::abs(tree.region[i + 1]) <= kFarRegion))
       return "the region of a leaf is no range";
   for (float sigma : tree.sigma)
-    if (!(sigma >= 0.0F && sigma <= kMaxError_m)) return "a sigma is out of range";
+    if (!(sigma >= 0.0F && sigma <= kMaxCorrection_m)) return "a sigma is out of range";
   return std::nullopt;
 }
 
@@ -57,7 +57,7 @@ Finding check_directions(const Tree& tree, std::size_t joints) {
   for (std::size_t node = 0; node * joints < tree.directions.size(); ++node) {
     double sum = 0.0;
     for (std::size_t i = 0; i < joints; ++i) sum += std::abs(tree.directions[node * joints + i]);
-    if (!(std::abs(sum - 1.0) <= kUnitSlack))
+    if (!(std::abs(sum - 1.0) <= kDirectionSlack))
       return "the direction of node " + std::to_string(node) + " is not of length 1";
     if (tree.nodes[node].input != 0)
       return "node " + std::to_string(node) + " has an input and a direction";

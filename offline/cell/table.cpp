@@ -60,14 +60,15 @@ Table read_table(const std::filesystem::path& file, TableOf of) {
   TableReader reader(display_name(file), of);
   std::string block;
   std::size_t after_error = 0;
-  bool more = source.next(block);
+  // An empty file has an empty block, which is read too: its header row is missing.
+  source.next(block);
   reader.expect(expected_lines(block, source.size()), source.size());
-  do {
+  for (bool more = true; more;) {
     reader.read(block);
     if (!reader.problems().errors().empty()) after_error += block.size();
     const bool endless = source.size() == 0 && after_error > kMostAfterError;
     more = !endless && !reader.problems().full() && source.next(block);
-  } while (more);
+  }
   Table table = finished(reader);
   table.sha256 = source.sha256();
   return table;

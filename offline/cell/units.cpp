@@ -69,7 +69,7 @@ std::optional<Unit> unit_of(std::string_view name) {
 
 std::string text_in(const Unit& unit, double si) {
   const double value = unit.from_si(si) + 0.0;  // never "-0"
-  const std::string rounded = fmt::format("{:.15g}", value);
+  std::string rounded = fmt::format("{:.15g}", value);
   double back = 0.0;
   std::from_chars(rounded.data(), rounded.data() + rounded.size(), back);
   const double slack = rounded.size() <= kPlainLength ? kLastPlace * std::abs(si) : 0.0;

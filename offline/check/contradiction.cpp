@@ -116,9 +116,8 @@ class Majority {
     for (int k = 0; k < kRandomStarts; ++k) {
       std::vector<int> few = rows_;
       for (int i = 0; i < kOfAStart; ++i)
-        std::swap(
-            few[static_cast<std::size_t>(i)],
-            few[static_cast<std::size_t>(i + random.below(static_cast<int>(few.size()) - i))]);
+        std::iter_swap(few.begin() + i,
+                       few.begin() + i + random.below(static_cast<int>(few.size()) - i));
       few.resize(kOfAStart);
       ArmState state = robust_placement(cell_, measured_, few, placed).state;
       state = robust_placement(cell_, measured_, nearest(state), state).state;

@@ -30,7 +30,7 @@ void note_tables(const MeasurementFiles& measured, Outcome& outcome) {
 /// another cell.
 fs::path cell_file(const Globals& globals) {
   if (globals.directory.empty()) return find_cell(fs::current_path());
-  const fs::path file = fs::path(globals.directory) / "cell.toml";
+  fs::path file = fs::path(globals.directory) / "cell.toml";
   if (fs::exists(file)) return file;
   throw Failure(Exit::kInput,
                 {.code = "E-CELL-NONE",

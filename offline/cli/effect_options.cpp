@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kUsageCode = "E-USAGE";
 
-[[noreturn]] void refuse(std::string message, std::string help) {
+[[noreturn]] void refuse_option(std::string message, std::string help) {
   throw Failure(Exit::kUsage,
                 {.code = kUsageCode, .message = std::move(message), .help = std::move(help)});
 }
@@ -60,7 +60,7 @@ std::vector<EffectEntry> with_option(const std::vector<EffectEntry>& entries,
   const std::string given = "--set " + shell_word(text);
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    refuse(fmt::format("--set: '{}' is not KEY=VALUE", text), "--set cycles_per_turn=20");
+    refuse_option(fmt::format("--set: '{}' is not KEY=VALUE", text), "--set cycles_per_turn=20");
   const std::string key = text.substr(0, equals), values = text.substr(equals + 1);
   const EffectOption& option = option_named(effect, key, given);
   std::vector<EffectEntry> out;
@@ -98,7 +98,8 @@ void check_whole(const EffectEntry& entry, const std::string& joints) {
 void set_law(const std::string& formula, EffectEntry& out) {
   const std::size_t equals = formula.find('=');
   if (equals == std::string::npos)
-    refuse(fmt::format("--formula: '{}' is not TARGET = EXPRESSION", formula), kFormulaExample);
+    refuse_option(fmt::format("--formula: '{}' is not TARGET = EXPRESSION", formula),
+                  kFormulaExample);
   out.options["target"] = trimmed(formula.substr(0, equals));
   out.options["expression"] = trimmed(formula.substr(equals + 1));
 }
@@ -124,11 +125,12 @@ std::vector<EffectEntry> EffectOptions::to_drop(const Cell& cell) const {
   require_effect(name, kUsageCode);
   const bool lawful = !formula.empty() || !parameters.empty() || !domain.empty();
   if (!is_formula(name) && (lawful || !formula_name.empty()))
-    refuse(fmt::format("--formula, --parameter, --name and --domain belong to 'formula', not to {}",
-                       name),
-           kFormulaExample);
+    refuse_option(
+        fmt::format("--formula, --parameter, --name and --domain belong to 'formula', not to {}",
+                    name),
+        kFormulaExample);
   if (is_formula(name) && !joints.empty())
-    refuse("a formula says itself which joints it reads and moves", kFormulaExample);
+    refuse_option("a formula says itself which joints it reads and moves", kFormulaExample);
   EffectEntry one{.name = name, .joints = {}, .options = {}, .place = {}};
   for (const auto& joint : joints) one.joints.push_back(joint_named(cell, joint, kUsageCode));
   if (!formula.empty()) set_law(formula, one);
@@ -146,7 +148,7 @@ std::vector<EffectEntry> EffectOptions::to_add(const Cell& cell) const {
     fill_in_usual(entry);
     check_whole(entry, fmt::format("{}", fmt::join(joints, ",")));
   }
-  if (is_formula(name) && formula.empty()) refuse("formula needs a law", kFormulaExample);
+  if (is_formula(name) && formula.empty()) refuse_option("formula needs a law", kFormulaExample);
   return out;
 }
 

@@ -12,6 +12,33 @@ double share(const std::string& option, const std::string& text) {
                                std::nullopt, "write " + option + " 2%"});
 }
 
+int joint_named(const Cell& cell, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& row : cell.nominal.joints) names.push_back(row.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  throw Failure(Exit::kUsage,
+                {Severity::kError, "E-SIM-PLAN", "the arm has no joint '" + name + "'",
+                 std::nullopt, "write --coupled-drives " + names.back()});
+}
+
+/// What is not as convenient as in a data sheet.
+Imperfections imperfections_of(const SimulateOptions& options, const Cell& cell) {
+  Imperfections out;
+  for (const double urad : options.joint_scatter_urad) out.joint_scatter.push_back(urad * 1e-6);
+  out.encoder_step = options.encoder_step_urad * 1e-6;
+  if (const auto& g = options.true_gravity; !g.empty()) {
+    if (g.size() != 3) {
+      throw Failure(Exit::kUsage,
+                    {Severity::kError, "E-SIM-PLAN", "gravity is a vector of three numbers",
+                     std::nullopt, "write --true-gravity 0,0,-9.81"});
+    }
+    out.gravity = {g[0], g[1], g[2]};
+  }
+  for (const auto& name : options.coupled_drives) out.coupled.push_back(joint_named(cell, name));
+  return out;
+}
+
 void add_arm_options(VerbOptions& verb, SimulateOptions& options) {
   verb.add_option("--geometry-mm", options.geometry_mm, "1 sigma of every length error")
       .type_name("MM")
@@ -28,6 +55,22 @@ void add_arm_options(VerbOptions& verb, SimulateOptions& options) {
   verb.add_option("--mass-error", options.mass_error, "1 sigma of every mass of the cell")
       .type_name("SHARE")
       .shows_default();
+  verb.add_option("--joint-scatter-urad", options.joint_scatter_urad,
+                  "1 sigma of an error of each joint that is new at every stop; one for all, or "
+                  "one each; of sliding joints in um")
+      .type_name("URAD,URAD,...")
+      .delimiter(',')
+      .one_value_each();
+  verb.add_option("--true-gravity", options.true_gravity,
+                  "In the base frame, in m/s^2, if it is not what cell.toml says")
+      .type_name("X,Y,Z")
+      .delimiter(',')
+      .one_value_each();
+  verb.add_option("--coupled-drives", options.coupled_drives,
+                  "Joints that a parallelogram turns, as J3 of palletisers")
+      .type_name("JOINT,...")
+      .delimiter(',')
+      .one_value_each();
   verb.add_option("--richness", options.richness,
                   "Factor on the second-order terms of the hidden laws; 0: without them")
       .type_name("X")
@@ -41,6 +84,14 @@ void add_measuring_options(VerbOptions& verb, SimulateOptions& options) {
       .shows_default();
   verb.add_option("--repeats", options.repeats, "Measure every tenth pose this many times")
       .type_name("N")
+      .shows_default();
+  verb.add_option("--revisits", options.revisits,
+                  "Measure so many of the poses once more at the end of the session")
+      .type_name("N")
+      .shows_default();
+  verb.add_option("--encoder-step-urad", options.encoder_step_urad,
+                  "Round the recorded joint angles to multiples of it; of sliding joints in um")
+      .type_name("URAD")
       .shows_default();
   verb.add_option("--noise-um,--sigma-um", options.noise_um, "Noise of each axis, 1 sigma")
       .type_name("UM")
@@ -108,6 +159,8 @@ SimulationPlan SimulateOptions::plan(const Cell& cell) const {
   SimulationPlan out;
   out.poses = poses;
   out.repeats = repeats;
+  out.revisits = revisits;
+  out.imperfections = imperfections_of(*this, cell);
   out.noise_m = noise_um * 1e-6;
   if (noise_urad) out.noise_rad = *noise_urad * 1e-6;
   if (directions) out.directions = Recorded::kAlways;
@@ -138,6 +191,9 @@ SimulationPlan SimulateOptions::fresh_plan(SimulationPlan plan,
   plan.seed += 1;
   plan.poses = fresh_poses;
   plan.repeats = 1;
+  plan.revisits = 0;
+  plan.imperfections.joint_scatter.clear();
+  plan.imperfections.encoder_step = 0.0;
   plan.noise_m = plan.outlier_share = plan.held_share = 0.0;
   plan.session_s = session_s;
   plan.seconds_per_pose = session_s / std::max(fresh_poses, 1);

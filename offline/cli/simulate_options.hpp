@@ -15,6 +15,7 @@ namespace plumb::offline::cli {
 struct SimulateOptions {
   int poses = 150;
   int repeats = 1;
+  int revisits = 0;
   double noise_um = 10.0;
   std::optional<double> noise_urad;
   double geometry_mm = 0.3;
@@ -26,6 +27,10 @@ struct SimulateOptions {
   bool temperatures = false;
   bool constant_temperature = false;
   std::vector<double> payloads_kg;
+  std::vector<double> joint_scatter_urad;
+  double encoder_step_urad = 0.0;
+  std::vector<double> true_gravity;
+  std::vector<std::string> coupled_drives;
   std::string outliers = "0%", held = "0%", range = "100%", mass_error = "0%";
   std::string order = "drawn";
   int grid = 0;

@@ -29,7 +29,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct AddArguments {
   EffectOptions effect;
   bool dry_run = false;
 };
@@ -97,8 +97,8 @@ struct Change {
 };
 
 /// Refits with other effects, shows before and after, and only then touches the cell file.
-void make(const Change& change, const Options& options, const Globals& globals, const Cell& cell,
-          Outcome& outcome) {
+void make(const Change& change, const AddArguments& options, const Globals& globals,
+          const Cell& cell, Outcome& outcome) {
   std::optional<Cell> read_back;
   checked(options.effect, cell, [&] { read_back = with_effects(cell, change.effects); });
   const Cell& edited = *read_back;
@@ -153,7 +153,7 @@ void say_which(const Cell& cell, const std::vector<EffectEntry>& entries, Outcom
   outcome.result["joints"] = show::joints_json(cell, entries.front());
 }
 
-void add(const Options& options, const Globals& globals, Outcome& outcome) {
+void add(const AddArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell =
       options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
   const auto entries = options.effect.to_add(cell);
@@ -190,7 +190,7 @@ void add(const Options& options, const Globals& globals, Outcome& outcome) {
                                                                ", or: plumb drop "))});
 }
 
-void drop(const Options& options, const Globals& globals, Outcome& outcome) {
+void drop(const AddArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell =
       options.dry_run ? open_cell(globals, outcome) : open_cell_to_change(globals, outcome);
   const auto entries = options.effect.to_drop(cell);
@@ -210,10 +210,10 @@ void drop(const Options& options, const Globals& globals, Outcome& outcome) {
        options, globals, cell, outcome);
 }
 
-using Verb = void (*)(const Options&, const Globals&, Outcome&);
+using Verb = void (*)(const AddArguments&, const Globals&, Outcome&);
 
 void add_verb(Program& program, const VerbText& text, bool law_too, Verb run) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AddArguments>();
   VerbOptions verb =
       program.verb(text, [options, run](const Globals& g, Outcome& o) { run(*options, g, o); });
   options->effect.add_to(verb, law_too);

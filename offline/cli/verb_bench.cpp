@@ -14,7 +14,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct BenchArguments {
   std::string model, figure;
   bench::TimingRequest request;
   std::uint64_t seed = 1;
@@ -23,7 +23,7 @@ struct Options {
 };
 
 /// Checked before the timing, which takes seconds.
-void refuse_existing(const Options& options) {
+void refuse_existing(const BenchArguments& options) {
   if (options.figure.empty()) return;
   Outcome unused;
   unused.result = Json::object();
@@ -32,7 +32,7 @@ void refuse_existing(const Options& options) {
   files.commit({.force = options.write.force, .dry_run = true}, unused);
 }
 
-bench::Benchmark timed(const Options& options, const format::Model& model) {
+bench::Benchmark timed(const BenchArguments& options, const format::Model& model) {
   const Progress progress(fmt::format("timing the cycle of {}", options.model));
   return bench::benchmark(model, options.request, options.seed);
 }
@@ -47,7 +47,7 @@ void remark_on(const bench::Benchmark& found, Outcome& outcome) {
        .help = "this is a bug of plumb: report it with the model file"});
 }
 
-bool passes(const Options& options, const bench::Benchmark& found, Outcome& outcome) {
+bool passes(const BenchArguments& options, const bench::Benchmark& found, Outcome& outcome) {
   const double median_us = 1e-3 * found.cycle().median();
   if (!options.max_us || median_us <= *options.max_us) return true;
   outcome.exit = Exit::kGateFailed;
@@ -59,14 +59,14 @@ bool passes(const Options& options, const bench::Benchmark& found, Outcome& outc
   return false;
 }
 
-void draw(const Options& options, const bench::Benchmark& found, Outcome& outcome) {
+void draw(const BenchArguments& options, const bench::Benchmark& found, Outcome& outcome) {
   OutputFiles files;
   files.add(options.figure, show::bench_figure(found));
   files.commit(options.write, outcome);
   outcome.text += "\n" + wrote(options.figure, options.write) + "\n";
 }
 
-void bench_model(const Options& options, Outcome& outcome) {
+void bench_model(const BenchArguments& options, Outcome& outcome) {
   const format::Model model = open_model(options.model, outcome);
   refuse_existing(options);
   const bench::Benchmark found = timed(options, model);
@@ -79,7 +79,7 @@ void bench_model(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_bench(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchArguments>();
   VerbOptions verb =
       program.verb({.name = "bench",
                     .summary = "How long a cycle takes, and what each effect of the model costs",

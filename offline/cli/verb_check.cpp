@@ -14,7 +14,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct CheckArguments {
   bool fix = false;
   WriteOptions write;
 };
@@ -26,7 +26,7 @@ void hand_over(const Check& check, Outcome& outcome) {
 }
 
 /// What was wrong with the labels is put right; the rest stands.
-void fix(const Options& options, const Cell& cell, const MeasurementFiles& measured,
+void fix(const CheckArguments& options, const Cell& cell, const MeasurementFiles& measured,
          const Check& check, Outcome& outcome) {
   if (!check.detection.changed) {
     outcome.result["files"] = Json::array();
@@ -49,7 +49,7 @@ void fix(const Options& options, const Cell& cell, const MeasurementFiles& measu
          .help = "count them that way in the targets too, and on the controller"});
 }
 
-void check(const Options& options, const Globals& globals, Outcome& outcome) {
+void check(const CheckArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = options.fix && !options.write.dry_run ? open_cell_to_change(globals, outcome)
                                                           : open_cell(globals, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
@@ -69,7 +69,7 @@ void check(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_check(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckArguments>();
   VerbOptions verb = program.verb(
       {.name = "check",
        .summary = "Units, conventions, duplicates, limits, coverage, and what the data can show",

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompileArguments {
   std::string output;
   std::string c_output;
   CompileOptions compile;
@@ -41,8 +41,8 @@ Json result_of(const Compiled& made, const Audit& audit, const std::string& file
 }
 
 /// The path of the model file. Refused if --emit-c names the same file.
-fs::path model_file(const Options& options, const Cell& cell) {
-  const fs::path file =
+fs::path model_file(const CompileArguments& options, const Cell& cell) {
+  fs::path file =
       options.output.empty() ? cell.directory / "robot.plumb" : fs::path(options.output);
   if (!options.c_output.empty() &&
       fs::weakly_canonical(file) == fs::weakly_canonical(options.c_output))
@@ -54,20 +54,21 @@ fs::path model_file(const Options& options, const Cell& cell) {
 }
 
 /// The model, and if asked for the same tree as C.
-OutputFiles files_of(const Options& options, const fs::path& file, const format::Model& model) {
+OutputFiles files_of(const CompileArguments& options, const fs::path& file,
+                     const format::Model& model) {
   OutputFiles out;
   out.add(file, model_bytes(model));
   if (!options.c_output.empty()) out.add(options.c_output, emit_c(model, options.c_output));
   return out;
 }
 
-std::string wrote_text(const Options& options, const fs::path& file) {
+std::string wrote_text(const CompileArguments& options, const fs::path& file) {
   std::string out = wrote(file, options.write) + "\n";
   if (!options.c_output.empty()) out += wrote(options.c_output, options.write) + "\n";
   return out;
 }
 
-void compile_cell(const Options& options, const Globals& globals, Outcome& outcome) {
+void compile_cell(const CompileArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const fs::path file = model_file(options, cell);
   const Compiled made = compiled(cell, options.compile, options.write, outcome);
@@ -94,7 +95,7 @@ void compile_cell(const Options& options, const Globals& globals, Outcome& outco
 }  // namespace
 
 void add_compile(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompileArguments>();
   VerbOptions verb = program.verb(
       {.name = "compile",
        .summary = "Make the model file for the controller, and audit it",

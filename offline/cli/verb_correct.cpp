@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kTurned_rad = 1e-9;  // less is rounding: orientations are not corrected
 
-struct Options {
+struct CorrectArguments {
   std::string model, data;
   std::optional<std::string> start;  // deg or mm, with commas between
   CsvOutput output;
@@ -45,7 +45,7 @@ std::vector<double> numbers_of(const std::string& text) {
 }
 
 /// --start in SI.
-std::vector<double> start_of(const Options& options, const format::Chain& chain) {
+std::vector<double> start_of(const CorrectArguments& options, const format::Chain& chain) {
   if (!options.start) return {};
   const std::vector<double> start = numbers_of(*options.start);
   if (start.size() != chain.joints.size())
@@ -135,7 +135,7 @@ std::string summary(const Found& found) {
   return out + ".\n" + status_summary(found.counts);
 }
 
-void correct(const Options& options, const Globals& globals, Outcome& outcome) {
+void correct(const CorrectArguments& options, const Globals& globals, Outcome& outcome) {
   check_output(options.output, globals);
   const format::Model model = open_model(options.model, outcome);
   TargetRows rows(model, start_of(options, model.nominal));
@@ -163,7 +163,7 @@ void correct(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_correct(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CorrectArguments>();
   VerbOptions verb = program.verb(
       {.name = "correct",
        .summary = "What to command so that the true arm reaches a target",

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr int kTargets = 20;
 constexpr double kLargestCorrection_m = 5e-3;  // of the heavy arm 3.7 mm
 
-struct Options {
+struct DemoArguments {
   std::string name, directory;
   bool list = false;
   WriteOptions write;
@@ -44,7 +44,7 @@ std::string next_steps(const std::string& folder) {
       folder);
 }
 
-void make_cell(const Options& options, Outcome& outcome) {
+void make_cell(const DemoArguments& options, Outcome& outcome) {
   Demo demo = make_demo(options.name);
   const std::string name = options.name.empty() ? demo_cells().front().first : options.name;
   const fs::path folder = options.directory.empty() ? "demo-" + name : options.directory;
@@ -70,7 +70,7 @@ void make_cell(const Options& options, Outcome& outcome) {
   outcome.text += next_steps(folder.string());
 }
 
-void demo(const Options& options, const Globals&, Outcome& outcome) {
+void demo(const DemoArguments& options, const Globals&, Outcome& outcome) {
   if (options.list) return list_demos(outcome);
   make_cell(options, outcome);
 }
@@ -78,7 +78,7 @@ void demo(const Options& options, const Globals&, Outcome& outcome) {
 }  // namespace
 
 void add_demo(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DemoArguments>();
   VerbOptions verb =
       program.verb({.name = "demo",
                     .summary = "Write a sample cell with simulated measurements, to try everything",

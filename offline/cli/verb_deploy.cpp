@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DeployArguments {
   std::string folder;
   CompileOptions compile;
   WriteOptions write;
 };
 
-void refuse_existing(const Options& options) {
+void refuse_existing(const DeployArguments& options) {
   if (!fs::exists(options.folder)) return;
   if (!fs::is_directory(options.folder))
     throw Failure(Exit::kUsage, {.code = "E-EXISTS",
@@ -69,7 +69,7 @@ std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& lay
           {"rt.toml", write_rt_toml(cell, layout), DeployFile::Summed::kNo}};
 }
 
-void put_result(const Options& options, const Cell& cell, const drivers::BusLayout& layout,
+void put_result(const DeployArguments& options, const Cell& cell, const drivers::BusLayout& layout,
                 const std::vector<DeployFile>& files, const std::string& model, Outcome& outcome) {
   Json names = Json::array();
   for (const auto& file : files) names.push_back((fs::path(options.folder) / file.name).string());
@@ -82,7 +82,7 @@ void put_result(const Options& options, const Cell& cell, const drivers::BusLayo
   put(outcome.result, "worst_bus_load_pct", 100.0 * drivers::worst_bus_load(layout));
 }
 
-std::string next_steps(const Options& options, const Cell& cell) {
+std::string next_steps(const DeployArguments& options, const Cell& cell) {
   return fmt::format(
       "The controller sends {} in message robot: it stands for serial {}.\n\n{}\n\n"
       "Then, on the controller-side PC:\n  plumb-rt run {}\n",
@@ -90,7 +90,7 @@ std::string next_steps(const Options& options, const Cell& cell) {
       wrote(options.folder, options.write), shell_word(options.folder));
 }
 
-void deploy(const Options& options, const Globals& globals, Outcome& outcome) {
+void deploy(const DeployArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   refuse_existing(options);
   const drivers::BusLayout layout = bus_of(cell, cell.deploy.link);
@@ -116,7 +116,7 @@ void deploy(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_deploy(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DeployArguments>();
   VerbOptions verb = program.verb(
       {.name = "deploy",
        .summary = "Everything plumb-rt needs in one folder: model, rt.toml, DBC, Modbus map, sums",

@@ -15,7 +15,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct DiagnoseArguments {
   bool apply = false;
   bool all = false;
   bool dry_run = false;
@@ -50,8 +50,9 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
 }
 
 /// False if the effects were refused.
-bool keep(const Options& options, const Cell& cell, const MeasurementFiles& measured,
-          const Diagnosis& found, double before_m, Outcome& outcome) {
+bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
+                  const MeasurementFiles& measured, const Diagnosis& found, double before_m,
+                  Outcome& outcome) {
   if (found.added.empty()) {
     show::put_null(outcome.result, "run", "nothing was added");
     return true;
@@ -68,13 +69,13 @@ bool keep(const Options& options, const Cell& cell, const MeasurementFiles& meas
     return false;
   }
   // The cell file last: if the run cannot be written, nothing has changed.
-  const Run run = cli::keep(edited, measured, std::move(fitted));
+  const Run run = keep(edited, measured, std::move(fitted));
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
   return true;
 }
 
-void diagnose_cell(const Options& options, const Globals& globals, Outcome& outcome) {
+void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = options.apply && !options.dry_run ? open_cell_to_change(globals, outcome)
                                                       : open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
@@ -96,7 +97,7 @@ void diagnose_cell(const Options& options, const Globals& globals, Outcome& outc
   outcome.result = show::diagnose_json(cell, found);
   outcome.text = show::diagnose_text(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);
-  if (options.apply && !keep(options, cell, measured, found, before_m, outcome))
+  if (options.apply && !keep_applied(options, cell, measured, found, before_m, outcome))
     return say_next(globals, "compare   # where does the model fail?", outcome);
   say_next(globals, show::after_diagnosis(cell, found), outcome);
 }
@@ -104,7 +105,7 @@ void diagnose_cell(const Options& options, const Globals& globals, Outcome& outc
 }  // namespace
 
 void add_diagnose(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiagnoseArguments>();
   VerbOptions verb = program.verb(
       {.name = "diagnose",
        .summary = "Which physical effect is missing: ranked, with evidence",

@@ -9,11 +9,11 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct DiffArguments {
   std::string a, b;
 };
 
-void diff(const Options& options, const Globals& globals, Outcome& outcome) {
+void diff(const DiffArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const Run a = load_run(cell, run_number(options.a));
   const Run b = load_run(cell, run_number(options.b));
@@ -24,7 +24,7 @@ void diff(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_diff(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiffArguments>();
   VerbOptions verb =
       program.verb({.name = "diff",
                     .summary = "What changed between two runs, and what it did to the error",

@@ -12,7 +12,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct ExportArguments {
   std::string run;
   std::string output = "robot.urdf";
   bool nominal = false;
@@ -39,7 +39,7 @@ void warn_of_losses(const format::Model& arm, Outcome& outcome) {
                              .help = "the whole model: plumb compile"});
 }
 
-void run_export(const Options& options, const Globals& globals, Outcome& outcome) {
+void run_export(const ExportArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   format::Model arm;
   std::string what = "nominal arm";
@@ -70,7 +70,7 @@ void run_export(const Options& options, const Globals& globals, Outcome& outcome
 }  // namespace
 
 void add_export(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportArguments>();
   VerbOptions verb = program.verb(
       {.name = "export",
        .summary = "The calibrated arm as URDF, for planners and simulators",

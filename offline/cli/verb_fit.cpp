@@ -21,7 +21,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct FitArguments {
   bool dry_run = false;
   std::optional<double> max_rms_mm;
   std::optional<std::uint64_t> seed;
@@ -29,7 +29,7 @@ struct Options {
   std::string base = name_of(Base::kArm);
 };
 
-void override_split(const Options& options, Cell& cell) {
+void override_split(const FitArguments& options, Cell& cell) {
   if (options.seed) cell.measurement.seed = *options.seed;
   if (!options.held_out) return;
   const auto rule = parse_held_out(*options.held_out, std::filesystem::current_path());
@@ -42,7 +42,7 @@ void override_split(const Options& options, Cell& cell) {
 }
 
 /// The gate of --max-rms; true if it is passed.
-bool passes(const Options& options, const Fit& fit, Outcome& outcome) {
+bool passes(const FitArguments& options, const Fit& fit, Outcome& outcome) {
   if (!options.max_rms_mm) return true;
   if (fit.held.n > 0 && show::to_mm(fit.held.rms) <= *options.max_rms_mm) return true;
   outcome.exit = Exit::kGateFailed;
@@ -56,8 +56,8 @@ bool passes(const Options& options, const Fit& fit, Outcome& outcome) {
   return false;
 }
 
-void keep_run(const Options& options, const Cell& cell, const MeasurementFiles& measured, Fit fit,
-              Outcome& outcome) {
+void keep_run(const FitArguments& options, const Cell& cell, const MeasurementFiles& measured,
+              Fit fit, Outcome& outcome) {
   if (!passes(options, fit, outcome)) {
     show::put_null(outcome.result, "run", "the gate failed");
   } else if (options.dry_run) {
@@ -88,7 +88,7 @@ std::string jump_words(const Cell& cell, const MeasurementFiles& measured, const
       size_in_mm(*step));
 }
 
-void fit(const Options& options, const Globals& globals, Outcome& outcome) {
+void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
   MeasurementFiles measured = open_measurements(cell, outcome);
@@ -105,7 +105,7 @@ void fit(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_fit(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FitArguments>();
   VerbOptions verb = program.verb(
       {.name = "fit",
        .summary = "Calibrate the arm; keep an immutable run under runs/",

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr double kUsualGap_s = 1.0;
 
-struct Options {
+struct ImportArguments {
   std::vector<std::string> files, map, header;
   std::string output, separator, decimal, rotation, join, direction, date;
   std::optional<double> max_gap_s;
@@ -33,7 +33,7 @@ struct Options {
   WriteOptions write;
 };
 
-[[noreturn]] void usage(std::string message, std::string help) {
+[[noreturn]] void import_usage(std::string message, std::string help) {
   throw Failure(Exit::kUsage,
                 {.code = "E-USAGE", .message = std::move(message), .help = std::move(help)});
 }
@@ -44,29 +44,30 @@ std::optional<char> separator_of(const std::string& word) {
       {"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"bar", '|'}, {"blanks", ' '}};
   if (const auto at = kWords.find(word); at != kWords.end()) return at->second;
   if (word.size() == 1) return word.front();
-  usage(fmt::format("--separator: '{}' is not a separator", word),
-        "comma, semicolon, tab, bar, blanks, or one character");
+  import_usage(fmt::format("--separator: '{}' is not a separator", word),
+               "comma, semicolon, tab, bar, blanks, or one character");
 }
 
 std::optional<char> decimal_of(const std::string& word) {
   if (word.empty()) return std::nullopt;
   if (word == "comma" || word == ",") return ',';
   if (word == "point" || word == ".") return '.';
-  usage(fmt::format("--decimal: '{}' is neither comma nor point", word), "--decimal comma");
+  import_usage(fmt::format("--decimal: '{}' is neither comma nor point", word), "--decimal comma");
 }
 
 DateOrder date_of(const std::string& word) {
   if (word.empty()) return DateOrder::kUnknown;
   if (word == "day-first") return DateOrder::kDayFirst;
   if (word == "month-first") return DateOrder::kMonthFirst;
-  usage(fmt::format("--date: '{}' is neither day-first nor month-first", word), "--date day-first");
+  import_usage(fmt::format("--date: '{}' is neither day-first nor month-first", word),
+               "--date day-first");
 }
 
 JoinBy join_of(const std::string& word) {
   if (word.empty() || word == "pose") return JoinBy::kPose;
   if (word == "time") return JoinBy::kTime;
   if (word == "order") return JoinBy::kOrder;
-  usage(fmt::format("--join: '{}' is none of pose, time, order", word), "--join order");
+  import_usage(fmt::format("--join: '{}' is none of pose, time, order", word), "--join order");
 }
 
 /// The nearest cell, if there is a valid one: by its arm a shift of rows between two files is
@@ -81,16 +82,17 @@ std::optional<Cell> nearest_cell(const Globals& globals) {
   }
 }
 
-Imported import_all(const Options& options, const std::optional<Cell>& cell) {
+Imported import_all(const ImportArguments& options, const std::optional<Cell>& cell) {
   if (options.files.size() > 2)
-    usage("import takes one file, or two that belong together", "import them one after the other");
+    import_usage("import takes one file, or two that belong together",
+                 "import them one after the other");
   if (!options.rotation.empty()) (void)euler_convention(options.rotation);
   const JoinBy by = join_of(options.join);
   if (options.files.size() == 1 && !options.join.empty())
-    usage("--join lays two files side by side, and one is given",
-          "plumb import controller.csv tracker.csv --join " + options.join);
+    import_usage("--join lays two files side by side, and one is given",
+                 "plumb import controller.csv tracker.csv --join " + options.join);
   if (by != JoinBy::kTime && options.max_gap_s)
-    usage("--max-gap is the time between partners of --join time", "add --join time");
+    import_usage("--max-gap is the time between partners of --join time", "add --join time");
   ImportWishes wishes{.dialect = {.separator = separator_of(options.separator),
                                   .decimal = decimal_of(options.decimal),
                                   .header = options.header},
@@ -105,7 +107,7 @@ Imported import_all(const Options& options, const std::optional<Cell>& cell) {
                : std::vector<std::string>{};
   };
   if (!options.direction.empty() && options.direction != "from-order")
-    usage(fmt::format("--dir: '{}' is not known", options.direction), "--dir from-order");
+    import_usage(fmt::format("--dir: '{}' is not known", options.direction), "--dir from-order");
   wishes.elsewhere = other(0);
   Imported data = import_file(options.files[0], wishes);
   if (options.files.size() == 2) {
@@ -137,7 +139,7 @@ Json columns_json(const Imported& data) {
   return out;
 }
 
-fs::path target_of(const Options& options, const std::optional<Cell>& cell) {
+fs::path target_of(const ImportArguments& options, const std::optional<Cell>& cell) {
   if (!options.output.empty()) return options.output;
   if (cell) return cell->directory / "measurements.csv";
   return "measurements.csv";
@@ -151,7 +153,7 @@ bool reads(const Cell& cell, const fs::path& target) {
 }
 
 /// Measurements cost a day of work: the message that proposes --force also says what would be lost.
-void keep_what_is_measured(const Options& options, const std::optional<Cell>& cell,
+void keep_what_is_measured(const ImportArguments& options, const std::optional<Cell>& cell,
                            const fs::path& target) {
   if (options.write.force || !cell || !fs::exists(target) || !reads(*cell, target)) return;
   throw Failure(
@@ -173,7 +175,7 @@ void say_after(const fs::path& target, const std::optional<Cell>& cell, const Gl
   say_next(globals, "check", outcome);
 }
 
-void import(const Options& options, const Globals& globals, Outcome& outcome) {
+void import(const ImportArguments& options, const Globals& globals, Outcome& outcome) {
   const Progress progress("importing");
   const std::optional<Cell> cell = nearest_cell(globals);
   const Imported data = import_all(options, cell);
@@ -214,7 +216,7 @@ void import(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_import(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportArguments>();
   VerbOptions verb = program.verb(
       {.name = "import",
        .summary = "Turn a tracker's or controller's text file into measurements.csv",

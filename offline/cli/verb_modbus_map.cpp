@@ -12,12 +12,12 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct ModbusMapArguments {
   BusOutput output;
   bool csv = false;
 };
 
-void run_map(const Options& options, const Globals& globals, Outcome& outcome) {
+void run_map(const ModbusMapArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const drivers::BusLayout layout = bus_of(cell, drivers::BusUse::kModbus);
   std::size_t registers = 0;
@@ -34,7 +34,7 @@ void run_map(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_modbus_map(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ModbusMapArguments>();
   VerbOptions verb = program.verb(
       {.name = "modbus-map",
        .summary = "The Modbus registers as Markdown or CSV",

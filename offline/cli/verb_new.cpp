@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 
 constexpr double kNearParallel = 0.05;  // sine of the angle between neighbouring axes
 
-struct Options {
+struct NewArguments {
   std::string directory, dh, urdf, tip, convention, name, serial;
   WriteOptions write;
 };
 
-void check(const Options& options) {
+void check(const NewArguments& options) {
   if (!options.urdf.empty() && !options.dh.empty())
     throw Failure(Exit::kUsage, {.code = "E-USAGE",
                                  .message = "--dh and --urdf both describe the arm",
@@ -56,7 +56,7 @@ std::vector<JointMechanics> mechanics_of(const format::Chain& chain) {
 }
 
 /// DH rows are computed, so the convention is a matter of taste.
-Cell urdf_cell(const Options& options, format::Convention convention, Outcome& outcome) {
+Cell urdf_cell(const NewArguments& options, format::Convention convention, Outcome& outcome) {
   outcome.inputs.push_back(
       {display_name(options.urdf), sha256(read_file_up_to(options.urdf, kMostUrdfBytes))});
   if (options.convention.empty())
@@ -95,7 +95,7 @@ void make_readable(Cell& cell, Outcome& outcome) {
   }
 }
 
-Cell new_cell(const Options& options, const fs::path& folder, Outcome& outcome) {
+Cell new_cell(const NewArguments& options, const fs::path& folder, Outcome& outcome) {
   const auto convention = options.convention == "modified" ? format::Convention::kModified
                                                            : format::Convention::kStandard;
   Cell cell;
@@ -116,7 +116,7 @@ Cell new_cell(const Options& options, const fs::path& folder, Outcome& outcome) 
   return cell;
 }
 
-void make(const Options& options, const Globals&, Outcome& outcome) {
+void make(const NewArguments& options, const Globals&, Outcome& outcome) {
   check(options);
   const fs::path folder = fs::absolute(options.directory).lexically_normal();
   const fs::path named = folder.has_filename() ? folder : folder.parent_path();
@@ -139,7 +139,7 @@ void make(const Options& options, const Globals&, Outcome& outcome) {
 }  // namespace
 
 void add_new(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NewArguments>();
   VerbOptions verb =
       program.verb({.name = "new",
                     .summary = "Write a commented cell.toml from a DH table or a URDF file",

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlanArguments {
   int n = 30, pool = 5000;
   std::uint64_t seed = 1;
   std::string limits, separate, payloads, output = "plan.csv";
@@ -89,7 +89,7 @@ std::vector<double> loads_of(const std::string& text) {
   return out;
 }
 
-PlanRequest request_of(const Options& options, const Cell& cell) {
+PlanRequest request_of(const PlanArguments& options, const Cell& cell) {
   PlanRequest out;
   out.n = options.n;
   out.rules.pool = std::max(options.pool, options.n);
@@ -121,7 +121,7 @@ fs::path new_measurements(const Cell& cell) {
       return file;
 }
 
-void plan(const Options& options, const Globals& globals, Outcome& outcome) {
+void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const PlanRequest request = request_of(options, cell);
   const MeasurementFiles measured = measured_already(cell)
@@ -146,7 +146,7 @@ void plan(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_plan(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanArguments>();
   VerbOptions verb = program.verb(
       {.name = "plan",
        .summary = "The next poses to measure: for the arm, or to tell two effects apart",

@@ -23,7 +23,7 @@
 namespace plumb::offline::cli {
 namespace {
 
-struct Options {
+struct PredictArguments {
   std::string model, data, run;
   bool as_measured = false;
   CsvOutput output;
@@ -33,20 +33,21 @@ std::span<const double> joints(const MeasurementFiles& rows, int i) {
   return {rows.q.row(i).data(), static_cast<std::size_t>(rows.q.cols())};
 }
 
-[[noreturn]] void usage(const std::string& message, const std::string& help) {
+[[noreturn]] void predict_usage(const std::string& message, const std::string& help) {
   throw Failure(Exit::kUsage, {.code = "E-USAGE", .message = message, .help = help});
 }
 
-void check(const Options& options, const Globals& globals) {
+void check(const PredictArguments& options, const Globals& globals) {
   check_output(options.output, globals);
   if (options.as_measured && !options.model.empty())
-    usage("--as-measured takes no model file: a run makes it",
-          "plumb predict --as-measured -o out.csv");
+    predict_usage("--as-measured takes no model file: a run makes it",
+                  "plumb predict --as-measured -o out.csv");
   if (!options.as_measured && !options.run.empty())
-    usage("--run belongs to --as-measured", "plumb predict --as-measured --run 2 -o out.csv");
+    predict_usage("--run belongs to --as-measured",
+                  "plumb predict --as-measured --run 2 -o out.csv");
   if (!options.as_measured && (options.model.empty() || options.data.empty()))
-    usage("predict needs a model file and --data",
-          "plumb predict robot.plumb --data poses.csv -o out.csv");
+    predict_usage("predict needs a model file and --data",
+                  "plumb predict robot.plumb --data poses.csv -o out.csv");
 }
 
 void set_points(const Rows3& p, show::CsvColumns& columns) {
@@ -162,7 +163,7 @@ class ModelRows {
 };
 
 /// The tool centre point in the base frame, through the runtime.
-void predict_model(const Options& options, Outcome& outcome) {
+void predict_model(const PredictArguments& options, Outcome& outcome) {
   const format::Model model = open_model(options.model, outcome);
   ModelRows rows(model);
   RowStream stream(options.data, ModelRows::columns(), options.output);
@@ -197,7 +198,7 @@ void set_split(const Split& split, show::CsvColumns& columns) {
   columns.set("fold", std::move(fold));
 }
 
-Run chosen_run(const Options& options, const Cell& cell, const MeasurementFiles& measured,
+Run chosen_run(const PredictArguments& options, const Cell& cell, const MeasurementFiles& measured,
                Outcome& outcome) {
   const auto keep_it = options.output.write.dry_run ? Keep::kNothing : Keep::kRun;
   if (options.run.empty()) return current_or_new_run(cell, measured, keep_it, outcome);
@@ -226,8 +227,8 @@ std::vector<Status> domain_status(const Run& run, const MeasurementFiles& rows,
   return out;
 }
 
-void finish(const Options& options, const std::vector<Status>& status, const std::string& verdict,
-            show::CsvColumns& columns, Outcome& outcome) {
+void finish(const PredictArguments& options, const std::vector<Status>& status,
+            const std::string& verdict, show::CsvColumns& columns, Outcome& outcome) {
   StatusCounts counts;
   std::vector<std::string> texts;
   for (const Status s : status) {
@@ -241,7 +242,8 @@ void finish(const Options& options, const std::vector<Status>& status, const std
 }
 
 /// The measured point in the measurement frame: held-out poses by models that never saw them.
-void predict_as_measured(const Options& options, const Globals& globals, Outcome& outcome) {
+void predict_as_measured(const PredictArguments& options, const Globals& globals,
+                         Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = chosen_run(options, cell, measured, outcome);
@@ -265,7 +267,7 @@ void predict_as_measured(const Options& options, const Globals& globals, Outcome
          columns, outcome);
 }
 
-void predict(const Options& options, const Globals& globals, Outcome& outcome) {
+void predict(const PredictArguments& options, const Globals& globals, Outcome& outcome) {
   check(options, globals);
   if (options.as_measured)
     predict_as_measured(options, globals, outcome);
@@ -276,7 +278,7 @@ void predict(const Options& options, const Globals& globals, Outcome& outcome) {
 }  // namespace
 
 void add_predict(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PredictArguments>();
   VerbOptions verb = program.verb(
       {.name = "predict",
        .summary = "Where the arm truly is: forward model through the runtime's own code",

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct StudyArguments {
   std::string name, variant = "published", cell, figures;
   double noise_um = 0.0;
   int draws = 20;
@@ -24,7 +24,7 @@ struct Options {
   WriteOptions write;
 };
 
-PlanarVariant variant_of(const Options& options) {
+PlanarVariant variant_of(const StudyArguments& options) {
   return options.variant == "printed" ? PlanarVariant::kPrinted : PlanarVariant::kPublished;
 }
 
@@ -40,7 +40,7 @@ class Steps {
   std::unique_ptr<Progress> now_;
 };
 
-void add_cell_files(const Options& options, OutputFiles& files) {
+void add_cell_files(const StudyArguments& options, OutputFiles& files) {
   study::PlanarCell planar =
       study::measured_cell({variant_of(options), planar_grid(study::kTrainingStep),
                             options.noise_um * 1e-6, options.seed});
@@ -52,7 +52,7 @@ void add_cell_files(const Options& options, OutputFiles& files) {
   files.add(folder / "truth.json", planar.truth_json);
 }
 
-void planar(const Options& options, Outcome& outcome) {
+void planar(const StudyArguments& options, Outcome& outcome) {
   OutputFiles files(options.cell.empty() ? options.figures : options.cell);
   if (!options.cell.empty()) {
     add_cell_files(options, files);
@@ -83,7 +83,7 @@ void planar(const Options& options, Outcome& outcome) {
   outcome.text += "\n" + wrote(fs::path(options.figures) / "*.svg", options.write) + "\n";
 }
 
-void six_axis(const Options& options, Outcome& outcome) {
+void six_axis(const StudyArguments& options, Outcome& outcome) {
   Steps steps;
   const study::SixAxisStudy found = study::run_six_axis_study(
       {.draws = options.draws, .seed = options.seed, .tell = [&](const std::string& what) {
@@ -93,7 +93,7 @@ void six_axis(const Options& options, Outcome& outcome) {
   outcome.text = show::six_axis_text(found);
 }
 
-void run_study(const Options& options, Outcome& outcome) {
+void run_study(const StudyArguments& options, Outcome& outcome) {
   if (options.name == "planar") return planar(options, outcome);
   return six_axis(options, outcome);
 }
@@ -101,7 +101,7 @@ void run_study(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_study(Program& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StudyArguments>();
   VerbOptions verb =
       program.verb({.name = "study",
                     .summary = "Reproduce the published study, and see how far it can be beaten",

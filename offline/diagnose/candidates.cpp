@@ -30,8 +30,8 @@ const char* word(EffectDomain domain) {
   }
 }
 
-std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scorer,
-                                        const Regressor& regressor, const RegressorScore& scored,
+std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Regressor& regressor,
+                                        const RegressorScore& scored,
                                         const std::vector<double>& cycles) {
   format::Model model;
   model.calibrated = s.cell->nominal;
@@ -43,8 +43,7 @@ std::vector<CandidateNumber> numbers_of(const WhitenedFit& s, const Scorer& scor
     UX += scored.folds[f].UX;
   }
   gram -= UX.transpose() * UX;
-  const double left =
-      std::max(scorer.scale().variance, s.Q * (1.0 - scored.explained) / scorer.scale().lines);
+  const double left = scored.variance;
   gram.diagonal().array() += left / std::pow(scored.evidence.width, 2);
   const Eigen::MatrixXd C =
       left * gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
@@ -68,7 +67,8 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
   Eigen::VectorXd motion = motions(s, regressor).topRows(s.fit_lines) * scored.theta;
   const auto U = s.U.topRows(s.fit_lines);
   motion -= U * (U.transpose() * motion).eval();
-  for (Eigen::Index i = 0; i < s.fit_lines; ++i) motion(i) *= s.sigma[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i)
+    unwhiten(s, i, motion.segment(i * s.axes, s.axes));
   return motion.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
 }
 
@@ -87,7 +87,7 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   if (out.cycles.empty() && has_option(found.entry, OptionKey::kCyclesPerTurn))
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
   out.supported = found.score > kSupported && gain.clear;
-  out.numbers = numbers_of(s, scorer, regressor, found.scored, found.cycles);
+  out.numbers = numbers_of(s, regressor, found.scored, found.cycles);
   out.plausible = std::all_of(out.numbers.begin(), out.numbers.end(),
                               [](const CandidateNumber& n) { return n.plausible; });
   out.explained = found.scored.explained;

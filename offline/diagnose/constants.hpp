@@ -97,12 +97,19 @@ inline constexpr double kTypicalStep = 300e-6;
 /// Below so many fit poses there are more folds, so that each leaves enough to fit. study.
 inline constexpr int kManyPoses = 100;
 inline constexpr int kFoldCount = 6, kManyFoldCount = 10;
-/// Degrees of freedom with which a stated sigma is believed: good to some 35 %. study.
-inline constexpr double kStatedDof = 4.0;
 /// No tracker is better [m]. arms.
 inline constexpr double kSmallestSigma_m = 0.1e-6;
 /// Coordinates beyond the parameters below which nothing can be told. data.
 inline constexpr double kFewestFreeLines = 20.0;
+
+// Scatter of the joints.
+
+/// Scatter that explains no more than this needs no second look [nats]. odds.
+inline constexpr double kScatterMatters = 2.0;
+/// Poses from which its likelihood is taken; for more it is extrapolated. cost.
+inline constexpr Eigen::Index kScatterPoses = 2500;
+/// Estimates of the scatter beside the best candidate, should that become another one. cost.
+inline constexpr int kScatterRounds = 2;
 
 // Waves of a joint [cycles a turn].
 

@@ -10,6 +10,7 @@
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/forward_selection.hpp"
+#include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/refit.hpp"
 #include "effects/registry.hpp"
@@ -97,10 +98,11 @@ HeldOut nested_held_out(const Work& w) {
       w.request.tell(fmt::format("step 4 of 4, fold {} of {}", k + 1, w.split.folds));
     const auto inside = fit_rows(w.split, k);
     const Calibration base = calibrate(w.cell, w.measured, inside);
-    const WhitenedFit whitened =
-        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {});
-    const ForwardSelection found = forward_selection(w.start(inside, true), base, whitened,
-                                                     scan(whitened, w.not_testable, {}));
+    const JudgedFit at = judged(
+        make_whitened_fit(w.cell, w.measured, base, without_outliers(inside, base.outliers), {}),
+        w.not_testable, {});
+    const ForwardSelection found =
+        forward_selection(w.start(inside, true), base, at.whitened, at.look);
     out.put(found.steps.empty() ? base : found.steps.back().calibration, held_rows(w.split, k));
   }
   return out;
@@ -208,7 +210,13 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   say_what_was_not_judged(found, out);
   if (!found.steps.empty()) {
     out.effects = found.steps.back().effects;
-    out.floor = noise_floor(w.cell, w.measured, found.steps.back().calibration.state);
+    Cell with = w.cell;
+    with.effects = out.effects;
+    const Calibration& fitted = found.steps.back().calibration;
+    out.repeatability =
+        repeatability(with, w.measured, fitted, without_outliers(w.fit, fitted.outliers));
+    out.floor =
+        with_repeatability(noise_floor(w.cell, w.measured, fitted.state), out.repeatability);
   }
   if (w.split.folds > 0 && !(refused && kept == 0)) {
     out.nested = true;
@@ -253,9 +261,12 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   const Calibration base = calibrate(w.cell, measured, w.fit);
   tell_step(request, 1);
   const auto rows = without_outliers(w.fit, base.outliers);
-  const WhitenedFit whitened = make_whitened_fit(w.cell, measured, base, rows, w.held);
-  const Scan first = scan(whitened, w.not_testable, {});
-  out.floor = noise_floor(w.cell, measured, base.state);
+  const JudgedFit at =
+      judged(make_whitened_fit(w.cell, measured, base, rows, w.held), w.not_testable, {});
+  const WhitenedFit& whitened = at.whitened;
+  const Scan& first = at.look;
+  out.repeatability = at.repeatability;
+  out.floor = with_repeatability(noise_floor(w.cell, measured, base.state), out.repeatability);
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());
   out.regressors = first.regressors;

@@ -13,6 +13,7 @@
 #include "fit/error_stats.hpp"
 #include "fit/held_out_excess.hpp"
 #include "fit/noise_floor.hpp"
+#include "fit/repeatability.hpp"
 
 namespace plumb::offline {
 
@@ -80,7 +81,8 @@ struct Diagnosis {
   Finding finding = Finding::kComplete;
   std::optional<Finding> finding_after;  // with `apply`
   std::string text, text_after;          // the verdicts in words
-  NoiseFloor floor;
+  NoiseFloor floor;             // with the repeatability of the arm in it, where it is known
+  Repeatability repeatability;  // beside the first candidate; with `apply`, at the end
   int poses_fit = 0, poses_held = 0;
   bool nested = false;  // held-out figures come from folds around the whole diagnosis
   ErrorStats before, after;

@@ -24,6 +24,13 @@ std::string floor_words(const NoiseFloor& floor) {
   return "noise floor " + mm(floor.mean_m);
 }
 
+/// What of the floor is the arm's, as a sentence of its own; empty: nothing is seen of it.
+std::string repeatability_words(const Cell& cell, const Diagnosis& d) {
+  if (!d.repeatability.supported()) return "";
+  return fmt::format(" Repeatability of the joints, which is in the floor: {} (1 sigma).",
+                     in_words(cell, d.repeatability));
+}
+
 std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
   std::string size = mm(unknown.rms_m);
   if (unknown.rms_rad > 0.0) size = fmt::format("{:.0f} µrad, {}", unknown.rms_rad * 1e6, size);
@@ -228,7 +235,8 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
             mm(d.before.mean));
       return fmt::format("Undecidable: {} poses cannot tell what is missing.", d.poses_fit);
     default:
-      return "Complete: " + complete_words(d, d.before, Held::kSay) + ".";
+      return "Complete: " + complete_words(d, d.before, Held::kSay) + "." +
+             repeatability_words(cell, d);
   }
 }
 
@@ -249,9 +257,9 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
       if (d.tied && !d.added.empty()) return fmt::format("{}; {}.", fall, tie_words(cell, d));
       return fall + "; what is left cannot be judged without a noise floor.";
     default:
-      return fmt::format("{}; {}{}.", fall,
+      return fmt::format("{}; {}{}.{}", fall,
                          complete_words(d, d.after, d.added.empty() ? Held::kSay : Held::kSaid),
-                         unlikely_words(cell, d));
+                         unlikely_words(cell, d), repeatability_words(cell, d));
   }
 }
 

@@ -31,6 +31,7 @@ WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor) {
   out.U.conservativeResize(Eigen::NoChange, whitened.rank + rank);
   out.U.rightCols(rank) = fresh;
   out.rank = whitened.rank + rank;
+  out.scatter_nats = 0.0;  // the first effect of an explanation has paid them
   fold_joints(out);
   return out;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/held_out.hpp"
 
-#include <cmath>
-
 namespace plumb::offline {
 namespace {
 
@@ -10,12 +8,9 @@ namespace {
 void add_norms(const WhitenedFit& s, const Segment& at, const Eigen::VectorXd& lines,
                std::vector<double>& out) {
   for (Eigen::Index i = 0; i < at.size(); ++i) {
-    double sum = 0.0;
-    for (int k = 0; k < s.axes; ++k) {
-      const Eigen::Index line = (at.begin + i) * s.axes + k;
-      sum += std::pow(lines(i * s.axes + k) * s.sigma[line], 2);
-    }
-    out.push_back(std::sqrt(sum));
+    Eigen::VectorXd error = lines.segment(i * s.axes, s.axes);
+    unwhiten(s, at.begin + i, error);
+    out.push_back(error.norm());
   }
 }
 

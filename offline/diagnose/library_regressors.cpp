@@ -78,13 +78,12 @@ void motion_columns(const Bound& bound, Regressor& out) {
     Vector3 d(motion.shift_B(0).d(lane), motion.shift_B(1).d(lane), motion.shift_B(2).d(lane));
     const Vector3 e(motion.turn_B(0).d(lane), motion.turn_B(1).d(lane), motion.turn_B(2).d(lane));
     d = s.R_MB[i] * (d + cross<double>(e, s.arm_B[i]));
-    Eigen::Index line = i * s.axes;
-    for (int k = 0; k < 3; ++k)
-      if (s.measured->has_axis[k]) {
-        double sum = d(k) / s.sigma[line];
-        for (int j = 0; j < s.joints(); ++j) sum += s.joint[j](line) * motion.dq[j].d(lane);
-        out.columns(line++, c) = sum;
-      }
+    auto lines = out.columns.col(c).segment(i * s.axes, s.axes);
+    for (int k = 0, line = 0; k < 3; ++k)
+      if (s.measured->has_axis[k]) lines(line++) = d(k);
+    whiten(s, i, lines);
+    for (int j = 0; j < s.joints(); ++j)
+      lines += s.joint[j].segment(i * s.axes, s.axes) * motion.dq[j].d(lane);
   });
 }
 

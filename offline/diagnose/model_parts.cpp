@@ -49,6 +49,12 @@ std::vector<Part> parts_of(const Cell& cell, const Calibration& calibration) {
   return out;
 }
 
+/// Inverse information of a part's parameters, those of the rest being unknown.
+Eigen::MatrixXd covariance_of(const Part& part, const WhitenedFit& whitened) {
+  const Eigen::MatrixXd half = whitened.half_information(part.index, Eigen::all);
+  return half * half.transpose();
+}
+
 /// Evidence of a part over all else in the model, from the joint fit alone.
 double evidence_of(const Part& part, const WhitenedFit& whitened, const Calibration& calibration) {
   const auto b = static_cast<Eigen::Index>(part.index.size());
@@ -58,9 +64,9 @@ double evidence_of(const Part& part, const WhitenedFit& whitened, const Calibrat
     double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
     const double value = value_of(calibration.state, p);
     if (typical == 0.0) typical = std::max(std::abs(value), 1e-300);
-    theta(i) = value / typical;
+    theta(i) = (value + whitened.correction(part.index[i])) / typical;
   }
-  Eigen::MatrixXd C = whitened.inverse_information(part.index, part.index);
+  Eigen::MatrixXd C = covariance_of(part, whitened);
   for (Eigen::Index i = 0; i < b; ++i) {
     const Parameter& p = calibration.parameters[part.index[i]];
     double typical = effect_parameter(calibration.state.arm, p.joint, p.component).typical;
@@ -80,7 +86,7 @@ double motion_of(const Part& part, const WhitenedFit& whitened, const Calibratio
   Eigen::VectorXd theta(static_cast<Eigen::Index>(part.index.size()));
   for (Eigen::Index i = 0; i < theta.size(); ++i)
     theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
-  const Eigen::MatrixXd C = whitened.inverse_information(part.index, part.index);
+  const Eigen::MatrixXd C = covariance_of(part, whitened);
   return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
 }
 
@@ -138,7 +144,8 @@ std::vector<Oversized> oversized(const Cell& cell, const WhitenedFit& whitened,
       const Parameter& p = calibration.parameters[static_cast<std::size_t>(i)];
       const auto info = effect_parameter(calibration.state.arm, p.joint, p.component);
       const double value = value_of(calibration.state, p);
-      const double std = s * std::sqrt(std::max(0.0, whitened.inverse_information(i, i)));
+      const double std =
+          s * std::sqrt(std::max(0.0, whitened.half_information.row(i).squaredNorm()));
       fine = fine && plausible(value, std, info);
       one.possible = one.possible && possible(value, std, info);
       one.times = std::max(one.times, times_usual(value, std, info));

@@ -11,7 +11,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kRidge = 1e-9;  // a fold may be all that says something about a parameter
+constexpr double kLeastVariance = 1e-12;  // noise-free data
+constexpr double kRidge = 1e-9;           // a fold may be all that says something about a parameter
 
 Products products_of_joint(const WhitenedFit& s, const Regressor& regressor, const Segment& at) {
   const auto S = regressor.columns.middleRows(at.begin, at.size());
@@ -132,7 +133,8 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
     out.evidence = evidence(gram, v, whitened_.Q, scale_);
     if (out.evidence.ln_bayes <= kImpossible) out.active.clear();
     if (out.active.empty()) break;
-    const double ridge = scale_.variance / std::pow(out.evidence.width, 2);
+    out.variance = variance_with(gram, v, out.evidence.width);
+    const double ridge = out.variance / std::pow(out.evidence.width, 2);
     const Eigen::VectorXd theta =
         (gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).ldlt().solve(v);
     const Eigen::Index worst = most_negative(regressor, out.active, theta);
@@ -146,11 +148,23 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
   out.evidence.ln_bayes -=
       std::log(2.0) *
       static_cast<double>(all.Xy.size() - static_cast<Eigen::Index>(out.active.size()));
+  out.evidence.ln_bayes -= whitened_.scatter_nats;
   if (out.active.empty()) out.evidence.ln_bayes = kImpossible;
   const double seen = out.theta.dot(whole * out.theta), moved = out.theta.dot(all.XX * out.theta);
   out.explained = whitened_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / whitened_.Q : 0.0;
   out.absorbed = moved > 0.0 ? std::clamp(1.0 - seen / moved, 0.0, 1.0) : 0.0;
   return out;
+}
+
+/// Mean of what is then believed of the variance of a line: what is known of the noise, and what
+/// the regressor leaves of the residual.
+double Scorer::variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v,
+                             double width) const {
+  const double ridge = scale_.variance / std::pow(width, 2);
+  const Eigen::MatrixXd damped = gram + ridge * Eigen::MatrixXd::Identity(v.size(), v.size());
+  const double left = std::max(0.0, whitened_.Q - v.dot(damped.ldlt().solve(v)));
+  return std::max(kLeastVariance, (scale_.dof * scale_.variance + left) /
+                                      (scale_.dof + std::max(1.0, scale_.lines)));
 }
 
 Products Scorer::products(const Regressor& regressor) const {
@@ -166,9 +180,7 @@ Scorer::Without Scorer::without(std::size_t f) const {
 Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) const {
   const Products all = active_of(sum_of(scored.folds), scored.active);
   const Products held = active_of(scored.folds[f], scored.active);
-  const double left =
-      std::max(scale_.variance, whitened_.Q * (1.0 - scored.explained) / scale_.lines);
-  const double ridge = left / std::pow(scored.evidence.width, 2);
+  const double ridge = scored.variance / std::pow(scored.evidence.width, 2);
   const Eigen::Index b = all.Xy.size();
   const Fold& fold = folds_[f];
   const Eigen::MatrixXd B = all.UX - held.UX;
@@ -206,8 +218,12 @@ Gain Scorer::gain(const RegressorScore& scored) const {
   Gain out;
   if (before <= 0.0) return out;
   out.share = 1.0 - std::sqrt(std::max(0.0, after) / before);
-  const double spread = std::max(0.0, share_squares / K - share / K * share / K);
-  out.share_se = std::sqrt(spread / std::max(1.0, K - 1.0));
+  // The folds share most of the poses that they are fitted to, and so are less independent than
+  // they look: the variance of their mean is not 1 / K but 1 / K + 1 / (K - 1) of the spread
+  // [Nadeau & Bengio 2003].
+  const double spread =
+      std::max(0.0, share_squares / K - share / K * share / K) * K / std::max(1.0, K - 1.0);
+  out.share_se = std::sqrt(spread * (1.0 / K + 1.0 / std::max(1.0, K - 1.0)));
   out.clear = out.share > kClearShare && mean > se;
   return out;
 }

@@ -19,14 +19,15 @@ struct Products {
 /// How far a held-out error falls, fold by fold inside the fit poses.
 struct Gain {
   double share = 0.0;     // of the RMS
-  double share_se = 0.0;  // standard error of that, over the folds
-  bool clear = false;     // more than 1 %, and more than one standard error
+  double share_se = 0.0;  // standard error of that, as a prediction of the fall on other poses
+  bool clear = false;     // more than 1 %, and more than one standard error of the folds
 };
 
 /// A regressor scored at a whitened fit.
 struct RegressorScore {
   std::vector<Products> folds;
   Evidence evidence;
+  double variance = 1.0;             // of a line, with the regressor in the model
   double explained = 0.0;            // share of the residual's sum of squares
   double absorbed = 0.0;             // share of the motion that the model can imitate
   Eigen::VectorXd theta;             // fitted size of each column, 1 = typical
@@ -76,6 +77,8 @@ class Scorer {
     Eigen::MatrixXd without;  // (U^T U of the others)^-1
     double error = 0.0;       // held-out sum of squares of the model alone
   };
+  double variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double width) const;
+
   const WhitenedFit& whitened_;
   EvidenceScale scale_;
   std::vector<Fold> folds_;

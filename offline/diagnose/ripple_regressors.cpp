@@ -40,7 +40,11 @@ std::vector<double> fast_ripple_grid(const WhitenedFit& s, int joint) {
   const double range = range_of(s, joint);
   if (range < kLeastRange_rad) return out;
   const double step = std::min(kRippleStep, M_PI / range);
-  for (double k = kLastRipple + step; k <= kFastest; k += step) out.push_back(k);
+  double k = kLastRipple + step;
+  while (k <= kFastest) {
+    out.push_back(k);
+    k += step;
+  }
   if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
     for (const double waves : kMotorWaves)
       if (waves * std::abs(*ratio) > kLastRipple) out.push_back(waves * std::abs(*ratio));

@@ -49,8 +49,8 @@ std::optional<Found> found_ripples(const Scorer& scorer, const Ripples& waves, d
   const Regressor regressor = ripple_regressor(scorer.whitened(), waves.joint, waves.cycles);
   Found out{regressor.entry, {}, scorer.score(regressor), {}, 0.0, waves.cycles, 0.0};
   const auto count = static_cast<double>(waves.cycles.size());
-  out.score =
-      waves.cycles.size() == 1 ? waves.strongest_ln_bayes - paid : out.ln_bayes() - count * paid;
+  const double strongest = waves.strongest_ln_bayes - scorer.whitened().scatter_nats;
+  out.score = waves.cycles.size() == 1 ? strongest - paid : out.ln_bayes() - count * paid;
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
+#include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/unless_refused.hpp"
 
@@ -42,9 +43,8 @@ WhitenedFit Selection::whitened_fit_of(const FittedModel& model) const {
 JudgedModel Selection::without(const EffectEntry& entry,
                                const std::vector<std::string>& banned) const {
   FittedModel model = fitted(without_effect(cell().effects, entry));
-  WhitenedFit whitened = whitened_fit_of(model);
-  Scan look = scan(whitened, start_.not_testable, banned);
-  return {std::move(model), std::move(whitened), std::move(look)};
+  JudgedFit found = judged(whitened_fit_of(model), start_.not_testable, banned);
+  return {std::move(model), std::move(found.whitened), std::move(found.look)};
 }
 
 void Selection::go_to(JudgedModel there) {
@@ -53,9 +53,9 @@ void Selection::go_to(JudgedModel there) {
 }
 
 void Selection::look_at(FittedModel model, WhitenedFit whitened) {
-  Scan look = scan(whitened, start_.not_testable, banned_);
+  JudgedFit found = judged(std::move(whitened), start_.not_testable, banned_);
   waiting_.clear();
-  go_to({std::move(model), std::move(whitened), std::move(look)});
+  go_to({std::move(model), std::move(found.whitened), std::move(found.look)});
 }
 
 void Selection::refit_fully() {

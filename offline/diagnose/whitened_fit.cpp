@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/whitened_fit.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,9 +16,6 @@
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kIndependent = 1e-9;
-constexpr Eigen::Index kQrLines = 1024;
 
 /// Rows by fold; repeats of a pose share one.
 void deal(const Measurements& measured, const std::vector<int>& fit, const std::vector<int>& held,
@@ -51,7 +47,7 @@ NoiseScale noise_scale(const NoiseFloor& floor, double sigma_m) {
   if (floor.source == NoiseFloor::Source::kNone) return out;
   out.known = true;
   out.variance = std::pow(sigma / sigma_m, 2);
-  out.dof = floor.dof > 0 ? floor.dof : kStatedDof;
+  out.dof = trusted_dof(floor);
   return out;
 }
 
@@ -113,52 +109,16 @@ void fill_carriers(WhitenedFit& s) {
   }
 }
 
-/// R of J = Q R, a part of the rows at a time: what does not fit into the processor's cache is
-/// slow.
-Eigen::MatrixXd triangle_of(const Eigen::Ref<const Eigen::MatrixXd>& J) {
-  const Eigen::Index count = J.cols(), part = std::max(kQrLines, 4 * count);
-  Eigen::MatrixXd R(0, count);
-  for (Eigen::Index first = 0; first < J.rows(); first += part) {
-    const Eigen::Index lines = std::min(part, J.rows() - first);
-    Eigen::MatrixXd stack(R.rows() + lines, count);
-    stack << R, J.middleRows(first, lines);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack);
-    R = qr.matrixQR()
-            .topRows(std::min(stack.rows(), count))
-            .template triangularView<Eigen::Upper>();
-  }
-  return R;
-}
+}  // namespace
 
-/// Columns J scaled, as many as are independent over the first `fit_lines`, made orthonormal there:
-/// U = J * half.
-struct Orthonormal {
-  Eigen::MatrixXd U, half;
-};
-Orthonormal orthonormal(const Eigen::MatrixXd& J, Eigen::Index fit_lines) {
-  const Eigen::VectorXd scale =
-      J.topRows(fit_lines).colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::MatrixXd scaled = J * scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle_of(scaled.topRows(fit_lines)));
-  qr.setThreshold(kIndependent);
-  const Eigen::Index rank = qr.rank();
-  Orthonormal out;
-  out.U = (scaled * qr.colsPermutation()).leftCols(rank);
-  const Eigen::MatrixXd R = qr.matrixQR().topLeftCorner(rank, rank);
-  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(out.U);
-  out.half = Eigen::MatrixXd::Zero(J.cols(), rank);
-  out.half.topRows(rank) =
-      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(rank, rank));
-  out.half = scale.asDiagonal() * (qr.colsPermutation() * out.half);
-  return out;
-}
-
-/// Takes out of y what the columns explain.
-void clear_residual(WhitenedFit& s) {
+Eigen::VectorXd clear_residual(WhitenedFit& s) {
   const Eigen::VectorXd left = s.U.topRows(s.fit_lines).transpose() * s.y.head(s.fit_lines);
   s.y -= s.U * left;
   s.Q = s.y.head(s.fit_lines).squaredNorm();
+  return left;
 }
+
+namespace {
 
 /// Residual and model columns of all rows; the columns made orthonormal over the fit lines.
 void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3& sigma_m) {
@@ -172,7 +132,8 @@ void clear_of_model(const Calibration& calibration, WhitenedFit& s, const Rows3&
   auto [U, half] = orthonormal(at.jacobian, s.fit_lines);
   s.rank = U.cols();
   s.U = std::move(U);
-  s.inverse_information = half * half.transpose();
+  s.half_information = std::move(half);
+  s.correction = Eigen::VectorXd::Zero(s.half_information.rows());
   clear_residual(s);
 }
 
@@ -190,6 +151,17 @@ Eigen::MatrixXd by_pose(const Product& lines, int axes) {
 }
 
 }  // namespace
+
+void whiten(const WhitenedFit& s, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines) {
+  for (int k = 0; k < s.axes; ++k) lines(k) /= s.sigma[pose * s.axes + k];
+  if (!s.root.empty()) s.root[pose].triangularView<Eigen::Lower>().solveInPlace(lines);
+}
+
+void unwhiten(const WhitenedFit& s, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines) {
+  if (!s.root.empty())
+    lines = (s.root[pose].triangularView<Eigen::Lower>() * Eigen::VectorXd(lines)).eval();
+  for (int k = 0; k < s.axes; ++k) lines(k) *= s.sigma[pose * s.axes + k];
+}
 
 void fold_joints(WhitenedFit& s) {
   s.joint_square.clear();
@@ -225,6 +197,7 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
     out.loads.push_back(whitened.loads[at]);
     out.context.push_back(whitened.context[at]);
     out.arm_B.push_back(whitened.arm_B[at]);
+    if (!whitened.root.empty()) out.root.push_back(whitened.root[at]);
   }
   for (const auto l : line) out.sigma.push_back(whitened.sigma[static_cast<std::size_t>(l)]);
   out.held = {static_cast<Eigen::Index>(pose.size()), static_cast<Eigen::Index>(pose.size())};
@@ -232,7 +205,9 @@ WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
   out.fit_lines = static_cast<Eigen::Index>(line.size());
   out.noise = whitened.noise;
   out.sigma_m = whitened.sigma_m;
-  out.inverse_information = whitened.inverse_information;
+  out.half_information = whitened.half_information;
+  out.correction = whitened.correction;
+  out.scatter_nats = whitened.scatter_nats;
   for (const auto& carrier : whitened.joint) out.joint.push_back(carrier(line));
   out.base = whitened.base(line, Eigen::all);
   out.tool = whitened.tool(line, Eigen::all);

@@ -7,6 +7,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/orthonormal.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 
 namespace plumb::offline {
@@ -24,6 +25,9 @@ struct Segment {
   Eigen::Index size() const { return end - begin; }
 };
 
+/// Lower triangular factor of the covariance of one pose, shape (axes, axes).
+using PoseRoot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+
 /// A fitted model as a diagnosis looks at it: its whitened residuals, orthogonal to the columns of
 /// its own parameters. Rows are sorted by fold; every whitened coordinate is one line, pose by
 /// pose. Memory: about (axes * parameters + 300) numbers a pose.
@@ -38,11 +42,16 @@ struct WhitenedFit {
   Eigen::Index rank = 0;       // of the model's own columns
   NoiseScale noise;
   double sigma_m = 0.0;  // typical 1 sigma of a coordinate
+  /// What joint scatter alone explains of the residual without any effect [nats]: every candidate
+  /// has to explain that much more before it counts.
+  double scatter_nats = 0.0;
 
-  Eigen::VectorXd y;  // (lines,) residual; held lines keep all of theirs
-  Eigen::MatrixXd U;  // (lines, rank) model columns, orthonormal over the fit lines
-  double Q = 0.0;     // sum of squares of y over the fit lines
-  Eigen::MatrixXd inverse_information;  // of the model's parameters, SI, stated sigma
+  Eigen::VectorXd y;                 // (lines,) residual; held lines keep all of theirs
+  Eigen::MatrixXd U;                 // (lines, rank) model columns, orthonormal over the fit lines
+  double Q = 0.0;                    // sum of squares of y over the fit lines
+  Eigen::MatrixXd half_information;  // H of the parameters, (parameters, rank): H H^T is
+                                     // the inverse information, SI, in this whitening
+  Eigen::VectorXd correction;        // of the fitted parameters that this whitening asks for, SI
 
   /// Whitened motion of the measured point, per unit of joint j: shape (lines,) each.
   std::vector<Eigen::VectorXd> joint;
@@ -58,7 +67,8 @@ struct WhitenedFit {
   std::vector<ChainFrames> frames;
   std::vector<Loads> loads;
   std::vector<MeasuredContext> context;
-  std::vector<double> sigma;   // (lines,)
+  std::vector<double> sigma;   // (lines,) [m]
+  std::vector<PoseRoot> root;  // of each pose: Cholesky factor, behind sigma; empty: the identity
   std::vector<Matrix3> R_MB;   // base in the measurement frame
   std::vector<Vector3> arm_B;  // tip to target
   std::vector<std::string> sensors;
@@ -66,6 +76,9 @@ struct WhitenedFit {
   Eigen::Index poses() const { return static_cast<Eigen::Index>(row.size()); }
   Eigen::Index fit_poses() const { return held.begin; }
   int joints() const { return chain.joints(); }
+  Eigen::MatrixXd inverse_information() const {
+    return half_information * half_information.transpose();
+  }
   std::span<const double> q(Eigen::Index pose) const {
     return {measured->q.row(row[pose]).data(), static_cast<std::size_t>(chain.joints())};
   }
@@ -78,5 +91,13 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
 
 /// Computes joint_square, joint_y and joint_U again.
 void fold_joints(WhitenedFit& whitened);
+
+/// Lines of one pose, shape (axes,): a displacement [m] of the measured coordinates in standard
+/// deviations, and back.
+void whiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
+void unwhiten(const WhitenedFit& whitened, Eigen::Index pose, Eigen::Ref<Eigen::VectorXd> lines);
+
+/// Takes out of y what the columns explain; the sizes of the columns that do so, shape (rank,).
+Eigen::VectorXd clear_residual(WhitenedFit& whitened);
 
 }  // namespace plumb::offline

@@ -8,7 +8,7 @@ namespace plumb::offline {
 namespace {
 
 Testability axis_wobble_testable(const DataSense& data) {
-  const Testability harmonics = harmonics_testable(data);
+  Testability harmonics = harmonics_testable(data);
   if (harmonics.answer == Testability::Answer::kNo) return harmonics;
   return data.poses < kManyPoses ? can_show_weakly(poses_text(data)) : harmonics;
 }

@@ -8,7 +8,7 @@ namespace plumb::offline {
 namespace {
 
 Testability encoder_eccentricity_testable(const DataSense& data) {
-  const Testability harmonics = harmonics_testable(data);
+  Testability harmonics = harmonics_testable(data);
   if (harmonics.answer == Testability::Answer::kNo) return harmonics;
   return can_show_weakly("the same as the first harmonic: one of the two");
 }

@@ -9,7 +9,7 @@ namespace plumb::offline {
 namespace {
 
 Testability joint_compliance_soft_testable(const DataSense& data) {
-  const Testability linear = compliance_testable(data);
+  Testability linear = compliance_testable(data);
   if (linear.answer == Testability::Answer::kNo || data.payload_span_kg > 0.0) return linear;
   return can_show_weakly("at one payload a soft start looks like plain compliance");
 }

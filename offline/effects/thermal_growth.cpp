@@ -57,7 +57,7 @@ Testability thermal_growth_testable(const DataSense& data) {
 std::string thermal_sensor(const EffectEntry& entry, const std::vector<std::string>& sensors) {
   if (sensors.empty())
     refuse_effect(entry, "needs a temperature column", "measure temp_degC, or temp_NAME_degC");
-  const std::string name = text_option(entry, OptionKey::kSensor, sensors.front());
+  std::string name = text_option(entry, OptionKey::kSensor, sensors.front());
   if (std::find(sensors.begin(), sensors.end(), name) == sensors.end())
     refuse_effect(entry, fmt::format("names sensor '{}'", name),
                   fmt::format("sensors of these files: {}", fmt::join(sensors, ", ")));

@@ -96,7 +96,7 @@ void widen(FitData& data, double tau) {
 }
 
 /// What is held of the arm goes back to nominal.
-ArmState with_held_at_nominal(ArmState state, const ArmState& nominal,
+ArmState with_held_at_nominal(const ArmState& state, const ArmState& nominal,
                               const std::vector<Parameter>& candidates,
                               const std::vector<std::string>& held) {
   std::vector<Parameter> back;

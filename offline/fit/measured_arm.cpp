@@ -45,7 +45,7 @@ MeasuredArm::MeasuredArm(const format::Model& model)
 
 Prediction MeasuredArm::predict(std::span<const double> q, const MeasuredContext& at) const {
   if (of_measurement_.empty()) return arm_.predict(q, at.known);
-  const Prediction refusal{.X_BT = {}, .tree_B = Vector3::Zero(), .status = Status::kNotFinite};
+  Prediction refusal{.X_BT = {}, .tree_B = Vector3::Zero(), .status = Status::kNotFinite};
   const Context known = of_robot(at);
   EffectSet::Workspace workspace;
   Deviation deviation;

@@ -13,7 +13,10 @@ namespace {
 
 constexpr int kEnoughRepeats = 5;         // degrees of freedom per axis
 constexpr double kBadReadingTimes = 6.0;  // the usual scatter: a bad reading
-constexpr double kNormalMedian = 1.4826;  // sigma / median of a normal distance
+constexpr double kStatedDof = 4.0;
+constexpr double kNextTo = 10.0;                     // rows
+constexpr std::array kNear = {0.1, 0.25, 0.5, 1.0};  // shares of all rows
+constexpr double kNormalMedian = 1.4826;             // sigma / median of a normal distance
 
 /// Mean of the chi distribution: E|x| of an isotropic normal vector with unit sigma.
 double mean_norm(int axes) {
@@ -37,13 +40,25 @@ void take_copies_once(const Rows3& p_M, std::vector<int>& rows) {
   rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
 }
 
-/// What is left of the readings of every repeated pose.
-std::vector<Readings> repeated(const Measurements& m, const Rows3& left_M) {
+/// Rows of each pose, cut where more than `far` rows lie between two of them: what changes in
+/// between is a drift or a step, and no noise.
+std::vector<std::vector<int>> near_rows(const Measurements& m, double far) {
   std::map<int, std::vector<int>> groups;
   for (int i = 0; i < m.size(); ++i)
     if (m.set.empty() || m.set[i] != SetMark::kIgnore) groups[m.replicate_group[i]].push_back(i);
+  std::vector<std::vector<int>> out;
+  for (const auto& [group, rows] : groups)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i == 0 || rows[i] - rows[i - 1] > far) out.emplace_back();
+      out.back().push_back(rows[i]);
+    }
+  return out;
+}
+
+/// What is left of the readings of every repeated pose.
+std::vector<Readings> repeated(const Measurements& m, const Rows3& left_M, double far) {
   std::vector<Readings> out;
-  for (auto& [group, rows] : groups) {
+  for (auto& rows : near_rows(m, far)) {
     take_copies_once(m.p_M, rows);
     if (rows.size() < 2) continue;
     Readings readings;
@@ -104,8 +119,8 @@ struct Pooled {
   int dof = 0;  // poses, not coordinates
 };
 
-Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
-  std::vector<Readings> poses = repeated(m, left_M);
+Pooled pooled(const Measurements& m, const Rows3& left_M, int axes, double far) {
+  std::vector<Readings> poses = repeated(m, left_M, far);
   if (poses.empty()) return {};
   const double usual = usual_sigma(poses, m.has_axis);
   if (usual > 0.0) drop_contradicted(poses, kBadReadingTimes * std::sqrt(axes) * usual);
@@ -114,6 +129,16 @@ Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
     const Eigen::RowVector3d mean = mean_of(readings);
     for (const auto& p : readings) out.squares += (p - mean).squaredNorm();
     out.dof += static_cast<int>(readings.size()) - 1;
+  }
+  return out;
+}
+
+/// The nearest repeats of which there are enough; of all if there are too few.
+Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
+  Pooled out;
+  for (const double share : kNear) {
+    out = pooled(m, left_M, axes, std::max(kNextTo, share * static_cast<double>(m.size())));
+    if (out.dof >= kEnoughRepeats) break;
   }
   return out;
 }
@@ -143,6 +168,11 @@ NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3&
 }
 
 }  // namespace
+
+double trusted_dof(const NoiseFloor& floor) {
+  if (floor.source == NoiseFloor::Source::kNone) return 0.0;
+  return floor.dof > 0 ? static_cast<double>(floor.dof) : kStatedDof;
+}
 
 NoiseFloor noise_floor(const Cell& cell, const Measurements& measured) {
   return floor_of(cell, measured, measured.p_M);

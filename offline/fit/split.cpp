@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -84,7 +85,7 @@ void spread(const Measurements& m, const std::map<int, T>& by_group, std::vector
 void hold_share(const Measurements& m, double share, Random& random, Split& split) {
   const auto order = strata_order(m, split.used);
   const int n = static_cast<int>(order.size());
-  const int wanted = std::max(1, static_cast<int>(share * n + 0.5));
+  const int wanted = std::max(1, static_cast<int>(std::lround(share * n)));
   if (wanted >= n)
     fail(fmt::format("{} poses cannot give a held-out share of {:.0f}%", n, 100 * share),
          "set [measurement] held_out = \"kfold:5\"");

@@ -49,7 +49,7 @@ std::string text_of(const Dimension& dimension) {
     if (std::abs(power) < kSame) continue;
     (power > 0.0 ? above : below).push_back(factor(unit, std::abs(power)));
   }
-  const std::string over = above.empty() ? "1" : fmt::format("{}", fmt::join(above, " "));
+  std::string over = above.empty() ? "1" : fmt::format("{}", fmt::join(above, " "));
   if (below.empty()) return over;
   const std::string under = fmt::format("{}", fmt::join(below, " "));
   return over + (below.size() > 1 ? "/(" + under + ")" : "/" + under);

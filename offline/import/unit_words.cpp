@@ -91,7 +91,7 @@ std::string known_unit(std::string text) {
                                                          {"n", "N"},
                                                          {"nm", "Nm"}};
   if (unit_of(text)) return text;
-  const std::string small = lower(text);
+  std::string small = lower(text);
   if (unit_of(small)) return small;
   if (const auto found = kOther.find(small); found != kOther.end()) return found->second;
   const auto found = kWords.find(folded(text));

@@ -155,7 +155,7 @@ std::string setups_text(const Comparison& comparison) {
 /// else is missing, and that may look like a jump where the poses change.
 std::string compare_verdict(const Cell& cell, const Measurements& measured,
                             const Comparison& comparison, const Run& run) {
-  const std::string error = verdict(run.fit, cell.tolerance_m);
+  std::string error = verdict(run.fit, cell.tolerance_m);
   const auto& steps = comparison.changes.steps;
   if (steps.empty() || !is_clear(steps.front())) return error;
   const double share = share_of_error(steps.front(), comparison.stats.rms,

@@ -31,7 +31,7 @@ void put_error(Json& out, const std::string& key, const ErrorStats& stats) {
 Json options_json(const EffectEntry& effect) {
   Json out = Json::object();
   for (const auto& [key, value] : effect.options)
-    std::visit([&](const auto& v) { out[key] = v; }, value);
+    std::visit([&out, &name = key](const auto& v) { out[name] = v; }, value);
   return out;
 }
 

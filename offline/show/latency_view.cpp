@@ -73,13 +73,14 @@ Json conditions_json(const Benchmark& found) {
 }
 
 /// "0.06", "12", "130".
-std::string percent(double share) {
+std::string cycle_percent(double share) {
   return share < 0.1 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
 }
 
 std::string cycle_share(const Benchmark& found) {
   return fmt::format("{} % of the {:g} ms cycle",
-                     percent(1e-9 * found.cycle().median() / found.cycle_s), 1e3 * found.cycle_s);
+                     cycle_percent(1e-9 * found.cycle().median() / found.cycle_s),
+                     1e3 * found.cycle_s);
 }
 
 std::string verdict(const Benchmark& found) {

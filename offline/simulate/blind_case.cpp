@@ -24,16 +24,46 @@ bool is_planar(BlindArm arm) {
   return arm == BlindArm::kPlanarPublished || arm == BlindArm::kPlanarPrinted;
 }
 
+Cell arm_of(BlindArm arm) {
+  switch (arm) {
+    case BlindArm::kHeavy:
+      return sim::heavy_arm();
+    case BlindArm::kTrack:
+      return sim::track_arm();
+    case BlindArm::kScara:
+      return sim::scara_arm();
+    case BlindArm::kPalletiser:
+      return sim::palletiser_arm();
+    default:
+      return sim::light_arm();
+  }
+}
+
+const char* robot_name(BlindArm arm) {
+  switch (arm) {
+    case BlindArm::kHeavy:
+      return "Heavy six-axis arm";
+    case BlindArm::kTrack:
+      return "Heavy six-axis arm on a track";
+    case BlindArm::kScara:
+      return "SCARA";
+    case BlindArm::kPalletiser:
+      return "Palletiser";
+    default:
+      return "Light six-axis arm";
+  }
+}
+
 Cell cell_of(const BlindRequest& request) {
   if (request.arm == BlindArm::kPlanarPublished) return planar_cell(PlanarVariant::kPublished);
   if (request.arm == BlindArm::kPlanarPrinted) return planar_cell(PlanarVariant::kPrinted);
-  const bool heavy = request.arm == BlindArm::kHeavy;
-  Cell cell = heavy ? sim::heavy_arm() : sim::light_arm();
+  const bool light = request.arm == BlindArm::kLight || request.arm == BlindArm::kScara;
+  Cell cell = arm_of(request.arm);
   cell.name = "Blind case " + std::to_string(request.seed);
   cell.serial = "BLIND-" + std::to_string(request.seed);
-  cell.robot_name = heavy ? "Heavy six-axis arm" : "Light six-axis arm";
-  sim::state_masses(cell, heavy ? 420.0 : 26.0);
-  cell.payload.mass_kg = heavy ? 60.0 : 6.0;
+  cell.robot_name = robot_name(request.arm);
+  sim::state_masses(cell, light ? 26.0 : 420.0);
+  cell.payload.mass_kg = light ? 6.0 : 60.0;
   cell.payload.com_m = {0.03, 0.01, 0.08};
   return cell;
 }
@@ -61,12 +91,54 @@ format::Pose tracker_pose(Random random) {
                       sim::exp(Vector3d::Zero(), tilt));
 }
 
+// The cell as it is written: the simulator's centres of mass are behind d of each joint.
+Cell stated(Cell cell, StatedMasses masses) {
+  const sim::Arm arm(cell.nominal);
+  for (int i = 0; i < cell.joints() && masses != StatedMasses::kBehindD; ++i) {
+    auto& link = cell.mechanics[static_cast<std::size_t>(i)];
+    if (masses == StatedMasses::kNone) link.link_mass_kg.reset();
+    if (masses == StatedMasses::kNone) link.link_com_m.reset();
+    if (!link.link_com_m) continue;
+    const auto& row = cell.nominal.joints[static_cast<std::size_t>(i)];
+    Vector3d com(link.link_com_m->data());
+    if (masses == StatedMasses::kRight) {
+      com.z() += row.d;
+    } else if (cell.nominal.convention == format::Convention::kStandard) {
+      const auto link_end =
+          Eigen::Translation3d(row.a, 0.0, 0.0) * Eigen::AngleAxisd(row.alpha, Vector3d::UnitX());
+      com = link_end.inverse() * com;
+    }
+    link.link_com_m = {com.x(), com.y(), com.z()};
+  }
+  return cell;
+}
+
+// Poses of a palletiser, whose flange is always level.
+RowsN level_poses(const Cell& cell, int poses, Random random) {
+  RowsN q(poses, cell.joints());
+  for (Eigen::Index row = 0; row < q.rows(); ++row) {
+    for (Eigen::Index j = 0; j < q.cols(); ++j) {
+      const auto& limits = cell.nominal.joints[static_cast<std::size_t>(j)];
+      q(row, j) = random.uniform(limits.q_min, limits.q_max);
+    }
+    q(row, 3) = -(q(row, 1) + q(row, 2));
+  }
+  return q;
+}
+
+void choose_poses(const BlindRequest& request, const Cell& cell, SimulationPlan& plan) {
+  if (request.arm != BlindArm::kPalletiser) return;
+  plan.q = level_poses(cell, plan.poses, {plan.seed, "level poses"});
+}
+
 SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
   SimulationPlan plan;
   plan.seed = request.seed;
   plan.poses = request.poses;
   plan.choice = request.choice;
   plan.repeats = request.repeats;
+  plan.revisits = request.revisits;
+  plan.imperfections = request.imperfections;
   plan.noise_m = request.sigma_m;
   plan.directions = request.directions;
   plan.temperatures = request.temperatures;
@@ -77,7 +149,8 @@ SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
   plan.truth.richness = request.richness;
   plan.truth.seed = request.seed;
   plan.session_s = request.session_s;
-  const int rows = request.poses + (request.poses + 9) / 10 * (request.repeats - 1);
+  const int rows =
+      request.poses + (request.poses + 9) / 10 * (request.repeats - 1) + request.revisits;
   plan.seconds_per_pose = request.session_s / std::max(rows, 1);
   if (is_planar(request.arm)) {
     plan.axes = {true, true, false};
@@ -92,20 +165,29 @@ SimulationPlan plan_of(const BlindRequest& request, const Cell& cell) {
   if (request.payloads == BlindRequest::Payloads::kVaried) {
     plan.payloads = three_payloads(cell, {request.seed, "payload set"});
   }
+  if (request.arm == BlindArm::kPalletiser) {
+    plan.imperfections.coupled.assign(sim::kPalletiserCoupled.begin(),
+                                      sim::kPalletiserCoupled.end());
+  }
+  choose_poses(request, cell, plan);
   return plan;
 }
 
 // The plan for the same arm and session at other poses, measured without noise.
-SimulationPlan fresh_plan(const BlindRequest& request, SimulationPlan plan,
+SimulationPlan fresh_plan(const BlindRequest& request, const Cell& cell, SimulationPlan plan,
                           std::vector<HiddenEffect> effects) {
   plan.truth.effects.clear();
   plan.truth.sized = std::move(effects);
   plan.seed = request.seed ^ 0x5eedf4e54ULL;
   plan.poses = request.fresh_poses;
   plan.repeats = 1;
+  plan.revisits = 0;
+  plan.imperfections.joint_scatter.clear();
+  plan.imperfections.encoder_step = 0.0;
   plan.noise_m = 0.0;
   plan.outlier_share = plan.held_share = 0.0;
   plan.seconds_per_pose = request.session_s / std::max(request.fresh_poses, 1);
+  choose_poses(request, cell, plan);
   return plan;
 }
 
@@ -133,15 +215,22 @@ Simulation measured_again(const Cell& cell, SimulationPlan plan, const Simulatio
 
 BlindCase make_blind_case(const BlindRequest& request) {
   BlindCase out;
-  out.cell = cell_of(request);
-  out.cell.measurement.sigma_m = request.sigma_m;
-  out.cell.measurement.files = {"measurements.csv"};
-  const SimulationPlan plan = plan_of(request, out.cell);
-  out.measured = simulate(out.cell, plan);
-  out.fresh =
-      measured_again(out.cell, fresh_plan(request, plan, out.measured.effects), out.measured);
-  out.fresh_robot = measured_again(
-      out.cell, fresh_plan(request, plan, of_the_arm(out.measured.effects)), out.measured);
+  Cell cell = cell_of(request);
+  cell.measurement.sigma_m = request.sigma_m;
+  cell.measurement.files = {"measurements.csv"};
+  out.cell = stated(cell, request.masses);
+  const SimulationPlan plan = plan_of(request, cell);
+  out.measured = simulate(cell, plan);
+  const auto again = [&](const SimulationPlan& fresh) {
+    return measured_again(cell, fresh, out.measured);
+  };
+  out.fresh = again(fresh_plan(request, cell, plan, out.measured.effects));
+  SimulationPlan robot = fresh_plan(request, cell, plan, of_the_arm(out.measured.effects));
+  out.fresh_robot = again(robot);
+  robot.imperfections = plan.imperfections;
+  if (!robot.imperfections.joint_scatter.empty() || robot.imperfections.encoder_step > 0.0) {
+    out.fresh_scattered = again(robot);
+  }
   out.cell_toml = write_cell(out.cell);
   out.measurements_csv = simulated_csv(out.cell, out.measured);
   out.fresh_csv = simulated_csv(out.cell, out.fresh);

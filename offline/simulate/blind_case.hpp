@@ -11,8 +11,25 @@ namespace plumb::offline {
 
 /// kHeavy has a reach of 2.2 m and carries 60 kg, kLight 1.3 m and 10 kg; both have geometry errors
 /// and masses that differ from the stated ones. The planar arms of the published study include
-/// their flexible beams.
-enum class BlindArm { kHeavy, kLight, kPlanarPublished, kPlanarPrinted };
+/// their flexible beams. kTrack, kScara and kPalletiser: see study_arms.hpp; the joints 3 and 4 of
+/// kPalletiser are coupled, whatever the request says of them.
+enum class BlindArm {
+  kHeavy,
+  kLight,
+  kPlanarPublished,
+  kPlanarPrinted,
+  kTrack,
+  kScara,
+  kPalletiser
+};
+
+/// What the written cell says of the links' masses. The simulated arm has them within 15 %.
+enum class StatedMasses {
+  kBehindD,     // centres in the frame behind d, though the cell file is read ahead of d: off by d
+  kRight,       // centres in the frame that the cell file asks for
+  kOtherFrame,  // centres in the Denavit-Hartenberg frame of the link, without com_frame = "dh"
+  kNone
+};
 
 /// The settings of a blind case.
 struct BlindRequest {
@@ -21,7 +38,8 @@ struct BlindRequest {
   double sigma_m = 20e-6;            // of the tracker, per axis
   int poses = 150;
   int fresh_poses = 500;
-  int repeats = 3;  // readings of every tenth pose
+  int repeats = 3;   // readings of every tenth pose
+  int revisits = 0;  // poses that are measured once more at the end
   std::uint64_t seed = 1;
   double richness = 1.0;  // see HiddenTruth
   double outlier_share = 0.0;
@@ -34,11 +52,13 @@ struct BlindRequest {
   Recorded temperatures = Recorded::kAlways;
   SimulationPlan::Climate climate = SimulationPlan::Climate::kChanging;
   double held_share = 0.0;
+  StatedMasses masses = StatedMasses::kBehindD;
+  Imperfections imperfections;
 };
 
 /// A measured arm with hidden effects. Only the scoring may use the members that follow `measured`.
 struct BlindCase {
-  Cell cell;
+  Cell cell;                     // as it is written
   std::string cell_toml;         // refers to measurements.csv
   std::string measurements_csv;  // the input of a diagnosis
   std::string truth_json;
@@ -47,6 +67,9 @@ struct BlindCase {
   std::string fresh_csv;
   std::string fresh_robot_csv;
   Simulation measured, fresh, fresh_robot;
+  /// As fresh_robot, but with the scatter of the joints and rounded encoders: what a user would see
+  /// on new poses with a perfect tracker. Only if there are such imperfections.
+  std::optional<Simulation> fresh_scattered;
 };
 
 /// Makes a blind case. The same request gives the same bytes. Throws Failure (kUsage) as simulate

@@ -16,7 +16,7 @@ struct World {
   const Cell& cell;
   const Arm& arm;  // the true one
   const MassModel& masses;
-  const std::vector<Visit>& visits;
+  const std::vector<Visit>& visits;  // q, direction, travel: of the drives, see joints()
   VectorXd q_min, q_max;
   std::uint64_t seed = 1;  // for the arm
   double session_s = 0.0;
@@ -24,6 +24,10 @@ struct World {
   Isometry3d X_TG = Isometry3d::Identity();  // reflector in the tool frame
   double most_payload_kg = 0.0;
   double richness = 1.0;  // factor on the second-order terms of every law
+  RowsN scatter = {};     // errors of the drives at each visit; no rows: none
+
+  /// The positions of the joints at one visit.
+  VectorXd joints(const Visit& visit) const { return masses.drives.to_joints(visit.q); }
 };
 
 /// One visit with the frames and loads that follow from it, which are those of the rigid true arm.

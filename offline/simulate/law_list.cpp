@@ -103,6 +103,21 @@ void add_history_laws(std::vector<LawEntry>& all) {
                        Size::kLength, Domain::kMeasurement, make_tracker));
 }
 
+/// What the first part of the blind study does not draw, so that its cases remain what they were.
+void add_inconvenient_laws(std::vector<LawEntry>& all) {
+  all.push_back(needing(called(of_joints("overcompensated_reversal",
+                                         "a controller takes out more backlash than there is",
+                                         make_overcompensated_reversal),
+                               "reversal"),
+                        Needs::kDirection));
+  all.push_back(called(of_arm("two_steps_reflector", "the reflector slips twice; size: each slip",
+                              Size::kLength, Domain::kMeasurement, make_two_steps_reflector),
+                       "step"));
+  all.push_back(called(of_arm("two_steps_base", "the tracker is pushed twice; size: each push",
+                              Size::kLength, Domain::kMeasurement, make_two_steps_base),
+                       "step"));
+}
+
 void add_unknown_laws(std::vector<LawEntry>& all) {
   const auto unknown = [](LawEntry entry) { return called(std::move(entry), "unknown"); };
   all.push_back(
@@ -155,6 +170,7 @@ const std::vector<LawEntry>& law_entries() {
     add_history_laws(all);
     add_unknown_laws(all);
     add_planar_laws(all);
+    add_inconvenient_laws(all);
     return all;
   }();
   return entries;

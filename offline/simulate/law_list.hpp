@@ -25,11 +25,14 @@ MadeLaw make_encoder_eccentricity(const HiddenEffect& effect, const World& world
 MadeLaw make_axis_wobble(const HiddenEffect& effect, const World& world);
 MadeLaw make_wrist_coupling(const HiddenEffect& effect, const World& world);
 MadeLaw make_reversal(const HiddenEffect& effect, const World& world);
+MadeLaw make_overcompensated_reversal(const HiddenEffect& effect, const World& world);
 MadeLaw make_settling_lag(const HiddenEffect& effect, const World& world);
 MadeLaw make_thermal_growth(const HiddenEffect& effect, const World& world);
 MadeLaw make_drift(const HiddenEffect& effect, const World& world);
 MadeLaw make_step_reflector(const HiddenEffect& effect, const World& world);
 MadeLaw make_step_base(const HiddenEffect& effect, const World& world);
+MadeLaw make_two_steps_reflector(const HiddenEffect& effect, const World& world);
+MadeLaw make_two_steps_base(const HiddenEffect& effect, const World& world);
 MadeLaw make_step_encoder(const HiddenEffect& effect, const World& world);
 MadeLaw make_tracker(const HiddenEffect& effect, const World& world);
 MadeLaw make_dress_pack(const HiddenEffect& effect, const World& world);

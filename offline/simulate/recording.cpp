@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace plumb::offline {
@@ -19,30 +20,51 @@ std::string pose_name(int pose, int poses) {
   return "P" + std::string(digits - number.size(), '0') + number;
 }
 
+// The readings of every pose, in the order in which they are taken.
+std::vector<int> poses_of_rows(const SimulationPlan& plan, int distinct) {
+  std::vector<int> out;
+  for (int pose = 0; pose < distinct; ++pose) {
+    const int times = pose % kEveryTenth == 0 ? plan.repeats : 1;
+    out.insert(out.end(), times, pose);
+  }
+  for (int k = 0; k < plan.revisits; ++k) {
+    out.push_back(static_cast<int>(static_cast<long>(k) * distinct / plan.revisits));
+  }
+  return out;
+}
+
 // Marks random poses as held out. All readings of a pose have the same mark.
 std::vector<SetMark> marks(const SimulationPlan& plan, const std::vector<int>& pose_of_row) {
   std::vector<SetMark> out(pose_of_row.size(), SetMark::kUnmarked);
   if (plan.held_share == 0.0) return out;
   Random random(plan.seed, "held-out");
-  SetMark mark = SetMark::kFit;
+  const auto first = first_readings(pose_of_row);
   for (std::size_t row = 0; row < out.size(); ++row) {
-    const bool first = row == 0 || pose_of_row[row] != pose_of_row[row - 1];
-    if (first) mark = random.uniform() < plan.held_share ? SetMark::kHeld : SetMark::kFit;
-    out[row] = mark;
+    if (first[row] < row) {
+      out[row] = out[first[row]];
+    } else {
+      out[row] = random.uniform() < plan.held_share ? SetMark::kHeld : SetMark::kFit;
+    }
   }
   return out;
 }
 
 }  // namespace
 
+std::vector<std::size_t> first_readings(const std::vector<int>& pose_of_row) {
+  std::map<int, std::size_t> first;
+  std::vector<std::size_t> out;
+  for (std::size_t row = 0; row < pose_of_row.size(); ++row) {
+    out.push_back(first.emplace(pose_of_row[row], row).first->second);
+  }
+  return out;
+}
+
 Recording::Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses,
                      const std::vector<HiddenEffect>& effects)
     : cell_(cell), plan_(plan), effects_(effects), noise_(plan.seed, "noise") {
   const int distinct = static_cast<int>(poses.rows());
-  for (int pose = 0; pose < distinct; ++pose) {
-    const int times = pose % kEveryTenth == 0 ? plan.repeats : 1;
-    measured_.replicate_group.insert(measured_.replicate_group.end(), times, pose);
-  }
+  measured_.replicate_group = poses_of_rows(plan, distinct);
   const int rows = static_cast<int>(measured_.replicate_group.size());
   measured_.q.resize(rows, poses.cols());
   for (int row = 0; row < rows; ++row) {
@@ -92,6 +114,9 @@ std::vector<GrossOutlier> Recording::spoil() {
 
 MeasurementFiles Recording::finish(const std::vector<Column>& context) const {
   MeasurementFiles out{measured_, {}};
+  if (const double step = plan_.imperfections.encoder_step; step > 0.0) {
+    out.q = step * (out.q / step).array().round() + 0.0;  // + 0: no minus zero
+  }
   Table table;
   table.file = "simulated";
   table.columns = context;

@@ -7,15 +7,20 @@
 
 namespace plumb::offline::sim {
 
+/// For each row, the row of the first reading of its pose.
+std::vector<std::size_t> first_readings(const std::vector<int>& pose_of_row);
+
 /// The tracker and its file. It decides the rows, their names, and the noise.
 class Recording {
  public:
-  /// `poses` are the distinct poses. Every tenth is measured plan.repeats times.
+  /// `poses` are the distinct poses. Every tenth is measured plan.repeats times in place, and
+  /// plan.revisits of them, evenly picked, once more at the end.
   Recording(const Cell& cell, const SimulationPlan& plan, const RowsN& poses,
             const std::vector<HiddenEffect>& effects);
 
   int rows() const { return measured_.size(); }
   const RowsN& joint_rows() const { return measured_.q; }
+  const std::vector<int>& pose_of_row() const { return measured_.replicate_group; }
 
   /// Measures point and orientation of the reflector for one row and adds noise. The rows must be
   /// measured in order.
@@ -28,6 +33,7 @@ class Recording {
   /// are requested or needed by an effect.
   std::vector<Column> context(const std::vector<Visit>& visits) const;
 
+  /// The recorded joint positions are rounded here, if plan.imperfections says so.
   MeasurementFiles finish(const std::vector<Column>& context) const;
 
  private:

@@ -18,12 +18,14 @@ Rows3 shift_M(const World& world, const Law& law) {
   Rows3 out(static_cast<Eigen::Index>(world.visits.size()), 3);
   for (int row = 0; row < out.rows(); ++row) {
     const Visit& visit = world.visits[static_cast<std::size_t>(row)];
-    const Frames rigid = world.arm.frames(visit.q);
+    const VectorXd q = world.joints(visit);
+    const Frames rigid = world.arm.frames(q);
     const Loads loads(world.masses, rigid, visit.payload.mass_kg,
                       Vector3d(visit.payload.com_m.data()));
     Deflection deflection(world.arm.joints());
     law.bend({row, visit, rigid, loads}, deflection);
-    const Vector3d bent = world.arm.frames(visit.q, deflection).tool * world.X_TG.translation();
+    deflection.dq = world.masses.drives.to_joints(deflection.dq);
+    const Vector3d bent = world.arm.frames(q, deflection).tool * world.X_TG.translation();
     const Vector3d straight = rigid.tool * world.X_TG.translation();
     out.row(row) = (world.X_MB.linear() * (bent + deflection.tip_B - straight)).transpose();
   }
@@ -72,12 +74,15 @@ class Sizer {
 
 Isometry3d bent_pose(const World& world, const std::vector<HiddenLaw>& laws, int row) {
   const Visit& visit = world.visits[static_cast<std::size_t>(row)];
-  const Frames rigid = world.arm.frames(visit.q);
+  const VectorXd q = world.joints(visit);
+  const Frames rigid = world.arm.frames(q);
   const Loads loads(world.masses, rigid, visit.payload.mass_kg,
                     Vector3d(visit.payload.com_m.data()));
   Deflection deflection(world.arm.joints());
   for (const auto& hidden : laws) hidden.law->bend({row, visit, rigid, loads}, deflection);
-  Isometry3d X_BG = world.arm.frames(visit.q, deflection).tool * world.X_TG;
+  if (world.scatter.rows() > 0) deflection.dq += world.scatter.row(row).transpose();
+  deflection.dq = world.masses.drives.to_joints(deflection.dq);
+  Isometry3d X_BG = world.arm.frames(q, deflection).tool * world.X_TG;
   X_BG.translation() += deflection.tip_B;
   return world.X_MB * X_BG;
 }

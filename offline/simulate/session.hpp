@@ -7,7 +7,7 @@
 namespace plumb::offline::sim {
 
 /// The pose of the reflector in the measurement frame at one visit, with the deflections of these
-/// laws.
+/// laws and the scatter of the joints.
 Isometry3d bent_pose(const World& world, const std::vector<HiddenLaw>& laws, int row);
 
 /// The laws for the effects of a plan. An effect whose size is given in sigma gets the SI size at

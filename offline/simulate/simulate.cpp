@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/simulate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulate/climate.hpp"
 #include "simulate/poses.hpp"
 #include "simulate/recording.hpp"
+#include "simulate/scatter.hpp"
 #include "simulate/session.hpp"
 
 namespace plumb::offline {
@@ -30,6 +32,9 @@ void check(const Cell& cell, const SimulationPlan& plan) {
                std::to_string(cell.joints()),
            "give one column per joint");
   }
+  if (plan.revisits < 0 || plan.revisits > (plan.q.rows() > 0 ? plan.q.rows() : plan.poses)) {
+    refuse("from none to all poses can be visited again", "use for example 10");
+  }
   if (plan.repeats < 1) refuse("a pose is measured at least once", "use repeats of 1 or more");
   if (!sigma(plan.noise_m) || !sigma(plan.noise_rad.value_or(0.0)) ||
       !sigma(plan.truth.geometry_m) || !sigma(plan.truth.geometry_rad)) {
@@ -53,6 +58,30 @@ void check(const Cell& cell, const SimulationPlan& plan) {
   }
   for (const auto& payload : plan.payloads) {
     if (!sigma(payload.mass_kg)) refuse("a payload is zero or positive", "use for example 2 kg");
+  }
+  const Imperfections& imperfect = plan.imperfections;
+  const std::size_t stated = imperfect.joint_scatter.size();
+  if (stated > 1 && stated != static_cast<std::size_t>(cell.joints())) {
+    refuse("the scatter of " + std::to_string(stated) + " joints is given, the arm has " +
+               std::to_string(cell.joints()),
+           "give one value, or one for each joint");
+  }
+  if (!std::all_of(imperfect.joint_scatter.begin(), imperfect.joint_scatter.end(), sigma) ||
+      !sigma(imperfect.encoder_step)) {
+    refuse("scatter of joints and step of encoders are zero or positive", "use for example 20");
+  }
+  for (const double g : imperfect.gravity.value_or(std::array<double, 3>{})) {
+    if (!std::isfinite(g)) refuse("the true gravity is not finite", "use for example 0,0,-9.81");
+  }
+  for (const int joint : imperfect.coupled) {
+    const auto& rows = cell.nominal.joints;
+    const auto turns = [&](int j) {
+      return rows[static_cast<std::size_t>(j)].type == format::JointType::kRevolute;
+    };
+    if (joint < 1 || joint >= cell.joints() || !turns(joint) || !turns(joint - 1)) {
+      refuse("a coupled joint is one that turns behind another that turns",
+             "as J3 of a palletiser, which turns behind J2");
+    }
   }
   for (const auto& row : cell.nominal.joints) {
     if (plan.q.rows() == 0 && !(row.q_min < row.q_max)) {
@@ -110,16 +139,22 @@ sim::MassModel true_masses(const Cell& cell, const SimulationPlan& plan, const s
   const Payload& payload = heaviest(cell, plan);
   out.payload = payload.mass_kg;
   out.payload_com = Vector3d(payload.com_m.data());
+  if (plan.imperfections.gravity) out.gravity = Vector3d(plan.imperfections.gravity->data());
+  out.drives = sim::Drives(plan.imperfections.coupled);
   return out;
 }
 
 // Assigns one of the payloads to every pose.
-void load(std::vector<Visit>& visits, const Cell& cell, const SimulationPlan& plan) {
+void load(std::vector<Visit>& visits, const std::vector<int>& pose_of_row, const Cell& cell,
+          const SimulationPlan& plan) {
+  const auto first = sim::first_readings(pose_of_row);
   Random random(plan.seed, "payloads");
   for (std::size_t row = 0; row < visits.size(); ++row) {
     const bool same_stop = row > 0 && visits[row].q == visits[row - 1].q;
     if (same_stop) {
       visits[row].payload = visits[row - 1].payload;
+    } else if (first[row] < row) {
+      visits[row].payload = visits[first[row]].payload;
     } else if (plan.payloads.empty()) {
       visits[row].payload = cell.payload;
     } else {
@@ -127,6 +162,25 @@ void load(std::vector<Visit>& visits, const Cell& cell, const SimulationPlan& pl
       visits[row].payload = plan.payloads[static_cast<std::size_t>(which)];
     }
   }
+}
+
+// The visits as the drives make them.
+std::vector<Visit> visits_of_drives(const std::vector<Visit>& visits, const sim::Drives& drives,
+                                    const VectorXd& start) {
+  if (!drives.any_coupled()) return visits;
+  RowsN positions(static_cast<Eigen::Index>(visits.size()), start.size());
+  for (std::size_t row = 0; row < visits.size(); ++row) {
+    positions.row(static_cast<Eigen::Index>(row)) = drives.of_joints(visits[row].q).transpose();
+  }
+  const auto moves = sim::drive(positions, drives.of_joints(start), 0.0);
+  std::vector<Visit> out = visits;
+  for (std::size_t row = 0; row < visits.size(); ++row) {
+    out[row].q = moves[row].q;
+    out[row].direction = moves[row].direction;
+    out[row].travel = moves[row].travel;
+    out[row].before = moves[row].before;
+  }
+  return out;
 }
 
 void warm(std::vector<Visit>& visits, const SimulationPlan& plan, const sim::Climate& climate) {
@@ -153,15 +207,27 @@ Simulation simulate(const Cell& cell, const SimulationPlan& plan) {
   sim::Recording recording(cell, plan, sim::distinct_poses(plan, q_min, q_max), effects);
   auto visits = sim::drive(recording.joint_rows(), 0.5 * (q_min + q_max), plan.seconds_per_pose);
   const double session_s = plan.session_s.value_or(recording.rows() * plan.seconds_per_pose);
-  load(visits, cell, plan);
+  load(visits, recording.pose_of_row(), cell, plan);
   sim::put_stated(plan.stated, visits);
   warm(visits, plan,
        sim::Climate(cell.joints(), session_s, plan.truth.richness, Random(arm_seed, "climate")));
 
   const Isometry3d X_MB = place_tracker(cell, plan, arm_seed);
   const Isometry3d X_TG = place_target(cell, plan, arm_seed);
-  const sim::World world{cell,     arm,       masses, visits, q_min,          q_max,
-                         arm_seed, session_s, X_MB,   X_TG,   masses.payload, plan.truth.richness};
+  const auto driven = visits_of_drives(visits, masses.drives, 0.5 * (q_min + q_max));
+  const sim::World world{cell,
+                         arm,
+                         masses,
+                         driven,
+                         q_min,
+                         q_max,
+                         arm_seed,
+                         session_s,
+                         X_MB,
+                         X_TG,
+                         masses.payload,
+                         plan.truth.richness,
+                         sim::draw_scatter(plan, visits)};
   auto hidden = sim::make_laws(effects, world, plan);
   out.effects = std::move(hidden.effects);
   out.sizes = std::move(hidden.sizes);

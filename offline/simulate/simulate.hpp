@@ -11,6 +11,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "simulate/imperfections.hpp"
 #include "simulate/stated_visit.hpp"
 
 namespace plumb::offline {
@@ -62,6 +63,7 @@ struct SimulationPlan {
   PoseChoice choice;
   RowsN q;                          // (poses, joints), used instead of random poses if not empty
   int repeats = 1;                  // successive readings of every tenth pose, for the noise floor
+  int revisits = 0;                 // of the poses, measured once more at the end of the session
   double noise_m = 10e-6;           // 1 sigma per axis
   std::optional<double> noise_rad;  // if given, the orientation is measured as well
   std::array<bool, 3> axes{true, true, true};  // which of x, y, z are measured
@@ -74,8 +76,9 @@ struct SimulationPlan {
   std::vector<StatedVisit> stated;  // one a row, if not empty: instead of what would be drawn
   double held_share = 0.0;          // share of the poses that are marked as held out
   double outlier_share = 0.0;       // share of the rows that are 30 to 300 sigma off
-  std::uint64_t seed = 1;           // for poses and noise
+  std::uint64_t seed = 1;           // for poses, noise and scatter
   HiddenTruth truth;
+  Imperfections imperfections;
 };
 
 /// The motion of the measured points that one hidden effect causes.
@@ -92,7 +95,7 @@ struct GrossOutlier {
 struct Simulation {
   MeasurementFiles measured;           // its table contains the context columns
   std::vector<Column> context;         // time and the recorded context
-  Rows3 true_p_M;                      // without noise and outliers [m]
+  Rows3 true_p_M;                      // without noise and outliers, with scatter of joints [m]
   std::vector<HiddenEffect> effects;   // with the sizes and numbers that were used
   std::vector<EffectSize> sizes;       // of each effect
   std::vector<GrossOutlier> outliers;  // by row

@@ -57,7 +57,8 @@ Loads::Loads(const MassModel& masses, const Frames& frames, double payload_kg,
              const Vector3d& com_F)
     : mass_(masses.mass.size() + 1),
       first_moment_(masses.mass.size() + 1),
-      gravity_(masses.gravity) {
+      gravity_(masses.gravity),
+      drives_(masses.drives) {
   const int n = static_cast<int>(masses.mass.size());
   mass_[n] = payload_kg;
   first_moment_[n] = payload_kg * (frames.flange * com_F);

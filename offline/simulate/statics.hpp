@@ -5,6 +5,7 @@
 
 #include "cell/cell.hpp"
 #include "simulate/arm.hpp"
+#include "simulate/drives.hpp"
 #include "simulate/random.hpp"
 
 namespace plumb::offline::sim {
@@ -20,6 +21,7 @@ struct MassModel {
   double payload = 0.0;                     // [kg]
   Vector3d payload_com = Vector3d::Zero();  // flange frame [m]
   Vector3d gravity;                         // base frame [m/s^2]
+  Drives drives;                            // decide which torque is whose
 };
 
 /// The true masses: those that the cell states with a relative error of `share` (1 sigma), and an
@@ -39,18 +41,32 @@ class Loads {
   Vector3d moment(int j, const Vector3d& o_B) const {
     return (first_moment_[j] - mass_[j] * o_B).cross(gravity_);
   }
-  /// Gravity torque on revolute joint j about its own axis [N m].
-  double torque(int j) const { return axis_[j].dot(moment(j, origin_[j])); }
+  /// Gravity torque on the drive of revolute joint j [N m]: about the axis of the joint, less that
+  /// of the next joint where this one is coupled.
+  double torque(int j) const {
+    return of_drive(j, [this](int i) { return own_torque(i); });
+  }
   /// The part of this torque that the payload causes.
   double payload_torque(int j) const {
-    return axis_[j].dot(moment(static_cast<int>(axis_.size()), origin_[j]));
+    return of_drive(j, [this](int i) { return own_payload_torque(i); });
   }
 
  private:
+  double own_torque(int j) const { return axis_[j].dot(moment(j, origin_[j])); }
+  double own_payload_torque(int j) const {
+    return axis_[j].dot(moment(static_cast<int>(axis_.size()), origin_[j]));
+  }
+  template <class Own>
+  double of_drive(int j, Own own) const {
+    const bool carries = j + 1 < static_cast<int>(axis_.size()) && drives_.is_coupled(j + 1);
+    return carries ? own(j) - own(j + 1) : own(j);
+  }
+
   std::vector<double> mass_;            // [kg], links j .. end and payload
   std::vector<Vector3d> first_moment_;  // [kg m]
   std::vector<Vector3d> axis_, origin_;
   Vector3d gravity_;
+  Drives drives_;
 };
 
 }  // namespace plumb::offline::sim

@@ -55,6 +55,9 @@ Json size_json(const EffectSize& size, double noise_m) {
 
 // Adds the names of the poses before and after a row, for readers who have only the file.
 void name_poses(Json& numbers, const Simulation& simulation) {
+  if (numbers.contains("moves")) {
+    for (auto& move : numbers["moves"]) name_poses(move, simulation);
+  }
   if (!numbers.contains("row_after")) return;
   const auto row = numbers["row_after"].get<std::size_t>();
   const auto& names = simulation.measured.pose;
@@ -91,6 +94,21 @@ Json effects(const std::vector<HiddenLaw>& laws, const Simulation& simulation, d
   return out;
 }
 
+Json imperfections(const Cell& cell, const Imperfections& imperfect) {
+  Json out = Json::object();
+  if (!imperfect.joint_scatter.empty()) {
+    for (const double sigma : imperfect.joint_scatter) {
+      out["joint_scatter_urad"].push_back(sigma * 1e6);
+    }
+  }
+  if (imperfect.encoder_step > 0.0) out["encoder_step_urad"] = imperfect.encoder_step * 1e6;
+  if (imperfect.gravity) out["gravity_m_per_s2"] = *imperfect.gravity;
+  for (const int joint : imperfect.coupled) {
+    out["coupled_drives"].push_back(cell.nominal.joints[static_cast<std::size_t>(joint)].name);
+  }
+  return out;
+}
+
 Json outliers(const Simulation& simulation) {
   Json out = Json::array();
   for (const auto& outlier : simulation.outliers) {
@@ -122,6 +140,7 @@ std::string truth_json(const Cell& cell, const SimulationPlan& plan, const Simul
   out["frame"] = {{"xyz_mm", in_mm(simulation.X_MB.p)}, {"quat_wxyz", simulation.X_MB.q}};
   out["target_mm"] = in_mm(simulation.X_TG.p);
   out["target_quat_wxyz"] = simulation.X_TG.q;
+  if (plan.imperfections.any()) out["imperfections"] = imperfections(cell, plan.imperfections);
   out["effects"] = effects(laws, simulation, plan.noise_m);
   out["outliers"] = outliers(simulation);
   out["poses"] = poses(simulation);

@@ -25,7 +25,7 @@ void add_slot(const Isometry3d& slot, const Vector3d& tip, double reach, int col
 
 Columns twist_columns(const World& world, int row) {
   const int n = world.arm.joints();
-  const Frames frames = world.arm.frames(world.visits[static_cast<std::size_t>(row)].q);
+  const Frames frames = world.arm.frames(world.joints(world.visits[static_cast<std::size_t>(row)]));
   const Vector3d tip = frames.tool * world.X_TG.translation();
   const double reach = world.arm.reach();
   Columns out(3, kTwist * (n + 2));

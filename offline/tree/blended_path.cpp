@@ -21,10 +21,11 @@ constexpr double kAlmostAll = 1e-6;
 
 std::optional<format::Tree> with_ramps(format::Tree tree, const Samples& u, double overlap) {
   const int inputs = static_cast<int>(u.cols());
-  for (; overlap > kLeastOverlap; overlap *= kNarrower) {
+  while (overlap > kLeastOverlap) {
     add_ramps(tree, u, overlap);
     if (tree.leaves() <= format::kMaxActiveLeaves) return tree;
     if (most_active_leaves(tree, inputs) <= format::kMaxActiveLeaves) return tree;
+    overlap *= kNarrower;
   }
   return std::nullopt;
 }

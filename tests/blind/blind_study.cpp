@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blind study: arms with something hidden, diagnosed by who never sees the truth.
-//   blind_study [CASES] [SEED] [--list]
+//   blind_study [--inconvenient] [CASES] [SEED] [--list]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <string>
+#include <vector>
 
+#include "tests/blind/inconvenient_case.hpp"
+#include "tests/blind/inconvenient_marks.hpp"
 #include "tests/blind/marks.hpp"
 #include "tests/blind/study.hpp"
 
 int main(int argc, char** argv) {
-  const int cases = argc > 1 ? std::atoi(argv[1]) : 2000;
-  const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
-  const bool list = argc > 3 && std::strcmp(argv[3], "--list") == 0;
-  const auto scores = plumb::tests::run_study(seed, cases, [cases](int done) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const auto asked_for = [&words](const char* option) { return std::erase(words, option) > 0; };
+  const bool list = asked_for("--list"), inconvenient = asked_for("--inconvenient");
+  const int cases = !words.empty() ? std::atoi(words[0].c_str()) : 2000;
+  const auto seed = static_cast<std::uint64_t>(words.size() > 1 ? std::atoll(words[1].c_str()) : 1);
+  const auto draw = [=](int number) {
+    return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
+                        : plumb::tests::draw_case(seed, number);
+  };
+  const auto scores = plumb::tests::run_study(draw, cases, [cases](int done) {
     if (done % 50 == 0) std::fprintf(stderr, "%d of %d\n", done, cases);
   });
   for (std::size_t i = 0; list && i < scores.size(); ++i)
     std::printf("%s\n", plumb::tests::line_of(static_cast<int>(i), scores[i]).c_str());
-  const auto marks = plumb::tests::marks_of(scores, 2.0);
+  const auto marks = inconvenient ? plumb::tests::inconvenient_marks_of(scores, 2.0)
+                                  : plumb::tests::marks_of(scores, 2.0);
   std::printf("%s", plumb::tests::table_of(marks).c_str());
+  if (inconvenient) std::printf("\n%s", plumb::tests::inconvenient_tables_of(scores).c_str());
   return std::all_of(marks.begin(), marks.end(), [](const auto& m) { return m.passed; }) ? 0 : 1;
 }

@@ -6,9 +6,6 @@
 #include <array>
 #include <set>
 
-#include "simulate/law.hpp"
-#include "tests/random_numbers.hpp"
-
 namespace plumb::tests {
 namespace {
 
@@ -18,9 +15,40 @@ using offline::sim::LawEntry;
 constexpr std::array kPoses = {45, 150, 500, 1500};
 constexpr std::array kSigmas_um = {10, 20, 30};
 
-/// Not a case of this study: planar beams have their own test, forces on the tool no columns here.
-bool is_drawn(const LawEntry& law) { return law.name.rfind("planar", 0) != 0; }
+/// Not a case of this part of the study: planar beams have their own test, and what came later is
+/// drawn by the study of inconvenient arms, so that the cases of a seed remain the same.
+bool is_drawn(const LawEntry& law) {
+  return law.name.rfind("planar", 0) != 0 && law.name.rfind("two_steps", 0) != 0 &&
+         law.name != "overcompensated_reversal";
+}
 bool is_step(const LawEntry& law) { return law.library == "step"; }
+
+HiddenCase::Answer answer_of(const LawEntry& law, int joint, double sigmas) {
+  HiddenCase::Answer out;
+  out.law = law.name;
+  out.names = {law.library};
+  out.joint = joint;
+  out.sigmas = sigmas;
+  out.names.insert(out.names.end(), law.same_as.begin(), law.same_as.end());
+  return out;
+}
+
+std::string spec_of(const LawEntry& law, int joint, double sigmas, Random& random) {
+  std::string out = law.name + ":";
+  if (joint >= 0) out += fmt::format("J{}", joint + 1);
+  out += fmt::format(":{:g}", sigmas);
+  if (law.name == "gear_ripple") out += fmt::format("@cycles={}", 5 + random.below(30));
+  return out;
+}
+
+Group group_of(int number) {
+  // 1 in 8 nothing, 3 in 8 one effect, and one share for each of the rest.
+  constexpr std::array kTurn = {Group::kOne,  Group::kNothing, Group::kOne,  Group::kUnknown,
+                                Group::kWeak, Group::kOne,     Group::kStep, Group::kThree};
+  return kTurn[static_cast<std::size_t>(number) % kTurn.size()];
+}
+
+}  // namespace
 
 std::vector<const LawEntry*> laws_of(Group group) {
   std::vector<const LawEntry*> out;
@@ -36,7 +64,6 @@ std::vector<const LawEntry*> laws_of(Group group) {
   return out;
 }
 
-/// Where a law is usual on a six-axis arm, so that its size can be drawn.
 int joint_for(const LawEntry& law, Random& random) {
   if (law.on == LawEntry::On::kArm) return -1;
   if (law.name == "gravity_compensator") return 1;
@@ -46,34 +73,10 @@ int joint_for(const LawEntry& law, Random& random) {
   return by_weight ? 1 + random.below(law.name == "link_flexure" ? 2 : 3) : random.below(6);
 }
 
-HiddenCase::Answer answer_of(const LawEntry& law, int joint, double sigmas) {
-  HiddenCase::Answer out{law.name, {law.library}, joint, sigmas};
-  out.names.insert(out.names.end(), law.same_as.begin(), law.same_as.end());
-  return out;
-}
-
-std::string spec_of(const LawEntry& law, int joint, double sigmas, Random& random) {
-  std::string out = law.name + ":";
-  if (joint >= 0) out += fmt::format("J{}", joint + 1);
-  out += fmt::format(":{:g}", sigmas);
-  if (law.name == "gear_ripple") out += fmt::format("@cycles={}", 5 + random.below(30));
-  return out;
-}
-
-void hide(const LawEntry& law, double sigmas, Random& random, HiddenCase& out) {
-  const int joint = joint_for(law, random);
+void hide_at(const LawEntry& law, int joint, double sigmas, Random& random, HiddenCase& out) {
   out.request.effects.push_back(spec_of(law, joint, sigmas, random));
   out.hidden.push_back(answer_of(law, joint, sigmas));
 }
-
-Group group_of(int number) {
-  // 1 in 8 nothing, 3 in 8 one effect, and one share for each of the rest.
-  constexpr std::array kTurn = {Group::kOne,  Group::kNothing, Group::kOne,  Group::kUnknown,
-                                Group::kWeak, Group::kOne,     Group::kStep, Group::kThree};
-  return kTurn[static_cast<std::size_t>(number) % kTurn.size()];
-}
-
-}  // namespace
 
 const char* name_of(Group group) {
   switch (group) {
@@ -91,6 +94,14 @@ const char* name_of(Group group) {
       return "three";
   }
 }
+
+namespace {
+
+void hide(const LawEntry& law, double sigmas, Random& random, HiddenCase& out) {
+  hide_at(law, joint_for(law, random), sigmas, random, out);
+}
+
+}  // namespace
 
 HiddenCase draw_case(std::uint64_t study_seed, int number) {
   Random random(study_seed * 1000003U + static_cast<std::uint64_t>(number));

@@ -5,65 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <utility>
+
+#include "tests/blind/mark_list.hpp"
 
 namespace plumb::tests {
 namespace {
 
 using offline::Finding;
-using Which = std::function<bool(const Score&)>;
-
-constexpr std::size_t kFewestForAMedian = 5;
-
-class Marks {
- public:
-  Marks(const std::vector<Score>& scores, double granted) : scores_(scores), granted_(granted) {}
-
-  void at_least(const std::string& what, double share, const Which& of, const Which& holds) {
-    add_share(what, share, of, holds, true);
-  }
-  void at_most(const std::string& what, double share, const Which& of, const Which& holds) {
-    add_share(what, share, of, holds, false);
-  }
-  void median_at_most(const std::string& what, double limit, const Which& of,
-                      const std::function<double(const Score&)>& value) {
-    std::vector<double> all;
-    for (const auto& s : scores_)
-      if (s.made && of(s)) all.push_back(value(s));
-    if (all.size() < kFewestForAMedian) return;
-    std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
-    const double median = all[all.size() / 2];
-    // The median of few is uncertain by about 1.25 sigma / sqrt(n); half the limit stands for
-    // sigma.
-    const double granted = 0.3 * granted_ * limit / std::sqrt(static_cast<double>(all.size()));
-    marks_.push_back({what, fmt::format("{:.2f} of {}", median, all.size()),
-                      fmt::format("median <= {:.2f}", limit), median <= limit,
-                      median <= limit + granted});
-  }
-  std::vector<Mark> take() { return std::move(marks_); }
-
- private:
-  void add_share(const std::string& what, double share, const Which& of, const Which& holds,
-                 bool least) {
-    int n = 0, k = 0;
-    for (const auto& s : scores_)
-      if (s.made && of(s)) ++n, k += holds(s);
-    if (n == 0) return;
-    const double got = static_cast<double>(k) / n;
-    const double granted = granted_ * std::sqrt(share * (1.0 - share) / n);
-    const double short_by = (least ? share - got : got - share) - 1e-9;
-    marks_.push_back({what, fmt::format("{:.1f} % of {}", 100.0 * got, n),
-                      fmt::format("{} {:.1f} %", least ? ">=" : "<=", 100.0 * share),
-                      short_by <= 0.0, short_by <= granted});
-  }
-  const std::vector<Score>& scores_;
-  double granted_;
-  std::vector<Mark> marks_;
-};
-
 bool known_one(const Score& s) { return s.drawn.group == Group::kOne; }
 
-void add_naming(Marks& m) {
+void add_naming(MarkList& m) {
   m.at_least("right class first, >= 1 sigma", 0.95, known_one,
              [](const Score& s) { return s.class_first; });
   m.at_least("right effect and joint first", 0.90, known_one,
@@ -116,7 +68,7 @@ bool is_steady(const Score& s) {
                                s.drawn.group == Group::kWeak);
 }
 
-void add_errors(Marks& m) {
+void add_errors(MarkList& m) {
   struct Row {
     int poses;
     double error, held;
@@ -156,10 +108,20 @@ std::string result_of(const Mark& mark) {
   return mark.passed ? "missed, within the allowance" : "missed";
 }
 
+std::string claims_text(const Score& s) {
+  if (!s.claims) return "";
+  const Claims& c = *s.claims;
+  return fmt::format(
+      " lead {:.1f} {}{}{} unrelated {} fall {:.2f}+-{:.2f} true {:.2f} held/true {:.2f}", c.lead,
+      c.first_right ? "right" : "wrong", c.alarm ? "" : " silent",
+      c.either ? (c.either_right ? " either-right" : " either-wrong") : "", c.unrelated, c.fall,
+      c.fall_se, c.fall_counts ? c.true_fall : 0.0, s.held_over_true);
+}
+
 }  // namespace
 
 std::vector<Mark> marks_of(const std::vector<Score>& scores, double granted) {
-  Marks out(scores, granted);
+  MarkList out(scores, granted);
   add_naming(out);
   add_errors(out);
   return out.take();
@@ -175,14 +137,15 @@ std::string table_of(const std::vector<Mark>& marks) {
 std::string line_of(int number, const Score& s) {
   std::string hidden;
   for (const auto& effect : s.drawn.request.effects) hidden += " " + effect;
+  if (!s.drawn.kind.empty()) hidden = " [" + s.drawn.kind + "]" + hidden;
   if (!s.made)
     return fmt::format("{} {}{}: not made: {}", number, name_of(s.drawn.group), hidden, s.why_not);
   return fmt::format(
       "{} {} N={} class {} joint {} extra {} unk {} in {} err {:.2f}->{:.2f} held {:.2f} {:.2f}s{} "
-      "|| {}",
+      "{} || {}",
       number, name_of(s.drawn.group), s.drawn.request.poses, s.class_first, s.joint_first, s.extra,
       s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.seconds, hidden,
-      s.said);
+      claims_text(s), s.said);
 }
 
 }  // namespace plumb::tests

@@ -18,6 +18,8 @@
 #include "fit/fit.hpp"
 #include "program/file.hpp"
 #include "simulate/law.hpp"
+#include "tests/blind/answer.hpp"
+#include "tests/blind/claims.hpp"
 
 namespace plumb::tests {
 namespace {
@@ -44,38 +46,15 @@ Seen written_and_read(const BlindCase& blind, std::uint64_t seed) {
   return out;
 }
 
-bool is_like(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
-  // The last link under the payload is the tool that hangs.
-  if (hidden.law == "tool_sag" && entry.name == "link_flexure")
-    return entry.joints == std::vector<int>{5};
-  return std::find(hidden.names.begin(), hidden.names.end(), entry.name) != hidden.names.end();
-}
-
-/// Eccentric gears err a little three times a turn as well, and more under load.
-bool is_third_harmonic(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
-  const bool gear = hidden.law == "gear_harmonics" || hidden.law == "encoder_eccentricity";
-  return gear && entry.name == "gear_ripple" &&
-         std::abs(std::get<double>(entry.options.at("cycles_per_turn")) - 3.0) < 0.4;
-}
-
-bool at_joint(const HiddenCase::Answer& hidden, const EffectEntry& entry) {
-  // Between elbow and wrist the DH frames part one forearm into two links.
-  if (hidden.law == "link_flexure" && !entry.joints.empty())
-    return std::abs(entry.joints.front() - hidden.joint) <= 1;
-  return hidden.joint < 0 || entry.joints.empty() || entry.joints.front() == hidden.joint ||
-         std::find(entry.joints.begin(), entry.joints.end(), hidden.joint) != entry.joints.end();
-}
-
 /// Per-axis RMS from the noise-free truth on fresh poses, in sigma. Effects of the measurement act
 /// on fresh poses too unless they happened once.
-double true_error(ArmState arm, const BlindCase& blind) {
+double true_error(ArmState arm, const Simulation& fresh) {
   // Thrown away before the arm works: steps, drift, lag, the tracker.
   for (auto& effect : arm.arm.effects) {
     const EffectInfo& info = *descriptor_of(effect.name).law;
     if (info.domain == EffectDomain::kMeasurement || info.domain == EffectDomain::kProcedure)
       std::fill(effect.parameters.begin(), effect.parameters.end(), 0.0);
   }
-  const auto& fresh = blind.fresh_robot;
   const Rows3 error = fresh.true_p_M - predict_points(arm, fresh.measured);
   return std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
 }
@@ -94,6 +73,16 @@ ArmState fitted_with_tree(const Seen& seen, std::vector<EffectEntry> effects) {
   effects.push_back({.name = "local_tree", .joints = {}, .options = {}, .place = {}});
   cell.effects = std::move(effects);
   return fit_all(cell, seen.measured).calibration.state;
+}
+
+/// By how much the error that a tracker sees at new poses falls with the first candidate, as a
+/// share.
+double true_fall(const Seen& seen, const BlindCase& blind, const Diagnosis& d, double sigma) {
+  const Simulation& fresh = blind.fresh_scattered ? *blind.fresh_scattered : blind.fresh_robot;
+  std::vector<EffectEntry> more = seen.cell.effects;
+  more.push_back(d.candidates.front().entry);
+  const double before = std::hypot(sigma, true_error(fitted(seen, seen.cell.effects), fresh));
+  return 1.0 - std::hypot(sigma, true_error(fitted(seen, more), fresh)) / before;
 }
 
 void score_unknown(const BlindCase& blind, const Diagnosis& d, Score& out) {
@@ -225,14 +214,21 @@ Score run_case(const HiddenCase& drawn) {
     judge(seen, blind, d, out);
     const double sigma = drawn.request.sigma_m;
     const ArmState diagnosed = fitted(seen, d.effects);
-    out.before = true_error(fitted(seen, seen.cell.effects), blind) / sigma;
-    out.after = true_error(diagnosed, blind) / sigma;
+    out.before = true_error(fitted(seen, seen.cell.effects), blind.fresh_robot) / sigma;
+    out.after = true_error(diagnosed, blind.fresh_robot) / sigma;
     if (drawn.request.seed % kTreeEvery == 0)
-      out.with_tree = true_error(fitted_with_tree(seen, d.effects), blind) / sigma;
+      out.with_tree = true_error(fitted_with_tree(seen, d.effects), blind.fresh_robot) / sigma;
     if (drawn.group == Group::kStep) out.step_found = finds_step(seen, blind, d, diagnosed);
     const double axes = 3.0;
     out.held_over_floor = d.after.rms / (std::sqrt(axes) * sigma);
-    out.held_over_true = d.after.rms / (sigma * std::sqrt(axes * (1.0 + out.after * out.after)));
+    // What new poses show scatters with the joints as well.
+    const double seen_error =
+        blind.fresh_scattered ? true_error(diagnosed, *blind.fresh_scattered) / sigma : out.after;
+    out.held_over_true = d.after.rms / (sigma * std::sqrt(axes * (1.0 + seen_error * seen_error)));
+    if (!drawn.kind.empty()) {
+      out.claims = claims_of(drawn, d);
+      if (out.claims->fall_counts) out.claims->true_fall = true_fall(seen, blind, d, sigma);
+    }
     out.made = true;
   } catch (const Failure& failure) {
     out.why_not = failure.what();

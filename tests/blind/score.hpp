@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,20 @@
 #include "tests/blind/hidden_case.hpp"
 
 namespace plumb::tests {
+
+/// What a diagnosis claims with confidence, and whether it is so. Of the study of inconvenient
+/// arms.
+struct Claims {
+  bool alarm = false;        // it named something, for certain or as one of several, or added it
+  double lead = 0.0;         // nats from the first candidate to the next
+  bool first_right = false;  // its first candidate is of a class that is hidden
+  bool either = false;       // it said "A or B"
+  bool either_right = false;
+  int unrelated = 0;         // added, but with nothing to do with what is hidden
+  bool fall_counts = false;  // new poses can tell by how much the error falls with the first
+  double fall = 0.0, fall_se = 0.0;  // claimed, as shares of the error
+  double true_fall = 0.0;
+};
 
 /// How one diagnosis did against the truth. Errors in sigma.
 struct Score {
@@ -26,6 +41,7 @@ struct Score {
   double with_tree = -1.0;           // the same with a tree on the rest; -1: not tried
   double held_over_floor = 0.0;      // held-out RMS over noise floor
   double held_over_true = 0.0;       // held-out RMS over what fresh noisy poses would show
+  std::optional<Claims> claims;
   double seconds = 0.0;
   std::string said;  // first candidate, what was added
 };

@@ -85,6 +85,26 @@ TEST_F(Simulate, FreshPosesAreOfTheSameArmWithoutNoise) {
   EXPECT_LT(rms("other.csv"), 2.0 * rms("own.csv"));
 }
 
+TEST_F(Simulate, TheTruthNamesWhatMakesTheArmInconvenient) {
+  const Ran ran = run({"--joint-scatter-urad", "25", "--encoder-step-urad", "100", "--revisits",
+                       "20", "--true-gravity", "0,-9.81,0", "--coupled-drives", "J3"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json imperfections = truth().at("imperfections");
+  EXPECT_NEAR(imperfections.at("joint_scatter_urad").at(0), 25.0, 1e-9);
+  EXPECT_NEAR(imperfections.at("encoder_step_urad"), 100.0, 1e-9);
+  EXPECT_EQ(imperfections.at("gravity_m_per_s2"), Json({0.0, -9.81, 0.0}));
+  EXPECT_EQ(imperfections.at("coupled_drives"), Json({"J3"}));
+  const Csv csv = data();
+  EXPECT_EQ(csv.rows(), 170U);
+  EXPECT_EQ(csv.columns.at("pose").back(), "P143") << "the last of every 7.5th pose";
+  for (const double q_deg : csv.numbers("q2_deg")) {
+    const double steps = q_deg * M_PI / 180.0 / 100e-6;
+    EXPECT_NEAR(steps, std::round(steps), 1e-6);
+  }
+  ASSERT_EQ(run({}).exit, 0);
+  EXPECT_FALSE(truth().contains("imperfections")) << "nothing was asked for";
+}
+
 TEST_F(Simulate, MistakesAreUsageErrorsWithHelp) {
   const std::vector<std::vector<std::string>> mistakes{
       {"--effect", "gear_ripple:J2:5@cicles=20"},
@@ -94,6 +114,11 @@ TEST_F(Simulate, MistakesAreUsageErrorsWithHelp) {
       {"--outliers", "many"},
       {"--grid", "1"},
       {"--order", "random"},
+      {"--coupled-drives", "J7"},
+      {"--coupled-drives", "J1"},
+      {"--true-gravity", "0,-9.81"},
+      {"--joint-scatter-urad", "1,2,3"},
+      {"--revisits", "151"},
       {"--effect", "payload_compliance:J1:3"},
       {"--effect", "thermal_growth::3", "--constant-temperature"}};
   for (const auto& words : mistakes) {

@@ -84,9 +84,7 @@ TEST_F(RegressorScoreTest, TheFoldGainEqualsRefitsWithoutEachFold) {
   const Regressor regressor = library_regressor(*whitened, entry("gear_harmonics", {1}));
   const RegressorScore scored = scorer.score(regressor);
   const Eigen::MatrixXd X = motions(*whitened, regressor);
-  const double left = std::max(scorer.scale().variance,
-                               whitened->Q * (1.0 - scored.explained) / scorer.scale().lines);
-  const double ridge = std::sqrt(left) / scored.evidence.width;
+  const double ridge = std::sqrt(scored.variance) / scored.evidence.width;
   double before = 0.0, after = 0.0;
   for (const auto& fold : whitened->folds) {
     std::vector<Eigen::Index> in, out;
@@ -108,6 +106,21 @@ TEST_F(RegressorScoreTest, TheFoldGainEqualsRefitsWithoutEachFold) {
     after += held(both, penalty);
   }
   EXPECT_NEAR(scorer.gain(scored).share, 1.0 - std::sqrt(after / before), 1e-6);
+}
+
+TEST_F(RegressorScoreTest, TheFoldGainHardlyDependsOnTheSigmaThatIsStated) {
+  const Regressor regressor = library_regressor(*whitened, entry("gear_harmonics", {1}));
+  const auto gain_with = [&](double times) {
+    WhitenedFit stated = *whitened;
+    stated.noise.variance *= times * times;
+    stated.noise.dof = 4.0;
+    const Scorer scorer(stated);
+    return scorer.gain(scorer.score(regressor)).share;
+  };
+  const double right = gain_with(1.0);
+  EXPECT_GT(right, 0.1);
+  EXPECT_NEAR(gain_with(3.0), right, 0.02);
+  EXPECT_NEAR(gain_with(0.3), right, 0.02);
 }
 
 TEST_F(RegressorScoreTest, ASignThatIsForbiddenIsNeverFitted) {

@@ -57,6 +57,18 @@ TEST(NoiseFloor, AFewBadReadingsDoNotChangeIt) {
   EXPECT_NEAR(noise_floor(Cell{}, one).sigma_m, alone, 0.1 * alone);
 }
 
+TEST(NoiseFloor, ABumpedReflectorBetweenFarRepeatsIsNoNoise) {
+  // 200 rows: every pose is read twice in place, and once more after a bump of 0.3 mm.
+  Measurements m = repeats_of(50, 4, 1e-5, 9);
+  for (int i = 0; i < m.size(); ++i) {
+    const int half = m.size() / 2;
+    m.replicate_group[i] = (i % half) / 2;
+    m.p_M.row(i) -= Eigen::RowVector3d::Constant(i / 4);
+    if (i >= half) m.p_M(i, 2) += 3e-4;
+  }
+  EXPECT_NEAR(noise_floor(Cell{}, m).sigma_m, 1e-5, 1e-6);
+}
+
 TEST(NoiseFloor, CopiesOfAReadingAndIgnoredRowsAreNoRepeats) {
   Measurements m = repeats_of(30, 2, 1e-5, 6);
   for (int i = 0; i < m.size(); i += 2) m.p_M.row(i + 1) = m.p_M.row(i);

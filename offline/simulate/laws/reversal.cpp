@@ -63,13 +63,24 @@ class Reversal : public Law {
   std::vector<VectorXd> unloaded_;
 };
 
+std::vector<SizedJoint> backlash_joints(const HiddenEffect& effect, const World& world) {
+  std::vector<bool> turns;
+  for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
+  return sized_joints(effect, world, turns, turns, kUsualReversal_rad, "it slides");
+}
+
 }  // namespace
 
 std::unique_ptr<Law> make_reversal(const HiddenEffect& effect, const World& world) {
-  std::vector<bool> turns;
-  for (int j = 0; j < world.arm.joints(); ++j) turns.push_back(!world.arm.slides(j));
-  return std::make_unique<Reversal>(
-      sized_joints(effect, world, turns, turns, kUsualReversal_rad, "it slides"), world);
+  return std::make_unique<Reversal>(backlash_joints(effect, world), world);
+}
+
+// A controller that takes out more backlash than there is: the joints go too far, by the side they
+// come from. The law is that of the reversal with a negative gap.
+std::unique_ptr<Law> make_overcompensated_reversal(const HiddenEffect& effect, const World& world) {
+  auto joints = backlash_joints(effect, world);
+  for (auto& at : joints) at.size = -at.size;
+  return std::make_unique<Reversal>(std::move(joints), world);
 }
 
 }  // namespace plumb::offline::sim

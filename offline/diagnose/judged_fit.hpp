@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnose/scan.hpp"
+#include "diagnose/whitened_fit.hpp"
+#include "fit/repeatability.hpp"
+
+namespace plumb::offline {
+
+/// A whitened fit and what the scan of it finds.
+struct JudgedFit {
+  WhitenedFit whitened;
+  Scan look;
+  Repeatability repeatability;  // beside the best candidate, if one is supported
+};
+
+/// Scans a whitened fit. What the scan finds must hold its own against the scatter of the joints:
+/// the variances are estimated once without any effect, and once beside the best candidate, and the
+/// fit is then whitened by the latter and scanned again. Each candidate pays, in nats, what scatter
+/// alone explains better without it than with it.
+///
+/// @param whitened  Of make_whitened_fit: without scatter.
+JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testable,
+                 const std::vector<std::string>& banned);
+
+}  // namespace plumb::offline

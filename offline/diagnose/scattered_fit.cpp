@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/scattered_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "fit/repeatability.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// Poses first to last - 1 of the whitened fit, read at one stop.
+struct Stop {
+  Eigen::Index first, last;
+};
+
+std::vector<Stop> stops_of(const WhitenedFit& s, const Segment& at) {
+  const std::vector<int> stop =
+      stops(*s.measured, {s.row.begin() + at.begin, s.row.begin() + at.end});
+  std::vector<Stop> out;
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+    if (i > 0 && stop[i] == stop[i - 1])
+      out.back().last = at.begin + i + 1;
+    else
+      out.push_back({at.begin + i, at.begin + i + 1});
+  return out;
+}
+
+std::vector<Stop> stops_of_fit(const WhitenedFit& s) {
+  std::vector<Stop> out;
+  for (const Segment& fold : s.folds) {
+    const auto some = stops_of(s, fold);
+    out.insert(out.end(), some.begin(), some.end());
+  }
+  return out;
+}
+
+Eigen::MatrixXd merged(const Eigen::MatrixXd& lines, const std::vector<Stop>& stops, int axes) {
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(stops.size()) * axes, lines.cols());
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    auto block = out.middleRows(static_cast<Eigen::Index>(i) * axes, axes);
+    for (Eigen::Index k = stops[i].first; k < stops[i].last; ++k)
+      block += lines.middleRows(k * axes, axes);
+    block /= std::sqrt(static_cast<double>(stops[i].last - stops[i].first));
+  }
+  return out;
+}
+
+ScatterLines lines_of_stops(const WhitenedFit& s, const std::vector<Stop>& stops) {
+  ScatterLines out{merged(s.y, stops, s.axes), merged(s.U, stops, s.axes),       {}, s.axes,
+                   s.noise.variance,           s.noise.known ? s.noise.dof : 0.0};
+  for (const auto& motion : s.joint) out.joint.emplace_back(merged(motion, stops, s.axes));
+  return out;
+}
+
+/// What is known of each stop, pose by pose.
+void keep_first_of(const std::vector<Stop>& stops, const WhitenedFit& s, WhitenedFit& out) {
+  for (const Stop& stop : stops) {
+    const auto at = static_cast<std::size_t>(stop.first);
+    const double root = std::sqrt(static_cast<double>(stop.last - stop.first));
+    out.row.push_back(s.row[at]);
+    out.frames.push_back(s.frames[at]);
+    out.loads.push_back(s.loads[at]);
+    out.context.push_back(s.context[at]);
+    out.R_MB.push_back(s.R_MB[at]);
+    out.arm_B.push_back(s.arm_B[at]);
+    for (int k = 0; k < s.axes; ++k)
+      out.sigma.push_back(s.sigma[static_cast<std::size_t>(stop.first * s.axes + k)] / root);
+  }
+}
+
+PoseRoot root_of(const ScatterLines& lines, const JointScatter& scatter, Eigen::Index pose) {
+  PoseRoot V = scatter.noise_variance * PoseRoot::Identity(lines.axes, lines.axes);
+  for (std::size_t j = 0; j < lines.joint.size(); ++j) {
+    const auto g = lines.joint[j].segment(pose * lines.axes, lines.axes);
+    V += scatter.variance(static_cast<Eigen::Index>(j)) * g * g.transpose();
+  }
+  return V.llt().matrixL();
+}
+
+template <class Lines>
+void divide(const std::vector<PoseRoot>& root, int axes, Lines& lines) {
+  for (std::size_t i = 0; i < root.size(); ++i) {
+    auto block = lines.middleRows(static_cast<Eigen::Index>(i) * axes, axes);
+    root[i].triangularView<Eigen::Lower>().solveInPlace(block);
+  }
+}
+
+double typical_sigma(const WhitenedFit& s) {
+  double squares = 0.0;
+  for (Eigen::Index i = 0; i < s.poses(); ++i)
+    for (int k = 0; k < s.axes; ++k)
+      squares += std::pow(s.sigma[i * s.axes + k], 2) * s.root[i].row(k).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, s.poses() * s.axes)));
+}
+
+}  // namespace
+
+ScatterLines scatter_lines(const WhitenedFit& whitened) {
+  return lines_of_stops(whitened, stops_of_fit(whitened));
+}
+
+ScatterLines scatter_lines(const WhitenedFit& s, const Eigen::MatrixXd& columns) {
+  const auto stops = stops_of_fit(s);
+  ScatterLines out = lines_of_stops(s, stops);
+  Eigen::MatrixXd J(out.U.rows(), out.U.cols() + columns.cols());
+  J << out.U, merged(columns, stops, s.axes);
+  out.U = orthonormal(J, J.rows()).U;
+  return out;
+}
+
+Repeatability repeatability_of(const WhitenedFit& s, const JointScatter& scatter) {
+  ScatterLines lines;
+  for (const auto& motion : s.joint) lines.joint.emplace_back(motion.head(s.fit_lines));
+  return repeatability_of(lines, scatter, {s.sigma.begin(), s.sigma.begin() + s.fit_lines});
+}
+
+WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {
+  WhitenedFit out;
+  out.cell = s.cell;
+  out.measured = s.measured;
+  out.axes = s.axes;
+  out.chain = s.chain;
+  out.sensors = s.sensors;
+  out.noise = s.noise;
+  out.noise.variance = 1.0;
+  std::vector<Stop> stops;
+  for (const Segment& fold : s.folds) {
+    const auto begin = static_cast<Eigen::Index>(stops.size());
+    const auto some = stops_of(s, fold);
+    stops.insert(stops.end(), some.begin(), some.end());
+    out.folds.push_back({begin, static_cast<Eigen::Index>(stops.size())});
+  }
+  out.held.begin = static_cast<Eigen::Index>(stops.size());
+  out.fit_lines = out.held.begin * s.axes;
+  for (Eigen::Index i = s.held.begin; i < s.held.end; ++i) stops.push_back({i, i + 1});
+  out.held.end = static_cast<Eigen::Index>(stops.size());
+  keep_first_of(stops, s, out);
+  ScatterLines lines = lines_of_stops(s, stops);
+  for (Eigen::Index i = 0; i < out.held.end; ++i) out.root.push_back(root_of(lines, scatter, i));
+  out.base = merged(s.base, stops, s.axes);
+  out.tool = merged(s.tool, stops, s.axes);
+  divide(out.root, s.axes, lines.y);
+  divide(out.root, s.axes, lines.U);
+  divide(out.root, s.axes, out.base);
+  divide(out.root, s.axes, out.tool);
+  for (auto& motion : lines.joint) divide(out.root, s.axes, motion);
+  out.joint = std::move(lines.joint);
+  out.y = std::move(lines.y);
+  auto [U, half] = orthonormal(lines.U, out.fit_lines);
+  out.rank = U.cols();
+  out.U = std::move(U);
+  out.half_information = s.half_information * half;
+  out.correction = s.correction + out.half_information * clear_residual(out);
+  out.sigma_m = typical_sigma(out);
+  fold_joints(out);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/joint_scatter.hpp"
+#include "fit/noise_floor.hpp"
+
+namespace plumb::offline {
+
+/// How well the joints come back to the same place: an error of each joint that is another one at
+/// every stop. No model can correct it.
+struct Repeatability {
+  std::vector<double> std;  // of each joint [rad or m]; 0: none is seen
+  double ln_bayes = 0.0;    // of this scatter over noise alone
+  double sigma_m = 0.0;     // of a measured coordinate, noise and scatter together
+
+  /// Whether the readings speak for it at odds of 20 to 1.
+  bool supported() const;
+  /// Whether every joint repeats as well as industrial arms do, within 60 urad. Beyond it something
+  /// that a model lacks is the likelier cause.
+  bool usual() const;
+};
+
+/// @param lines    Reading by reading, not stop by stop; only their motions are looked at.
+/// @param sigma_m  1 sigma by which each line was divided [m], shape (lines,).
+Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& scatter,
+                               const std::vector<double>& sigma_m);
+
+/// What a calibrated model leaves of the poses that it was fitted to, as if nothing but noise and
+/// the scatter of the joints were in it. What the model lacks looks like scatter too.
+Repeatability repeatability(const Cell& cell, const Measurements& measured,
+                            const Calibration& calibration, const std::vector<int>& rows);
+
+/// The noise floor with the repeatability of the arm in it, where that is supported and the floor
+/// is known.
+NoiseFloor with_repeatability(NoiseFloor floor, const Repeatability& repeatability);
+
+/// "J2 25 urad, J3 31 urad", largest first; the small ones are left out.
+std::string in_words(const Cell& cell, const Repeatability& repeatability);
+
+/// Number of the stop of each of `rows`: those that follow each other in the file at one pose were
+/// read while the arm stood still.
+std::vector<int> stops(const Measurements& measured, const std::vector<int>& rows);
+
+/// Lines of readings added stop by stop and divided by the root of their number.
+ScatterLines by_stop(const ScatterLines& lines, const std::vector<int>& stops);
+
+}  // namespace plumb::offline
