@@ -68,6 +68,16 @@ constexpr Explanation kCodes[] = {
      "There are no measurements yet, or too few for a fit, so the poses were chosen for the "
      "nominal arm. That makes little difference: derivatives hardly depend on errors of a "
      "millimetre."},
+    {"E-PLAN-SAME",
+     "Whatever the pose, and whatever of load, side of arrival or temperature can be chosen, the "
+     "two "
+     "effects move the measured point in the same way, so that no reading of the point can tell "
+     "which of them it is. For the correction it does not matter: add either of them."},
+    {"N-PLAN-PAYLOAD",
+     "One of the two effects grows with the load and the other one does not, or differently, so "
+     "readings with two loads tell them apart. Which loads can be mounted is taken from --payload, "
+     "else from the measurements if they were made with several, else from [robot] payload and the "
+     "arm without it. None of these states a second one."},
     {"N-PLAN-SETUP",
      "New poses are chosen for one set-up, the first of the cell; what was measured in the others "
      "counts as known. The choice hardly depends on the set-up: what matters is the arm."},

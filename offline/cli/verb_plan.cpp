@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 struct PlanArguments {
   int n = 30, pool = 5000;
   std::uint64_t seed = 1;
-  std::string limits, separate, output = "plan.csv";
+  std::string limits, separate, payloads, output = "plan.csv";
   std::vector<std::string> boxes;
   WriteOptions write;
 };
@@ -66,6 +67,28 @@ double share_of(const std::string& text) {
   return share;
 }
 
+/// Loads that can be mounted [kg].
+std::vector<double> loads_of(const std::string& text) {
+  std::vector<double> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  while (good && at != end) {
+    double kg = 0.0;
+    const auto [stop, error] = std::from_chars(at, end, kg);
+    good = error == std::errc{} && std::isfinite(kg) && kg >= 0.0 &&
+           (stop == end || (*stop == ',' && stop + 1 != end)) &&
+           std::find(out.begin(), out.end(), kg) == out.end();
+    out.push_back(kg);
+    at = stop == end ? end : stop + 1;
+  }
+  if (!good || out.size() < 2)
+    usage(fmt::format("'{}' is no list of two or more different loads", text),
+          "masses in kg that can be mounted, 0 for none: --payload 0,10");
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 PlanRequest request_of(const PlanArguments& options, const Cell& cell) {
   PlanRequest out;
   out.n = options.n;
@@ -74,6 +97,11 @@ PlanRequest request_of(const PlanArguments& options, const Cell& cell) {
   out.rules.joint_share = share_of(options.limits);
   for (const auto& box : options.boxes) out.rules.boxes.push_back(box_of(box));
   if (!options.separate.empty()) out.separate = two_effects(cell, options.separate);
+  if (!options.payloads.empty()) {
+    if (options.separate.empty())
+      usage("--payload is of use only with --separate", "plumb plan --separate A,B --payload 0,10");
+    out.payloads_kg = loads_of(options.payloads);
+  }
   return out;
 }
 
@@ -128,6 +156,10 @@ void add_plan(Program& program) {
   verb.add_option("--separate", options->separate,
                   "Two effects, as NAME[:JOINT+JOINT...][@KEY=NUMBER],NAME...")
       .type_name("A,B");
+  verb.add_option("--payload", options->payloads,
+                  "Loads that can be mounted to tell the two apart [kg] (those measured with; else "
+                  "none and that of the cell)")
+      .type_name("KG,KG...");
   verb.add_option("--box", options->boxes,
                   "Where the reflector may go, base frame [mm]; may be given again")
       .type_name("XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX");

@@ -87,7 +87,7 @@ std::string separating_measurement(const EffectEntry& a, const EffectEntry& b) {
   const EffectDescriptor &first = descriptor_of(a.name), &second = descriptor_of(b.name);
   const unsigned only = first.law->needs ^ second.law->needs;
   if ((only & kNeedsDirection) != 0) return "the same poses approached from + and from -";
-  if ((only & kNeedsSteps) != 0) return "the same poses again after a longer wait";
+  if ((only & kNeedsSteps) != 0) return "poses reached by short and by long moves of the joint";
   if ((only & kNeedsTemperature) != 0) return "the same poses cold and warm";
   if ((only & (kNeedsTime | kNeedsOrder)) != 0) return "the first poses again at the end";
   if (grows_with_load(first) || grows_with_load(second))

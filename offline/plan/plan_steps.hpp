@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include "fit/calibrate.hpp"
 #include "plan/pose_plan.hpp"
 
 namespace plumb::offline {
@@ -8,9 +10,10 @@ namespace plumb::offline {
 /// What both kinds of plan begin with.
 struct PlanStart {
   ArmState state;
-  Measurements used;   // rows that count
-  Measurements pool;   // poses to choose from
-  Measurements check;  // others, over which predictions are judged
+  std::optional<Calibration> calibration;  // none: the nominal arm
+  Measurements used;                       // rows that count
+  Measurements pool;                       // poses to choose from
+  Measurements check;                      // others, over which predictions are judged
   double sigma_m = 0.0, sigma_rad = 0.0;
 };
 
@@ -25,8 +28,8 @@ PredictionSigma prediction_sigma(const DesignSpace& space, const Measurements& c
 void plan_separation(const Cell& cell, const PlanStart& start, const PlanRequest& request,
                      PosePlan& out);
 
-/// Puts chosen poses into driving order; start: last pose measured, or the middle of the range.
-std::vector<int> driven(const Cell& cell, const PlanStart& start, std::vector<int> chosen,
-                        double& drive);
+/// Driving order of poses q, from the last pose measured, or from the middle of the range.
+/// drive: raised by its length.
+std::vector<int> driven(const Cell& cell, const PlanStart& start, const RowsN& q, double& drive);
 
 }  // namespace plumb::offline

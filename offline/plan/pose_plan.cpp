@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cell/setups.hpp"
+#include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/frame_start.hpp"
@@ -40,13 +41,13 @@ ArmState nominal_arm(const Cell& cell) {
   return out;
 }
 
-/// The fitted arm, or the nominal one with a note why.
-ArmState arm_to_plan_for(const Cell& cell, const Measurements& used, PosePlan& out) {
+/// The fitted arm, or none with a note why.
+std::optional<Calibration> fitted_arm(const Cell& cell, const Measurements& used, PosePlan& out) {
   std::vector<int> rows(static_cast<std::size_t>(used.size()));
   std::iota(rows.begin(), rows.end(), 0);
   std::string why = "nothing is measured yet";
   try {
-    if (!rows.empty()) return calibrate(cell, used, rows).state;
+    if (!rows.empty()) return calibrate(cell, used, rows);
   } catch (const Failure& failure) {
     why = failure.problems().front().message;
   }
@@ -54,12 +55,29 @@ ArmState arm_to_plan_for(const Cell& cell, const Measurements& used, PosePlan& o
                          .code = "N-PLAN-NOMINAL",
                          .message = fmt::format("planned for the nominal arm: {}", why),
                          .help = "measure these poses, then: plumb fit"});
-  return nominal_arm(cell);
+  return std::nullopt;
 }
 
 double sigma_of(const Cell& cell, const Measurements& used) {
   const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
   return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUsualSigma_m);
+}
+
+/// The model less the two effects that are to be told apart, and less what is learnt.
+Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
+  std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
+  for (const auto& rival : rivals)
+    std::erase_if(cell.effects, [&](EffectEntry& listed) {
+      if (listed.name != rival.name) return false;
+      if (is_wave(listed.name))
+        return listed.joints == rival.joints && listed.options == rival.options;
+      if (!descriptor_of(listed.name).joints_apart) return listed.joints == rival.joints;
+      std::erase_if(listed.joints, [&](int joint) {
+        return std::find(rival.joints.begin(), rival.joints.end(), joint) != rival.joints.end();
+      });
+      return listed.joints.empty();
+    });
+  return cell;
 }
 
 PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanRequest& request,
@@ -73,7 +91,8 @@ PlanStart start_of(const Cell& cell, const Measurements& measured, const PlanReq
          .help = "for another one, list it first in cell.toml"});
   PlanStart start;
   start.used = measured.size() > 0 ? pick(measured, used_rows(measured)) : measured;
-  start.state = arm_to_plan_for(cell, start.used, out);
+  start.calibration = fitted_arm(cell, start.used, out);
+  start.state = start.calibration ? start.calibration->state : nominal_arm(cell);
   start.sigma_m = sigma_of(cell, start.used);
   if (measured.has_orientation() || measured.size() == 0)
     start.sigma_rad = cell.measurement.sigma_rad.value_or(0.0);
@@ -105,9 +124,10 @@ void plan_d_optimal(const Cell& cell, const PlanStart& start, const PlanRequest&
   for (const int i : design.chosen) information.add(candidates[static_cast<std::size_t>(i)]);
   out.after = prediction_sigma(space, start.check, information.covariance());
   out.ln_det = design.value;
-  for (const int i : driven(cell, start, design.chosen, out.drive))
+  const RowsN q = start.pool.q(design.chosen, Eigen::all);
+  for (const int i : driven(cell, start, q, out.drive))
     out.poses.push_back({.name = fmt::format("N{:03}", out.poses.size() + 1),
-                         .q = start.pool.q.row(i).transpose(),
+                         .q = q.row(i).transpose(),
                          .note = ""});
 }
 
@@ -137,8 +157,7 @@ PredictionSigma prediction_sigma(const DesignSpace& space, const Measurements& c
   return out;
 }
 
-std::vector<int> driven(const Cell& cell, const PlanStart& start, std::vector<int> chosen,
-                        double& drive) {
+std::vector<int> driven(const Cell& cell, const PlanStart& start, const RowsN& q, double& drive) {
   Eigen::VectorXd range(cell.joints()), from(cell.joints());
   for (int j = 0; j < cell.joints(); ++j) {
     const auto& row = cell.nominal.joints[static_cast<std::size_t>(j)];
@@ -146,21 +165,19 @@ std::vector<int> driven(const Cell& cell, const PlanStart& start, std::vector<in
     from(j) = 0.5 * (row.q_min + row.q_max);
   }
   if (start.used.size() > 0) from = start.used.q.row(start.used.size() - 1).transpose();
-  const RowsN q = start.pool.q(chosen, Eigen::all);
   const auto order = driving_order(q, range, from);
-  drive = driving_length(q, order, range, from);
-  std::vector<int> out;
-  for (const int i : order) out.push_back(chosen[static_cast<std::size_t>(i)]);
-  return out;
+  drive += driving_length(q, order, range, from);
+  return order;
 }
 
 PosePlan plan_poses(const Cell& cell, const Measurements& measured, const PlanRequest& request) {
   PosePlan out;
-  const PlanStart start = start_of(cell, measured, request, out);
+  const Cell model = request.separate.empty() ? cell : without_rivals(cell, request.separate);
+  const PlanStart start = start_of(model, measured, request, out);
   if (request.separate.empty())
-    plan_d_optimal(cell, start, request, out);
+    plan_d_optimal(model, start, request, out);
   else
-    plan_separation(cell, start, request, out);
+    plan_separation(model, start, request, out);
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "plan/contrasts.hpp"
+#include "plan/circumstances.hpp"
 #include "plan/d_optimal.hpp"
 #include "plan/design_space.hpp"
 #include "plan/pose_pool.hpp"
@@ -19,6 +19,7 @@ struct PlanRequest {
   int n = 30;  // measurements
   PoseRules rules;
   std::vector<EffectEntry> separate = {};  // two, or none
+  std::vector<double> payloads_kg = {};    // loads that can be mounted; empty: see Circumstances
 };
 
 /// 1 sigma of a predicted reflector position, three axes together [m].
@@ -39,11 +40,19 @@ struct EffectSigma {
   double after = 0.0;
 };
 
+/// What the readings are expected to say of two effects A and B: by how much the true one is then
+/// ahead of the other, as ln of a Bayes factor [nats].
+struct ExpectedDecision {
+  std::optional<double> today;  // A over B at the poses measured; none if nothing is
+  double if_a = 0.0, if_b = 0.0;
+  double least() const { return if_a < if_b ? if_a : if_b; }
+};
+
 struct PlannedPose {
   std::string name;
-  Eigen::VectorXd q;    // [rad] or [m]
-  bool second = false;  // of a contrast
+  Eigen::VectorXd q;  // [rad] or [m]
   std::string note;
+  ReadingOption how = {};  // of a separation
 };
 
 /// The poses to measure next, in the order of driving, and what they will bring.
@@ -56,18 +65,19 @@ struct PosePlan {
   PredictionSigma before, after;  // over poses within the same rules; not of a separation
   double ln_det = 0.0;            // of the information gained
   double drive = 0.0;             // in ranges of the slowest joint
-  Contrast contrast = Contrast::kNone;
-  std::vector<Contrast> others;  // that would separate too
-  ContrastSizes sizes;
+  Circumstances circumstances;    // of a separation
+  ExpectedDecision expected;      // of a separation
   Reproduction apart_before, apart_after;
   std::vector<EffectSigma> numbers;  // of both effects
   std::vector<Problem> remarks;
 };
 
 /// D-optimal poses [Fedorov 1972] for geometry and the effects of the cell, given those measured;
-/// or those that tell two effects apart: the contrast that does it best, at the poses where the
-/// effects differ most beyond geometry. Linearised at the fitted arm, or at the nominal one if
-/// there is no fit yet. Throws Failure: E-PLAN-BOX.
+/// or those that tell two effects A and B apart: poses, and what else matters for the two, are
+/// chosen so that the evidence for A over B is expected to be large if A is true with its fitted
+/// size, and small if B is; the smaller of both counts. Linearised at the fitted arm, or at the
+/// nominal one if there is no fit yet; then both effects are taken to have their typical sizes.
+/// Throws Failure: E-PLAN-BOX, E-PLAN-SAME (no measurement of the point tells the two apart).
 PosePlan plan_poses(const Cell& cell, const Measurements& measured, const PlanRequest& request);
 
 }  // namespace plumb::offline

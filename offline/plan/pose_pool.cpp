@@ -23,6 +23,13 @@ bool inside(const Vector3& p, const std::vector<PoseRules::Box>& boxes) {
          });
 }
 
+/// Ends of the range of a joint that may be used.
+std::pair<double, double> joint_range(const Cell& cell, const PoseRules& rules, int joint) {
+  const auto& row = cell.nominal.joints[static_cast<std::size_t>(joint)];
+  const double margin = 0.5 * (1.0 - rules.joint_share) * (row.q_max - row.q_min);
+  return {row.q_min + margin, row.q_max - margin};
+}
+
 Vector3 reflector(const Chain& chain, const ArmState& state, const Eigen::VectorXd& q,
                   ChainFrames& frames) {
   chain.frames({q.data(), static_cast<std::size_t>(q.size())}, frames);
@@ -36,6 +43,20 @@ Vector3 reflector_B(const ArmState& state, const Eigen::VectorXd& q) {
   return reflector(Chain(state.arm.calibrated), state, q, frames);
 }
 
+Eigen::VectorXd pose_beside(const Cell& cell, const ArmState& state, const PoseRules& rules,
+                            const Eigen::VectorXd& q, Random& random) {
+  Eigen::VectorXd out = q;
+  const int moved = random.unit() < 0.5 ? 1 : 2;
+  for (int k = 0; k < moved; ++k) {
+    const auto j = std::min(
+        static_cast<Eigen::Index>(random.unit() * static_cast<double>(q.size())), q.size() - 1);
+    const auto [low, high] = joint_range(cell, rules, static_cast<int>(j));
+    const double where = random.unit();
+    out(j) = where < 0.25 ? low : where < 0.5 ? high : low + random.unit() * (high - low);
+  }
+  return inside(reflector_B(state, out), rules.boxes) ? out : q;
+}
+
 RowsN pose_pool(const Cell& cell, const ArmState& state, const PoseRules& rules) {
   const Chain chain(state.arm.calibrated);
   ChainFrames frames;
@@ -46,9 +67,8 @@ RowsN pose_pool(const Cell& cell, const ArmState& state, const PoseRules& rules)
   for (long tries = 0; tries < static_cast<long>(kTries) * rules.pool && found < rules.pool;
        ++tries) {
     for (int j = 0; j < cell.joints(); ++j) {
-      const auto& row = cell.nominal.joints[static_cast<std::size_t>(j)];
-      const double margin = 0.5 * (1.0 - rules.joint_share) * (row.q_max - row.q_min);
-      q(j) = row.q_min + margin + random.unit() * (row.q_max - row.q_min - 2.0 * margin);
+      const auto [low, high] = joint_range(cell, rules, j);
+      q(j) = low + random.unit() * (high - low);
     }
     if (inside(reflector(chain, state, q, frames), rules.boxes)) out.row(found++) = q.transpose();
   }

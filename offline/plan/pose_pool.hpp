@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cell/cell.hpp"
+#include "cell/random.hpp"
 #include "fit/arm_state.hpp"
 
 namespace plumb::offline {
@@ -25,6 +26,11 @@ struct PoseRules {
 /// Fewer than asked for if hardly any pose fits; throws Failure (kNumbersSayNo, E-PLAN-BOX) if none
 /// of 200 times the pool does.
 RowsN pose_pool(const Cell& cell, const ArmState& state, const PoseRules& rules);
+
+/// Pose q with one or two joints elsewhere in their range, as often at its ends as within; q itself
+/// if that is nowhere in a box.
+Eigen::VectorXd pose_beside(const Cell& cell, const ArmState& state, const PoseRules& rules,
+                            const Eigen::VectorXd& q, Random& random);
 
 /// The reflector in the base frame at joint positions q.
 Vector3 reflector_B(const ArmState& state, const Eigen::VectorXd& q);

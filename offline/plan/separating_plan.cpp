@@ -5,219 +5,188 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/registry.hpp"
-#include "fit/effect_binding.hpp"
 #include "plan/plan_steps.hpp"
+#include "plan/rival_columns.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kUsualLoad_kg = 5.0;
-constexpr double kRidge = 1e-9;
-constexpr double kShown = 0.2;  // largest 1 sigma, in widths, of a parameter that poses show
+constexpr int kMostOptions = 3000;
+constexpr int kRoundsBeside = 6;
+constexpr std::size_t kMostBeside = 1000;
+constexpr double kTrace = 1e-9;        // keeps columns that repeat each other solvable
+constexpr double kOneMotion = 0.9999;  // of either by the other: one and the same
+constexpr double kShown = 100.0;       // largest 1 sigma, in typical sizes, of what poses show
 
-/// The two effects among the parameters.
-struct Pair {
-  std::vector<Eigen::Index> a, b, rest;
+using Law = Rivals::Law;
 
-  std::vector<Eigen::Index> with(const std::vector<Eigen::Index>& effect) const {
-    std::vector<Eigen::Index> out = rest;
-    out.insert(out.end(), effect.begin(), effect.end());
-    return out;
-  }
-  std::vector<Eigen::Index> both() const {
-    std::vector<Eigen::Index> out = with(a);
-    out.insert(out.end(), b.begin(), b.end());
-    return out;
-  }
-};
-
-const EffectInfo& info_of(const EffectEntry& entry) { return *descriptor_of(entry.name).law; }
-
-/// Place of the entry among the effects of the arm; added if it is not there.
-int place_of(const Cell& cell, const EffectEntry& entry, const Measurements& at, ArmState& state) {
-  format::Effect bound = bind_effect(cell, at, entry);
-  auto& effects = state.arm.effects;
-  for (std::size_t i = 0; i < effects.size(); ++i)
-    if (effects[i].name == bound.name && effects[i].joints == bound.joints)
-      return static_cast<int>(i);
-  effects.push_back(std::move(bound));
-  const auto place = static_cast<int>(effects.size()) - 1;
-  auto& numbers = effects.back().parameters;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const auto& p = effect_parameter(state.arm, place, static_cast<int>(k));
-    if (!p.linear) numbers[k] = p.start;
-  }
-  return place;
+/// Share of the motion of a law, geometry being free, that the other one reproduces.
+std::optional<double> reproduced(const Eigen::MatrixXd& S, const Law::Variant& own,
+                                 const Law::Variant& other) {
+  const auto A = S.block(own.first, own.first, own.count, own.count);
+  if (!(A.trace() > static_cast<double>(own.count))) return std::nullopt;
+  Eigen::MatrixXd B = S.block(other.first, other.first, other.count, other.count);
+  B.diagonal().array() += kTrace * B.diagonal().maxCoeff() + 1e-300;
+  const auto AB = S.block(own.first, other.first, own.count, other.count);
+  const double share = (AB * B.ldlt().solve(Eigen::MatrixXd(AB.transpose()))).trace();
+  return std::clamp(share / A.trace(), 0.0, 1.0);
 }
 
-Pair pair_of(const DesignSpace& space, int a, int b) {
-  Pair out{space.columns_of_effect(a), space.columns_of_effect(b), {}};
-  for (Eigen::Index i = 0; i < space.size(); ++i) {
-    const auto is = [&](const auto& list) {
-      return std::find(list.begin(), list.end(), i) != list.end();
-    };
-    if (!is(out.a) && !is(out.b)) out.rest.push_back(i);
+Reproduction reproduction_of(const Eigen::MatrixXd& S, const Rivals& rivals) {
+  const auto &a = rivals.a.variants.front(), &b = rivals.b.variants.front();
+  return {reproduced(S, a, b), reproduced(S, b, a)};
+}
+
+/// 1 sigma of every column of the first variants, both laws and geometry being free.
+Eigen::VectorXd sigma_of_sizes(const Eigen::MatrixXd& S, const RivalColumns& columns) {
+  std::vector<Eigen::Index> both;
+  for (const auto& number : columns.numbers) both.push_back(number.column);
+  Eigen::MatrixXd M = S(both, both);
+  M.diagonal().array() += 1e-12 * M.diagonal().maxCoeff() + 1e-300;
+  const Eigen::MatrixXd C = M.ldlt().solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+  return (C.diagonal().cwiseMax(0.0) * columns.noise_variance).cwiseSqrt();
+}
+
+void tell_numbers(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
+                  const RivalColumns& columns, PosePlan& out) {
+  const Eigen::VectorXd was = sigma_of_sizes(before, columns), is = sigma_of_sizes(after, columns);
+  for (std::size_t i = 0; i < columns.numbers.size(); ++i) {
+    const auto& number = columns.numbers[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    EffectSigma sigma{number.name, number.unit, {}, is(k) * number.typical};
+    if (columns.known_G.rows() > 0 && was(k) < kShown) sigma.before = was(k) * number.typical;
+    out.numbers.push_back(std::move(sigma));
   }
+}
+
+std::string in_words(const Cell& cell, const EffectEntry& entry) {
+  std::string out = entry.name;
+  for (std::size_t i = 0; i < entry.joints.size(); ++i)
+    out +=
+        (i == 0 ? ":" : "+") + cell.nominal.joints[static_cast<std::size_t>(entry.joints[i])].name;
   return out;
 }
 
-DesignCriterion apart(const Pair& pair) {
-  return {{{pair.both(), 2.0}, {pair.with(pair.a), -1.0}, {pair.with(pair.b), -1.0}}};
+/// Refuses two laws that move the point alike at all readings that could be made.
+void refuse_one_motion(const Cell& cell, const PlanRequest& request, const RivalColumns& columns,
+                       const Circumstances& circumstances) {
+  if (circumstances.load_matters && !circumstances.two_payloads()) return;
+  ClearedProducts all(columns.known_G, columns.known_Z);
+  for (std::size_t i = 0; i < columns.G.size(); ++i) all.add(columns.G[i], columns.Z[i]);
+  const Reproduction share = reproduction_of(all.products(), columns.rivals);
+  if (std::min(share.a_by_b.value_or(0.0), share.b_by_a.value_or(0.0)) < kOneMotion) return;
+  throw Failure(
+      Exit::kNumbersSayNo,
+      {.code = "E-PLAN-SAME",
+       .message =
+           fmt::format("no measurement of the point tells {} from {}: they move it alike, "
+                       "whatever the pose",
+                       in_words(cell, request.separate[0]), in_words(cell, request.separate[1])),
+       .help = "add either: the corrected positions are the same; only a look into the arm tells "
+               "which it is"});
 }
 
-/// Projects the other parameters out of both effects, then compares each with the other.
-Reproduction reproduction(const Eigen::MatrixXd& lines, const Pair& pair) {
-  Eigen::MatrixXd M = lines.transpose() * lines;
-  M.diagonal().array() += 1.0;
-  std::vector<Eigen::Index> two = pair.a;
-  two.insert(two.end(), pair.b.begin(), pair.b.end());
-  const Eigen::MatrixXd cross = M(pair.rest, two);
-  Eigen::MatrixXd S = M(two, two);
-  if (!pair.rest.empty()) S -= cross.transpose() * M(pair.rest, pair.rest).ldlt().solve(cross);
-  const auto na = static_cast<Eigen::Index>(pair.a.size());
-  const auto nb = static_cast<Eigen::Index>(pair.b.size());
-  const auto share = [](const Eigen::MatrixXd& own, Eigen::MatrixXd other,
-                        const Eigen::MatrixXd& between) -> std::optional<double> {
-    if (own.trace() < static_cast<double>(own.rows()) / (kShown * kShown)) return std::nullopt;
-    other.diagonal().array() += kRidge * other.diagonal().maxCoeff();
-    return std::clamp((between * other.ldlt().solve(between.transpose())).trace() / own.trace(),
-                      0.0, 1.0);
-  };
-  const Eigen::MatrixXd A = S.topLeftCorner(na, na), B = S.bottomRightCorner(nb, nb);
-  const Eigen::MatrixXd AB = S.topRightCorner(na, nb);
-  return {share(A, B, AB), share(B, A, AB.transpose())};
+void say_which_load(const Circumstances& circumstances, PosePlan& out) {
+  if (!circumstances.load_matters || circumstances.two_payloads()) return;
+  out.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-PLAN-PAYLOAD",
+       .message = "a second payload would help to tell the two apart, but how heavy a load can be "
+                  "mounted is not known: planned for poses alone",
+       .help =
+           "state the loads in kg, with the centre of mass of [robot] payload: --payload 0,10"});
 }
 
-/// Poses under a contrast: one block of both measurements a pose.
-struct Candidates {
-  std::vector<Eigen::MatrixXd> blocks;
-  Contrast contrast = Contrast::kNone;
-};
-
-Candidates under(Contrast contrast, const DesignSpace& space, const Measurements& pool,
-                 const ContrastSizes& sizes) {
-  Measurements first = pool;
-  apply_contrast(contrast, false, sizes, first.context);
-  Candidates out{blocks(space.lines(first), space.per_pose()), contrast};
-  if (contrast == Contrast::kNone) return out;
-  Measurements second = pool;
-  apply_contrast(contrast, false, sizes, second.context);
-  apply_contrast(contrast, true, sizes, second.context);
-  const auto again = blocks(space.lines(second), space.per_pose());
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    Eigen::MatrixXd both(2 * space.per_pose(), space.size());
-    both << out.blocks[i], again[i];
-    out.blocks[i] = std::move(both);
-  }
-  return out;
-}
-
-ContrastSizes sizes_of(const Cell& cell, const Measurements& used) {
-  ContrastSizes out;
-  out.payload_kg = cell.payload.mass_kg;
-  if (used.context.payload.rows() > 0)
-    for (const double kg : used.context.payload.col(0))
-      if (kg > out.payload_kg) out.payload_kg = kg;
-  if (!(out.payload_kg > 0.0)) out.payload_kg = kUsualLoad_kg;
-  return out;
-}
-
-/// Value of the first poses of the pool under a contrast; a part of the pool is enough to choose.
-double promise(const Candidates& candidates, const Eigen::MatrixXd& known, const DesignSpace& space,
-               const DesignCriterion& criterion, int n) {
-  double out = 0.0;
-  for (const auto& term : criterion.terms) {
-    Information information(space.prior()(term.columns));
-    information.add(known(Eigen::all, term.columns));
-    const double before = information.ln_det();
-    const int each = candidates.contrast == Contrast::kNone ? 1 : 2;
-    for (int i = 0; i < std::min(n / each, static_cast<int>(candidates.blocks.size())); ++i)
-      information.add(candidates.blocks[static_cast<std::size_t>(i)](Eigen::all, term.columns));
-    out += term.weight * (information.ln_det() - before);
-  }
-  return out;
-}
-
-void tell_numbers(const DesignSpace& space, const Pair& pair, const Eigen::MatrixXd& before,
-                  const Eigen::MatrixXd& after, PosePlan& out) {
-  for (const auto* effect : {&pair.a, &pair.b})
-    for (const Eigen::Index i : *effect) {
-      const Parameter& p = space.parameters[static_cast<std::size_t>(i)];
-      EffectSigma sigma{p.name,
-                        effect_parameter(space.state.arm, p.joint, p.component).unit,
-                        {},
-                        std::sqrt(after(i, i)) * space.width(i)};
-      if (std::sqrt(before(i, i)) < kShown) sigma.before = std::sqrt(before(i, i)) * space.width(i);
-      out.numbers.push_back(std::move(sigma));
+/// First blocks first, then load by load, each in driving order.
+void write_down(const Cell& cell, const PlanStart& start, const std::vector<ReadingOption>& chosen,
+                PosePlan& out) {
+  std::vector<std::pair<bool, int>> groups;
+  for (const auto& option : chosen) groups.emplace_back(option.second_block, option.payload);
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  for (const auto& [block, payload] : groups) {
+    std::vector<const ReadingOption*> members;
+    for (const auto& option : chosen)
+      if (option.second_block == block && option.payload == payload) members.push_back(&option);
+    RowsN q(static_cast<Eigen::Index>(members.size()), cell.joints());
+    for (std::size_t i = 0; i < members.size(); ++i)
+      q.row(static_cast<Eigen::Index>(i)) = members[i]->q.transpose();
+    for (const int i : driven(cell, start, q, out.drive)) {
+      const ReadingOption& option = *members[static_cast<std::size_t>(i)];
+      out.poses.push_back({.name = fmt::format("N{:03}", out.poses.size() + 1),
+                           .q = option.q,
+                           .note = instruction(out.circumstances, option),
+                           .how = option});
     }
+  }
 }
 
-void write_down(const Measurements& pool, const std::vector<int>& order, PosePlan& out) {
-  const auto add = [&](int number, bool second) {
-    const auto name = fmt::format("N{:03}", number + 1);
-    out.poses.push_back({.name = name,
-                         .q = pool.q.row(order[static_cast<std::size_t>(number)]).transpose(),
-                         .second = second,
-                         .note = instruction(out.contrast, second)});
-  };
-  const auto n = static_cast<int>(order.size());
-  for (int i = 0; i < n; ++i) {
-    add(i, false);
-    if (one_by_one(out.contrast)) add(i, true);
+/// Readings that are chosen of options, and what they tell.
+struct Chosen {
+  RivalColumns columns;
+  std::vector<ReadingOption> readings;
+  Choice choice;
+  double least() const {
+    return quick_leads(columns.rivals, choice.products, choice.further).least();
   }
-  if (out.contrast == Contrast::kNone || one_by_one(out.contrast)) return;
-  for (int i = 0; i < n; ++i) add(i, true);
+};
+
+Chosen chosen_of(const std::vector<ReadingOption>& options, RivalColumns columns, int n) {
+  const ClearedProducts known(columns.known_G, columns.known_Z);
+  Choice choice = choose_readings(columns.rivals, known, columns.G, columns.Z, n);
+  std::vector<ReadingOption> readings;
+  for (const int i : choice.chosen) readings.push_back(options[static_cast<std::size_t>(i)]);
+  return {std::move(columns), std::move(readings), std::move(choice)};
+}
+
+/// The chosen readings, and about `most` more at poses beside theirs.
+std::vector<ReadingOption> options_beside(const Cell& cell, const PlanStart& start,
+                                          const PoseRules& rules,
+                                          const Circumstances& circumstances,
+                                          const std::vector<ReadingOption>& chosen,
+                                          std::size_t most, Random& random) {
+  std::vector<ReadingOption> out = chosen;
+  while (out.size() < std::max(most, 2 * chosen.size())) {
+    const std::size_t i = out.size() % chosen.size();
+    const Eigen::VectorXd q = pose_beside(cell, start.state, rules, chosen[i].q, random);
+    out.push_back(option_at(cell, circumstances, q, chosen[i], random));
+  }
+  return out;
 }
 
 }  // namespace
 
 void plan_separation(const Cell& cell, const PlanStart& start, const PlanRequest& request,
                      PosePlan& out) {
-  ArmState state = start.state;
-  const int a = place_of(cell, request.separate[0], start.pool, state);
-  const int b = place_of(cell, request.separate[1], start.pool, state);
-  Measurements typical = start.pool;  // every law does something there
-  out.sizes = sizes_of(cell, start.used);
-  typical.context.payload.col(0).setConstant(out.sizes.payload_kg);
-  typical.context.temperature.array() += out.sizes.warmer_K;
-  typical.context.time_s.array() += out.sizes.later_s;
-  typical.context.order.array() += 1e6;
-  typical.context.wrench.leftCols<3>().setConstant(out.sizes.pull_N);
-  const DesignSpace space = design_space(cell, state, typical, start.sigma_m, start.sigma_rad);
-  const Pair pair = pair_of(space, a, b);
-  const DesignCriterion criterion = apart(pair);
-  const Eigen::MatrixXd known = space.lines(start.used);
-  auto contrasts = separating_contrasts(info_of(request.separate[0]), info_of(request.separate[1]));
-  Candidates best = under(Contrast::kNone, space, start.pool, out.sizes);
-  double most = contrasts.empty() ? 0.0 : -1e300;
-  for (const auto contrast : contrasts) {
-    Candidates candidates = under(contrast, space, start.pool, out.sizes);
-    const double value = promise(candidates, known, space, criterion, request.n);
-    if (value > most) most = value, best = std::move(candidates);
+  const EffectEntry &a = request.separate[0], &b = request.separate[1];
+  const PoseRules& rules = request.rules;
+  out.circumstances = circumstances_of(cell, start.used, a, b, request.payloads_kg);
+  say_which_load(out.circumstances, out);
+  const auto columns_of = [&](const std::vector<ReadingOption>& options) {
+    return rival_columns(cell, start, a, b, options, out.circumstances);
+  };
+  const auto options = reading_options(cell, start.used, start.pool.q, out.circumstances,
+                                       std::min(kMostOptions, rules.pool), rules.seed);
+  RivalColumns columns = columns_of(options);
+  refuse_one_motion(cell, request, columns, out.circumstances);
+  Chosen best = chosen_of(options, std::move(columns), request.n);
+  Random random(rules.seed ^ 0xbe51deU);
+  for (int round = 0; round < kRoundsBeside; ++round) {
+    const auto more = options_beside(cell, start, rules, out.circumstances, best.readings,
+                                     std::min(options.size(), kMostBeside), random);
+    Chosen other = chosen_of(more, columns_of(more), request.n);
+    if (other.least() > best.least()) best = std::move(other);
   }
-  out.contrast = best.contrast;
-  std::erase(contrasts, best.contrast);
-  out.others = contrasts;
-  const int each = best.contrast == Contrast::kNone ? 1 : 2;
-  const Design design =
-      d_optimal(best.blocks, known, space.prior(), std::max(1, request.n / each), criterion);
-  Information information(space.prior());
-  information.add(known);
-  out.parameters = static_cast<int>(space.size());
-  const Eigen::MatrixXd before = information.covariance();
-  Eigen::MatrixXd all = known;
-  for (const int i : design.chosen) {
-    const auto& block = best.blocks[static_cast<std::size_t>(i)];
-    information.add(block);
-    all.conservativeResize(all.rows() + block.rows(), Eigen::NoChange);
-    all.bottomRows(block.rows()) = block;
-  }
-  tell_numbers(space, pair, before, information.covariance(), out);
-  out.ln_det = design.value;
-  out.apart_before = reproduction(known, pair);
-  out.apart_after = reproduction(all, pair);
-  write_down(start.pool, driven(cell, start, design.chosen, out.drive), out);
+  const RivalColumns& at = best.columns;
+  const ClearedProducts known(at.known_G, at.known_Z);
+  const Eigen::MatrixXd& products = best.choice.products;
+  const Leads leads = exact_leads(at.rivals, products, best.choice.further);
+  out.parameters = at.parameters;
+  out.expected = {at.today, leads.if_a, leads.if_b};
+  out.apart_before = reproduction_of(known.products(), at.rivals);
+  out.apart_after = reproduction_of(products, at.rivals);
+  tell_numbers(known.products(), products, at, out);
+  write_down(cell, start, best.readings, out);
 }
 
 }  // namespace plumb::offline

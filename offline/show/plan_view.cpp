@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "plumb/runtime/chain.hpp"
 #include "show/text_table.hpp"
@@ -13,7 +14,8 @@ namespace plumb::offline::show {
 namespace {
 
 constexpr std::size_t kNumbersShown = 12;
-constexpr double kConfounded = 0.8;  // above: two effects imitate each other too well to choose
+constexpr double kDecided_nats = 10.0;  // 22,000 to 1
+constexpr double kMostPoses = 1000.0;   // more are not suggested
 
 Vector3 nominal_point(const Cell& cell, const Eigen::VectorXd& q) {
   ChainFrames frames;
@@ -21,18 +23,45 @@ Vector3 nominal_point(const Cell& cell, const Eigen::VectorXd& q) {
   return frames.tip.p;
 }
 
-bool sides(const PosePlan& plan) { return plan.contrast == Contrast::kBothSides; }
-bool payloads(const PosePlan& plan) { return plan.contrast == Contrast::kTwoPayloads; }
+bool arrives(const PosePlan& plan) { return plan.circumstances.approach; }
+bool loaded(const PosePlan& plan) { return plan.circumstances.two_payloads(); }
+
+/// Whether the loads differ in their centre of mass as well, which the file must then state.
+bool centres(const PosePlan& plan) {
+  const auto& loads = plan.circumstances.payloads;
+  return loaded(plan) && std::any_of(loads.begin(), loads.end(), [&](const Payload& load) {
+           return load.com_m != loads.front().com_m;
+         });
+}
 
 std::string header(const Cell& cell, const PosePlan& plan) {
   std::string out = "pose";
-  for (int j = 0; j < cell.joints(); ++j)
-    out += fmt::format(",q{}_{}", j + 1,
-                       unit(slides(cell.nominal.joints[static_cast<std::size_t>(j)])));
+  const auto joint_unit = [&](int j) {
+    return unit(slides(cell.nominal.joints[static_cast<std::size_t>(j)]));
+  };
+  for (int j = 0; j < cell.joints(); ++j) out += fmt::format(",q{}_{}", j + 1, joint_unit(j));
   out += ",nx_mm,ny_mm,nz_mm";
-  for (int j = 0; sides(plan) && j < cell.joints(); ++j) out += fmt::format(",dir_j{}", j + 1);
-  if (payloads(plan)) out += ",payload_kg";
+  for (int j = 0; arrives(plan) && j < cell.joints(); ++j)
+    out += fmt::format(",dir_j{0},travel_j{0}_{1}", j + 1, joint_unit(j));
+  if (loaded(plan)) out += ",payload_kg";
+  if (centres(plan)) out += ",payload_cx_mm,payload_cy_mm,payload_cz_mm";
   return out + ",note\n";
+}
+
+std::string how_columns(const Cell& cell, const PosePlan& plan, const ReadingOption& how) {
+  std::string out;
+  for (int j = 0; arrives(plan) && j < cell.joints(); ++j) {
+    const bool slide = slides(cell.nominal.joints[static_cast<std::size_t>(j)]);
+    const double move = how.approach(j);
+    out += fmt::format(",{},{:.4f}", move < 0.0 ? -1 : 1, shown(std::abs(move), slide));
+  }
+  if (loaded(plan)) {
+    const Payload& load = plan.circumstances.payloads[static_cast<std::size_t>(how.payload)];
+    out += fmt::format(",{:g}", load.mass_kg);
+    for (std::size_t k = 0; centres(plan) && k < 3; ++k)
+      out += fmt::format(",{:.3f}", to_mm(load.com_m[k]));
+  }
+  return out;
 }
 
 std::string pair_words(const PlanRequest& request) {
@@ -54,6 +83,18 @@ Json reproduction_json(const Reproduction& r) {
   };
   add("a_by_b_pct", r.a_by_b);
   add("b_by_a_pct", r.b_by_a);
+  return out;
+}
+
+Json expected_json(const ExpectedDecision& expected) {
+  Json out;
+  if (expected.today)
+    out["today_nats"] = *expected.today;
+  else
+    put_null(out, "today_nats", "nothing is measured yet");
+  out["if_first_nats"] = expected.if_a;
+  out["if_second_nats"] = expected.if_b;
+  out["decides"] = expected.least() >= kDecided_nats;
   return out;
 }
 
@@ -95,13 +136,59 @@ std::string prediction_text(const PosePlan& plan) {
 }
 
 std::string contrast_text(const PosePlan& plan) {
-  if (plan.contrast == Contrast::kNone) return "No contrast tells them apart, only poses do.\n";
-  std::string out = fmt::format("What tells them apart best: {}.\n", contrast_words(plan.contrast));
-  if (payloads(plan))
-    out += fmt::format("A load of {:.3g} kg was assumed.\n", plan.sizes.payload_kg);
-  for (const auto other : plan.others)
-    out += fmt::format("Part of it would also be told by: {}.\n", contrast_words(other));
+  const auto contrasts = plan.circumstances.contrasts();
+  if (contrasts.empty()) return "They are told apart by poses alone.\n";
+  std::vector<std::string> words;
+  for (const auto contrast : contrasts) words.push_back(contrast_words(contrast));
+  std::string out = fmt::format("They are told apart by {}.\n", fmt::join(words, "; "));
+  if (loaded(plan)) {
+    std::vector<std::string> kg;
+    for (const auto& load : plan.circumstances.payloads)
+      kg.push_back(fmt::format("{:.4g} kg", load.mass_kg));
+    out += fmt::format("Loads: {}; others: --payload 0,10.\n", fmt::join(kg, " and "));
+  }
+  if (arrives(plan))
+    out +=
+        "Columns dir_jN and travel_jN: the last move of joint N, its side and size; start it at "
+        "qN less the one times the other.\n";
   return out;
+}
+
+/// How many poses like these would decide, if their evidence grows in proportion; 0: too many.
+int poses_that_decide(const PosePlan& plan) {
+  const double n = static_cast<double>(plan.poses.size());
+  const double each = (plan.expected.least() - 1.0) / n;
+  const double wanted = each > 0.0 ? kDecided_nats / each : 1e9;
+  return wanted > kMostPoses ? 0 : static_cast<int>(10.0 * std::ceil(wanted / 10.0));
+}
+
+/// What the readings will say, or that they will not.
+std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
+  const std::string &a = request.separate[0].name, &b = request.separate[1].name;
+  const auto& expected = plan.expected;
+  const std::string today =
+      expected.today ? fmt::format(" Today {} is ahead by {:.0f}.", *expected.today < 0.0 ? b : a,
+                                   std::abs(*expected.today))
+                     : " Nothing is measured yet, so both are taken to have their typical size.";
+  if (expected.least() >= kDecided_nats)
+    return fmt::format(
+        "These {} readings are expected to decide between {} and {}: the wrong one would then be "
+        "behind by about {:.0f} nats (ln of a Bayes factor; 10 decide) if {} is true, by {:.0f} if "
+        "{} is.{}\n",
+        plan.poses.size(), a, b, expected.if_a, a, expected.if_b, b, today);
+  std::string out = fmt::format(
+      "These {} readings cannot decide between {} and {}: the true one is expected to be ahead by "
+      "only {:.1f} nats (ln of a Bayes factor; 10 decide) if it is {}, by {:.1f} if it is {}.{}\n",
+      plan.poses.size(), a, b, expected.if_a, a, expected.if_b, b, today);
+  std::vector<std::string> could;
+  if (plan.circumstances.load_matters && !loaded(plan))
+    could.push_back("a second payload (--payload 0,10)");
+  if (request.rules.joint_share < 1.0 || !request.rules.boxes.empty())
+    could.push_back("a larger range (--joint-limits, --box)");
+  if (const int n = poses_that_decide(plan); n > 0)
+    could.push_back(fmt::format("more readings: about {} (--n)", n));
+  return out + (could.empty() ? "More poses of this kind would not help either.\n"
+                              : fmt::format("What could: {}.\n", fmt::join(could, "; ")));
 }
 
 std::string numbers_text(const PosePlan& plan) {
@@ -130,9 +217,6 @@ std::string apart_text(const PlanRequest& request, const PosePlan& plan) {
   if (plan.measured > 0) row(fmt::format("with the {} measured", plan.measured), plan.apart_before);
   row(plan.measured > 0 ? "and these" : "with these", plan.apart_after);
   std::string out = table.text() + "\n" + numbers_text(plan);
-  const auto& after = plan.apart_after;
-  if (std::min(after.a_by_b.value_or(0.0), after.b_by_a.value_or(0.0)) > kConfounded)
-    out += "\nThey stay confounded: no poses of this arm tell them apart.\n";
   return out;
 }
 
@@ -150,8 +234,7 @@ std::string plan_csv(const Cell& cell, const PlanRequest& request, const PosePla
           ",{:.4f}", shown(pose.q(j), slides(cell.nominal.joints[static_cast<std::size_t>(j)])));
     const Vector3 p = nominal_point(cell, pose.q);
     for (int k = 0; k < 3; ++k) out += fmt::format(",{:.3f}", to_mm(p(k)));
-    for (int j = 0; sides(plan) && j < cell.joints(); ++j) out += pose.second ? ",-1" : ",1";
-    if (payloads(plan)) out += fmt::format(",{:g}", pose.second ? plan.sizes.payload_kg : 0.0);
+    out += how_columns(cell, plan, pose.how);
     out += pose.note.find(',') == std::string::npos ? "," + pose.note : ",\"" + pose.note + "\"";
     out += "\n";
   }
@@ -164,8 +247,8 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
            {"pool", plan.pool},
            {"parameters", plan.parameters},
            {"sigma_um", plan.sigma_m * 1e6}};
-  out["ln_det_gain"] = plan.ln_det;
   if (request.separate.empty()) {
+    out["ln_det_gain"] = plan.ln_det;
     if (plan.measured > 0)
       out["before"] = sigma_json(plan.before);
     else
@@ -173,8 +256,13 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
     out["after"] = sigma_json(plan.after);
   } else {
     out["separate"] = Json::array({request.separate[0].name, request.separate[1].name});
-    out["contrast"] = contrast_name(plan.contrast);
-    out["contrast_text"] = contrast_words(plan.contrast);
+    const auto contrasts = plan.circumstances.contrasts();
+    const Contrast first = contrasts.empty() ? Contrast::kNone : contrasts.front();
+    out["contrast"] = contrast_name(first);
+    out["contrast_text"] = contrast_words(first);
+    out["contrasts"] = Json::array();
+    for (const auto contrast : contrasts) out["contrasts"].push_back(contrast_name(contrast));
+    out["expected"] = expected_json(plan.expected);
     out["reproduction_before"] = reproduction_json(plan.apart_before);
     out["reproduction_after"] = reproduction_json(plan.apart_after);
     out["numbers"] = numbers_json(plan);
@@ -200,10 +288,9 @@ std::string plan_text(const PlanRequest& request, const PosePlan& plan) {
         "{} parameters.\n\n",
         plan.poses.size(), plan.pool, plan.parameters);
   } else {
-    out = fmt::format("Planned {} measurements to tell {} apart.\n", plan.poses.size(),
-                      pair_words(request)) +
-          contrast_text(plan) + "\n" + apart_text(request, plan);
-    return out;
+    return fmt::format("Planned {} readings to tell {} apart.\n", plan.poses.size(),
+                       pair_words(request)) +
+           contrast_text(plan) + expected_text(request, plan) + "\n" + apart_text(request, plan);
   }
   return out + prediction_text(plan);
 }

@@ -186,8 +186,8 @@ std::vector<Visit> visits_of_drives(const std::vector<Visit>& visits, const sim:
 void warm(std::vector<Visit>& visits, const SimulationPlan& plan, const sim::Climate& climate) {
   if (plan.climate == SimulationPlan::Climate::kConstant) return;
   for (auto& visit : visits) {
-    visit.room_K = climate.air(visit.time_s);
-    visit.zone_K = climate.zones(visit.time_s);
+    visit.room_K = climate.air(visit.running_s);
+    visit.zone_K = climate.zones(visit.running_s);
   }
 }
 
@@ -208,6 +208,7 @@ Simulation simulate(const Cell& cell, const SimulationPlan& plan) {
   auto visits = sim::drive(recording.joint_rows(), 0.5 * (q_min + q_max), plan.seconds_per_pose);
   const double session_s = plan.session_s.value_or(recording.rows() * plan.seconds_per_pose);
   load(visits, recording.pose_of_row(), cell, plan);
+  sim::put_stated(plan.stated, visits);
   warm(visits, plan,
        sim::Climate(cell.joints(), session_s, plan.truth.richness, Random(arm_seed, "climate")));
 

@@ -12,6 +12,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "simulate/imperfections.hpp"
+#include "simulate/stated_visit.hpp"
 
 namespace plumb::offline {
 
@@ -71,10 +72,11 @@ struct SimulationPlan {
   Recorded directions = Recorded::kIfNeeded;    // dir_jN, travel_jN_deg
   Recorded temperatures = Recorded::kIfNeeded;  // temp_degC, temp_room_degC, temp_elbow_degC
   enum class Climate { kChanging, kConstant } climate = Climate::kChanging;
-  std::vector<Payload> payloads;  // each pose carries one; if empty, that of the cell
-  double held_share = 0.0;        // share of the poses that are marked as held out
-  double outlier_share = 0.0;     // share of the rows that are 30 to 300 sigma off
-  std::uint64_t seed = 1;         // for poses, noise and scatter
+  std::vector<Payload> payloads;    // each pose carries one; if empty, that of the cell
+  std::vector<StatedVisit> stated;  // one a row, if not empty: instead of what would be drawn
+  double held_share = 0.0;          // share of the poses that are marked as held out
+  double outlier_share = 0.0;       // share of the rows that are 30 to 300 sigma off
+  std::uint64_t seed = 1;           // for poses, noise and scatter
   HiddenTruth truth;
   Imperfections imperfections;
 };

@@ -6,6 +6,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "simulate/arm.hpp"
+#include "simulate/stated_visit.hpp"
 
 namespace plumb::offline::sim {
 
@@ -16,6 +17,7 @@ struct Visit {
   VectorXd travel;     // size of that move [rad] or [m]
   VectorXd before;     // joint positions before the last move of the arm
   double time_s = 0.0;
+  double running_s = 0.0;  // since the drives were switched on
   Payload payload;
   double room_K = 0.0;  // air temperature above 20 degC
   VectorXd zone_K;      // above 20 degC: of the column, then of the link behind each joint
@@ -25,5 +27,9 @@ struct Visit {
 /// that does not move keeps its last direction and travel, and a repeated reading of a pose keeps
 /// the whole last move.
 std::vector<Visit> drive(const RowsN& q, const VectorXd& start, double seconds_per_pose);
+
+/// Puts what is stated into the visits, one by one. Throws Failure (kUsage, E-SIM-PLAN) if there
+/// are not as many; none at all changes nothing.
+void put_stated(const std::vector<StatedVisit>& stated, std::vector<Visit>& visits);
 
 }  // namespace plumb::offline::sim

@@ -38,14 +38,18 @@ Cell heavy_cell() {
   return cell;
 }
 
-RowsN joints_of(const PosePlan& plan, bool second) {
+RowsN joints_of(const PosePlan& plan, int payload) {
   std::vector<Eigen::VectorXd> q;
   for (const auto& pose : plan.poses)
-    if (pose.second == second) q.push_back(pose.q);
+    if (pose.how.payload == payload) q.push_back(pose.q);
   RowsN out(static_cast<Eigen::Index>(q.size()), q.front().size());
   for (std::size_t i = 0; i < q.size(); ++i)
     out.row(static_cast<Eigen::Index>(i)) = q[i].transpose();
   return out;
+}
+
+double load(const PosePlan& plan, int payload) {
+  return plan.circumstances.payloads[static_cast<std::size_t>(payload)].mass_kg;
 }
 
 /// One arm measured at poses q with a payload; the file that would be written.
@@ -88,23 +92,22 @@ Estimate compliance(const Cell& cell, const Measurements& measured) {
   return {};
 }
 
-TEST(Separation, TheContrastDeliversTheStandardDeviationItPromises) {
+TEST(Separation, ThePlanDeliversTheStandardDeviationItPromises) {
   const int count = static_cast<int>(tests::scaled(16));
   std::printf("[ seeds    ] 1 .. %d\n", count);
   const Cell cell = heavy_cell();
   const PlanRequest request =
       asked(60, 400, effect("joint_compliance", 1), effect("gear_harmonics", 1));
   const PosePlan plan = plan_poses(cell, nothing_measured(cell), request);
-  ASSERT_EQ(plan.contrast, Contrast::kTwoPayloads);
+  ASSERT_EQ(plan.circumstances.contrasts(), std::vector<Contrast>{Contrast::kTwoPayloads});
   ASSERT_EQ(plan.numbers.front().name.substr(0, 16), "joint_compliance");
   const double promised = plan.numbers.front().after;
   double planned = 0.0, at_random = 0.0, told = 0.0;
   for (int seed = 1; seed <= count; ++seed) {
     const auto s = static_cast<std::uint64_t>(seed);
     const Estimate found = compliance(
-        cell,
-        read_back(cell, {measured_at(cell, joints_of(plan, false), 0.0, s, 1),
-                         measured_at(cell, joints_of(plan, true), plan.sizes.payload_kg, s, 2)}));
+        cell, read_back(cell, {measured_at(cell, joints_of(plan, 0), load(plan, 0), s, 1),
+                               measured_at(cell, joints_of(plan, 1), load(plan, 1), s, 2)}));
     RowsN q(60, cell.joints());
     tests::Random random(s);
     for (Eigen::Index i = 0; i < q.rows(); ++i)
@@ -113,7 +116,7 @@ TEST(Separation, TheContrastDeliversTheStandardDeviationItPromises) {
         q(i, j) = random.uniform(row.q_min, row.q_max);
       }
     const Estimate random_poses =
-        compliance(cell, read_back(cell, {measured_at(cell, q, plan.sizes.payload_kg, s, 3)}));
+        compliance(cell, read_back(cell, {measured_at(cell, q, load(plan, 1), s, 3)}));
     planned += found.value * found.value / count;  // nothing is hidden: the truth is 0
     at_random += random_poses.value * random_poses.value / count;
     told += found.std / count;
@@ -139,37 +142,72 @@ TEST(Separation, LowersTheMutualReproductionOfConfoundedEffects) {
   EXPECT_LT(plan.numbers.front().after, 0.5 * *plan.numbers.front().before);
 }
 
-TEST(Separation, EffectsThatAreOneAndTheSameStayConfounded) {
+TEST(Separation, RefusesEffectsThatAreOneAndTheSame) {
   Cell cell = heavy_cell();
   cell.effects.resize(1);  // else its own harmonics stand for both
   EffectEntry first = effect("gear_ripple", 1);
   first.options["cycles_per_turn"] = 1.0;
-  const PosePlan plan = plan_poses(cell, nothing_measured(cell),
-                                   asked(40, 200, effect("encoder_eccentricity", 1), first));
-  EXPECT_EQ(plan.contrast, Contrast::kNone);
-  EXPECT_GT(plan.apart_after.a_by_b.value_or(0.0), 0.95);
+  try {
+    plan_poses(cell, nothing_measured(cell),
+               asked(40, 200, effect("encoder_eccentricity", 1), first));
+    FAIL() << "planned what cannot be told apart";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.problems().front().code, "E-PLAN-SAME");
+    EXPECT_EQ(failure.exit_code(), Exit::kNumbersSayNo);
+  }
 }
 
-const EffectInfo& info(const char* name) { return *descriptor_of(name).law; }
-
-TEST(Contrasts, TheTableNamesTheMeasurementThatChangesOneEffectAndNotTheOther) {
-  using List = std::vector<Contrast>;
-  const auto between = [](const char* a, const char* b) {
-    EXPECT_EQ(separating_contrasts(info(a), info(b)), separating_contrasts(info(b), info(a)));
-    return separating_contrasts(info(a), info(b));
+TEST(Separation, ExpectsLittleFromFewReadingsAndMoreFromMore) {
+  const Cell cell = heavy_cell();
+  SimulationPlan recipe;
+  recipe.poses = 60;
+  recipe.noise_m = kNoise_m;
+  recipe.truth.effects = {"joint_compliance:J2:2"};
+  const Measurements measured = simulate(cell, recipe).measured;
+  const auto least = [&](int n) {
+    const PosePlan plan = plan_poses(
+        cell, measured, asked(n, 300, effect("joint_compliance", 1), effect("gear_harmonics", 1)));
+    EXPECT_TRUE(plan.expected.today);
+    return plan.expected.least();
   };
-  EXPECT_EQ(between("reversal", "settling_lag"), List{Contrast::kLongerWait});
-  EXPECT_EQ(between("reversal", "gear_harmonics"), List{Contrast::kBothSides});
-  EXPECT_EQ(between("joint_compliance", "gear_harmonics"), List{Contrast::kTwoPayloads});
-  EXPECT_EQ(between("thermal_growth", "encoder_scale"), List{Contrast::kColdAndWarm});
-  EXPECT_EQ(between("drift", "step"), List{});
-  EXPECT_EQ(between("drift", "thermal_growth"),
-            (List{Contrast::kEndAgain, Contrast::kColdAndWarm}));
-  EXPECT_EQ(between("gear_harmonics", "gear_ripple"), List{});
-  EXPECT_EQ(between("wrench_compliance", "encoder_scale"), List{Contrast::kPulled});
+  const double two = least(2), ten = least(10), thirty = least(30);
+  std::printf("[ expected ] %.1f nats from 2 readings, %.1f from 10, %.1f from 30\n", two, ten,
+              thirty);
+  EXPECT_LT(two, ten);
+  EXPECT_LT(ten, thirty);
 }
 
-TEST(Separation, EveryPoseOfAContrastIsMeasuredTwiceAndSaysWhatToDo) {
+TEST(Separation, WithoutAKnownLoadItPlansPosesAloneAndSaysWhatIsNeeded) {
+  Cell cell = heavy_cell();
+  cell.payload.mass_kg = 0.0;
+  PlanRequest request = asked(6, 60, effect("joint_compliance", 1), effect("gear_harmonics", 1));
+  const PosePlan alone = plan_poses(cell, nothing_measured(cell), request);
+  EXPECT_TRUE(alone.circumstances.contrasts().empty());
+  EXPECT_EQ(alone.remarks.back().code, "N-PLAN-PAYLOAD");
+  request.payloads_kg = {0.0, 25.0};
+  const PosePlan loaded = plan_poses(cell, nothing_measured(cell), request);
+  EXPECT_EQ(load(loaded, 1), 25.0);
+  EXPECT_GT(loaded.expected.least(), alone.expected.least());
+  EXPECT_GT(joints_of(loaded, 0).rows(), 0);
+  EXPECT_GT(joints_of(loaded, 1).rows(), 0);
+}
+
+std::vector<Contrast> varied(const Cell& cell, const char* a, const char* b) {
+  return circumstances_of(cell, nothing_measured(cell), effect(a, 1), effect(b, 1), {}).contrasts();
+}
+
+TEST(Circumstances, AreThoseThatOneEffectDependsOnAndNotTheOther) {
+  using List = std::vector<Contrast>;
+  const Cell cell = heavy_cell();
+  EXPECT_EQ(varied(cell, "reversal", "settling_lag"), List{Contrast::kShortAndLong});
+  EXPECT_EQ(varied(cell, "reversal", "gear_harmonics"), List{Contrast::kBothSides});
+  EXPECT_EQ(varied(cell, "joint_compliance", "gear_harmonics"), List{Contrast::kTwoPayloads});
+  EXPECT_EQ(varied(cell, "thermal_growth", "encoder_scale"), List{Contrast::kColdAndWarm});
+  EXPECT_EQ(varied(cell, "gear_harmonics", "gear_ripple"), List{});
+  EXPECT_EQ(varied(cell, "drift", "gear_harmonics"), List{Contrast::kEndAgain});
+}
+
+TEST(Separation, EveryReadingHasANameOfItsOwnAndSaysWhatToDo) {
   const Cell cell = heavy_cell();
   const std::pair<const char*, const char*> pairs[] = {{"reversal", "settling_lag"},
                                                        {"reversal", "gear_harmonics"},
@@ -180,16 +218,22 @@ TEST(Separation, EveryPoseOfAContrastIsMeasuredTwiceAndSaysWhatToDo) {
     const PosePlan plan =
         plan_poses(cell, nothing_measured(cell), asked(12, 60, effect(a, 1), effect(b, 1)));
     ASSERT_EQ(plan.poses.size(), 12U) << a;
-    int first = 0;
-    for (const auto& pose : plan.poses) {
-      EXPECT_EQ(pose.note, instruction(plan.contrast, pose.second));
-      EXPECT_FALSE(pose.note.empty());
-      int same = 0;
-      for (const auto& other : plan.poses) same += other.q == pose.q ? 1 : 0;
-      EXPECT_EQ(same, 2);
-      first += pose.second ? 0 : 1;
+    for (std::size_t i = 0; i < plan.poses.size(); ++i) {
+      const auto& pose = plan.poses[i];
+      EXPECT_EQ(pose.note, instruction(plan.circumstances, pose.how));
+      EXPECT_FALSE(pose.note.empty()) << a << b;
+      if (pose.how.approach.size() == 0) continue;
+      for (int j = 0; j < cell.joints(); ++j) {  // where it comes from can be reached
+        const auto& row = cell.nominal.joints[static_cast<std::size_t>(j)];
+        const double from = pose.q(j) - pose.how.approach(j);
+        EXPECT_GE(from, row.q_min);
+        EXPECT_LE(from, row.q_max);
+      }
     }
-    EXPECT_EQ(first, 6);
+    for (std::size_t i = 1; i < plan.poses.size(); ++i) {
+      EXPECT_NE(plan.poses[i].name, plan.poses[i - 1].name);
+      EXPECT_LE(plan.poses[i - 1].how.second_block, plan.poses[i].how.second_block);
+    }
   }
 }
 
