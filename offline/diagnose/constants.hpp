@@ -136,7 +136,10 @@ inline constexpr double kLeastSteps = 1.6;
 /// Waves of one joint. cost.
 inline constexpr std::size_t kMostWaves = 12;
 /// Waves of a series at each of its joints. arms; cost.
-inline constexpr int kSeriesWaves = 40;
+inline constexpr int kSeriesWaves = 64;
+/// Standard deviation of the prior of a series' first wave, at most [rad]: a minute of arc, the
+/// accuracy that makers of strain wave gears state. arms.
+inline constexpr double kLargestWave_rad = 290e-6;
 /// The first waves of a series are those that a smooth law could be mistaken for. cost.
 inline constexpr Eigen::Index kSmoothWaves = 4;
 /// A series takes the place of single waves where one joint has so many, or several joints some.

@@ -117,17 +117,35 @@ class Collector {
 };
 
 /// Whether single waves are many enough for a series: several at one joint, or at several joints.
-/// Sets what the supported ones are worth together.
-bool worth_a_series(const std::vector<Found>& library, double& waves_score) {
+bool worth_a_series(const std::vector<Found>& library) {
   std::size_t joints = 0, most = 0;
-  waves_score = 0.0;
   for (const auto& found : library) {
     if (!is_wave(found.entry.name) || !(found.score > kSupported)) continue;
     ++joints;
     most = std::max(most, found.cycles.size());
-    waves_score += found.score;
   }
   return joints > 1 || most >= kFewestForSeries;
+}
+
+/// What uneven gears are worth, and explain, without a series: at every joint by the law that says
+/// it best.
+struct WithoutSeries {
+  double score = 0.0, explained = 0.0;
+};
+WithoutSeries uneven_gears(const std::vector<Found>& library) {
+  std::map<int, const Found*> best;
+  for (const auto& found : library)
+    if (descriptor_of(found.entry.name).cause == Cause::kUnevenGear &&
+        found.entry.joints.size() == 1 && found.score > kSupported) {
+      const Found*& at_joint = best[found.entry.joints.front()];
+      if (at_joint == nullptr || found.score > at_joint->score) at_joint = &found;
+    }
+  WithoutSeries out;
+  for (const auto& [joint, found] : best) {
+    out.score += found->score;
+    out.explained += found->scored.explained;
+  }
+  return out;
 }
 
 std::string peaks_of(const WhitenedFit& s, const Found& found) {
@@ -141,12 +159,11 @@ std::string peaks_of(const WhitenedFit& s, const Found& found) {
   return series_words(*s.cell, model);
 }
 
-/// A series of waves at all joints that have none yet, if that clearly beats the single waves.
-/// some: the poses on which waves are looked for.
+/// A series of waves at all joints that have none yet, if that clearly beats what single waves and
+/// the other laws of uneven gears are worth. some: the poses on which waves are looked for.
 std::optional<Found> found_series(const Scorer& some, const Scorer& all,
                                   const std::vector<Found>& library, double paid) {
-  double waves_score = 0.0;
-  if (!worth_a_series(library, waves_score)) return std::nullopt;
+  if (!worth_a_series(library)) return std::nullopt;
   const WhitenedFit& s = some.whitened();
   std::vector<int> joints;
   for (int j = 0; j < s.joints(); ++j)
@@ -157,7 +174,9 @@ std::optional<Found> found_series(const Scorer& some, const Scorer& all,
   Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
   if (&some.whitened() != &all.whitened()) out.scored = score_series(all, out.entry);
   out.score = out.ln_bayes() - paid;
-  if (!(out.score > waves_score + kAhead_nats)) return std::nullopt;
+  const WithoutSeries others = uneven_gears(library);
+  if (!(out.score > others.score + kAhead_nats)) return std::nullopt;
+  if (!(out.scored.explained > others.explained + kAhead_share)) return std::nullopt;
   out.peaks = peaks_of(all.whitened(), out);
   return out;
 }

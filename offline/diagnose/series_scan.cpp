@@ -129,6 +129,11 @@ SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
   return {prior, -paid - 0.5 * n * std::log(after / before), std::sqrt(after / n)};
 }
 
+/// Whether a gear may be expected to have such waves. Where poses leave a range of the joint out,
+/// nothing but the prior holds the series, so a wide one must not be chosen for what it explains
+/// elsewhere.
+bool is_expected(const SeriesEvidence& e) { return e.prior.ratio * e.scatter <= kLargestWave_rad; }
+
 /// ln of the mean of B over the grid, and the best prior of it.
 struct OverGrid {
   SeriesEvidence best;
@@ -140,6 +145,7 @@ OverGrid over_grid(const SeriesSums& sums, double unit) {
   for (const double slope : kSlopes)
     for (const double size : kSizes) {
       const SeriesEvidence here = evidence_with(sums, {unit * size, slope});
+      if (!is_expected(here)) continue;
       ln.push_back(here.ln_bayes);
       if (here.ln_bayes > out.best.ln_bayes) out.best = here;
     }
@@ -160,7 +166,7 @@ SeriesEvidence refined_prior(const SeriesSums& sums, SeriesEvidence best) {
           SeriesPrior{from.ratio, from.slope + turn},
           SeriesPrior{from.ratio, std::max(0.0, from.slope - turn)}}) {
       const SeriesEvidence there = evidence_with(sums, next);
-      if (there.ln_bayes <= best.ln_bayes) continue;
+      if (there.ln_bayes <= best.ln_bayes || !is_expected(there)) continue;
       best = there;
       better = true;
     }

@@ -12,6 +12,7 @@
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/noise_floor.hpp"
 #include "fit/solver.hpp"
 #include "fit/split.hpp"
 #include "fit/weights.hpp"
@@ -190,10 +191,14 @@ RivalColumns rival_columns(const Cell& cell, const PlanStart& start, const Effec
   expect(first.front(), out.rivals.a.expected);
   expect(second.front(), out.rivals.b.expected);
 
-  if (measured)
+  if (measured) {
     out.rivals.scale = evidence_scale(*measured);
-  else
-    out.rivals.scale = {.variance = 1.0, .dof = kStatedDof, .lines = -1.0 * out.parameters};
+  } else {
+    NoiseFloor stated;
+    stated.source = NoiseFloor::Source::kSigma;
+    out.rivals.scale = {
+        .variance = 1.0, .dof = trusted_dof(stated), .lines = -1.0 * out.parameters};
+  }
   out.noise_variance = out.rivals.scale.variance;
   out.known_G = known;
   out.known_Z = Z.topRows(lines);

@@ -121,6 +121,7 @@ TEST(Claims, OfTwoAlternativesOneMustBeRight) {
 Addition added(EffectEntry entry, double ln_bayes) {
   return {.entry = std::move(entry),
           .cycles = {},
+          .peaks = {},
           .ln_bayes = ln_bayes,
           .held = {},
           .alternatives = {}};
