@@ -57,7 +57,8 @@ std::string series_words(const Cell& cell, const format::Model& arm) {
   int joint = -1;
   for (const auto& peak : peaks) {
     if (out.empty())
-      out = fmt::format("largest {:.0f} µrad at {} cycles a turn", peak.size * 1e6, peak.k);
+      out = fmt::format("largest {:.0f} µrad at {} cycle{} a turn", peak.size * 1e6, peak.k,
+                        peak.k == 1 ? "" : "s");
     else
       out += fmt::format(", {:.0f} at {}", peak.size * 1e6, peak.k);
     const auto index = static_cast<std::size_t>(peak.joint);

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "fit/arm_change.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/effect_binding.hpp"
 #include "fit/series_numbers.hpp"
 #include "fit/series_solver.hpp"
 #include "simulate/simulate.hpp"
