@@ -4,6 +4,8 @@
 // ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "plan/pose_plan.hpp"
@@ -14,6 +16,9 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kDecided_nats = 10.0;
+
+/// Of so many, less two standard errors of their number.
+double four_of_five(int of) { return 0.8 * of - 2.0 * std::sqrt(0.8 * 0.2 * of); }
 
 std::vector<PlannedReading> carried_out(const PosePlan& plan) {
   std::vector<PlannedReading> out;
@@ -36,7 +41,8 @@ PlanRequest thirty_readings(const HiddenPair& pair) {
 }
 
 TEST(Separation, ThirtyPlannedReadingsDecideFourOfFivePairs) {
-  const int wanted = static_cast<int>(tests::scaled(50));
+  // A slice of the 50 pairs of the mark; all of them with PLUMB_TEST_SCALE=5.
+  const int wanted = static_cast<int>(std::min(50L, tests::scaled(12)));
   int pairs = 0, decided = 0, worse = 0, refused = 0, promised = 0, kept = 0, wrong = 0;
   for (std::uint64_t number = 1; pairs < wanted; ++number) {
     ASSERT_LT(number, 100U * static_cast<unsigned>(wanted)) << "too few confounded pairs";
@@ -60,6 +66,7 @@ TEST(Separation, ThirtyPlannedReadingsDecideFourOfFivePairs) {
     if (plan.expected.least() >= kDecided_nats) {
       ++promised;
       kept += lead > kDecided_nats ? 1 : 0;
+      EXPECT_GT(lead, -kDecided_nats) << "promised a decision, and decided for the wrong one";
     }
     std::printf("[ %3llu ] %3d poses, %-56s %6.1f nats, expected %6.1f, came %6.1f\n",
                 static_cast<unsigned long long>(number), pair->recipe.poses, pair->words.c_str(),
@@ -70,8 +77,8 @@ TEST(Separation, ThirtyPlannedReadingsDecideFourOfFivePairs) {
       "[ result   ] %d of %d pairs decided, %d worse than before, %d wrongly decided; promised %d, "
       "kept %d; %d refused as one and the same\n",
       decided, pairs, worse, wrong, promised, kept, refused);
-  EXPECT_GE(decided, 8 * pairs / 10);
-  EXPECT_GE(kept, 8 * promised / 10);
+  EXPECT_GE(decided, four_of_five(pairs));
+  EXPECT_GE(kept, four_of_five(promised));
 }
 
 }  // namespace
