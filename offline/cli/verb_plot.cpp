@@ -5,8 +5,11 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
+#include "cli/progress.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "figures/evidence_figure.hpp"
 #include "figures/registry.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
@@ -57,22 +60,73 @@ Run run_to_draw(const PlotArguments& options, const Cell& cell, const Measuremen
                  .help = "plumb fit; or an earlier run: plumb plot " + options.name + " --run 1"});
 }
 
+/// Runs before this one that are of the same data and can be read.
+std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured) {
+  std::vector<Run> out;
+  for (const int number : list_runs(cell)) {
+    if (number >= last.number) break;
+    try {
+      Run run = load_run(cell, number);
+      check_same_data(run, measured);
+      out.push_back(std::move(run));
+    } catch (const Failure&) {
+      continue;  // damaged, or of other data: no step of this model
+    }
+  }
+  return out;
+}
+
+/// Refuses before a long computation to replace a file without --force.
+void refuse_replacing(const std::string& file, const PlotArguments& options) {
+  Outcome unused;
+  unused.result = Json::object();
+  OutputFiles files;
+  files.add(file, "");
+  files.commit({.force = options.write.force, .dry_run = true}, unused);
+}
+
+std::string evidence_of(const PlotArguments& options, const Cell& cell,
+                        const MeasurementFiles& measured) {
+  if (!options.run.empty())
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE",
+                   .message = "evidence is of the present cell, not of a run: it judges what would "
+                              "be added to it",
+                   .help = "leave --run out: plumb plot " + options.name});
+  Progress progress(fmt::format("diagnosing {} poses", measured.size()));
+  const Diagnosis found =
+      diagnose(cell, measured,
+               {.apply = false, .tell = [&](const std::string& step) { progress.at(step); }});
+  return figures::evidence(cell, found, options.width);
+}
+
+std::string run_figure(const PlotArguments& options, const Cell& cell, MeasurementFiles& measured,
+                       Outcome& outcome) {
+  using Needs = figures::FigureRow::Needs;
+  const Run run = run_to_draw(options, cell, measured);
+  stand_on_base_of(run, cell, measured);
+  outcome.result["run"] = run.number;
+  const auto earlier = figures::needs_of(options.name) == Needs::kEarlierRuns
+                           ? earlier_runs(run, cell, measured)
+                           : std::vector<Run>{};
+  const auto results = figures::results_of(cell, measured, run);
+  return figures::drawn(options.name, results, options.width, earlier).value();
+}
+
 void plot(const PlotArguments& options, const Globals& globals, Outcome& outcome) {
   if (options.list) return list_figures(outcome);
   const Cell cell = open_cell(globals, outcome);
   check_name(options.name, cell);
-  MeasurementFiles measured = open_measurements(cell, outcome);
-  const Run run = run_to_draw(options, cell, measured);
-  stand_on_base_of(run, cell, measured);
-  const auto svg =
-      figures::drawn(options.name, figures::results_of(cell, measured, run), options.width);
   const std::string file = options.output.empty() ? options.name + ".svg" : options.output;
-  outcome.result = {{"figure", options.name}, {"run", run.number}, {"width_px", options.width}};
+  refuse_replacing(file, options);
+  MeasurementFiles measured = open_measurements(cell, outcome);
+  outcome.result = {{"figure", options.name}, {"width_px", options.width}};
   OutputFiles files;
-  files.add(file, svg.value());
+  const bool diagnosed = figures::needs_of(options.name) == figures::FigureRow::Needs::kDiagnosis;
+  files.add(file, diagnosed ? evidence_of(options, cell, measured)
+                            : run_figure(options, cell, measured, outcome));
   files.commit(options.write, outcome);
-  outcome.text = fmt::format("Figure {} of run {}.\n\n{}\n", options.name, run.number,
-                             wrote(file, options.write));
+  outcome.text = wrote(file, options.write) + "\n";
 }
 
 }  // namespace

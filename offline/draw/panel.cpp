@@ -10,7 +10,8 @@ namespace plumb::offline::draw {
 namespace {
 
 constexpr double kTickSize = 11.0, kTitleSize = 11.5, kNameSize = 12.5;
-constexpr double kTickGap = 12.0;  // [px] between the labels of an x axis
+constexpr double kTickRoom = 24.0, kLogTickRoom = 18.0;  // [px] of a y axis for each tick
+constexpr double kTickGap = 12.0;                        // [px] between the labels of an x axis
 constexpr double kLine = 16.0, kHalo = 3.0;
 
 double share_of(const Axis& axis, double value) {
@@ -73,13 +74,14 @@ Panel::Panel(Svg& svg, const Box& outer, Axis x, Axis y, const std::string& name
               {.size = kNameSize, .weight = TextStyle::Weight::kBold});
   }
   if (!y_title.empty()) {
-    plot_.top += kLine;
-    svg_.text({outer.left, plot_.top - 5.0}, Anchor::kStart,
+    plot_.top += kLine + 5.0;
+    svg_.text({outer.left, plot_.top - 10.0}, Anchor::kStart,
               shortened(y_title, kTitleSize, outer.width()),
               {.size = kTitleSize, .paint = Tone::kMuted});
   }
-  plot_.bottom -= 18.0 + (x_title.empty() ? 0.0 : kLine);
-  const auto y_ticks = ticks_of(y_, static_cast<int>(plot_.height() / 30.0));
+  plot_.bottom -= 21.0 + (x_title.empty() ? 0.0 : kLine);
+  const double each = y_.scale == Axis::Scale::kLog ? kLogTickRoom : kTickRoom;
+  const auto y_ticks = ticks_of(y_, static_cast<int>(plot_.height() / each));
   end_at_ticks(y_, y_ticks);
   double widest = 0.0;
   for (const Tick& tick : y_ticks) widest = std::max(widest, text_width(tick.text, kTickSize));
@@ -106,7 +108,7 @@ void Panel::draw_x_ticks(const std::vector<Tick>& ticks) {
   for (const Tick& tick : ticks) {
     const double x = x_at(tick.value);
     if (x_.ticks.empty()) svg_.line({x, plot_.top}, {x, plot_.bottom}, {.paint = Tone::kGrid});
-    svg_.text({x, plot_.bottom + 14.0}, Anchor::kMiddle, tick.text, {.size = kTickSize});
+    svg_.text({x, plot_.bottom + 17.0}, Anchor::kMiddle, tick.text, {.size = kTickSize});
   }
 }
 
@@ -180,10 +182,16 @@ void Panel::level_y(double y, const std::string& words, const LineStyle& style) 
   }
 }
 
+void Panel::label_at(double x, double y, const std::string& words) {
+  const Point p = at(x, y);
+  svg_.text({p.x + 4.0, p.y}, Anchor::kStart, shortened(words, kTickSize, plot_.right - p.x - 8.0),
+            {.size = kTickSize, .halo = kHalo});
+}
+
 bool Panel::label(double x, double y, const std::string& words, const TextStyle& style) {
   const Point p = at(x, y);
   const double w = text_width(words, style.size), h = style.size;
-  for (const double dy : {4.0, -7.0, 14.0, -20.0, 27.0})
+  for (const double dy : {-7.0, 4.0, -20.0, 14.0, 27.0})
     for (const bool right : {true, false}) {
       const double left = right ? p.x + 7.0 : p.x - 7.0 - w;
       if (!inside(left, p.y + dy - h, left + w, p.y + dy + 3.0)) continue;

@@ -11,7 +11,7 @@ namespace plumb::offline::draw {
 
 /// One axis of a panel, in the units that its title states.
 struct Axis {
-  std::string title;  // with the unit: "error [mm]"; a logarithmic axis adds that it is one
+  std::string title = {};  // with the unit: "error [mm]"; a logarithmic axis adds that it is one
   double low = 0.0, high = 1.0;
   enum class Scale { kLinear, kLog } scale = Scale::kLinear;
   enum class Ends { kRound, kExact } ends = Ends::kRound;  // whether the axis ends at ticks
@@ -52,6 +52,9 @@ class Panel {
   /// whether there was one.
   bool label(double x, double y, const std::string& words,
              const TextStyle& style = {.size = 11.0, .halo = 3.0});
+
+  /// A label that begins at (x, y), cut if it is wider than the rest of the frame.
+  void label_at(double x, double y, const std::string& words);
 
  private:
   void draw_x_ticks(const std::vector<Tick>& ticks);

@@ -16,6 +16,7 @@ namespace {
 constexpr double kAscent = 0.80, kDescent = 0.24;  // of the font size
 constexpr double kGap = 2.0;                       // [px] between two texts
 constexpr double kHead = 4.0;                      // of an arrow [px]
+constexpr double kShortest = 5.0;                  // arrow that has a head [px]
 
 constexpr double kBold = 1.12;  // times the width of normal letters
 
@@ -184,9 +185,8 @@ void Svg::arrow(Point from, Point to, const LineStyle& style, const std::string&
   if (!std::isfinite(from.x + from.y + to.x + to.y)) return;
   body_ += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}", from.x, from.y, to.x, to.y);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  if (length > 1.0) {
-    const double head = std::min(kHead, 0.45 * length);
-    const double ux = head * (to.x - from.x) / length, uy = head * (to.y - from.y) / length;
+  if (length > kShortest) {
+    const double ux = kHead * (to.x - from.x) / length, uy = kHead * (to.y - from.y) / length;
     for (const double side : {-0.5, 0.5})
       body_ += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", to.x, to.y, to.x - ux + side * uy,
                            to.y - uy - side * ux);

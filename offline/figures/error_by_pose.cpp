@@ -43,7 +43,6 @@ std::string error_by_pose(const RunResults& results, double width) {
                      .low = 0.0,
                      .high = static_cast<double>(std::max<std::size_t>(1, rows.size()))},
                     axis.axis);
-  draw_limits(results, axis, Along::kY, panel);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double x = static_cast<double>(i) + 0.5;
     Mark one = before;
@@ -54,6 +53,7 @@ std::string error_by_pose(const RunResults& results, double width) {
     one.words = pose_numbers(results, rows[i]);
     panel.mark(x, axis.of(results.after(rows[i])), one);
   }
+  draw_limits(results, axis, Along::kY, panel);
   for (std::size_t k = 0; k < std::min(kNamedPoses, rows.size()); ++k) {
     const std::size_t i = rows.size() - 1 - k;
     panel.label(static_cast<double>(i) + 0.5, axis.of(results.after(rows[i])),

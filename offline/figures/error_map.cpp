@@ -20,7 +20,8 @@ using draw::Tone;
 
 constexpr std::size_t kMostArrows = 240;
 constexpr double kArrow_px = 34.0;  // of the 95th percentile before calibration
-constexpr double kMapHeight = 330.0, kNarrowestMap = 250.0;
+constexpr double kMapHeight = 330.0, kWideMapHeight = 430.0, kWidePage = 1100.0,
+                 kNarrowestMap = 250.0;
 
 struct View {
   const char* name;
@@ -144,7 +145,9 @@ std::string error_map(const RunResults& results, double width) {
   const Map map = map_of(results);
   const auto ranges = ranges_of(map, rows);
   // Where the frames will be, to give all views one scale.
-  const auto layout = [&](draw::Sheet& sheet) { return sheet.grid(3, kNarrowestMap, kMapHeight); };
+  const auto layout = [&](draw::Sheet& sheet) {
+    return sheet.grid(3, kNarrowestMap, width >= kWidePage ? kWideMapHeight : kMapHeight);
+  };
   draw::Sheet trial(width, {.title = "", .sentence = ""});
   const draw::Box outer = layout(trial).front();
   const draw::Axis widest{.title = "x", .low = -8888.0, .high = 8888.0};

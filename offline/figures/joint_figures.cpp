@@ -18,7 +18,8 @@ using draw::Mark;
 using draw::Tone;
 
 constexpr std::size_t kMostPoints = 1000, kMostSmallPoints = 200;
-constexpr double kStandOut = 2.0;  // half-widths of the 95 % interval: far beyond chance
+constexpr double kOverMedian = 1.5;  // of the ranges of the joints: the locked scale
+constexpr double kStandOut = 2.0;    // half-widths of the 95 % interval: far beyond chance
 
 constexpr double angle_per(const JointResidual& joint) {
   return joint.turns ? 180.0 / std::numbers::pi : 1e3;
@@ -159,7 +160,8 @@ std::string joint_figure(const RunResults& results, const JointResidual& joint, 
   const double half = half_range(joint);
   auto notes = joint_notes(results);
   if (joint.poses.size() > kMostPoints)
-    notes.push_back(thinning_note(kMostPoints, joint.poses.size()));
+    notes.push_back(fmt::format("An even choice of {} of {} points is drawn; the mean uses all.",
+                                kMostPoints, joint.poses.size()));
   const auto is_outside = [&](const auto& pose) { return 1e6 * std::abs(pose.value) > half; };
   if (const auto n = std::count_if(joint.poses.begin(), joint.poses.end(), is_outside); n > 0)
     notes.push_back(
@@ -190,7 +192,8 @@ std::string joints_figure(const RunResults& results, double width) {
   bool sides = false, thinned_out = false;
   for (const auto& joint : joints) {
     half = std::max(half, half_range(joint));
-    if (first == nullptr || removed_share(joint) > removed_share(*first)) first = &joint;
+    const bool clear = extremes_of(joint).most_times >= kStandOut;
+    if (first == nullptr || (clear && removed_share(joint) > removed_share(*first))) first = &joint;
     sides = sides || knows_sides(joint);
     thinned_out = thinned_out || joint.poses.size() > kMostSmallPoints;
   }
@@ -198,7 +201,7 @@ std::string joints_figure(const RunResults& results, double width) {
   std::vector<double> halves;
   for (const auto& joint : joints) halves.push_back(half_range(joint));
   std::sort(halves.begin(), halves.end());
-  if (halves.size() > 2) half = std::min(half, 3.0 * halves[(halves.size() - 1) / 2]);
+  if (halves.size() > 2) half = std::min(half, kOverMedian * halves[(halves.size() - 1) / 2]);
   auto notes = joint_notes(results);
   notes.emplace_back("All panels have one scale; points beyond it are drawn at its edge.");
   if (thinned_out)

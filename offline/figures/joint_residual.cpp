@@ -2,6 +2,7 @@
 #include "figures/joint_residual.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -10,33 +11,57 @@
 namespace plumb::offline::figures {
 namespace {
 
-constexpr int kCurvePoints = 100;
-constexpr double kBandwidth = 1.0 / 16.0;  // of the range of the joint
-constexpr double kReach = 4.0;             // bandwidths beyond which a pose has no weight
-constexpr double kLeastPoses = 4.0;        // effective number for a mean to be drawn
+constexpr int kCurvePoints = 160;
+constexpr std::array<double, 4> kBandwidths{1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0};
+constexpr double kReach = 3.5;       // bandwidths beyond which a pose has no weight
+constexpr double kLeastPoses = 4.0;  // effective number for a mean to be drawn
 constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastMotion = 1e-6;  // [m/rad] or [m/m]
 
-JointResidual::Mean local_mean(const std::vector<JointResidual::Pose>& poses, double q,
-                               double bandwidth) {
-  double sum = 0.0, squares = 0.0, mean = 0.0;
-  const auto weight = [&](const JointResidual::Pose& pose) {
-    const double z = (pose.q - q) / bandwidth;
-    return std::abs(z) > kReach ? 0.0 : pose.weight * std::exp(-0.5 * z * z);
-  };
-  for (const auto& pose : poses) {
-    const double w = weight(pose);
-    sum += w, squares += w * w, mean += w * pose.value;
+/// The local mean at one place.
+struct Local {
+  double sum = 0.0, squares = 0.0, mean = 0.0;  // of the weights
+  JointResidual::Mean out;
+};
+
+Local local_mean(const std::vector<JointResidual::Pose>& poses, double q, double bandwidth) {
+  Local at;
+  at.out = {q, NAN, NAN};
+  const auto begin =
+      std::lower_bound(poses.begin(), poses.end(), q - kReach * bandwidth,
+                       [](const JointResidual::Pose& pose, double v) { return pose.q < v; });
+  double products = 0.0, w2v = 0.0, w2v2 = 0.0;
+  for (auto pose = begin; pose != poses.end() && pose->q <= q + kReach * bandwidth; ++pose) {
+    const double z = (pose->q - q) / bandwidth, w = pose->weight * std::exp(-0.5 * z * z);
+    at.sum += w, at.squares += w * w, products += w * pose->value;
+    w2v += w * w * pose->value, w2v2 += w * w * pose->value * pose->value;
   }
-  if (!(sum > 0.0) || sum * sum < kLeastPoses * squares) return {q, NAN, NAN};
-  mean /= sum;
-  double spread = 0.0;
+  if (!(at.sum > 0.0)) return at;
+  at.mean = products / at.sum;
+  if (at.sum * at.sum < kLeastPoses * at.squares) return at;
+  const double spread = w2v2 - 2.0 * at.mean * w2v + at.mean * at.mean * at.squares;
+  const double n = at.sum * at.sum / at.squares;
+  at.out.value = at.mean;
+  at.out.half = kTwoSided95 * std::sqrt(std::max(0.0, spread) * n / (n - 1.0)) / at.sum;
+  return at;
+}
+
+/// Weighted square of what the mean misses at each pose when it is left out of it.
+double missed_squares(const std::vector<JointResidual::Pose>& poses, const std::vector<Local>& grid,
+                      double bandwidth) {
+  const double step = (grid.back().out.q - grid.front().out.q) / (kCurvePoints - 1);
+  double out = 0.0;
   for (const auto& pose : poses) {
-    const double w = weight(pose);
-    spread += w * w * (pose.value - mean) * (pose.value - mean);
+    const auto k = static_cast<std::size_t>(
+        std::clamp(std::round((pose.q - grid.front().out.q) / step), 0.0, kCurvePoints - 1.0));
+    const Local& at = grid[k];
+    const double z = (pose.q - at.out.q) / bandwidth;
+    const double own = pose.weight * std::exp(-0.5 * z * z);
+    const double rest = at.sum - own;
+    const double mean = rest > 1e-3 * own ? (at.mean * at.sum - own * pose.value) / rest : 0.0;
+    out += pose.weight * (pose.value - mean) * (pose.value - mean);
   }
-  const double n = sum * sum / squares;
-  return {q, mean, kTwoSided95 * std::sqrt(spread * n / (n - 1.0)) / sum};
+  return out;
 }
 
 double curve_at(const std::vector<JointResidual::Mean>& curve, double q) {
@@ -51,9 +76,18 @@ void add_curve(JointResidual& out) {
   if (out.poses.empty()) return;
   const double low = out.poses.front().q, high = out.poses.back().q;
   if (!(high > low)) return;
-  for (int k = 0; k < kCurvePoints; ++k)
-    out.curve.push_back(local_mean(out.poses, low + (high - low) * k / (kCurvePoints - 1),
-                                   kBandwidth * (high - low)));
+  double least = INFINITY;
+  for (const double share : kBandwidths) {
+    std::vector<Local> grid;
+    for (int k = 0; k < kCurvePoints; ++k)
+      grid.push_back(
+          local_mean(out.poses, low + (high - low) * k / (kCurvePoints - 1), share * (high - low)));
+    const double missed = missed_squares(out.poses, grid, share * (high - low));
+    if (missed >= least) continue;
+    least = missed;
+    out.curve.clear();
+    for (const Local& at : grid) out.curve.push_back(at.out);
+  }
 }
 
 void add_rms(JointResidual& out) {

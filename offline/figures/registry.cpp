@@ -3,15 +3,24 @@
 
 #include <functional>
 
+#include "figures/data_figures.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/joint_residual.hpp"
+#include "figures/run_figures.hpp"
 
 namespace plumb::offline::figures {
 namespace {
 
 constexpr const char* kEveryJoint = "JN";
 
-using Drawing = std::function<std::string(const RunResults&, int joint, double width)>;
+/// All that a figure may be drawn from.
+struct Sources {
+  const RunResults& results;
+  const std::vector<Run>& earlier;
+  int joint = 0;
+};
+
+using Drawing = std::function<std::string(const Sources&, double width)>;
 
 struct Entry {
   FigureRow row;
@@ -19,10 +28,15 @@ struct Entry {
 };
 
 Drawing of_run(std::string (*figure)(const RunResults&, double)) {
-  return [figure](const RunResults& results, int, double width) { return figure(results, width); };
+  return [figure](const Sources& from, double width) { return figure(from.results, width); };
 }
 
-std::string joint_of(const RunResults& results, int joint, double width) {
+std::string waterfall_of(const Sources& from, double width) {
+  return waterfall(from.results, waterfall_steps(from.results, from.earlier), width);
+}
+
+std::string joint_of(const Sources& from, double width) {
+  const auto& [results, earlier, joint] = from;
   for (const auto& one : joint_residuals(results))
     if (one.joint == joint) return joint_figure(results, one, width);
   JointResidual still{.joint = joint,
@@ -40,7 +54,23 @@ const std::vector<Entry>& entries() {
        of_run(error_map)},
       {{"joints", "What is left as a deviation of each joint, over its own position"},
        of_run(joints_figure)},
-      {{"joint-JN", "The same of one joint, large"}, joint_of}};
+      {{"joint-JN", "The same of one joint, large"}, joint_of},
+      {{"evidence", "Which effect is missing, with the evidence for each (runs plumb diagnose)",
+        FigureRow::Needs::kDiagnosis},
+       {}},
+      {{"waterfall", "Held-out error as effects are added, over the runs of these data",
+        FigureRow::Needs::kEarlierRuns},
+       waterfall_of},
+      {{"order", "What is left in the order of measuring, with jumps and drifts"},
+       of_run(order_figure)},
+      {{"parameters", "What calibration changed, with 95 % intervals and the usual range of arms"},
+       of_run(parameters_figure)},
+      {{"regions", "Mean error by joint position and region of the workspace, with counts"},
+       of_run(regions_figure)},
+      {{"coverage", "Which part of its range each joint used, held-out poses marked"},
+       of_run(coverage_figure)},
+      {{"correlation", "Which fitted numbers can hardly be told apart"},
+       of_run(correlation_figure)}};
   return all;
 }
 
@@ -76,16 +106,23 @@ std::vector<std::string> figure_names(const Cell& cell) {
   return out;
 }
 
-std::optional<std::string> drawn(const std::string& name, const RunResults& results, double width) {
+FigureRow::Needs needs_of(const std::string& name) {
+  for (const Entry& entry : entries())
+    if (entry.row.name == name) return entry.row.needs;
+  return FigureRow::Needs::kRun;
+}
+
+std::optional<std::string> drawn(const std::string& name, const RunResults& results, double width,
+                                 const std::vector<Run>& earlier) {
+  const auto& joints = results.cell.nominal.joints;
   for (const Entry& entry : entries()) {
-    if (!for_each_joint(entry)) {
-      if (entry.row.name == name) return entry.draw(results, 0, width);
-      continue;
-    }
-    for (int j = 0; j < results.cell.joints(); ++j)
-      if (with_joint(entry.row.name,
-                     results.cell.nominal.joints[static_cast<std::size_t>(j)].name) == name)
-        return entry.draw(results, j, width);
+    if (!entry.draw) continue;  // of no run
+    if (entry.row.name == name && !for_each_joint(entry))
+      return entry.draw({results, earlier}, width);
+    if (!for_each_joint(entry)) continue;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (with_joint(entry.row.name, joints[j].name) == name)
+        return entry.draw({results, earlier, static_cast<int>(j)}, width);
   }
   return std::nullopt;
 }

@@ -20,6 +20,18 @@ std::string counted_poses(std::size_t n, const char* kind) {
   return fmt::format("{} {} {}", n, kind, n == 1 ? "pose" : "poses");
 }
 
+/// Different names, in the order of the rows.
+std::vector<std::string> names_of(const RunResults& results, std::span<const int> rows,
+                                  std::size_t most) {
+  std::vector<std::string> out;
+  for (const int row : rows) {
+    const std::string name = draw::shortened(results.pose(row), 12.0, kNamed_px);
+    if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    if (out.size() == most) break;
+  }
+  return out;
+}
+
 }  // namespace
 
 LengthUnit unit_for(double largest_m) {
@@ -36,18 +48,17 @@ std::string judged_words(const RunResults& results) {
                               : counted_poses(results.held.size(), "held-out");
 }
 
-std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most) {
-  std::vector<std::string> names;
-  for (const int row : rows) {
-    const std::string name = draw::shortened(results.pose(row), 12.0, kNamed_px);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    if (names.size() == most) break;
-  }
-  if (names.size() == 1) return "pose " + names.front();
-  std::string out = "poses ";
+std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most) {
+  const auto names = names_of(results, rows, most);
+  std::string out;
   for (std::size_t i = 0; i < names.size(); ++i)
     out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return out;
+}
+
+std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most) {
+  const char* word = names_of(results, rows, most).size() == 1 ? "pose " : "poses ";
+  return word + pose_names(results, rows, most);
 }
 
 std::vector<std::string> error_notes(const RunResults& results) {

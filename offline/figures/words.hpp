@@ -23,7 +23,9 @@ std::string length_text(double metres);
 /// "12 held-out poses" or, without any, "80 fitted poses"; one is "1 held-out pose".
 std::string judged_words(const RunResults& results);
 
-/// "poses 12, 57 and 80"; at most `most` names, each at most 24 characters long.
+/// "12, 57 and 80", or with the word before them, "poses 12, 57 and 80" or "pose 12"; at most
+/// `most` names, each at most 24 characters long.
+std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most);
 std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most);
 
 /// The notes that every figure of errors carries: the sign, the counts, and that an in-sample error

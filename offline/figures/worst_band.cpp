@@ -87,7 +87,7 @@ std::string where_sentence(const RunResults& results) {
                        range_text(results, *band), length_text(band->mean_m),
                        length_text(band->elsewhere_m), pose_list(results, band->rows, 3));
   return fmt::format("No range of a joint stands out; the worst of {} are {}, up to {}.",
-                     judged_words(results), pose_list(results, rows, 3),
+                     judged_words(results), pose_names(results, rows, 3),
                      length_text(results.after(rows.front())));
 }
 

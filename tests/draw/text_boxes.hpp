@@ -28,8 +28,11 @@ inline std::vector<TextBox> text_boxes(const std::string& svg) {
        ++it) {
     const double x = std::stod((*it)[1]), y = std::stod((*it)[2]), size = std::stod((*it)[4]);
     int characters = 0;
-    for (const char c : (*it)[5].str())
-      characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    bool entity = false;  // "&lt;" is one character
+    for (const char c : (*it)[5].str()) {
+      if (!entity) characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+      entity = c == '&' || (entity && c != ';');
+    }
     const double w = 0.45 * size * characters;
     const std::string anchor = (*it)[3];
     const double left = anchor == "start" ? x : anchor == "middle" ? x - 0.5 * w : x - w;

@@ -22,9 +22,7 @@ struct MadeRun {
   tests::Random random;
   Rows3 before_M, after_M;
 
-  MadeRun(int poses, int joints, Held held = Held::kEveryFifth)
-      : cell(arm_of(joints)),
-        random(11) {
+  MadeRun(int poses, int joints, Held held = Held::kEveryFifth) : cell(arm_of(joints)), random(11) {
     cell.tolerance_m = 0.1e-3;
     ArmState& state = run.fit.calibration.state;
     state.arm.calibrated = cell.nominal;
