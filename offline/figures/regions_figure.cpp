@@ -91,8 +91,9 @@ void draw_profile(const ErrorProfile& p, double y, double most_m, draw::Svg& svg
     if (bin.n > 0)
       svg.text({panel.x_at(left + 0.5 * step), panel.y_at(y + 0.66) + 4.0}, draw::Anchor::kMiddle,
                words, {.size = 11.0, .paint = ink});
-    svg.text({panel.x_at(left), panel.y_at(y + 0.36) + 12.0}, draw::Anchor::kMiddle,
-             border_text(p, bin.from), {.size = 10.0, .paint = Tone::kMuted});
+    svg.text({panel.x_at(left) + (k == 0 ? 2.0 : 0.0), panel.y_at(y + 0.36) + 12.0},
+             k == 0 ? draw::Anchor::kStart : draw::Anchor::kMiddle, border_text(p, bin.from),
+             {.size = 10.0, .paint = Tone::kMuted});
   }
   svg.text({panel.x_at(1.0) - 2.0, panel.y_at(y + 0.36) + 12.0}, draw::Anchor::kEnd,
            border_text(p, p.bins.back().to), {.size = 10.0, .paint = Tone::kMuted});

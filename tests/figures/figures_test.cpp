@@ -112,11 +112,11 @@ TEST(ErrorByPose, NamesTheWorstPoseInTheDrawingAndTheSentence) {
 }
 
 TEST(WorstBand, IsTheOneThatWasPlanted) {
-  MadeRun made(400, 6);
+  MadeRun made(2000, 6);
   const auto& q = made.measured.q;
   const std::vector<int> held = made.results().held;
   const double low = q(held, 1).minCoeff(), step = (q(held, 1).maxCoeff() - low) / 8.0;
-  for (int i = 0; i < 400; ++i)
+  for (int i = 0; i < 2000; ++i)
     if (q(i, 1) > low + 5.0 * step && q(i, 1) < low + 6.0 * step) made.after_M.row(i) *= 6.0;
   const auto band = worst_band(made.results());
   ASSERT_TRUE(band);
