@@ -50,7 +50,7 @@ TEST_F(PlotVerb, NamesTheNearestFigureIfThereIsNoneOfThatName) {
   const Ran ran = plot({"error-hits", "--json"});
   EXPECT_EQ(ran.exit, 2);
   EXPECT_EQ(code(ran), "E-PLOT-NAME");
-  EXPECT_NE(plot({"error-hits"}).err.find("did you mean: plumb plot error-hist"),
+  EXPECT_NE(plot({"error-hits"}).err.find("did you mean: plumb -C cell plot error-hist"),
             std::string::npos);
   EXPECT_EQ(plot({"joint-J9"}).exit, 2) << "an arm of six joints";
   EXPECT_EQ(plot({}).exit, 2);
@@ -66,10 +66,10 @@ TEST_F(PlotVerb, KeepsAFileThatIsThereUnlessForced) {
 }
 
 TEST_F(PlotVerb, SaysWhatIsMissingAndWritesNothing) {
-  EXPECT_EQ(plot({"error-hist", "--run", "99"}).exit, 3);
-  EXPECT_EQ(plot({"error-hist", "--run", "last"}).exit, 2);
+  EXPECT_EQ(plot({"error-hist", "-o", "new.svg", "--run", "99"}).exit, 3);
+  EXPECT_EQ(plot({"error-hist", "-o", "new.svg", "--run", "last"}).exit, 2);
   EXPECT_EQ(plot({"error-hist", "-o", "/proc/nowhere/x.svg"}).exit, 5);
-  EXPECT_EQ(plot({"error-hist", "--width", "10"}).exit, 2);
+  EXPECT_EQ(plot({"error-hist", "-o", "new.svg", "--width", "10"}).exit, 2);
   const Sandbox fresh;
   ASSERT_EQ(fresh.plumb({"demo", "clean", "cell"}).exit, 0);
   const Ran ran = fresh.plumb({"-C", "cell", "plot", "error-hist", "--json"});
