@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/model_limits.hpp"
 #include "cli/progress.hpp"
 #include "compile/compiler.hpp"
 #include "fit/verdict.hpp"
@@ -100,6 +101,7 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
     run = draft_run(cell, measured, fit_all(cell, measured));
   }
   format::Model model = compile(cell, run);
+  check_effect_sizes(model.effects);
   note_what_is_left(run, model, outcome);
   warn_of_serial(cell, outcome);
   if (!options.gate) warn_of_tolerance(model, cell.tolerance_m, outcome);

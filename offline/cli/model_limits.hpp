@@ -5,9 +5,8 @@
 
 #include "plumb/format/model.hpp"
 
-/// Limits of a model file that are checked when an effect is added, with the messages of
-/// `plumb compile`.
-/// Both throw Failure (kNumbersSayNo, E-MODEL-UNSOUND).
+/// Limits of a model file, checked with the same messages when an effect is added and when the
+/// model is compiled. Both throw Failure (kNumbersSayNo, E-MODEL-UNSOUND).
 namespace plumb::offline::cli {
 
 /// An effect of more parameters than a model holds: kMaxParameters, all of which have a covariance,

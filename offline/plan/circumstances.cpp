@@ -16,7 +16,7 @@ constexpr unsigned kNeedsArrival = kNeedsDirection | kNeedsTravel | kNeedsSteps;
 constexpr unsigned kNeedsLater = kNeedsTime | kNeedsOrder;
 constexpr double kUsualMove = 10.0 * std::numbers::pi / 180.0;  // [rad]; of a joint that slides [m]
 constexpr std::array kMoveLengths = {0.2, 1.0, 3.0};  // in usual ones: short and long ones
-constexpr int kMostAgain = 40;                  // measured poses offered again
+constexpr int kMostAgain = 40;                        // measured poses offered again
 
 /// Lightest and heaviest load of the readings, if they differ.
 std::vector<Payload> loads_measured(const Cell& cell, const Measurements& measured) {
@@ -53,7 +53,8 @@ Eigen::VectorXd random_approach(const Cell& cell, const Circumstances& circumsta
     const auto& row = cell.nominal.joints[static_cast<std::size_t>(j)];
     const auto which = static_cast<std::size_t>(random.unit() * kMoveLengths.size());
     double move = kUsualMove;
-    if (circumstances.short_and_long) move *= kMoveLengths[std::min(which, kMoveLengths.size() - 1)];
+    if (circumstances.short_and_long)
+      move *= kMoveLengths[std::min(which, kMoveLengths.size() - 1)];
     const double range = row.q_max - row.q_min;
     if (range > 0.0) move = std::min(move, 0.4 * range);
     if (random.unit() < 0.5) move = -move;

@@ -11,8 +11,8 @@
 namespace {
 
 const std::vector<std::string> kVerbs{
-    "demo",    "new",     "simulate", "check", "fit", "compare", "runs",       "diff",   "compile",
-    "inspect", "predict", "correct",  "bench", "dbc", "deploy",  "modbus-map", "explain"};
+    "demo",    "new",     "simulate", "check", "fit", "compare", "runs",       "diff",    "compile",
+    "inspect", "predict", "correct",  "bench", "dbc", "deploy",  "modbus-map", "explain", "plot"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;
@@ -80,9 +80,10 @@ TEST(Help, IsNoWiderThanTheTerminal) {
   EXPECT_EQ(all.exit, 0);
   EXPECT_EQ(too_wide(all.out), "");
   for (const auto* verb :
-       {"demo", "new",        "simulate", "import",  "check",   "fit",     "compare", "diagnose",
-        "add",  "drop",       "plan",     "runs",    "diff",    "compile", "export",  "deploy",
-        "dbc",  "modbus-map", "inspect",  "predict", "correct", "bench",   "study",   "explain"}) {
+       {"demo",     "new",    "simulate", "import",     "check",   "fit",     "compare",
+        "diagnose", "add",    "drop",     "plan",       "runs",    "diff",    "compile",
+        "export",   "deploy", "dbc",      "modbus-map", "inspect", "predict", "correct",
+        "bench",    "study",  "explain",  "plot"}) {
     const Ran ran = box.plumb_on_terminal(80, {verb, "--help"});
     EXPECT_EQ(ran.exit, 0) << verb;
     EXPECT_EQ(too_wide(ran.out), "") << verb;

@@ -85,6 +85,8 @@ def in_cell(plumb, cell):
     plumb.run(*at, "add", "gear_harmonics", "--joints", "J1")
     plumb.run(*at, "drop", "gear_harmonics", "--joints", "J1")
     plumb.run(*at, "runs")
+    plumb.run(*at, "plot", "error-hist", "-o", f"{cell}/hist.svg")
+    plumb.run(*at, "plot", "joint-J1", "-o", f"{cell}/joint.svg", "--dry-run")
     plumb.run(*at, "diff", "1", "2")
     plumb.run(*at, "compare", "1", "2")
     plumb.run(*at, "compile", "--force")
@@ -98,6 +100,7 @@ def other_forms(plumb):
     plumb.run("plumb", "explain", "E-CSV-UNIT")
     plumb.run("plumb", "explain", "joint_compliance")
     plumb.run("plumb", "simulate", "--list")
+    plumb.run("plumb", "plot", "--list")
     dh = plumb.write("dh.csv", "joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,0,400,0,0\nJ2,0,300,0,0\n")
     plumb.run("plumb", "new", "arm", "--dh", dh, "--convention", "standard", "--dry-run")
     plumb.run("plumb", "new", "arm", "--dh", dh, "--convention", "standard")
@@ -195,6 +198,7 @@ def failures(plumb):
     plumb.run("plumb", "fitt")                                                    # 2: no such verb
     plumb.run("plumb", "fit", "--sed", "3")                                       # 2: no such option
     plumb.run("plumb", "-C", "compliance", "predict", "--as-measured")            # 2: --json needs -o
+    plumb.run("plumb", "-C", "compliance", "plot", "error-hits", "-o", "hits.svg")  # 2: no such figure
     plumb.run("plumb", "-C", "nowhere", "fit")
     plumb.write("broken/cell.toml", "schema = \"cell/1\"\n[robot]\ndh_convention = \"modifed\"\n")
     for verb in ("check", "fit", "compare", "diagnose", "compile", "runs"):

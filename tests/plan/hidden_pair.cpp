@@ -88,7 +88,6 @@ SimulationPlan recipe_of(const Cell& cell, std::uint64_t number, tests::Random& 
   out.truth.mass_share = 0.15;
   const double size = pick(1.0, 2.0, 5.0, 10.0);
   out.truth.effects = {name + ":" + std::to_string(size)};
-  if (getenv("USUAL")) out.truth.effects = {name.substr(0, name.size() - (name.ends_with(':') ? 1 : 0))};
   if (pick(0, 1) == 1)
     for (const double share : {0.15, 0.55, 1.0}) {
       out.payloads.push_back(cell.payload);
@@ -208,8 +207,8 @@ double lead_with(const HiddenPair& pair, const std::string& second_csv) {
       diagnose(pair.cell, read_files(pair.cell, {pair.first_csv, second_csv}), {});
   if (found.candidates.empty()) return 0.0;
   const auto ln_bayes = [&](const EffectEntry& entry) {
-    const auto same = std::find_if(
-        found.candidates.begin(), found.candidates.end(), [&](const Candidate& c) {
+    const auto same =
+        std::find_if(found.candidates.begin(), found.candidates.end(), [&](const Candidate& c) {
           return c.entry.name == entry.name && c.entry.joints == entry.joints;
         });
     return same == found.candidates.end() ? found.candidates.back().ln_bayes : same->ln_bayes;

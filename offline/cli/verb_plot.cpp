@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/cell_data.hpp"
+#include "cli/progress.hpp"
+#include "cli/run_number.hpp"
+#include "cli/verbs.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "figures/evidence_figure.hpp"
+#include "figures/registry.hpp"
+#include "program/output_files.hpp"
+#include "program/problem.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+constexpr int kNarrowestFigure = 320, kWidestFigure = 4000;  // [px]
+
+struct PlotArguments {
+  std::string name, output, run;
+  int width = 880;
+  bool list = false;
+  WriteOptions write;
+};
+
+void list_figures(Outcome& outcome) {
+  outcome.result = {{"figures", Json::array()}};
+  outcome.text = "Figures of plumb plot; JN stands for a joint such as J2:\n\n";
+  for (const auto& row : figures::figure_list()) {
+    outcome.result["figures"].push_back({{"name", row.name}, {"shows", row.shows}});
+    outcome.text += fmt::format("  {:<16}  {}\n", row.name, row.shows);
+  }
+}
+
+void check_name(const std::string& name, const Cell& cell) {
+  const auto names = figures::figure_names(cell);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const auto near = did_you_mean(name, names);
+  throw Failure(Exit::kUsage,
+                {.code = "E-PLOT-NAME",
+                 .message = name.empty() ? "which figure?"
+                                         : fmt::format("this cell has no figure '{}'", name),
+                 .help = near ? fmt::format("did you mean: plumb plot {}", *near)
+                              : "list them: plumb plot --list"});
+}
+
+Run run_to_draw(const PlotArguments& options, const Cell& cell, const MeasurementFiles& measured) {
+  if (!options.run.empty()) {
+    Run run = load_run(cell, run_number(options.run));
+    check_same_data(run, measured);
+    return run;
+  }
+  if (auto run = current_run(cell, measured)) return std::move(*run);
+  throw Failure(Exit::kInput,
+                {.code = "E-PLOT-RUN",
+                 .message = "there is no run of the present cell and data to draw",
+                 .help = "plumb fit; or an earlier run: plumb plot " + options.name + " --run 1"});
+}
+
+/// Runs before this one that are of the same data and can be read.
+std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured) {
+  std::vector<Run> out;
+  for (const int number : list_runs(cell)) {
+    if (number >= last.number) break;
+    try {
+      Run run = load_run(cell, number);
+      check_same_data(run, measured);
+      out.push_back(std::move(run));
+    } catch (const Failure&) {
+      continue;  // damaged, or of other data: no step of this model
+    }
+  }
+  return out;
+}
+
+/// Refuses before a long computation to replace a file without --force.
+void refuse_replacing(const std::string& file, const PlotArguments& options) {
+  Outcome unused;
+  unused.result = Json::object();
+  OutputFiles files;
+  files.add(file, "");
+  files.commit({.force = options.write.force, .dry_run = true}, unused);
+}
+
+std::string evidence_of(const PlotArguments& options, const Cell& cell,
+                        const MeasurementFiles& measured) {
+  if (!options.run.empty())
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE",
+                   .message = "evidence is of the present cell, not of a run: it judges what would "
+                              "be added to it",
+                   .help = "leave --run out: plumb plot " + options.name});
+  Progress progress(fmt::format("diagnosing {} poses", measured.size()));
+  const Diagnosis found =
+      diagnose(cell, measured,
+               {.apply = false, .tell = [&](const std::string& step) { progress.at(step); }});
+  return figures::evidence(cell, found, options.width);
+}
+
+std::string run_figure(const PlotArguments& options, const Cell& cell, MeasurementFiles& measured,
+                       Outcome& outcome) {
+  using Needs = figures::FigureRow::Needs;
+  const Run run = run_to_draw(options, cell, measured);
+  stand_on_base_of(run, cell, measured);
+  outcome.result["run"] = run.number;
+  const auto earlier = figures::needs_of(options.name) == Needs::kEarlierRuns
+                           ? earlier_runs(run, cell, measured)
+                           : std::vector<Run>{};
+  const auto results = figures::results_of(cell, measured, run);
+  return figures::drawn(options.name, results, options.width, earlier).value();
+}
+
+void plot(const PlotArguments& options, const Globals& globals, Outcome& outcome) {
+  if (options.list) return list_figures(outcome);
+  const Cell cell = open_cell(globals, outcome);
+  check_name(options.name, cell);
+  const std::string file = options.output.empty() ? options.name + ".svg" : options.output;
+  refuse_replacing(file, options);
+  MeasurementFiles measured = open_measurements(cell, outcome);
+  outcome.result = {{"figure", options.name}, {"width_px", options.width}};
+  OutputFiles files;
+  const bool diagnosed = figures::needs_of(options.name) == figures::FigureRow::Needs::kDiagnosis;
+  files.add(file, diagnosed ? evidence_of(options, cell, measured)
+                            : run_figure(options, cell, measured, outcome));
+  files.commit(options.write, outcome);
+  outcome.text = wrote(file, options.write) + "\n";
+}
+
+}  // namespace
+
+void add_plot(Program& program) {
+  const auto options = std::make_shared<PlotArguments>();
+  VerbOptions verb =
+      program.verb({.name = "plot",
+                    .summary = "One figure of a run as an SVG file",
+                    .examples = "  plumb plot error-map -o map.svg      # of the latest run\n"
+                                "  plumb plot --list                    # every figure"},
+                   [options](const Globals& g, Outcome& o) { plot(*options, g, o); });
+  verb.add_option("NAME", options->name, "The figure; JN in a listed name is a joint: joint-J2");
+  verb.add_flag("--list", options->list, "List the figures and what they show");
+  verb.add_option("-o,--output", options->output, "SVG file to write (NAME.svg)").type_name("FILE");
+  verb.add_option("--run", options->run,
+                  "A run by its number; else the one of the present cell and "
+                  "data")
+      .type_name("N");
+  verb.add_option("--width", options->width, "Width [px] that the figure is laid out for")
+      .check(whole_number_between(kNarrowestFigure, kWidestFigure))
+      .shows_default();
+  options->write.add_to(verb);
+}
+
+}  // namespace plumb::offline::cli

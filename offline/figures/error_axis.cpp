@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "figures/error_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline::figures {
+namespace {
+
+constexpr double kLogBeyond = 15.0;
+constexpr double kSmallestShown_m = 1e-9;
+
+}  // namespace
+
+double ErrorAxis::of(double error_m) const {
+  const double value = error_m * unit.per_m;
+  return is_log() ? std::max(value, axis.low) : value;
+}
+
+ErrorAxis error_axis(const RunResults& results) {
+  std::vector<int> rows = results.held;
+  rows.insert(rows.end(), results.fit.begin(), results.fit.end());
+  const auto before = sorted_errors(results, rows, Which::kBefore);
+  const auto after = sorted_errors(results, rows, Which::kAfter);
+  const double largest = std::max({quantile_of(before, 1.0), quantile_of(after, 1.0),
+                                   results.cell.tolerance_m, results.run.fit.floor.mean_m});
+  const double usual = quantile_of(after, 0.5);
+  ErrorAxis out{.unit = unit_for(largest), .axis = {}};
+  out.axis.title = "error [" + out.unit.name + "]";
+  out.axis.high = largest * out.unit.per_m;
+  if (usual > kSmallestShown_m && largest > kLogBeyond * usual) {
+    out.axis.scale = draw::Axis::Scale::kLog;
+    const double least = std::max(quantile_of(after, 0.02), 1e-3 * usual);
+    const auto ticks = draw::log_ticks(least * out.unit.per_m, out.axis.high, draw::kMostTicks);
+    out.axis.low = ticks.front().value;
+    out.axis.high = ticks.back().value;
+  }
+  return out;
+}
+
+void draw_limits(const RunResults& results, const ErrorAxis& axis, Along along,
+                 draw::Panel& panel) {
+  const auto level = [&](double value_m, const char* name, draw::Tone tone, const char* dashes) {
+    const double at = value_m * axis.unit.per_m;
+    const draw::LineStyle style{.paint = tone, .width = 1.4, .dashes = dashes};
+    const std::string words = std::string(name) + " " + length_text(value_m);
+    if (along == Along::kX)
+      panel.level_x(at, words, style);
+    else
+      panel.level_y(at, words, style);
+  };
+  level(results.cell.tolerance_m, "tolerance", draw::Tone::kPurple, "6 3");
+  if (results.run.fit.floor.mean_m > 0.0)
+    level(results.run.fit.floor.mean_m, "noise floor", draw::Tone::kGreen, "2 2");
+}
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "draw/panel.hpp"
+#include "figures/run_results.hpp"
+#include "figures/words.hpp"
+
+namespace plumb::offline::figures {
+
+/// The axis on which errors before and after are both seen: linear, or logarithmic if the largest
+/// is more than 15 times the median after.
+struct ErrorAxis {
+  LengthUnit unit;
+  draw::Axis axis;
+  bool is_log() const { return axis.scale == draw::Axis::Scale::kLog; }
+  double of(double error_m) const;  // never below the end of a logarithmic axis
+};
+ErrorAxis error_axis(const RunResults& results);
+
+/// Lines of a panel for tolerance and noise floor, if they lie on the axis.
+enum class Along { kX, kY };
+void draw_limits(const RunResults& results, const ErrorAxis& axis, Along along, draw::Panel& panel);
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "draw/panel.hpp"
+#include "draw/sheet.hpp"
+#include "draw/text_width.hpp"
+#include "figures/error_axis.hpp"
+#include "figures/error_figures.hpp"
+#include "figures/words.hpp"
+#include "figures/worst_band.hpp"
+
+namespace plumb::offline::figures {
+namespace {
+
+using draw::Mark;
+using draw::Tone;
+
+constexpr std::size_t kMostPoses = 1200, kNamedPoses = 6;
+
+}  // namespace
+
+std::string error_by_pose(const RunResults& results, double width) {
+  std::vector<int> rows = results.judged();
+  const bool held = !results.held.empty();
+  const auto fill = held ? Mark::Fill::kFilled : Mark::Fill::kHollow;
+  const Mark before{draw::Shape::kSquare, Tone::kVermilion, fill, 3.0};
+  const Mark after{draw::Shape::kCircle, Tone::kBlue, fill, 3.2};
+  auto notes = error_notes(results);
+  rows = thinned(results, rows, kMostPoses);
+  if (const auto note = thinning_note(rows.size(), results.judged().size()); !note.empty())
+    notes.push_back(note);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](int a, int b) { return results.after(a) < results.after(b); });
+  const std::string kind = held ? ", held out" : ", fitted";
+  draw::Sheet sheet(width, {.title = "Error of every pose, sorted",
+                            .sentence = where_sentence(results),
+                            .legend = {{.words = "before" + kind, .mark = before},
+                                       {.words = "after" + kind, .mark = after}},
+                            .notes = std::move(notes)});
+  const ErrorAxis axis = error_axis(results);
+  draw::Panel panel(sheet.svg(), sheet.room(380.0),
+                    {.title = "poses in the order of their error after calibration",
+                     .low = 0.0,
+                     .high = static_cast<double>(std::max<std::size_t>(1, rows.size()))},
+                    axis.axis);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double x = static_cast<double>(i) + 0.5;
+    Mark one = before;
+    one.pose = results.pose(rows[i]);
+    panel.mark(x, axis.of(results.before(rows[i])), one);
+    one = after;
+    one.pose = results.pose(rows[i]);
+    one.words = pose_numbers(results, rows[i]);
+    panel.mark(x, axis.of(results.after(rows[i])), one);
+  }
+  draw_limits(results, axis, Along::kY, panel);
+  for (std::size_t k = 0; k < std::min(kNamedPoses, rows.size()); ++k) {
+    const std::size_t i = rows.size() - 1 - k;
+    panel.label(static_cast<double>(i) + 0.5, axis.of(results.after(rows[i])),
+                draw::shortened(results.pose(rows[i]), 11.0, 120.0));
+  }
+  return sheet.file();
+}
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/panel.hpp"
+#include "draw/sheet.hpp"
+#include "figures/error_axis.hpp"
+#include "figures/error_figures.hpp"
+#include "figures/words.hpp"
+
+namespace plumb::offline::figures {
+namespace {
+
+using draw::Tone;
+
+constexpr double kPanelHeight = 210.0;
+constexpr int kLinearBins = 40, kBinsPerDecade = 8;
+constexpr double kLowestCount = 0.7;  // of the axis, so that one pose is seen
+
+std::vector<double> bin_edges(const draw::Axis& axis) {
+  std::vector<double> out;
+  if (axis.scale == draw::Axis::Scale::kLinear) {
+    for (int i = 0; i <= kLinearBins; ++i)
+      out.push_back(axis.low + (axis.high - axis.low) * i / kLinearBins);
+    return out;
+  }
+  const int bins =
+      std::max(1, static_cast<int>(std::lround(kBinsPerDecade * std::log10(axis.high / axis.low))));
+  for (int i = 0; i <= bins; ++i)
+    out.push_back(axis.low * std::pow(axis.high / axis.low, static_cast<double>(i) / bins));
+  return out;
+}
+
+std::vector<int> counts_of(const std::vector<double>& errors_m, const ErrorAxis& axis,
+                           const std::vector<double>& edges) {
+  std::vector<int> out(edges.size() - 1, 0);
+  for (const double error : errors_m) {
+    const auto above = std::upper_bound(edges.begin(), edges.end(), axis.of(error));
+    const auto bin = std::clamp<std::ptrdiff_t>(above - edges.begin() - 1, 0,
+                                                static_cast<std::ptrdiff_t>(out.size()) - 1);
+    ++out[static_cast<std::size_t>(bin)];
+  }
+  return out;
+}
+
+struct Bars {
+  std::vector<int> held, fit;
+  int most() const {
+    int out = 1;
+    for (const auto* counts : {&held, &fit})
+      for (const int n : *counts) out = std::max(out, n);
+    return out;
+  }
+};
+
+void draw_bars(const Bars& bars, const std::vector<double>& edges, const ErrorAxis& axis, Tone tone,
+               draw::Panel& panel) {
+  const auto draw_one = [&](const std::vector<int>& counts, const char* kind, bool filled) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] == 0) continue;
+      const std::string words =
+          fmt::format("{} to {} {}: {} {}", draw::digits(edges[i], 3),
+                      draw::digits(edges[i + 1], 3), axis.unit.name, counts[i], kind);
+      const draw::LineStyle edge{.paint = filled ? Tone::kPaper : tone,
+                                 .width = filled ? 0.6 : 1.2};
+      panel.bar(edges[i], panel.y_low(), edges[i + 1], counts[i],
+                filled ? draw::Paint(tone) : draw::Paint(), edge, words);
+    }
+  };
+  draw_one(bars.held, "held out", true);
+  draw_one(bars.fit, "fitted", false);
+}
+
+std::string hist_sentence(const RunResults& results) {
+  const auto before = sorted_errors(results, results.judged(), Which::kBefore);
+  const auto after = sorted_errors(results, results.judged(), Which::kAfter);
+  if (after.empty()) return "There is no pose to judge.";
+  const double tolerance = results.cell.tolerance_m;
+  const auto within = std::upper_bound(after.begin(), after.end(), tolerance) - after.begin();
+  const double a = quantile_of(before, 0.5), b = quantile_of(after, 0.5);
+  const std::string change = b < a ? "falls" : b > a ? "rises" : "stays";
+  return fmt::format(
+      "The median error of {} {} from {} to {}; {} of {} are within the tolerance "
+      "of {}, and the largest error is {}.",
+      judged_words(results), change, length_text(a), length_text(b), within, after.size(),
+      length_text(tolerance), length_text(after.back()));
+}
+
+}  // namespace
+
+std::string error_hist(const RunResults& results, double width) {
+  std::vector<draw::LegendEntry> legend{
+      {.words = "before, held out", .area = Tone::kVermilion},
+      {.words = "after, held out", .area = Tone::kBlue},
+      {.words = "fitted poses (outline)", .line = draw::LineStyle{Tone::kBlue, 1.4}}};
+  draw::Sheet sheet(width, {.title = "Distribution of the error, before and after calibration",
+                            .sentence = hist_sentence(results),
+                            .legend = std::move(legend),
+                            .notes = error_notes(results)});
+  const ErrorAxis axis = error_axis(results);
+  // Before the bins are known the axis must end where the panel lets it end.
+  ErrorAxis exact = axis;
+  if (!axis.is_log()) {
+    const auto ticks = draw::round_ticks(axis.axis.low, axis.axis.high, draw::kMostTicks);
+    exact.axis.low = ticks.front().value;
+    exact.axis.high = ticks.back().value;
+  }
+  exact.axis.ends = draw::Axis::Ends::kExact;
+  const auto edges = bin_edges(exact.axis);
+  const auto bars_of = [&](Which which) {
+    return Bars{counts_of(sorted_errors(results, results.held, which), exact, edges),
+                counts_of(sorted_errors(results, results.fit, which), exact, edges)};
+  };
+  const Bars before = bars_of(Which::kBefore), after = bars_of(Which::kAfter);
+  const draw::Axis count{.title = "poses",
+                         .low = kLowestCount,
+                         .high = 1.3 * std::max(before.most(), after.most()),
+                         .scale = draw::Axis::Scale::kLog,
+                         .ends = draw::Axis::Ends::kExact};
+  draw::Axis upper = exact.axis;
+  upper.title.clear();
+  draw::Panel first(sheet.svg(), sheet.room(kPanelHeight), upper, count, "before");
+  draw_bars(before, edges, exact, Tone::kVermilion, first);
+  draw_limits(results, exact, Along::kX, first);
+  draw::Panel second(sheet.svg(), sheet.room(kPanelHeight), exact.axis, count, "after");
+  draw_bars(after, edges, exact, Tone::kBlue, second);
+  draw_limits(results, exact, Along::kX, second);
+  return sheet.file();
+}
+
+}  // namespace plumb::offline::figures

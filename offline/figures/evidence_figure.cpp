@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "figures/evidence_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/panel.hpp"
+#include "draw/sheet.hpp"
+#include "figures/words.hpp"
+
+namespace plumb::offline::figures {
+namespace {
+
+using draw::Tone;
+
+constexpr std::size_t kMostCandidates = 12;
+constexpr double kCandidateRow = 44.0;  // [px]
+constexpr double kLargestLn = 1000.0;   // beyond it "over 1000"
+
+std::string joint_names(const Cell& cell, const std::vector<int>& joints,
+                        const std::string& between, const std::string& last) {
+  std::vector<std::string> names;
+  for (const int j : joints) names.push_back(cell.nominal.joints[static_cast<std::size_t>(j)].name);
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == names.size() ? last : between) + names[i];
+  return out;
+}
+
+std::string candidate_name(const Cell& cell, const Candidate& c) {
+  return c.entry.joints.empty()
+             ? c.title
+             : c.title + " of " + joint_names(cell, c.entry.joints, ", ", " and ");
+}
+
+/// "gear_harmonics:J2", as other candidates name it.
+std::string candidate_key(const Cell& cell, const Candidate& c) {
+  return c.entry.joints.empty() ? c.entry.name
+                                : c.entry.name + ":" + joint_names(cell, c.entry.joints, "+", "+");
+}
+
+bool is_like_first(const Cell& cell, const Candidate& first, const Candidate& c) {
+  const std::string key = candidate_key(cell, c);
+  return std::any_of(first.confounded_with.begin(), first.confounded_with.end(),
+                     [&](const auto& name) { return name == key || name.starts_with(key + "@"); });
+}
+
+std::string ln_text(double ln_bayes) {
+  if (std::abs(ln_bayes) > kLargestLn) return ln_bayes > 0.0 ? "over 1000" : "below -1000";
+  return fmt::format("{:.0f}", std::round(ln_bayes) + 0.0);
+}
+
+std::string evidence_sentence(const Cell& cell, const Diagnosis& d) {
+  if (d.candidates.empty()) return "No effect of the library can be judged with these data.";
+  const Candidate& first = d.candidates.front();
+  const std::string name = candidate_name(cell, first);
+  if (!first.supported)
+    return fmt::format(
+        "No further effect is supported: the best one, {}, would change the error by "
+        "{:.1f} ± {:.1f} %.",
+        name, -100.0 * first.gain, 100.0 * first.gain_se);
+  std::string out = fmt::format("Adding {} takes the mean error of held-out poses from {} to {}",
+                                name, length_text(d.before.mean), length_text(first.alone.mean));
+  if (d.before.n == 0)
+    out = fmt::format("Adding {} lowers the error by {:.0f} % in cross-validation", name,
+                      100.0 * first.gain);
+  const auto like = static_cast<std::size_t>(
+      std::count_if(d.candidates.begin(), d.candidates.end(),
+                    [&](const Candidate& c) { return is_like_first(cell, first, c); }));
+  if (like > 0)
+    return out + fmt::format("; these poses hardly tell it from {} other {}.", like,
+                             like == 1 ? "effect" : "effects");
+  return out + "; no other effect imitates it.";
+}
+
+std::string figures_text(const Candidate& c, bool is_first) {
+  std::string out = "ln Bayes " + ln_text(c.ln_bayes);
+  if (c.alone.n > 0) out += "; alone " + length_text(c.alone.mean);
+  if (!is_first && c.after.n > 0) out += "; with the first " + length_text(c.after.mean);
+  return out;
+}
+
+}  // namespace
+
+std::string evidence(const Cell& cell, const Diagnosis& d, double width) {
+  const std::size_t n = std::min(kMostCandidates, d.candidates.size());
+  std::vector<std::string> notes{
+      "Bars: by how much the RMS error falls if this effect is added, cross-validated inside the "
+      "fit "
+      "poses; the line is one standard error either way. ln Bayes: the evidence, by which they are "
+      "sorted. mm: mean error of the held-out poses, e = measured - predicted.",
+      fmt::format(
+          "The present model of the cell: {} fitted and {} held-out poses, {} held-out "
+          "error. {} of {} candidates are shown; {} effects cannot be tested with these data.",
+          d.poses_fit, d.poses_held, length_text(d.before.mean), n, d.candidates.size(),
+          d.not_testable.size())};
+  draw::Sheet sheet(width,
+                    {.title = "Which effect is missing",
+                     .sentence = evidence_sentence(cell, d),
+                     .legend = {{.words = "supported", .area = Tone::kBlue},
+                                {.words = "supported, of an unusual size", .area = Tone::kOrange},
+                                {.words = "not supported", .area = Tone::kGrid},
+                                {.words = "hard to tell from the first",
+                                 .mark = draw::Mark{draw::Shape::kDiamond, Tone::kPurple}}},
+                     .notes = std::move(notes)});
+  double low = 0.0, high = 1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Candidate& c = d.candidates[i];
+    low = std::min(low, 100.0 * (c.gain - c.gain_se));
+    high = std::max(high, 100.0 * (c.gain + c.gain_se));
+  }
+  const auto rows = static_cast<double>(std::max<std::size_t>(1, n));
+  draw::Panel panel(
+      sheet.svg(), sheet.room(60.0 + kCandidateRow * rows),
+      {.title = "fall of the RMS error [%]", .low = std::max(low, -100.0), .high = high},
+      {.low = 0.0, .high = rows, .ticks = {{-1.0, ""}}});
+  for (std::size_t i = 0; i < n; ++i) {
+    const Candidate& c = d.candidates[i];
+    const double top = rows - static_cast<double>(i), gain = 100.0 * c.gain, se = 100.0 * c.gain_se;
+    const Tone tone = !c.supported ? Tone::kGrid : c.plausible ? Tone::kBlue : Tone::kOrange;
+    panel.bar(0.0, top - 0.95, std::max(gain, panel.x_low()), top - 0.72, tone,
+              {.paint = Tone::kMuted, .width = 0.6},
+              fmt::format("{}: {:.1f} ± {:.1f} %", candidate_name(cell, c), gain, se));
+    panel.line({{std::max(gain - se, panel.x_low()), top - 0.835}, {gain + se, top - 0.835}},
+               {.paint = Tone::kInk, .width = 1.6});
+    const bool like = i > 0 && is_like_first(cell, d.candidates.front(), c);
+    if (like)
+      panel.mark(std::max(panel.x_low(), std::max(gain + se, 0.0)) +
+                     0.02 * (panel.x_high() - panel.x_low()),
+                 top - 0.835,
+                 {.shape = draw::Shape::kDiamond, .paint = Tone::kPurple, .size = 3.2});
+    panel.label_at(panel.x_low(), top - 0.28,
+                   fmt::format("{}. {}", i + 1, candidate_name(cell, c)));
+    panel.label_at(panel.x_low(), top - 0.61, figures_text(c, i == 0));
+  }
+  return sheet.file();
+}
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "figures/run_results.hpp"
+
+namespace plumb::offline::figures {
+
+/// A figure that can be drawn: its name, where JN stands for a joint such as J2, and what it shows.
+struct FigureRow {
+  std::string name;
+  std::string shows;  // one line, without a full stop
+  enum class Needs { kRun, kEarlierRuns, kDiagnosis } needs = Needs::kRun;
+};
+
+/// Every figure, in the order of a report.
+const std::vector<FigureRow>& figure_list();
+
+/// The names that a cell has: JN is replaced by each of its joints.
+std::vector<std::string> figure_names(const Cell& cell);
+
+/// What the figure of that name is drawn from: a run; a run and the earlier ones of the same data;
+/// or a diagnosis, which `evidence` of evidence_figure.hpp draws.
+FigureRow::Needs needs_of(const std::string& name);
+
+/// The SVG file of a figure of a run, `width` px wide; nothing if this cell has no such figure.
+std::optional<std::string> drawn(const std::string& name, const RunResults& results, double width,
+                                 const std::vector<Run>& earlier = {});
+
+}  // namespace plumb::offline::figures

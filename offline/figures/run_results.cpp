@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "figures/run_results.hpp"
+
+#include "fit/arm_state.hpp"
+#include "fit/calibrate.hpp"
+
+namespace plumb::offline::figures {
+
+RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run) {
+  const Split& split = run.fit.split;
+  const ArmState nominal = place_nominal(cell, measured, fit_rows(split));
+  RunResults out{.cell = cell,
+                 .measured = measured,
+                 .run = run,
+                 .before_M = residuals(measured, predict_points(nominal, measured)),
+                 .after_M = residuals(measured, run.fit.predicted_M),
+                 .held = held_rows(split),
+                 .fit = {}};
+  std::vector<bool> is_held(split.used.size(), false);
+  for (const int row : out.held) is_held[static_cast<std::size_t>(row)] = true;
+  for (int row = 0; row < measured.size(); ++row)
+    if (split.used[static_cast<std::size_t>(row)] && !is_held[static_cast<std::size_t>(row)])
+      out.fit.push_back(row);
+  return out;
+}
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/run_store.hpp"
+
+namespace plumb::offline::figures {
+
+/// What the figures of one run are drawn from. The cell, the measurements and the run must live
+/// longer. Errors are measured - predicted, in the measurement frame [m], shape (all rows, 3).
+struct RunResults {
+  const Cell& cell;
+  const Measurements& measured;
+  const Run& run;
+  Rows3 before_M;         // of the nominal arm, with only tracker frame and target fitted
+  Rows3 after_M;          // of the run; where a pose was held out, by a model that never saw it
+  std::vector<int> held;  // rows with a held-out error, ascending
+  std::vector<int> fit;   // rows in use that have none
+
+  const std::string& pose(int row) const { return measured.pose[static_cast<std::size_t>(row)]; }
+  double before(int row) const { return before_M.row(row).norm(); }
+  double after(int row) const { return after_M.row(row).norm(); }
+
+  /// Rows by which the model is judged: the held-out ones, or all if none was held out.
+  const std::vector<int>& judged() const { return held.empty() ? fit : held; }
+};
+
+/// Cost: one small fit of tracker frame and target. Throws as `place_nominal`. `measured` must
+/// stand on the base of the run.
+RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run);
+
+}  // namespace plumb::offline::figures

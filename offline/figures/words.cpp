@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "figures/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/text_width.hpp"
+#include "draw/ticks.hpp"
+
+namespace plumb::offline::figures {
+namespace {
+
+constexpr double kMicrometresBelow_m = 0.2e-3;
+constexpr double kNamed_px = 160.0;  // a longer name of a pose is cut
+constexpr std::size_t kWorstShare = 10;
+
+std::string counted_poses(std::size_t n, const char* kind) {
+  return fmt::format("{} {} {}", n, kind, n == 1 ? "pose" : "poses");
+}
+
+/// Different names, in the order of the rows.
+std::vector<std::string> names_of(const RunResults& results, std::span<const int> rows,
+                                  std::size_t most) {
+  std::vector<std::string> out;
+  for (const int row : rows) {
+    const std::string name = draw::shortened(results.pose(row), 12.0, kNamed_px);
+    if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    if (out.size() == most) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+LengthUnit unit_for(double largest_m) {
+  return largest_m < kMicrometresBelow_m ? LengthUnit{"µm", 1e6} : LengthUnit{"mm", 1e3};
+}
+
+std::string length_text(double metres) {
+  if (std::abs(metres) < 0.01e-3) return draw::digits(metres * 1e6, 2) + " µm";
+  return draw::digits(metres * 1e3, 2) + " mm";
+}
+
+std::string judged_words(const RunResults& results) {
+  return results.held.empty() ? counted_poses(results.fit.size(), "fitted")
+                              : counted_poses(results.held.size(), "held-out");
+}
+
+std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most) {
+  const auto names = names_of(results, rows, most);
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return out;
+}
+
+std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most) {
+  const char* word = names_of(results, rows, most).size() == 1 ? "pose " : "poses ";
+  return word + pose_names(results, rows, most);
+}
+
+std::vector<std::string> error_notes(const RunResults& results) {
+  std::vector<std::string> out;
+  std::string who =
+      fmt::format("Run {}: {}", results.run.number, counted_poses(results.held.size(), "held-out"));
+  if (results.run.fit.split.folds > 0)
+    who += fmt::format(", each predicted by a model that was fitted without it ({} folds).",
+                       results.run.fit.split.folds);
+  else
+    who += ", " + counted_poses(results.fit.size(), "fitted") + ".";
+  out.push_back("e = measured - predicted; error: its length. " + who);
+  if (results.held.empty())
+    out.emplace_back("No pose was held out: these errors are in-sample, and no accuracy.");
+  return out;
+}
+
+std::vector<double> sorted_errors(const RunResults& results, const std::vector<int>& rows,
+                                  Which which) {
+  std::vector<double> out;
+  out.reserve(rows.size());
+  for (const int row : rows)
+    out.push_back(which == Which::kBefore ? results.before(row) : results.after(row));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double quantile_of(const std::vector<double>& ascending, double q) {
+  if (ascending.empty()) return 0.0;
+  const double at = std::ceil(q * static_cast<double>(ascending.size()) - 1e-9) - 1.0;
+  return ascending[static_cast<std::size_t>(
+      std::clamp(at, 0.0, static_cast<double>(ascending.size() - 1)))];
+}
+
+std::string pose_numbers(const RunResults& results, int row) {
+  return fmt::format("{}: {} before, {} after", results.pose(row), length_text(results.before(row)),
+                     length_text(results.after(row)));
+}
+
+std::vector<int> thinned(const RunResults& results, const std::vector<int>& rows,
+                         std::size_t most) {
+  if (rows.size() <= most) return rows;
+  std::vector<int> worst = rows;
+  const std::size_t named = most / kWorstShare;
+  std::nth_element(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(named), worst.end(),
+                   [&](int a, int b) { return results.after(a) > results.after(b); });
+  worst.resize(named);
+  const double stride = static_cast<double>(rows.size()) / static_cast<double>(most - named);
+  for (double at = 0.0; at < static_cast<double>(rows.size()); at += stride)
+    worst.push_back(rows[static_cast<std::size_t>(at)]);
+  std::sort(worst.begin(), worst.end());
+  worst.erase(std::unique(worst.begin(), worst.end()), worst.end());
+  return worst;
+}
+
+std::string thinning_note(std::size_t drawn, std::size_t all) {
+  if (drawn >= all) return {};
+  return fmt::format("{} of {} poses are drawn: the worst ones, and an even choice of the others.",
+                     drawn, all);
+}
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "figures/run_results.hpp"
+
+/// Words and numbers that several figures use.
+namespace plumb::offline::figures {
+
+/// The unit of an axis of lengths: one for all that is compared in a figure.
+struct LengthUnit {
+  std::string name;    // "mm" or "µm"
+  double per_m = 1e3;  // of this unit
+};
+LengthUnit unit_for(double largest_m);
+
+/// "0.41 mm", "12 µm": two significant digits.
+std::string length_text(double metres);
+
+/// "12 held-out poses" or, without any, "80 fitted poses"; one is "1 held-out pose".
+std::string judged_words(const RunResults& results);
+
+/// "12, 57 and 80", or with the word before them, "poses 12, 57 and 80" or "pose 12"; at most
+/// `most` names, each at most 24 characters long.
+std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most);
+std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most);
+
+/// The notes that every figure of errors carries: the sign, the counts, and that an in-sample error
+/// is no accuracy.
+std::vector<std::string> error_notes(const RunResults& results);
+
+/// Errors of these rows [m], ascending.
+enum class Which { kBefore, kAfter };
+std::vector<double> sorted_errors(const RunResults& results, const std::vector<int>& rows,
+                                  Which which);
+
+/// The q-quantile (0 .. 1) of ascending values: the smallest that so large a share do not exceed;
+/// 0 of none.
+double quantile_of(const std::vector<double>& ascending, double q);
+
+/// The numbers of a pose, for the title of its mark.
+std::string pose_numbers(const RunResults& results, int row);
+
+/// At most `most` of the rows, in their order: the `worst` ones by error after the fit, and the
+/// rest evenly spread.
+std::vector<int> thinned(const RunResults& results, const std::vector<int>& rows, std::size_t most);
+
+/// "600 of 12000 poses are drawn: the 60 worst and every 20th of the others"; empty if all are.
+std::string thinning_note(std::size_t drawn, std::size_t all);
+
+}  // namespace plumb::offline::figures

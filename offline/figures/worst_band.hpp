@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "figures/run_results.hpp"
+
+namespace plumb::offline::figures {
+
+/// A range of one joint in which the error is larger than elsewhere, beyond chance.
+struct WorstBand {
+  int joint = 0;
+  double from = 0.0, to = 0.0;  // [rad] or [m]
+  double mean_m = 0.0, elsewhere_m = 0.0;
+  std::vector<int> rows;  // the judged rows in it, worst first
+};
+
+/// Of all joints, cut into eight equal steps: the one whose mean error is most standard errors
+/// above that of the other poses, if there are at least four [Bonferroni over all steps, 1 %].
+/// Cost: joints * poses.
+std::optional<WorstBand> worst_band(const RunResults& results);
+
+/// "The error is largest at J2 between 60 and 80 deg: 0.41 mm on average, 0.12 mm elsewhere; worst
+/// at poses 12, 57 and 80.", or that no joint range stands out and which poses are the worst.
+std::string where_sentence(const RunResults& results);
+
+}  // namespace plumb::offline::figures

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <regex>
+#include <set>
+
+#include "figures/data_figures.hpp"
+#include "figures/error_figures.hpp"
+#include "figures/evidence_figure.hpp"
+#include "figures/joint_residual.hpp"
+#include "figures/registry.hpp"
+#include "figures/run_figures.hpp"
+#include "figures/words.hpp"
+#include "figures/worst_band.hpp"
+#include "tests/draw/text_boxes.hpp"
+#include "tests/figures/made_run.hpp"
+#include "tests/yardstick.hpp"
+
+namespace plumb::offline::figures {
+namespace {
+
+using Held = MadeRun::Held;
+
+std::set<std::string> poses_in(const std::string& svg) {
+  static const std::regex kPose("data-pose=\"([^\"]*)\"");
+  std::set<std::string> out;
+  for (auto it = std::sregex_iterator(svg.begin(), svg.end(), kPose); it != std::sregex_iterator();
+       ++it)
+    out.insert((*it)[1]);
+  return out;
+}
+
+/// The names of the figures that are drawn from a run.
+std::vector<std::string> run_figures(const Cell& cell) {
+  std::vector<std::string> out;
+  for (const auto& name : figure_names(cell))
+    if (needs_of(name) != FigureRow::Needs::kDiagnosis) out.push_back(name);
+  return out;
+}
+
+bool shows_no_error(const std::string& name) {
+  return name == "parameters" || name == "correlation" || name == "coverage";
+}
+
+/// Every figure of the run at the three widths of the page: no label touches another, none leaves
+/// the drawing, and no number is missing.
+void expect_sound(const MadeRun& made) {
+  const RunResults results = made.results();
+  for (const auto& name : run_figures(made.cell))
+    for (const double width : {1280.0, 700.0, 400.0}) {
+      const std::string svg = drawn(name, results, width).value();
+      EXPECT_EQ(collisions(svg, width), "") << name << " at " << width;
+      EXPECT_EQ(svg.find("nan"), std::string::npos) << name;
+      EXPECT_EQ(svg.find("inf"), std::string::npos) << name;
+      EXPECT_EQ(svg.find("measured - predicted") == std::string::npos, shows_no_error(name))
+          << name;
+      EXPECT_EQ(count(svg, "<svg "), count(svg, "</svg>")) << name;
+    }
+}
+
+TEST(Figures, AreSoundForArmsOfTwoSixAndNineJoints) {
+  for (const int joints : {2, 6, 9}) expect_sound(MadeRun(60, joints));
+}
+
+TEST(Figures, AreSoundWithoutAHeldOutSetAndSayThatItIsNoAccuracy) {
+  const MadeRun made(60, 6, Held::kNone);
+  expect_sound(made);
+  for (const auto& name : run_figures(made.cell))
+    EXPECT_EQ(drawn(name, made.results(), 1280.0)->find("in-sample") == std::string::npos,
+              shows_no_error(name))
+        << name;
+}
+
+TEST(Figures, AreSoundForNoPoseOnePoseAndErrorsThatAreAllZero) {
+  expect_sound(MadeRun(0, 6));
+  expect_sound(MadeRun(1, 6));
+  MadeRun exact(30, 6);
+  exact.before_M.setZero();
+  exact.after_M.setZero();
+  exact.run.fit.floor = {};
+  expect_sound(exact);
+}
+
+TEST(Figures, HostileNamesOfPosesStayWords) {
+  MadeRun made(40, 6);
+  for (auto& name : made.measured.pose) name = "\"><script>alert('" + name + "')</script>";
+  for (const auto& name : run_figures(made.cell)) {
+    const std::string svg = drawn(name, made.results(), 700.0).value();
+    EXPECT_EQ(svg.find("<script"), std::string::npos) << name;
+    EXPECT_EQ(collisions(svg, 700.0), "") << name;
+  }
+}
+
+TEST(ErrorByPose, DrawsEveryHeldOutPoseAndNoOther) {
+  const MadeRun made(60, 6);
+  std::set<std::string> held;
+  for (const int row : made.results().held) held.insert(made.results().pose(row));
+  ASSERT_EQ(held.size(), 12U);
+  EXPECT_EQ(poses_in(error_by_pose(made.results(), 900.0)), held);
+  EXPECT_EQ(poses_in(error_map(made.results(), 900.0)), held);
+}
+
+TEST(ErrorByPose, NamesTheWorstPoseInTheDrawingAndTheSentence) {
+  MadeRun made(60, 6);
+  made.after_M.row(25) = Eigen::RowVector3d(0.0, 0.3e-3, 0.4e-3);
+  const std::string svg = error_by_pose(made.results(), 900.0);
+  EXPECT_NE(svg.find(">P26</text>"), std::string::npos);
+  EXPECT_NE(where_sentence(made.results()).find("P26"), std::string::npos);
+  EXPECT_NE(where_sentence(made.results()).find("0.50 mm"), std::string::npos);
+}
+
+TEST(WorstBand, IsTheOneThatWasPlanted) {
+  MadeRun made(2000, 6);
+  const auto& q = made.measured.q;
+  double low = 1e9, high = -1e9;
+  for (const int row : made.results().held) {
+    low = std::min(low, q(row, 1));
+    high = std::max(high, q(row, 1));
+  }
+  const double step = (high - low) / 8.0;
+  int planted = 0;
+  for (const int row : made.results().held) {
+    if (q(row, 1) < low + 5.0 * step || q(row, 1) > low + 6.0 * step) continue;
+    made.after_M.row(row) *= 6.0;
+    ++planted;
+  }
+  const auto band = worst_band(made.results());
+  ASSERT_TRUE(band) << planted << " poses planted";
+  EXPECT_EQ(band->joint, 1);
+  EXPECT_NEAR(band->from, low + 5.0 * step, 0.1 * step);
+  EXPECT_GT(band->mean_m, 4.0 * band->elsewhere_m);
+  EXPECT_NE(where_sentence(made.results()).find("largest at " + made.cell.nominal.joints[1].name),
+            std::string::npos);
+}
+
+TEST(WorstBand, NoiseHasNone) { EXPECT_FALSE(worst_band(MadeRun(400, 6).results())); }
+
+TEST(ErrorHist, CountsEveryPoseOnceBeforeAndOnceAfter) {
+  const MadeRun made(200, 6);
+  const std::string svg = error_hist(made.results(), 900.0);
+  const auto sum = [&](const std::string& kind) {
+    const std::regex count_of(": (\\d+) " + kind + "</title>");
+    int out = 0;
+    for (auto it = std::sregex_iterator(svg.begin(), svg.end(), count_of);
+         it != std::sregex_iterator(); ++it)
+      out += std::stoi((*it)[1]);
+    return out;
+  };
+  EXPECT_EQ(sum("held out"), 2 * 40);
+  EXPECT_EQ(sum("fitted"), 2 * 160);
+}
+
+TEST(ErrorHist, SaysHowManyAreWithinTheTolerance) {
+  MadeRun made(50, 6);
+  for (int i = 0; i < 50; ++i)
+    made.after_M.row(i) = Eigen::RowVector3d(0.0, 0.0, i < 15 ? 5e-5 : 2e-4);
+  EXPECT_NE(error_hist(made.results(), 900.0).find("3 of 10 are within the tolerance of 0.10 mm"),
+            std::string::npos);
+}
+
+TEST(JointResidual, FindsAnOffsetOfTheJointThatHasIt) {
+  MadeRun made(300, 6);
+  ArmState wrong = made.run.fit.calibration.state;
+  wrong.arm.calibrated.joints[2].theta -= 200e-6;
+  made.after_M = residuals(made.measured, predict_points(wrong, made.measured));
+  for (const auto& joint : joint_residuals(made.results())) {
+    if (joint.joint != 2) continue;
+    for (const auto& mean : joint.curve) EXPECT_NEAR(mean.value, 200e-6, 2e-6);
+    EXPECT_LT(joint.rms_without_curve, 0.02 * joint.rms);
+  }
+}
+
+TEST(JointResidual, TheIntervalCoversZeroWhereThereIsNoiseOnly) {
+  const MadeRun made(600, 6);
+  int outside = 0, all = 0;
+  for (const auto& joint : joint_residuals(made.results()))
+    for (const auto& mean : joint.curve) {
+      outside += std::abs(mean.value) > mean.half;
+      ++all;
+    }
+  EXPECT_EQ(all, 6 * 160);
+  EXPECT_LT(outside, all / 8) << "5 % expected";
+  EXPECT_GT(outside, 0) << "an interval that is always right is too wide";
+}
+
+TEST(Order, NamesThePosesBetweenWhichSomethingJumped) {
+  MadeRun made(200, 6);
+  EXPECT_NE(order_figure(made.results(), 900.0).find("Nothing jumps"), std::string::npos);
+  for (int i = 120; i < 200; ++i) made.after_M.row(i) += Eigen::RowVector3d(1e-4, 0.0, -2e-4);
+  const std::string svg = order_figure(made.results(), 900.0);
+  EXPECT_NE(svg.find("jumped: between poses P120 and P121"), std::string::npos);
+  EXPECT_NE(svg.find("the base or tracker"), std::string::npos);
+  EXPECT_EQ(count(svg, ">jump: P121<"), 3) << "in the panel of each axis";
+}
+
+TEST(Parameters, NameTheNumberThatIsFarthestFromNominal) {
+  MadeRun made(30, 6);
+  made.cell.fit.prior_m = 0.5e-3;
+  made.run.fit.calibration.estimates = {
+      {.name = "J1.theta", .of_robot = true, .value = 1.0001, .nominal = 1.0, .std = 1e-4},
+      {.name = "J2.d",
+       .is_length = true,
+       .of_robot = true,
+       .value = 0.4515,
+       .nominal = 0.45,
+       .std = 1e-5},
+      {.name = "drift.rate", .of_robot = true, .unit = "m/s", .value = 3.0, .std = 1.0},
+      {.name = "frame.x", .is_length = true, .value = 0.5, .std = 1e-5}};
+  const std::string svg = parameters_figure(made.results(), 900.0);
+  EXPECT_NE(svg.find("2 of 3 fitted numbers differ from nominal"), std::string::npos);
+  EXPECT_NE(svg.find("that of J2.d, 1.5 mm, 3.0 times the usual deviation"), std::string::npos);
+  EXPECT_EQ(svg.find("frame.x"), std::string::npos) << "of the measurement, not of the arm";
+  for (const double width : {1280.0, 700.0, 400.0})
+    EXPECT_EQ(collisions(parameters_figure(made.results(), width), width), "");
+}
+
+TEST(Waterfall, TakesTheRunsThatLeadToThisOneAndCountsPosesThatBecameWorse) {
+  MadeRun made(50, 6);
+  using Names = std::vector<std::string>;
+  const auto run_of = [&](int number, const Names& effects, double error_m) {
+    offline::Run out = made.run;
+    out.number = number;
+    out.effects = effects;
+    out.fit.predicted_M = made.measured.p_M;
+    out.fit.predicted_M.col(2).array() -= error_m;
+    out.fit.held.mean = error_m;
+    return out;
+  };
+  const std::vector<offline::Run> earlier{run_of(1, Names{"geometry"}, 4e-4),
+                                          run_of(2, Names{"geometry", "reversal"}, 3e-4),
+                                          run_of(3, Names{"geometry", "drift"}, 2e-4)};
+  made.run = run_of(4, Names{"geometry", "drift", "gear_ripple", "gear_ripple"}, 1e-4);
+  made.run.fit.predicted_M(0, 2) -= 9e-4;  // row 0 is held out
+  made.after_M = residuals(made.measured, made.run.fit.predicted_M);
+  const auto steps = waterfall_steps(made.results(), earlier);
+  ASSERT_EQ(steps.size(), 4U);
+  EXPECT_EQ(steps[1].added, "geometry");
+  EXPECT_EQ(steps[2].added, "drift");
+  EXPECT_EQ(steps[3].added, "gear_ripple x2");
+  EXPECT_DOUBLE_EQ(steps[3].mean_m, 1e-4);
+  EXPECT_EQ(steps[2].worse, 0);
+  EXPECT_EQ(steps[3].worse, 1);
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = waterfall(made.results(), steps, width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_NE(svg.find("1 pose worse"), std::string::npos) << width;
+  }
+}
+
+TEST(Regions, NameThePartOfTheJointRangeWhereTheErrorIsLargest) {
+  MadeRun made(1500, 6);
+  const auto& q = made.measured.q;
+  const double middle = 0.5 * (q.col(1).minCoeff() + q.col(1).maxCoeff());
+  for (int i = 0; i < 1500; ++i)
+    if (q(i, 1) > middle) made.after_M.row(i) *= 4.0;
+  const std::string svg = regions_figure(made.results(), 1280.0);
+  EXPECT_NE(svg.find("largest where " + made.cell.nominal.joints[1].name + " is between"),
+            std::string::npos);
+  EXPECT_NE(svg.find(">* " + made.cell.nominal.joints[1].name + " [deg]<"), std::string::npos);
+  EXPECT_NE(regions_figure(MadeRun(1500, 6).results(), 1280.0).find("much the same everywhere"),
+            std::string::npos);
+}
+
+TEST(Coverage, NamesTheJointThatMovedLeastAndTheHole) {
+  MadeRun made(200, 6);
+  auto& row = made.cell.nominal.joints[3];
+  row.q_min = -M_PI, row.q_max = M_PI;
+  for (int i = 0; i < 200; ++i) made.measured.q(i, 3) = (i % 2 == 0 ? -1.0 : 0.5) + 0.001 * i;
+  const std::string svg = coverage_figure(made.results(), 900.0);
+  EXPECT_NE(svg.find(row.name + " used the least of its range: -57 to 40 deg, 27 % of it"),
+            std::string::npos);
+  EXPECT_NE(svg.find("between 40 and 180 deg"), std::string::npos);
+}
+
+TEST(Correlation, NamesThePairThatMovesTogether) {
+  MadeRun made(30, 6);
+  auto& c = made.run.fit.calibration;
+  for (const char* name : {"J1.theta", "J2.d", "J3.d", "target.z"})
+    c.estimates.push_back({.name = name});
+  c.covariance = Eigen::MatrixXd::Identity(4, 4) * 1e-8;
+  EXPECT_NE(correlation_figure(made.results(), 700.0).find("No two fitted numbers"),
+            std::string::npos);
+  c.covariance(1, 2) = c.covariance(2, 1) = -0.97e-8;
+  const std::string svg = correlation_figure(made.results(), 700.0);
+  EXPECT_NE(svg.find("1 pair of numbers can hardly be told apart; the closest are J2.d and J3.d "
+                     "(correlation -0.970)"),
+            std::string::npos);
+  EXPECT_EQ(count(svg, "</title>"), 4 + 1) << "the diagonal and one pair";
+  for (const double width : {1280.0, 700.0, 400.0})
+    EXPECT_EQ(collisions(correlation_figure(made.results(), width), width), "") << width;
+}
+
+Diagnosis made_diagnosis() {
+  Diagnosis out;
+  out.before = {.n = 20, .mean = 1.1e-4};
+  for (int i = 0; i < 15; ++i) {
+    Candidate c;
+    c.entry.name = "gear_ripple";
+    c.entry.joints = {i % 6};
+    c.title = "gear ripple";
+    c.ln_bayes = 90.0 - 8.0 * i;
+    c.gain = 0.4 - 0.03 * i;
+    c.gain_se = 0.02;
+    c.alone = {.n = 20, .mean = 6e-5 + 4e-6 * i};
+    c.after = {.n = 20, .mean = 5e-5};
+    c.supported = i < 6;
+    c.plausible = i != 3;
+    out.candidates.push_back(std::move(c));
+  }
+  out.candidates[0].confounded_with = {"gear_ripple:J2@cycles=4"};
+  return out;
+}
+
+TEST(Evidence, SaysWhatTheFirstCandidateWouldBringAndThatAnotherImitatesIt) {
+  const MadeRun made(10, 6);
+  const Diagnosis d = made_diagnosis();
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = evidence(made.cell, d, width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_EQ(count(svg, "%</title>"), 12) << "one bar for each of the twelve that are shown";
+  }
+  const std::string svg = evidence(made.cell, d, 1280.0);
+  EXPECT_NE(svg.find("Adding gear ripple of J1 takes the mean error of held-out poses from 0.11 mm "
+                     "to 0.060 mm; these poses hardly tell it from 3 other effects."),
+            std::string::npos)
+      << "J2 stands three times in the list";
+  EXPECT_NE(svg.find("12 of 15 candidates are shown"), std::string::npos);
+}
+
+TEST(Evidence, SaysThatNothingIsSupportedOrCanBeJudged) {
+  const MadeRun made(10, 6);
+  Diagnosis d = made_diagnosis();
+  for (auto& c : d.candidates) c.supported = false;
+  EXPECT_NE(evidence(made.cell, d, 700.0).find("No further effect is supported"),
+            std::string::npos);
+  d.candidates.clear();
+  EXPECT_NE(evidence(made.cell, d, 700.0).find("No effect of the library can be judged"),
+            std::string::npos);
+}
+
+TEST(Thinning, KeepsTheWorstAndIsToldAt12000Poses) {
+  MadeRun made(12000, 6);
+  made.after_M.row(6000) *= 50.0;
+  const RunResults results = made.results();
+  for (const auto& name : {"error-by-pose", "error-map"}) {
+    const std::string svg = drawn(name, results, 1280.0).value();
+    EXPECT_LT(svg.size(), 1000000U) << name;
+    EXPECT_TRUE(poses_in(svg).contains("P6001")) << name;
+    EXPECT_NE(svg.find(" of 2400 poses are drawn"), std::string::npos) << name;
+    EXPECT_EQ(collisions(svg, 1280.0), "") << name;
+  }
+}
+
+TEST(Figures, TakeLessThan100MillisecondsFor1500Poses) {
+  if (PLUMB_TIMED == 0) GTEST_SKIP() << "timing is judged in release";
+  const MadeRun made(1500, 6);
+  const RunResults results = made.results();
+  for (const auto& name : run_figures(made.cell)) {
+    std::vector<double> ms;
+    for (int i = 0; i < 5; ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      ASSERT_TRUE(drawn(name, results, 900.0));
+      const std::chrono::duration<double, std::milli> took =
+          std::chrono::steady_clock::now() - begin;
+      ms.push_back(took.count());
+    }
+    std::nth_element(ms.begin(), ms.begin() + 2, ms.end());
+    std::printf("%s: %.1f ms\n", name.c_str(), ms[2]);
+    EXPECT_LT(ms[2], 100.0 * tests::times_slower()) << name;
+  }
+}
+
+TEST(Registry, DrawsWhatItListsAndNothingElse) {
+  const MadeRun made(20, 2);
+  const auto names = run_figures(made.cell);
+  EXPECT_EQ(names.size(), figure_list().size()) << "two joints instead of JN, and no diagnosis";
+  for (const auto& name : names) EXPECT_TRUE(drawn(name, made.results(), 700.0)) << name;
+  for (const auto* name : {"joint-J3", "joint-JN", "evidence", "", "../error-hist"})
+    EXPECT_FALSE(drawn(name, made.results(), 700.0)) << name;
+}
+
+}  // namespace
+}  // namespace plumb::offline::figures
