@@ -43,7 +43,8 @@ constexpr Explanation kCodes[] = {
      "would have been lost, so nothing was changed. Give the command again."},
     {"E-RUN-MISSING", "There is no run of that number under runs/. plumb runs lists them."},
     {"E-PLOT-NAME",
-     "plumb plot draws the figures that plumb plot --list names. Where a name ends with JN, a joint "
+     "plumb plot draws the figures that plumb plot --list names. Where a name ends with JN, a "
+     "joint "
      "of the arm takes its place: joint-J2. Nothing was written."},
     {"E-PLOT-RUN",
      "A figure shows a run, and there is none of the present cell file and data. plumb fit makes "
