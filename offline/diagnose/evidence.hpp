@@ -31,6 +31,8 @@ struct Evidence {
 /// Columns are scaled so that 1 is a typical size; many parameters are penalised for their
 /// flexibility. [Bishop 2006, 3.4; Kass & Raftery 1995]
 ///
+/// Without columns, as of a law that moves nothing at these poses, it is 0.
+///
 /// @param gram  X^T X, shape (b, b).
 /// @param v     X^T y, shape (b,).
 /// @param Q     y^T y.

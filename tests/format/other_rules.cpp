@@ -33,7 +33,7 @@ std::vector<Rule> effect_rules() {
       {"TooManyJoints", "too many joints", [](Model& m) { m.effects[0].joints.assign(10, 0); }},
       {"Parameter", "a parameter", [](Model& m) { m.effects[0].parameters[0] = kNaN; }},
       {"TooManyParameters", "too many parameters",
-       [](Model& m) { m.effects[0].parameters.assign(129, 0.0); }},
+       [](Model& m) { m.effects[0].parameters.assign(kMaxEffectParameters + 1, 0.0); }},
       {"ContextInput", "unknown input",
        [](Model& m) { m.effects[0].context[0].input = ContextInput{5}; }},
       {"ContextName", "context holds control",
