@@ -142,9 +142,6 @@ inline constexpr int kSeriesWaves = 64;
 inline constexpr double kLargestWave_rad = 290e-6;
 /// The first waves of a series are those that a smooth law could be mistaken for. cost.
 inline constexpr Eigen::Index kSmoothWaves = 4;
-/// A series takes the place of single waves where one joint has so many, or several joints some.
-/// odds.
-inline constexpr std::size_t kFewestForSeries = 3;
 /// A wave at a joint that has a series is a whole number of cycles if it is so near to one. study.
 inline constexpr double kWholeWave = 0.15;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "diagnose/change_points.hpp"
 #include "diagnose/constants.hpp"
@@ -116,36 +117,19 @@ class Collector {
   const std::vector<std::string>& banned_;
 };
 
-/// Whether single waves are many enough for a series: several at one joint, or at several joints.
-bool worth_a_series(const std::vector<Found>& library) {
-  std::size_t joints = 0, most = 0;
-  for (const auto& found : library) {
-    if (!is_wave(found.entry.name) || !(found.score > kSupported)) continue;
-    ++joints;
-    most = std::max(most, found.cycles.size());
-  }
-  return joints > 1 || most >= kFewestForSeries;
-}
-
-/// What uneven gears are worth, and explain, without a series: at every joint by the law that says
-/// it best.
-struct WithoutSeries {
-  double score = 0.0, explained = 0.0;
-};
-WithoutSeries uneven_gears(const std::vector<Found>& library) {
+/// At every joint with an uneven gear the law of this joint alone that says most.
+std::map<int, const Found*> best_at_joints(const std::vector<Found>& library) {
   std::map<int, const Found*> best;
-  for (const auto& found : library)
-    if (descriptor_of(found.entry.name).cause == Cause::kUnevenGear &&
-        found.entry.joints.size() == 1 && found.score > kSupported) {
-      const Found*& at_joint = best[found.entry.joints.front()];
-      if (at_joint == nullptr || found.score > at_joint->score) at_joint = &found;
-    }
-  WithoutSeries out;
-  for (const auto& [joint, found] : best) {
-    out.score += found->score;
-    out.explained += found->scored.explained;
+  std::set<int> uneven;
+  for (const auto& found : library) {
+    if (found.entry.joints.size() != 1 || !(found.score > kSupported)) continue;
+    const int joint = found.entry.joints.front();
+    if (descriptor_of(found.entry.name).cause == Cause::kUnevenGear) uneven.insert(joint);
+    const Found*& at_joint = best[joint];
+    if (at_joint == nullptr || found.score > at_joint->score) at_joint = &found;
   }
-  return out;
+  std::erase_if(best, [&](const auto& at) { return !uneven.contains(at.first); });
+  return best;
 }
 
 std::string peaks_of(const WhitenedFit& s, const Found& found) {
@@ -159,25 +143,36 @@ std::string peaks_of(const WhitenedFit& s, const Found& found) {
   return series_words(*s.cell, model);
 }
 
-/// A series of waves at all joints that have none yet, if that clearly beats what single waves and
-/// the other laws of uneven gears are worth. some: the poses on which waves are looked for.
-std::optional<Found> found_series(const Scorer& some, const Scorer& all,
-                                  const std::vector<Found>& library, double paid) {
-  if (!worth_a_series(library)) return std::nullopt;
-  const WhitenedFit& s = some.whitened();
-  std::vector<int> joints;
-  for (int j = 0; j < s.joints(); ++j)
-    if (s.chain.revolute(j) && !has_series_at(s, j)) joints.push_back(j);
+/// One series at these joints. some: the poses on which waves are looked for.
+std::optional<Found> series_at(const Scorer& some, const Scorer& all,
+                               const std::vector<int>& joints, double paid) {
   int tried = 0;
   auto series = scan_series(some, joints, tried);
   if (!series) return std::nullopt;
   Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
   if (&some.whitened() != &all.whitened()) out.scored = score_series(all, out.entry);
   out.score = out.ln_bayes() - paid;
-  const WithoutSeries others = uneven_gears(library);
-  if (!(out.score > others.score + kAhead_nats)) return std::nullopt;
-  if (!(out.scored.explained > others.explained + kAhead_share)) return std::nullopt;
-  out.peaks = peaks_of(all.whitened(), out);
+  return out;
+}
+
+/// One series of waves at every joint where, alone, it clearly says more than any law of that joint
+/// does: an effect that has a name keeps it.
+std::optional<Found> found_series(const Scorer& some, const Scorer& all,
+                                  const std::vector<Found>& library, double paid) {
+  const WhitenedFit& s = some.whitened();
+  std::vector<int> joints;
+  std::optional<Found> out;
+  for (const auto& [joint, best] : best_at_joints(library)) {
+    if (!s.chain.revolute(joint) || has_series_at(s, joint)) continue;
+    auto alone = series_at(some, all, {joint}, paid);
+    if (!alone || alone->score < best->score + kAhead_nats ||
+        alone->scored.explained < best->scored.explained + kAhead_share)
+      continue;
+    joints.push_back(joint);
+    out = std::move(alone);
+  }
+  if (joints.size() > 1) out = series_at(some, all, joints, paid);
+  if (out) out->peaks = peaks_of(all.whitened(), *out);
   return out;
 }
 
