@@ -142,6 +142,8 @@ inline constexpr int kSeriesWaves = 64;
 inline constexpr double kLargestWave_rad = 290e-6;
 /// The first waves of a series are those that a smooth law could be mistaken for. cost.
 inline constexpr Eigen::Index kSmoothWaves = 4;
+/// Single waves of one joint that make way for a series of it. odds.
+inline constexpr std::size_t kFewestForSeries = 3;
 /// A wave at a joint that has a series is a whole number of cycles if it is so near to one. study.
 inline constexpr double kWholeWave = 0.15;
 

@@ -155,8 +155,16 @@ std::optional<Found> series_at(const Scorer& some, const Scorer& all,
   return out;
 }
 
-/// One series of waves at every joint where, alone, it clearly says more than any law of that joint
-/// does: an effect that has a name keeps it.
+/// Whether a series of waves takes the place of what says most about its joint. Several single
+/// waves make way for it as soon as it is ahead; a law that says it in fewer numbers keeps its name
+/// unless the series also explains clearly more.
+bool takes_the_place(const Found& series, const Found& best) {
+  if (series.score < best.score + kAhead_nats) return false;
+  return best.cycles.size() >= kFewestForSeries ||
+         series.scored.explained > best.scored.explained + kAhead_share;
+}
+
+/// One series of waves at every joint where, alone, it says more than any law of that joint does.
 std::optional<Found> found_series(const Scorer& some, const Scorer& all,
                                   const std::vector<Found>& library, double paid) {
   const WhitenedFit& s = some.whitened();
@@ -165,9 +173,7 @@ std::optional<Found> found_series(const Scorer& some, const Scorer& all,
   for (const auto& [joint, best] : best_at_joints(library)) {
     if (!s.chain.revolute(joint) || has_series_at(s, joint)) continue;
     auto alone = series_at(some, all, {joint}, paid);
-    if (!alone || alone->score < best->score + kAhead_nats ||
-        alone->scored.explained < best->scored.explained + kAhead_share)
-      continue;
+    if (!alone || !takes_the_place(*alone, *best)) continue;
     joints.push_back(joint);
     out = std::move(alone);
   }
