@@ -413,10 +413,6 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
   if (out.pattern) out.pattern->score = out.pattern->ln_bayes() - paid;
   sort_by_evidence(out);
   if (&whitened != &all_poses) score_on_all(scorer_of_all, out);
-  if (!contains(not_testable, series_effect()))
-    if (auto series = found_series(wave_scorer, scorer_of_all, out.library, paid);
-        series && !contains(banned, key_of(*whitened.cell, series->entry)))
-      out.library.push_back(std::move(*series));
   sort_by_evidence(out);
   for (auto& found : out.library)
     if (found.score > kSupported) found.gain = scorer_of_all.gain(found.scored);
@@ -425,6 +421,14 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
     add_fast_waves(scorer, scorer_of_all, banned, out);
     sort_by_evidence(out);
   }
+  // Last, beside everything that may say it in fewer numbers.
+  if (!contains(not_testable, series_effect()))
+    if (auto series = found_series(wave_scorer, scorer_of_all, out.library, paid);
+        series && !contains(banned, key_of(*whitened.cell, series->entry))) {
+      if (series->score > kSupported) series->gain = scorer_of_all.gain(series->scored);
+      out.library.push_back(std::move(*series));
+      sort_by_evidence(out);
+    }
   return out;
 }
 

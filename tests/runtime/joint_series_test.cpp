@@ -28,7 +28,7 @@ double moved(const std::vector<double>& numbers, double q) {
   const Context context{};
   const std::array<double, 1> at{q};
   const std::array<std::uint8_t, 1> joints{0};
-  const std::array<double, 3> constants{static_cast<double>(numbers.size() / 2), 1e-4, 1.0};
+  const std::array<double, 3> constants{0.5 * static_cast<double>(numbers.size()), 1e-4, 1.0};
   const Situation situation{
       .q = at, .chain = chain, .frames = frames, .loads = loads, .context = context};
   Motion<double> out;
