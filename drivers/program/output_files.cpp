@@ -69,9 +69,13 @@ std::optional<Problem> folder_note(const fs::path& file, const WriteOptions& opt
                  .help = "ls " + shell_word(display_name(made))};
 }
 
-void OutputFiles::commit(const WriteOptions& options, Outcome& outcome) const {
+void OutputFiles::check(const WriteOptions& options) const {
   refuse_folders();
   if (!options.force) refuse_existing();
+}
+
+void OutputFiles::commit(const WriteOptions& options, Outcome& outcome) const {
+  check(options);
   Json names = Json::array();
   for (const auto& [file, bytes] : files_) names.push_back(file.string());
   outcome.result["files"] = names;

@@ -29,8 +29,11 @@ class OutputFiles {
   void add(std::filesystem::path file, std::string bytes);
 
   /// Refuses names of folders (E-USAGE) and, without --force, names of existing files (E-EXISTS).
-  /// Creates folders, with a note unless the user asked for them, and writes each file completely
-  /// or not at all. Adds `files` and `dry_run` to the result, which must be an object.
+  /// For a verb that first computes for long.
+  void check(const WriteOptions& options) const;
+
+  /// Checks, creates folders, with a note unless the user asked for them, and writes each file
+  /// completely or not at all. Adds `files` and `dry_run` to the result, which must be an object.
   void commit(const WriteOptions& options, Outcome& outcome) const;
 
  private:

@@ -25,11 +25,9 @@ struct BenchArguments {
 /// Checked before the timing, which takes seconds.
 void refuse_existing(const BenchArguments& options) {
   if (options.figure.empty()) return;
-  Outcome unused;
-  unused.result = Json::object();
   OutputFiles files;
   files.add(options.figure, "");
-  files.commit({.force = options.write.force, .dry_run = true}, unused);
+  files.check(options.write);
 }
 
 bench::Benchmark timed(const BenchArguments& options, const format::Model& model) {

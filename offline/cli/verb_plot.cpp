@@ -17,11 +17,9 @@
 namespace plumb::offline::cli {
 namespace {
 
-constexpr int kNarrowestFigure = 320, kWidestFigure = 4000;  // [px]
-
 struct PlotArguments {
   std::string name, output, run;
-  int width = 880;
+  int width = static_cast<int>(figures::kUsualWidth);  // [px]
   bool list = false;
   WriteOptions write;
 };
@@ -76,15 +74,6 @@ std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const Measureme
   return out;
 }
 
-/// Refuses before a long computation to replace a file without --force.
-void refuse_replacing(const std::string& file, const PlotArguments& options) {
-  Outcome unused;
-  unused.result = Json::object();
-  OutputFiles files;
-  files.add(file, "");
-  files.commit({.force = options.write.force, .dry_run = true}, unused);
-}
-
 std::string evidence_of(const PlotArguments& options, const Cell& cell,
                         const MeasurementFiles& measured) {
   if (!options.run.empty())
@@ -118,7 +107,9 @@ void plot(const PlotArguments& options, const Globals& globals, Outcome& outcome
   const Cell cell = open_cell(globals, outcome);
   check_name(options.name, cell);
   const std::string file = options.output.empty() ? options.name + ".svg" : options.output;
-  refuse_replacing(file, options);
+  OutputFiles before;
+  before.add(file, "");
+  before.check(options.write);
   MeasurementFiles measured = open_measurements(cell, outcome);
   outcome.result = {{"figure", options.name}, {"width_px", options.width}};
   OutputFiles files;
@@ -147,7 +138,8 @@ void add_plot(Program& program) {
                   "data")
       .type_name("N");
   verb.add_option("--width", options->width, "Width [px] that the figure is laid out for")
-      .check(whole_number_between(kNarrowestFigure, kWidestFigure))
+      .check(whole_number_between(static_cast<int>(figures::kNarrowest),
+                                  static_cast<int>(figures::kWidest)))
       .shows_default();
   options->write.add_to(verb);
 }

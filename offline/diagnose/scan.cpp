@@ -146,8 +146,7 @@ std::string peaks_of(const WhitenedFit& s, const Found& found) {
 /// One series at these joints. some: the poses on which waves are looked for.
 std::optional<Found> series_at(const Scorer& some, const Scorer& all,
                                const std::vector<int>& joints, double paid) {
-  int tried = 0;
-  auto series = scan_series(some, joints, tried);
+  auto series = scan_series(some, joints);
   if (!series) return std::nullopt;
   Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
   if (&some.whitened() != &all.whitened()) out.scored = score_series(all, out.entry);

@@ -299,8 +299,7 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   return out;
 }
 
-std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints,
-                                       int& tried) {
+std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints) {
   const WhitenedFit& s = scorer.whitened();
   if (joints.empty()) return std::nullopt;
   Regressor plain;
@@ -311,7 +310,6 @@ std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<i
       all.XX - all.UX.transpose() * all.UX, all.Xy, s.Q, scorer.scale(), kSeriesWaves, joints};
   const double unit = 1.0 / lever_of(s, joints);
   OverGrid grid = over_grid(sums, unit);
-  tried += static_cast<int>(kSlopes.size() * kSizes.size());
   for (;;) {
     const auto [joint, adds] = weakest(sums, grid.best);
     if (adds > kSupported) break;

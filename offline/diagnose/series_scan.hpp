@@ -20,8 +20,7 @@ struct SeriesFound {
 /// deviation of size k^-slope. The evidence given is the mean over the grid of both that was tried,
 /// so that the choice costs what it should. [MacKay 1992] None if no joint is left. Cost: poses *
 /// (waves of all joints)^2, then (waves of all joints)^3 / 3 for each prior that is tried.
-std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints,
-                                       int& tried);
+std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints);
 
 /// The same candidate at other poses, with its prior as it is.
 RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);

@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "draw/sheet.hpp"
 #include "figures/run_results.hpp"
 
 namespace plumb::offline::figures {
+
+/// Widths that a figure can be laid out for [px].
+using draw::kNarrowest, draw::kWidest, draw::kUsualWidth;
 
 /// A figure that can be drawn: its name, where JN stands for a joint such as J2, and what it shows.
 struct FigureRow {

@@ -24,7 +24,7 @@ std::string length_text(double metres);
 std::string judged_words(const RunResults& results);
 
 /// "12, 57 and 80", or with the word before them, "poses 12, 57 and 80" or "pose 12"; at most
-/// `most` names, each at most 24 characters long.
+/// `most` names, long ones cut.
 std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most);
 std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most);
 
@@ -44,11 +44,12 @@ double quantile_of(const std::vector<double>& ascending, double q);
 /// The numbers of a pose, for the title of its mark.
 std::string pose_numbers(const RunResults& results, int row);
 
-/// At most `most` of the rows, in their order: the `worst` ones by error after the fit, and the
+/// About `most` of the rows, in their order: a tenth of them the worst by error after the fit, the
 /// rest evenly spread.
 std::vector<int> thinned(const RunResults& results, const std::vector<int>& rows, std::size_t most);
 
-/// "600 of 12000 poses are drawn: the 60 worst and every 20th of the others"; empty if all are.
+/// "600 of 12000 poses are drawn: the worst ones, and an even choice of the others."; empty if all
+/// are.
 std::string thinning_note(std::size_t drawn, std::size_t all);
 
 }  // namespace plumb::offline::figures
