@@ -21,9 +21,10 @@ tally() {
 
 build_preset() {
   local launcher=()
-  # It keeps what is compiled with a precompiled header only if told that macros and times in it do not matter.
+  # It keeps what is compiled with a precompiled header only if told that macros and times in it do not matter, and
+  # finds again what another clone compiled only if paths count from the clone.
   command -v ccache > /dev/null &&
-    launcher=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache")
+    launcher=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;CCACHE_BASEDIR=$PWD;CCACHE_NOHASHDIR=1;ccache")
   cmake --preset "$1" "${launcher[@]}" > /dev/null && cmake --build --preset "$@" -j "$(nproc)"
 }
 
