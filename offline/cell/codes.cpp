@@ -22,8 +22,8 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "[effects.joint_compliance]."},
     {"E-CELL-HELD",
      "[measurement] held_out says which poses are kept away from the fit. It is one of \"auto\" "
-     "(the rows that column 'set' marks as held; without such marks five folds below 60 poses, "
-     "else 20 %), \"20%\", \"kfold:5\", \"column:set\" (the column "
+     "(the rows that column 'set' marks as held; without such marks five folds of up to 500 "
+     "poses, and 20 % of more), \"20%\", \"kfold:5\", \"column:set\" (the column "
      "'set' holds fit, held or ignore) and \"file:verify.csv\"."},
     {"E-CELL-JOINT",
      "A joint is referred to by the name it has in [robot] joints, \"J2\" for example. Correct the "

@@ -73,7 +73,7 @@ void note_what_is_left(const Run& run, const format::Model& model, Outcome& outc
 
 void CompileOptions::add_to(VerbOptions& verb) {
   verb.add_flag("--refit-all", refit_all,
-                "Use every pose; the model then carries no held-out figure");
+                "Use every pose, as folds do anyway; the model then carries no held-out figure");
   verb.add_flag("--gate", gate,
                 "Exit 1 and write nothing if the audit warns or 95 % of the held-out poses are not "
                 "within tolerance");
@@ -106,7 +106,10 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
   warn_of_serial(cell, outcome);
   if (!options.gate) warn_of_tolerance(model, cell.tolerance_m, outcome);
   model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
-  return {.model = std::move(model), .run = number, .refit_all = options.refit_all};
+  return {.model = std::move(model),
+          .run = number,
+          .refit_all = options.refit_all,
+          .folds = run.fit.split.folds};
 }
 
 void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
@@ -122,18 +125,25 @@ void check_gate(const Audit& audit, const format::Model& model, double tolerance
   if (const std::string why = beyond_tolerance(model, tolerance_m); !why.empty()) fail(why);
 }
 
-std::string compiled_headline(const format::Model& model, double tolerance_m) {
+std::string compiled_headline(const Compiled& made, double tolerance_m) {
+  const format::Model& model = made.model;
   const auto& held = model.provenance.held_out;
   const std::string error = held.poses == 0
                                 ? "no held-out figure"
                                 : fmt::format("held-out mean {} mm, 95 % {} mm",
                                               show::mm(held.mean_m), show::mm(held.p95_m));
   const std::string beyond = beyond_tolerance(model, tolerance_m);
-  return fmt::format("Compiled {} for {} ({}): {}.{}\n\n", model.cell_name, model.robot_name,
+  const std::string whose =
+      made.folds == 0 ? ""
+                      : fmt::format(
+                            "The model was fitted on all {} readings; the error above is that of "
+                            "{} models, each on the poses that it was fitted without.\n\n",
+                            model.provenance.poses_fit, made.folds);
+  return fmt::format("Compiled {} for {} ({}): {}.{}\n\n{}", model.cell_name, model.robot_name,
                      model.serial.find_first_not_of(" \t") == std::string::npos
                          ? "no serial number"
                          : "serial " + model.serial,
-                     error, beyond.empty() ? "" : " Not good enough: " + beyond + ".");
+                     error, beyond.empty() ? "" : " Not good enough: " + beyond + ".", whose);
 }
 
 }  // namespace plumb::offline::cli

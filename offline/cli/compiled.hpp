@@ -20,6 +20,7 @@ struct Compiled {
   format::Model model;
   int run = 0;  // 0: it was not kept
   bool refit_all = false;
+  int folds = 0;  // of the held-out figure; 0: one held-out set, or none
 
   /// Adds `run`, or null with its reason, and `refit_all`.
   void put_run(Json& result) const;
@@ -36,7 +37,8 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
 void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
                 Outcome& outcome);
 
-/// "Compiled Line for Arm (serial 1): held-out mean 0.02 mm, 95 % 0.04 mm."
-std::string compiled_headline(const format::Model& model, double tolerance_m);
+/// "Compiled Line for Arm (serial 1): held-out mean 0.02 mm, 95 % 0.04 mm." With folds, a sentence
+/// more: which models that error is of.
+std::string compiled_headline(const Compiled& made, double tolerance_m);
 
 }  // namespace plumb::offline::cli

@@ -79,7 +79,7 @@ void compile_cell(const CompileArguments& options, const Globals& globals, Outco
   outcome.result = result_of(made, found, file.string());
   if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
   const std::string text =
-      compiled_headline(model, cell.tolerance_m) + show::audit_text(found, model);
+      compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;

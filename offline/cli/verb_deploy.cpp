@@ -101,7 +101,7 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   warn_of_temperatures(model, layout, outcome);
   made.put_run(outcome.result);
   outcome.result["audit"] = show::audit_json(found, model);
-  outcome.text = compiled_headline(model, cell.tolerance_m) + show::audit_text(found, model);
+  outcome.text = compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "cli/cell_writing.hpp"
 #include "cli/next_line.hpp"
@@ -29,6 +31,7 @@ std::vector<EffectEntry> with_tree_of(const Cell& cell, std::vector<EffectEntry>
   return effects;
 }
 
+constexpr double kAnotherFloor = 1e-3;  // relative
 constexpr double kRose = 1.05;  // times the error before: more is refused
 
 /// Reports that the effects are not kept: fitted together from the start, they may converge to
@@ -47,6 +50,12 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
                               "unseen readings from {} to {} mm",
                               show::mm(before_m), show::mm(fitted.held.mean)),
        .help = "plumb explain W-DIAGNOSE-ROSE"});
+}
+
+/// Whether a diagnosis found another noise floor than the run knows: with the joints' scatter in
+/// it, or without it.
+bool differs(const NoiseFloor& found, const NoiseFloor& kept) {
+  return std::abs(found.sigma_m - kept.sigma_m) > kAnotherFloor * kept.sigma_m;
 }
 
 /// False if the effects were refused.
@@ -69,7 +78,9 @@ bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
     return false;
   }
   // The cell file last: if the run cannot be written, nothing has changed.
+  fitted.floor = found.floor;
   const Run run = keep(edited, measured, std::move(fitted));
+  keep_diagnosis(edited, run, found.floor);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
   return true;
@@ -80,12 +91,13 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                                       : open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   double before_m = std::numeric_limits<double>::infinity();
+  std::optional<Run> before;
   if (options.dry_run) {
     if (const auto run = current_run(cell, measured)) stand_on_base_of(*run, cell, measured);
   } else {
-    const Run before = current_or_new_run(cell, measured, Keep::kRun, outcome);
-    if (before.fit.held.n > 0) before_m = before.fit.held.mean;
-    stand_on_base_of(before, cell, measured);
+    before = current_or_new_run(cell, measured, Keep::kRun, outcome);
+    if (before->fit.held.n > 0) before_m = before->fit.held.mean;
+    stand_on_base_of(*before, cell, measured);
   }
   const auto found = [&] {
     Progress progress(fmt::format("diagnosing {} poses", measured.size()));
@@ -94,6 +106,9 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                      }});
   }();
   outcome.remark(found.remarks);
+  // With additions the floor is that of the new model, whose run keeps it.
+  if (before && found.added.empty() && differs(found.floor, before->fit.floor))
+    keep_diagnosis(cell, *before, found.floor);
   outcome.result = show::diagnose_json(cell, found);
   outcome.text = show::diagnose_text(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);

@@ -57,7 +57,7 @@ bool passes(const FitArguments& options, const Fit& fit, Outcome& outcome) {
 }
 
 void keep_run(const FitArguments& options, const Cell& cell, const MeasurementFiles& measured,
-              Fit fit, Outcome& outcome) {
+              Fit fit, const std::optional<NoiseFloor>& diagnosed, Outcome& outcome) {
   if (!passes(options, fit, outcome)) {
     show::put_null(outcome.result, "run", "the gate failed");
   } else if (options.dry_run) {
@@ -65,6 +65,7 @@ void keep_run(const FitArguments& options, const Cell& cell, const MeasurementFi
     outcome.text += "\ndry run: no run was kept\n";
   } else {
     const Run run = keep(cell, measured, std::move(fit));
+    if (diagnosed) keep_diagnosis(cell, run, *diagnosed);
     outcome.result["run"] = run.number;
     outcome.result["run_directory"] = run.directory.string();
     outcome.text += fmt::format("\nkept as run {} in {}\n", run.number, run.directory.string());
@@ -88,17 +89,32 @@ std::string jump_words(const Cell& cell, const MeasurementFiles& measured, const
       size_in_mm(*step));
 }
 
+/// What a diagnosis of the same cell and data found: so fit and compare agree with it.
+std::optional<NoiseFloor> floor_of_last_diagnosis(const Cell& cell,
+                                                  const MeasurementFiles& measured,
+                                                  const Fit& fitted) {
+  try {
+    const auto last = current_run(cell, measured);
+    if (last && last->fit.base == fitted.base) return diagnosed_floor(*last);
+  } catch (const Failure&) {
+    // A damaged run is no reason not to fit: fitting again is its remedy.
+  }
+  return std::nullopt;
+}
+
 void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
   MeasurementFiles measured = open_measurements(cell, outcome);
   if (options.base == name_of(Base::kController)) stand_on_controller(cell, measured);
   Fit fitted = fit_with_progress(cell, measured, outcome);
+  const auto floor = floor_of_last_diagnosis(cell, measured, fitted);
+  if (floor) fitted.floor = *floor;
   outcome.result = show::fit_json(cell, measured, fitted);
   outcome.text = show::fit_text(cell, measured, fitted);
   outcome.text += jump_words(cell, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
-  keep_run(options, cell, measured, std::move(fitted), outcome);
+  keep_run(options, cell, measured, std::move(fitted), floor, outcome);
   say_next(globals, next, outcome);
 }
 

@@ -108,6 +108,7 @@ struct Diagnosis {
   NoiseFloor floor;             // with the repeatability of the arm in it, where it is known
   Repeatability repeatability;  // beside the first candidate; with `apply`, at the end
   int poses_fit = 0, poses_held = 0;
+  int folds = 0;        // of the held-out figures; 0: one held-out set
   bool nested = false;  // held-out figures come from folds around the whole diagnosis
   ErrorStats before, after;
   std::vector<Addition> added;
@@ -135,8 +136,10 @@ struct DiagnosisRequest {
 };
 
 /// Finds missing physical effects. The selection uses the fit poses alone; the held-out poses are
-/// used once, for the reported errors. Below 60 poses these come from cross-validation of the whole
-/// diagnosis. Throws as `calibrate`.
+/// used once, for the reported errors. With folds and fewer than 60 poses these come from
+/// cross-validation of the whole diagnosis; with more poses the effects are chosen once, by the
+/// evidence of all of them, and each fold is predicted by numbers fitted without it. Throws as
+/// `calibrate`.
 Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
                    const DiagnosisRequest& request);
 

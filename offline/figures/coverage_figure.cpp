@@ -74,6 +74,24 @@ std::string coverage_sentence(const std::vector<JointCoverage>& joints) {
       least->gap_from, least->gap_to, least->unit);
 }
 
+/// With folds every pose is held out once, and fitted by the model of the run.
+bool in_folds(const RunResults& results) {
+  return results.run.fit.split.folds > 0 && results.fit.empty();
+}
+
+std::vector<draw::LegendEntry> coverage_legend(const RunResults& results) {
+  if (in_folds(results)) return {{.words = "fitted, and held out once", .area = Tone::kBlue}};
+  return {{.words = "held out", .area = Tone::kBlue},
+          {.words = "fitted (outline)", .line = draw::LineStyle{Tone::kBlue, 1.4}}};
+}
+
+std::string coverage_counts(const RunResults& results) {
+  if (in_folds(results))
+    return fmt::format("{} poses, each held out in one of {} folds", results.held.size(),
+                       results.run.fit.split.folds);
+  return fmt::format("{} held-out and {} fitted poses", results.held.size(), results.fit.size());
+}
+
 }  // namespace
 
 std::string coverage_figure(const RunResults& results, double width) {
@@ -85,13 +103,13 @@ std::string coverage_figure(const RunResults& results, double width) {
       for (const int n : *counts) most = std::max(most, n);
   }
   draw::Sheet sheet(
-      width, {.title = "Which part of the joint ranges was measured",
-              .sentence = coverage_sentence(joints),
-              .legend = {{.words = "held out", .area = Tone::kBlue},
-                         {.words = "fitted (outline)", .line = draw::LineStyle{Tone::kBlue, 1.4}}},
-              .notes = {fmt::format("Run {}: {} held-out and {} fitted poses. Each panel spans the "
-                                    "limits of its joint in the cell; all count on one scale.",
-                                    results.run.number, results.held.size(), results.fit.size())}});
+      width,
+      {.title = "Which part of the joint ranges was measured",
+       .sentence = coverage_sentence(joints),
+       .legend = coverage_legend(results),
+       .notes = {fmt::format("Run {}: {}. Each panel spans the limits of its joint in the cell; all "
+                             "count on one scale.",
+                             results.run.number, coverage_counts(results))}});
   const auto rooms = sheet.grid(static_cast<int>(joints.size()), 240.0, 170.0);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const auto& joint = joints[k];

@@ -82,6 +82,12 @@ std::string figures_text(const Candidate& c, bool is_first) {
   return out;
 }
 
+std::string poses_text(const Diagnosis& d) {
+  if (d.folds > 0)
+    return fmt::format("{} poses, each held out in one of {} folds", d.poses_held, d.folds);
+  return fmt::format("{} fitted and {} held-out poses", d.poses_fit, d.poses_held);
+}
+
 }  // namespace
 
 std::string evidence(const Cell& cell, const Diagnosis& d, double width) {
@@ -92,9 +98,9 @@ std::string evidence(const Cell& cell, const Diagnosis& d, double width) {
       "poses; the line is one standard error either way. ln Bayes: the evidence, by which they are "
       "sorted. mm: mean error of the held-out poses, e = measured - predicted.",
       fmt::format(
-          "The present model of the cell: {} fitted and {} held-out poses, {} held-out "
-          "error. {} of {} candidates are shown; {} effects cannot be tested with these data.",
-          d.poses_fit, d.poses_held, length_text(d.before.mean), n, d.candidates.size(),
+          "The present model of the cell: {}, {} held-out error. {} of {} candidates are shown; {} "
+          "effects cannot be tested with these data.",
+          poses_text(d), length_text(d.before.mean), n, d.candidates.size(),
           d.not_testable.size())};
   draw::Sheet sheet(width,
                     {.title = "Which effect is missing",

@@ -73,9 +73,12 @@ struct Fitted {
   ArmState geometry_only;
 };
 
-Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
+/// `start` of a fold: where tracker and reflector stand is known by then.
+Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+              const ArmState* start = nullptr) {
   Fitted out;
-  out.calibration = calibrate(cell, measured, rows);
+  out.calibration = start == nullptr ? calibrate(cell, measured, rows)
+                                     : calibrate_from(cell, measured, rows, *start);
   const Measurements some = pick(measured, without_outliers(rows, out.calibration.outliers));
   out.calibration.state.arm.domain = trained_box(some.q);
   out.calibration.state.arm.domain.context =
@@ -252,12 +255,13 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   Prediction3 predicted{final_points, final_points, final_points, {}};
   if (measured.has_orientation() && cell.measurement.sigma_rad)
     predicted.turn_errors = Eigen::VectorXd::Zero(measured.size());
+  const ArmState start = final_model.geometry_only;
   for (int k = 0; k < out.split.folds; ++k) {
     if (tell) tell(fmt::format("step {} of {}, fold {}", k + 2, out.split.folds + 1, k + 1));
     const auto inside = fit_rows(out.split, k);
     if (several) check_placed(cell, measured, inside, held_rows(out.split, k));
-    predict_held(cell, measured, fit_on(cell, measured, inside), inside, held_rows(out.split, k),
-                 predicted);
+    predict_held(cell, measured, fit_on(cell, measured, inside, &start), inside,
+                 held_rows(out.split, k), predicted);
   }
   if (out.split.folds == 0)
     predict_held(cell, measured, final_model, fit, held_rows(out.split), predicted);

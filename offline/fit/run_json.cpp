@@ -12,6 +12,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "run/1";
+constexpr const char* kDiagnosisSchema = "run.diagnosis/1";
+
+Json to_json(const NoiseFloor& f) {
+  return {{"sigma_m", f.sigma_m},
+          {"mean_m", f.mean_m},
+          {"rms_m", f.rms_m},
+          {"source", static_cast<int>(f.source)}};
+}
+NoiseFloor floor_from(const Json& j) {
+  return {.sigma_m = j.at("sigma_m"),
+          .mean_m = j.at("mean_m"),
+          .rms_m = j.at("rms_m"),
+          .source = static_cast<NoiseFloor::Source>(j.at("source").get<int>())};
+}
 
 Json to_json(const ErrorStats& s) {
   return {{"n", s.n}, {"mean_m", s.mean}, {"rms_m", s.rms}, {"p95_m", s.p95}, {"max_m", s.max}};
@@ -182,11 +196,7 @@ Json run_to_json(const Run& run) {
               {"outliers", to_json(fit.calibration.outliers)},
               {"held_out_outliers", to_json(fit.held_outliers)},
               {"held_out_without_outliers", to_json(fit.held_without_outliers)},
-              {"noise_floor",
-               {{"sigma_m", fit.floor.sigma_m},
-                {"mean_m", fit.floor.mean_m},
-                {"rms_m", fit.floor.rms_m},
-                {"source", static_cast<int>(fit.floor.source)}}}};
+              {"noise_floor", to_json(fit.floor)}};
   out["unavoidable_ratio"] = fit.unavoidable_ratio;
   out["still_joints"] = fit.still;
   if (fit.tree) out["tree"] = to_json(*fit.tree);
@@ -225,12 +235,20 @@ Run run_from_json(const Json& j) {
                                   : fit.held;
   fit.unavoidable_ratio = j.value("unavoidable_ratio", 1.0);
   fit.still = j.value("still_joints", std::vector<std::string>());
-  const Json& floor = j.at("noise_floor");
-  fit.floor = {.sigma_m = floor.at("sigma_m"),
-               .mean_m = floor.at("mean_m"),
-               .rms_m = floor.at("rms_m"),
-               .source = static_cast<NoiseFloor::Source>(floor.at("source").get<int>())};
+  fit.floor = floor_from(j.at("noise_floor"));
   return run;
+}
+
+Json diagnosis_to_json(const NoiseFloor& floor) {
+  return {{"schema", kDiagnosisSchema}, {"noise_floor", to_json(floor)}};
+}
+
+NoiseFloor diagnosis_from_json(const Json& j) {
+  if (j.at("schema") != kDiagnosisSchema)
+    throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
+                                 .message = "diagnosis.json is of another schema",
+                                 .help = "diagnose again: plumb diagnose"});
+  return floor_from(j.at("noise_floor"));
 }
 
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit) {

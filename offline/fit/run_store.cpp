@@ -86,6 +86,7 @@ nlohmann::ordered_json parsed(const fs::path& file, const std::string& text) {
   }
 }
 
+constexpr const char* kDiagnosis = "diagnosis.json";
 constexpr std::string_view kDraft = ".draft-";
 
 /// The process that makes a run in that folder; 0 if it is no draft.
@@ -188,6 +189,16 @@ Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   cannot_write(run.directory, error.message(), runs_folder(cell));
 }
 
+void save_diagnosis(const Run& run, const NoiseFloor& floor) {
+  write_file_atomically(run.directory / kDiagnosis, diagnosis_to_json(floor).dump(2) + "\n");
+}
+
+std::optional<NoiseFloor> diagnosed_floor(const Run& run) {
+  const fs::path file = run.directory / kDiagnosis;
+  if (!fs::exists(file)) return std::nullopt;
+  return diagnosis_from_json(parsed(file, read_file(file)));
+}
+
 std::vector<int> list_runs(const Cell& cell) {
   std::vector<int> out;
   std::error_code error;
@@ -218,6 +229,8 @@ Run load_run(const Cell& cell, int number) {
     file = folder / "predictions.csv";
     if (!predictions_sum_holds(json, read_file(file))) damaged(file, kChanged);
     predictions_from_csv(file, run.fit);
+    file = folder / kDiagnosis;
+    if (const auto floor = diagnosed_floor(run)) run.fit.floor = *floor;
     return run;
   } catch (const nlohmann::json::exception& e) {
     damaged(file, unexpected(e));

@@ -12,7 +12,8 @@
 
 namespace plumb::offline {
 
-/// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made.
+/// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made; a
+/// diagnosis of its model adds diagnosis.json, and a later one replaces that.
 struct Run {
   int number = 0;
   std::filesystem::path directory;
@@ -28,6 +29,13 @@ Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// Writes the next run; all or nothing.
 Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
+
+/// Keeps the noise floor that a diagnosis of the model of a kept run found, with the scatter of the
+/// joints in it: from then on it is the floor of this run.
+void save_diagnosis(const Run& run, const NoiseFloor& floor);
+
+/// That floor; nothing if the model was never diagnosed.
+std::optional<NoiseFloor> diagnosed_floor(const Run& run);
 
 /// The number of every run, oldest first, whether it can be read or not.
 std::vector<int> list_runs(const Cell& cell);

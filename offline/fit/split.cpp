@@ -15,7 +15,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kFoldsBelow = 60;  // "auto": folds when poses are scarce
+constexpr int kFolds = 5;            // of "auto"
+constexpr int kFoldsUpTo = 500;      // poses; from there on a fifth is no loss, and folds take time
 
 /// One row of each replicate group that is used.
 std::vector<int> representatives(const Measurements& m, const std::vector<bool>& used) {
@@ -194,8 +195,8 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
     case Kind::kAuto:
       if (marks_held_rows(m))
         hold_marked(m, split);
-      else if (static_cast<int>(representatives(m, split.used).size()) < kFoldsBelow)
-        make_folds(m, 5, random, split);
+      else if (static_cast<int>(representatives(m, split.used).size()) <= kFoldsUpTo)
+        make_folds(m, kFolds, random, split);
       else
         hold_share(m, 0.2, random, split);
       break;

@@ -22,7 +22,7 @@ struct Split {
 };
 
 /// With "auto", rows that the files mark as held are the held-out set; without such marks the
-/// program chooses.
+/// program makes five folds of up to 500 different poses, and holds out a fifth of more.
 ///
 /// Stratified in joint space: neighbours along a k-d order share a stratum, and each stratum gives
 /// its share. Deterministic in the seed. Throws Failure (kInput) if the rule cannot be met.

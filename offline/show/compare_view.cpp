@@ -57,7 +57,8 @@ std::string errors_text(const Measurements& measured, const Comparison& comparis
     table.add({"noise floor: unknown"});
   else
     table.add({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m)});
-  return table.text() + within_text(comparison, fit, tolerance_m);
+  return table.text() + folds_text(fit.split.folds, fit.fit.n) +
+         within_text(comparison, fit, tolerance_m);
 }
 
 std::string worst_text(const Comparison& comparison) {
@@ -130,7 +131,8 @@ std::string where_text(const Comparison& comparison) {
 
 std::string findings_text(const Cell& cell, const Measurements& measured,
                           const Comparison& comparison, const Fit& fit) {
-  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit, held_out_excess_of(fit)) +
+  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit, held_out_excess_of(fit),
+                                              scatter_in_floor(cell, measured, fit)) +
                     "\n" + joint_words(cell, comparison) + "\n" + order_words(comparison.order) +
                     "\n" + changes_words(comparison.changes) + "\n";
   for (const auto& step : comparison.changes.steps)
@@ -155,7 +157,7 @@ std::string setups_text(const Comparison& comparison) {
 /// else is missing, and that may look like a jump where the poses change.
 std::string compare_verdict(const Cell& cell, const Measurements& measured,
                             const Comparison& comparison, const Run& run) {
-  std::string error = verdict(run.fit, cell.tolerance_m);
+  std::string error = verdict_with_scatter(cell, measured, run.fit);
   const auto& steps = comparison.changes.steps;
   if (steps.empty() || !is_clear(steps.front())) return error;
   const double share = share_of_error(steps.front(), comparison.stats.rms,

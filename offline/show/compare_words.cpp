@@ -98,7 +98,8 @@ std::string quantity_words(const ErrorProfile& profile) {
   }
 }
 
-std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOutExcess>& held) {
+std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOutExcess>& held,
+                              bool scatter_in_floor) {
   if (found.basis == LackOfFit::Basis::kNone)
     return "Lack of fit: unknown; repeats of a few poses, or sigma_um, would tell.";
   if (!found.significant() && held && held->lack_of_fit())
@@ -107,7 +108,11 @@ std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOu
            "by more than noise.";
   if (!found.significant())
     return "Lack of fit: none; what the model misses is no more than the noise of the readings.";
-  if (held && held->level() == HeldOutExcess::Level::kAtTheFloor)
+  const bool at_floor = held && held->level() == HeldOutExcess::Level::kAtTheFloor;
+  if (at_floor && scatter_in_floor)
+    return "Lack of fit: none but that the joints do not come back to exactly the same place, which "
+           "no model removes.";
+  if (at_floor)
     return fmt::format(
         "Lack of fit: {:.0f} % of the squared error of the fitted readings is systematic (by "
         "chance: {}), too little to take the held-out ones above the noise floor.",

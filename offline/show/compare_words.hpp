@@ -13,8 +13,10 @@ namespace plumb::offline::show {
 
 /// Whether the error of the fitted readings is more than noise, said so that it never contradicts
 /// what is left on the held-out poses (`held`; none without a noise floor or without such poses).
+/// scatter_in_floor: whether that floor holds the scatter of the joints.
 std::string lack_of_fit_words(const compare::LackOfFit& found,
-                              const std::optional<HeldOutExcess>& held);
+                              const std::optional<HeldOutExcess>& held,
+                              bool scatter_in_floor = false);
 
 std::string order_words(const compare::Autocorrelation& found);
 std::string joint_words(const Cell& cell, const compare::Comparison& found);

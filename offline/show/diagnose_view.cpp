@@ -9,6 +9,7 @@
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/scan.hpp"
 #include "show/effect_arguments.hpp"
+#include "show/error_table.hpp"
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -28,7 +29,7 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
   if (d.floor.source != NoiseFloor::Source::kNone)
     table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
-  return table.text();
+  return table.text() + folds_text(d.folds, d.poses_fit);
 }
 
 std::string support_words(const Diagnosis& d, const Candidate& c) {

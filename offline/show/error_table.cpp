@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "fit/repeatability.hpp"
+#include "fit/verdict.hpp"
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -29,6 +31,7 @@ std::string turn_table(const ErrorStats& s) {
   return "\n" + table.text();
 }
 
+constexpr double kMore = 1.001;  // times the noise floor of the readings alone
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
 
 }  // namespace
@@ -42,6 +45,32 @@ void add_interval(const MeanInterval& interval, Json& out) {
   constexpr const char* kTooFew = "fewer than three poses were held out";
   put(out, "mean_low_mm", to_mm(interval.low), kTooFew);
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
+}
+
+bool scatter_in_floor(const Cell& cell, const Measurements& measured, const Fit& fit) {
+  if (fit.floor.source == NoiseFloor::Source::kNone) return false;
+  return fit.floor.sigma_m > kMore * noise_floor(cell, measured, fit.calibration.state).sigma_m;
+}
+
+std::string verdict_with_scatter(const Cell& cell, const Measurements& measured, const Fit& fit) {
+  const std::string out = verdict(fit, cell.tolerance_m);
+  const auto excess = held_out_excess_of(fit);
+  if (!excess || !excess->lack_of_fit() || scatter_in_floor(cell, measured, fit)) return out;
+  const Repeatability scatter =
+      repeatability(cell, measured, fit.calibration,
+                    without_outliers(fit_rows(fit.split), fit.calibration.outliers));
+  if (!scatter.supported()) return out;
+  return fmt::format(
+      "{} That, or the joints do not come back to the same place ({}): plumb diagnose tells which.",
+      out, in_words(cell, scatter));
+}
+
+std::string folds_text(int folds, int readings) {
+  if (folds == 0) return "";
+  return fmt::format(
+      "  held-out: {} folds, each predicted by a model fitted without it; the model itself uses "
+      "all {}\n",
+      folds, readings);
 }
 
 const char* fit_row_name(const Fit& fit) {
@@ -63,7 +92,7 @@ std::string error_table(const Measurements& measured, const Fit& fit) {
     table.add({"noise floor: unknown"});
   else
     table.add({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m)});
-  return table.text() + turn_table(fit.turn_held);
+  return table.text() + folds_text(fit.split.folds, fit.fit.n) + turn_table(fit.turn_held);
 }
 
 void add_turns(const ErrorStats& turn_held, Json& out) {

@@ -193,13 +193,14 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   put(out["convergence"], "sigma0", c.sigma0);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
-  out["verdict"] = verdict(fit, cell.tolerance_m);
+  out["verdict"] = verdict_with_scatter(cell, measured, fit);
   return out;
 }
 
 std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;
-  std::string out = verdict(fit, cell.tolerance_m) + "\n\n" + error_table(measured, fit) + "\n";
+  std::string out = verdict_with_scatter(cell, measured, fit) + "\n\n" +
+                    error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",

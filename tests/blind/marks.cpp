@@ -141,10 +141,12 @@ std::string line_of(int number, const Score& s) {
   if (!s.made)
     return fmt::format("{} {}{}: not made: {}", number, name_of(s.drawn.group), hidden, s.why_not);
   return fmt::format(
-      "{} {} N={} class {} joint {} extra {} unk {} in {} err {:.2f}->{:.2f} held {:.2f} {:.2f}s{} "
+      "{} {} N={} class {} joint {} extra {} unk {} in {} err {:.2f}->{:.2f} held {:.2f} of floor, "
+      "{:.3f} of truth {:.2f}s{} "
       "{} || {}",
       number, name_of(s.drawn.group), s.drawn.request.poses, s.class_first, s.joint_first, s.extra,
-      s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.seconds, hidden,
+      s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.held_over_true, s.seconds,
+      hidden,
       claims_text(s), s.said);
 }
 

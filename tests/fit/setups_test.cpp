@@ -220,20 +220,33 @@ TEST(Setups, OneThatIsHeldOutWholeIsRefused) {
 TEST(Setups, EachGivesItsShareOfTheHeldOutPoses) {
   const Case two =
       measured_from({station(0, {0.08, 0.02, 0.11}), station(1, {-0.03, 0.09, 0.05})}, 100);
-  const Split split = split_poses(two.measured, {}, 3);
+  const Split split =
+      split_poses(two.measured, {.kind = HeldOutRule::Kind::kShare, .share = 0.2}, 3);
   std::array<int, 2> held{};
   for (const int row : held_rows(split)) ++held[static_cast<std::size_t>(two.measured.setup[row])];
   EXPECT_NEAR(held[0], 20, 1);
   EXPECT_NEAR(held[1], 20, 1);
+  const Split folds = split_poses(two.measured, {}, 3);
+  std::array<std::array<int, 2>, 5> in_fold{};
+  for (const int row : held_rows(folds))
+    ++in_fold[static_cast<std::size_t>(folds.fold[row])]
+             [static_cast<std::size_t>(two.measured.setup[row])];
+  for (const auto& counts : in_fold) {
+    EXPECT_NEAR(counts[0], 20, 4);
+    EXPECT_NEAR(counts[1], 20, 4);
+  }
 }
 
 TEST(Setups, ThatMeasuredTheSamePosesDoNotVouchForEachOther) {
   Case two = measured_from({station(0, {0.08, 0.02, 0.11}), station(1, {-0.03, 0.09, 0.05})}, 100);
   two.measured.q.bottomRows(100) = two.measured.q.topRows(100);
   const Split split = split_poses(two.measured, {}, 3);
-  for (int i = 0; i < 100; ++i)
-    EXPECT_EQ(split.held[static_cast<std::size_t>(i)],
-              split.held[static_cast<std::size_t>(100 + i)]);
+  const Split share =
+      split_poses(two.measured, {.kind = HeldOutRule::Kind::kShare, .share = 0.2}, 3);
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(split.fold[i], split.fold[100 + i]);
+    EXPECT_EQ(share.held[i], share.held[100 + i]);
+  }
 }
 
 TEST(Setups, SurviveInARun) {

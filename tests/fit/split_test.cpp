@@ -70,11 +70,17 @@ TEST(Split, EveryPoseIsHeldOutOnceAndNeverInItsOwnFit) {
   for (int t : times) EXPECT_EQ(t, 1);
 }
 
-TEST(Split, AutoMeansFiveFoldsBelowSixtyPosesAndAFifthFromThere) {
-  EXPECT_EQ(split_poses(random_poses(59, 1), {}, 1).folds, 5);
-  const Split split = split_poses(random_poses(60, 1), {}, 1);
+TEST(Split, AutoMeansFiveFoldsOfUpToFiveHundredPosesAndAFifthOfMore) {
+  for (const int groups : {20, 59, 60, 500}) {
+    const Measurements m = random_poses(groups, 1);  // readings: more than poses
+    const Split split = split_poses(m, {}, 1);
+    EXPECT_EQ(split.folds, 5);
+    EXPECT_EQ(fit_rows(split).size(), static_cast<std::size_t>(m.size()));
+    EXPECT_EQ(held_rows(split).size(), static_cast<std::size_t>(m.size()));
+  }
+  const Split split = split_poses(random_poses(501, 1), {}, 1);
   EXPECT_EQ(split.folds, 0);
-  EXPECT_GT(held_rows(split).size(), 0u);
+  EXPECT_GT(held_rows(split).size(), 100u);
 }
 
 TEST(Split, SameSeedSamePosesOtherSeedOtherPoses) {
