@@ -38,8 +38,9 @@ MeanInterval mean_interval(const std::vector<double>& errors_m, const std::vecto
   const auto poses = static_cast<double>(sums.size());
   double squares = 0.0;
   for (const auto& [group, sum] : sums) squares += sum * sum;
-  const double half = student975(poses - 1.0) * std::sqrt(poses / (poses - 1.0) * squares) / n;
-  return {std::max(0.0, mean - half), mean + half};
+  const double se = std::sqrt(poses / (poses - 1.0) * squares) / n;
+  const double half = student975(poses - 1.0) * se;
+  return {std::max(0.0, mean - half), mean + half, se};
 }
 
 MeanInterval held_out_interval(const Measurements& measured, const Fit& fit) {

@@ -8,11 +8,12 @@
 
 namespace plumb::offline {
 
-/// Where the mean error of all poses of a kind lies with a probability of 95 % [m]; NaN where fewer
-/// than three poses tell.
+/// Where the mean error of all poses of a kind lies with a probability of 95 %, and the standard
+/// error of the mean that is at hand [m]; NaN where fewer than three poses tell.
 struct MeanInterval {
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
+  double se = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Student's t with the variance of whole groups [Cameron & Miller 2015, eq. 6], so that repeats of

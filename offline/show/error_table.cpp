@@ -43,6 +43,7 @@ std::string text_of(const MeanInterval& interval) {
 
 void add_interval(const MeanInterval& interval, Json& out) {
   constexpr const char* kTooFew = "fewer than three poses were held out";
+  put(out, "mean_se_mm", to_mm(interval.se), kTooFew);
   put(out, "mean_low_mm", to_mm(interval.low), kTooFew);
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blind study: arms with something hidden, diagnosed by who never sees the truth.
-//   blind_study [--inconvenient] [CASES] [SEED] [--list]
+//   blind_study [--inconvenient] [CASES] [SEED] [POSES] [--list]
+// With POSES: the first CASES cases that have so many.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,15 +19,21 @@ int main(int argc, char** argv) {
   const bool list = asked_for("--list"), inconvenient = asked_for("--inconvenient");
   const int cases = !words.empty() ? std::atoi(words[0].c_str()) : 2000;
   const auto seed = static_cast<std::uint64_t>(words.size() > 1 ? std::atoll(words[1].c_str()) : 1);
+  const int poses = words.size() > 2 ? std::atoi(words[2].c_str()) : 0;
   const auto draw = [=](int number) {
     return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
                         : plumb::tests::draw_case(seed, number);
   };
-  const auto scores = plumb::tests::run_study(draw, cases, [cases](int done) {
-    if (done % 50 == 0) std::fprintf(stderr, "%d of %d\n", done, cases);
-  });
+  std::vector<int> numbers;
+  for (int i = 0; i < 100 * cases && static_cast<int>(numbers.size()) < cases; ++i)
+    if (poses == 0 || draw(i).request.poses == poses) numbers.push_back(i);
+  const auto chosen = [&](int k) { return draw(numbers[static_cast<std::size_t>(k)]); };
+  const auto scores =
+      plumb::tests::run_study(chosen, static_cast<int>(numbers.size()), [cases](int done) {
+        if (done % 50 == 0) std::fprintf(stderr, "%d of %d\n", done, cases);
+      });
   for (std::size_t i = 0; list && i < scores.size(); ++i)
-    std::printf("%s\n", plumb::tests::line_of(static_cast<int>(i), scores[i]).c_str());
+    std::printf("%s\n", plumb::tests::line_of(numbers[i], scores[i]).c_str());
   const auto marks = inconvenient ? plumb::tests::inconvenient_marks_of(scores, 2.0)
                                   : plumb::tests::marks_of(scores, 2.0);
   std::printf("%s", plumb::tests::table_of(marks).c_str());

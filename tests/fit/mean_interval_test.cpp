@@ -67,5 +67,14 @@ TEST(MeanInterval, OfThreePosesUsesStudentsT) {
   EXPECT_NEAR(found.high, 2.0 + 4.3027 / std::sqrt(3.0), 0.03);
 }
 
+TEST(MeanInterval, StandardErrorIsThatOfTheMeanOfThePoses) {
+  // sd of 1, 2, 3, 4, 5 over the root of 5; repeats of a pose add nothing.
+  const double se = std::sqrt(2.5 / 5.0);
+  EXPECT_NEAR(mean_interval({1, 2, 3, 4, 5}, {0, 1, 2, 3, 4}).se, se, 1e-12);
+  EXPECT_NEAR(mean_interval({1, 1, 2, 2, 3, 3, 4, 4, 5, 5}, {0, 0, 1, 1, 2, 2, 3, 3, 4, 4}).se, se,
+              1e-12);
+  EXPECT_TRUE(std::isnan(mean_interval({1, 2}, {0, 1}).se));
+}
+
 }  // namespace
 }  // namespace plumb::offline
