@@ -32,7 +32,7 @@ std::vector<EffectEntry> with_tree_of(const Cell& cell, std::vector<EffectEntry>
 }
 
 constexpr double kAnotherFloor = 1e-3;  // relative
-constexpr double kRose = 1.05;  // times the error before: more is refused
+constexpr double kRose = 1.05;          // times the error before: more is refused
 
 /// Reports that the effects are not kept: fitted together from the start, they may converge to
 /// another solution than when they were added one by one.

@@ -102,14 +102,14 @@ std::string coverage_figure(const RunResults& results, double width) {
     for (const auto* counts : {&joints.back().held, &joints.back().fit})
       for (const int n : *counts) most = std::max(most, n);
   }
-  draw::Sheet sheet(
-      width,
-      {.title = "Which part of the joint ranges was measured",
-       .sentence = coverage_sentence(joints),
-       .legend = coverage_legend(results),
-       .notes = {fmt::format("Run {}: {}. Each panel spans the limits of its joint in the cell; all "
-                             "count on one scale.",
-                             results.run.number, coverage_counts(results))}});
+  draw::Sheet sheet(width,
+                    {.title = "Which part of the joint ranges was measured",
+                     .sentence = coverage_sentence(joints),
+                     .legend = coverage_legend(results),
+                     .notes = {fmt::format(
+                         "Run {}: {}. Each panel spans the limits of its joint in the cell; all "
+                         "count on one scale.",
+                         results.run.number, coverage_counts(results))}});
   const auto rooms = sheet.grid(static_cast<int>(joints.size()), 240.0, 170.0);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const auto& joint = joints[k];

@@ -15,8 +15,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kFolds = 5;            // of "auto"
-constexpr int kFoldsUpTo = 500;      // poses; from there on a fifth is no loss, and folds take time
+constexpr int kFolds = 5;        // of "auto"
+constexpr int kFoldsUpTo = 500;  // poses; from there on a fifth is no loss, and folds take time
 
 /// One row of each replicate group that is used.
 std::vector<int> representatives(const Measurements& m, const std::vector<bool>& used) {

@@ -208,7 +208,8 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   out["matters"] = matters_json(comparison);
   out["joints"] = joint_shares_json(cell, comparison);
   out["joints_text"] = joint_words(cell, comparison);
-  out["lack_of_fit"] = lack_of_fit_json(comparison.lack_of_fit, fit, scatter_in_floor(cell, measured, fit));
+  out["lack_of_fit"] =
+      lack_of_fit_json(comparison.lack_of_fit, fit, scatter_in_floor(cell, measured, fit));
   out["autocorrelation"] = order_json(comparison.order);
   out["change_points"] = steps_json(cell, measured, comparison.changes);
   out["drifts"] = drifts_json(cell, measured, comparison.changes);

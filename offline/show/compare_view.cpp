@@ -131,8 +131,9 @@ std::string where_text(const Comparison& comparison) {
 
 std::string findings_text(const Cell& cell, const Measurements& measured,
                           const Comparison& comparison, const Fit& fit) {
-  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit, held_out_excess_of(fit),
-                                              scatter_in_floor(cell, measured, fit)) +
+  std::string out = "\n" +
+                    lack_of_fit_words(comparison.lack_of_fit, held_out_excess_of(fit),
+                                      scatter_in_floor(cell, measured, fit)) +
                     "\n" + joint_words(cell, comparison) + "\n" + order_words(comparison.order) +
                     "\n" + changes_words(comparison.changes) + "\n";
   for (const auto& step : comparison.changes.steps)

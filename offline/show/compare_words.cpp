@@ -110,7 +110,8 @@ std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOu
     return "Lack of fit: none; what the model misses is no more than the noise of the readings.";
   const bool at_floor = held && held->level() == HeldOutExcess::Level::kAtTheFloor;
   if (at_floor && scatter_in_floor)
-    return "Lack of fit: none but that the joints do not come back to exactly the same place, which "
+    return "Lack of fit: none but that the joints do not come back to exactly the same place, "
+           "which "
            "no model removes.";
   if (at_floor)
     return fmt::format(

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "compare/joint_shares.hpp"
 #include "fit/repeatability.hpp"
+#include "fit/series.hpp"
+#include "fit/step_motions.hpp"
 #include "fit/verdict.hpp"
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
@@ -48,6 +52,20 @@ void add_interval(const MeanInterval& interval, Json& out) {
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
 }
 
+namespace {
+
+/// Whether a function of one joint's angle explains some of the error beyond chance. Scatter never
+/// does that.
+bool depends_on_a_joint(const Measurements& measured, const Fit& fit,
+                        const std::vector<int>& rows) {
+  const Rows3 error_M = residuals(measured, fit.predicted_M);
+  const StepMotions motions(fit.calibration.state, measured, series(measured, error_M, rows));
+  const auto shares = compare::joint_shares(motions, measured.q);
+  return std::any_of(shares.begin(), shares.end(), [](const auto& s) { return s.matters; });
+}
+
+}  // namespace
+
 bool scatter_in_floor(const Cell& cell, const Measurements& measured, const Fit& fit) {
   if (fit.floor.source == NoiseFloor::Source::kNone) return false;
   return fit.floor.sigma_m > kMore * noise_floor(cell, measured, fit.calibration.state).sigma_m;
@@ -57,10 +75,10 @@ std::string verdict_with_scatter(const Cell& cell, const Measurements& measured,
   const std::string out = verdict(fit, cell.tolerance_m);
   const auto excess = held_out_excess_of(fit);
   if (!excess || !excess->lack_of_fit() || scatter_in_floor(cell, measured, fit)) return out;
-  const Repeatability scatter =
-      repeatability(cell, measured, fit.calibration,
-                    without_outliers(fit_rows(fit.split), fit.calibration.outliers));
-  if (!scatter.supported()) return out;
+  const auto rows = without_outliers(
+      without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
+  const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);
+  if (!scatter.supported() || depends_on_a_joint(measured, fit, rows)) return out;
   return fmt::format(
       "{} That, or the joints do not come back to the same place ({}): plumb diagnose tells which.",
       out, in_words(cell, scatter));

@@ -199,8 +199,8 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
 
 std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;
-  std::string out = verdict_with_scatter(cell, measured, fit) + "\n\n" +
-                    error_table(measured, fit) + "\n";
+  std::string out =
+      verdict_with_scatter(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",

@@ -145,9 +145,8 @@ std::string line_of(int number, const Score& s) {
       "{:.3f} of truth {:.2f}s{} "
       "{} || {}",
       number, name_of(s.drawn.group), s.drawn.request.poses, s.class_first, s.joint_first, s.extra,
-      s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.held_over_true, s.seconds,
-      hidden,
-      claims_text(s), s.said);
+      s.unknown_said, s.inputs_right, s.before, s.after, s.held_over_floor, s.held_over_true,
+      s.seconds, hidden, claims_text(s), s.said);
 }
 
 }  // namespace plumb::tests
