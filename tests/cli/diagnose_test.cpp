@@ -126,6 +126,30 @@ TEST_F(DiagnoseVerb, ApplyAddsRefitsAndKeepsARun) {
   EXPECT_EQ(plumb({"compile"}).exit, 0);
 }
 
+TEST_F(DiagnoseVerb, FitAndCompareTakeOverTheFloorWithTheScatterOfTheJoints) {
+  ASSERT_EQ(plumb({"simulate", "--force", "--poses", "120", "--repeats", "3",
+                   "--joint-scatter-urad", "30"})
+                .exit,
+            0);
+  const auto result = [&](const char* verb) { return plumb({verb, "--json"}).json().at("result"); };
+  const Json first = result("fit");
+  const std::string hedged = first.at("verdict");
+  EXPECT_NE(hedged.find("the joints do not come back to the same place"), std::string::npos)
+      << hedged;
+  const Json found = result("diagnose");
+  ASSERT_TRUE(found.contains("repeatability")) << found.dump(1);
+  const double floor = found.at("noise_floor_mm");
+  EXPECT_GT(floor, 2.0 * first.at("noise_floor_mm").get<double>());
+  for (const char* verb : {"compare", "fit"}) {
+    const Json later = result(verb);
+    EXPECT_NEAR(later.at("noise_floor_mm").get<double>(), floor, 1e-9) << verb;
+    const std::string verdict = later.at("verdict");
+    EXPECT_EQ(verdict.find("missing"), std::string::npos) << verb << ": " << verdict;
+  }
+  const std::string lack = result("compare").at("lack_of_fit").at("text");
+  EXPECT_EQ(lack.find("a better model"), std::string::npos) << lack;
+}
+
 TEST_F(DiagnoseVerb, AddMakesTheErrorFallAndDropTakesItBack) {
   const std::string before = cell();
   const Ran dry = plumb({"add", "gravity_free", "--joints", "J2,J3", "--dry-run", "--json"});

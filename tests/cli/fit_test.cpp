@@ -133,6 +133,9 @@ TEST_F(FitVerb, AnotherSeedOrRuleChangesTheSplitOnly) {
   const Json one = held({"--seed", "1"}), two = held({"--seed", "2"}), again = held({});
   EXPECT_NE(one.at("held_out").at("mean_mm"), two.at("held_out").at("mean_mm"));
   EXPECT_EQ(one.at("held_out").at("mean_mm"), again.at("held_out").at("mean_mm"));
+  EXPECT_EQ(one.at("folds"), 5);
+  EXPECT_EQ(one.at("poses_held_out"), one.at("poses_fit"));
+  EXPECT_GT(one.at("held_out").at("mean_se_mm").get<double>(), 0.0);
   const Json folds = held({"--held-out", "kfold:4"});
   EXPECT_EQ(folds.at("folds"), 4);
   EXPECT_EQ(folds.at("poses_held_out"), folds.at("poses_fit"));

@@ -36,6 +36,19 @@ TEST_F(ModelVerbs, CompileFitsFirstAndAudits) {
   EXPECT_EQ(audit.at("bytes"), std::filesystem::file_size(box->path() / "cell/robot.plumb"));
 }
 
+TEST_F(ModelVerbs, CompileSaysWhichModelsTheErrorIsOf) {
+  const Ran folds = box->plumb({"-C", "cell", "compile", "--dry-run", "--force"});
+  EXPECT_NE(folds.out.find("The model was fitted on all"), std::string::npos) << folds.out;
+  ASSERT_EQ(box->plumb({"demo", "clean", "fifth"}).exit, 0);
+  std::string cell = box->read("fifth/cell.toml");
+  const std::string rule = "held_out = \"auto\"";
+  cell.replace(cell.find(rule), rule.size(), "held_out = \"20%\"");
+  box->write("fifth/cell.toml", cell);
+  const Ran fifth = box->plumb({"-C", "fifth", "compile", "--dry-run"});
+  EXPECT_EQ(fifth.exit, 0) << fifth.err;
+  EXPECT_EQ(fifth.out.find("The model was fitted on all"), std::string::npos) << fifth.out;
+}
+
 TEST_F(ModelVerbs, TheRunIsANumberAsInEveryOtherVerb) {
   EXPECT_EQ(compiled->at("result").at("run"), 1);
   EXPECT_EQ(compiled->at("result").at("refit_all"), false);
