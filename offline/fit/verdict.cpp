@@ -75,6 +75,13 @@ std::string good_words(const Fit& fit, const std::string& size, double tolerance
                      mm(tolerance_m), times_words(fit));
 }
 
+std::string limited_by_joints(const Fit& fit, const std::string& size, double tolerance_m) {
+  return fmt::format(
+      "Limited by the arm: {}, at the {}, but the tolerance is {}: the joints do not come back to "
+      "exactly the same place, which no model removes.",
+      size, floor_words(fit), mm(tolerance_m));
+}
+
 std::string limited_words(const Fit& fit, const std::string& size, double tolerance_m) {
   const std::string out =
       fmt::format("Limited by the measurement: {}, at the {}, ", size, floor_words(fit));
@@ -107,7 +114,7 @@ Quality quality(const Fit& fit, double tolerance_m) {
   return within ? quality_within(fit) : quality_beyond(fit);
 }
 
-std::string verdict(const Fit& fit, double tolerance_m) {
+std::string verdict(const Fit& fit, double tolerance_m, bool scatter_in_floor) {
   const std::string size = size_words(fit.held), tolerance = mm(tolerance_m);
   switch (quality(fit, tolerance_m)) {
     case Quality::kNotHeldOut:
@@ -135,7 +142,8 @@ std::string verdict(const Fit& fit, double tolerance_m) {
           "bad reading, or a place where the model fails.",
           size, tolerance, mm(fit.held.max));
     case Quality::kLimitedByNoise:
-      return limited_words(fit, size, tolerance_m);
+      return scatter_in_floor ? limited_by_joints(fit, size, tolerance_m)
+                              : limited_words(fit, size, tolerance_m);
     case Quality::kBeyondSigmaTooLarge:
       return fmt::format(
           "Not good enough: {}, over the tolerance of {}; but the noise as it is stated would give "

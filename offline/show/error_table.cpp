@@ -35,7 +35,8 @@ std::string turn_table(const ErrorStats& s) {
   return "\n" + table.text();
 }
 
-constexpr double kMore = 1.001;  // times the noise floor of the readings alone
+constexpr double kClearShare = 0.15;  // of the squared error: scatter itself shows up to a tenth
+constexpr double kMore = 1.001;       // times the noise floor of the readings alone
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
 
 }  // namespace
@@ -54,14 +55,14 @@ void add_interval(const MeanInterval& interval, Json& out) {
 
 namespace {
 
-/// Whether a function of one joint's angle explains some of the error beyond chance. Scatter never
-/// does that.
+/// Whether a function of one joint's angle explains a clear part of the error. Scatter hardly does.
 bool depends_on_a_joint(const Measurements& measured, const Fit& fit,
                         const std::vector<int>& rows) {
   const Rows3 error_M = residuals(measured, fit.predicted_M);
   const StepMotions motions(fit.calibration.state, measured, series(measured, error_M, rows));
   const auto shares = compare::joint_shares(motions, measured.q);
-  return std::any_of(shares.begin(), shares.end(), [](const auto& s) { return s.matters; });
+  return std::any_of(shares.begin(), shares.end(),
+                     [](const auto& s) { return s.matters && s.share > kClearShare; });
 }
 
 }  // namespace
@@ -72,9 +73,10 @@ bool scatter_in_floor(const Cell& cell, const Measurements& measured, const Fit&
 }
 
 std::string verdict_with_scatter(const Cell& cell, const Measurements& measured, const Fit& fit) {
-  const std::string out = verdict(fit, cell.tolerance_m);
+  const bool in_floor = scatter_in_floor(cell, measured, fit);
+  const std::string out = verdict(fit, cell.tolerance_m, in_floor);
   const auto excess = held_out_excess_of(fit);
-  if (!excess || !excess->lack_of_fit() || scatter_in_floor(cell, measured, fit)) return out;
+  if (!excess || !excess->lack_of_fit() || in_floor) return out;
   const auto rows = without_outliers(
       without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
   const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);

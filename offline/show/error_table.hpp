@@ -18,8 +18,9 @@ std::string folds_text(int folds, int readings);
 /// Whether the noise floor holds the scatter of the joints: a diagnosis of this model found it.
 bool scatter_in_floor(const Cell& cell, const Measurements& measured, const Fit& fit);
 
-/// The verdict; where it says that something is missing and no joint's own angle matters, also what
-/// the scatter of the joints would be if nothing were. Only a diagnosis tells the two apart.
+/// The verdict; where it says that something is missing and no joint's own angle explains a clear
+/// part, also what the scatter of the joints would be if nothing were. Only a diagnosis tells the
+/// two apart.
 std::string verdict_with_scatter(const Cell& cell, const Measurements& measured, const Fit& fit);
 
 std::string error_table(const Measurements& measured, const Fit& fit);
