@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blind study: arms with something hidden, diagnosed by who never sees the truth.
-//   blind_study [--inconvenient] [CASES] [SEED] [--list]
+//   blind_study [--inconvenient] [CASES] [SEED] [--list] [--kind NUMBER]
+// --kind: inconvenient arms of one kind alone, numbered from 0 as in its table.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,11 +16,20 @@
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto asked_for = [&words](const char* option) { return std::erase(words, option) > 0; };
-  const bool list = asked_for("--list"), inconvenient = asked_for("--inconvenient");
+  const bool list = asked_for("--list");
+  bool inconvenient = asked_for("--inconvenient");
+  int kind = -1;
+  if (const auto at = std::find(words.begin(), words.end(), "--kind");
+      at != words.end() && at + 1 != words.end()) {
+    kind = std::atoi((at + 1)->c_str());
+    words.erase(at, at + 2);
+  }
   const int cases = !words.empty() ? std::atoi(words[0].c_str()) : 2000;
   const auto seed = static_cast<std::uint64_t>(words.size() > 1 ? std::atoll(words[1].c_str()) : 1);
   const auto draw = [=](int number) {
-    return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
+    if (kind >= 0)
+      number = number * static_cast<int>(plumb::tests::inconvenient_kinds().size()) + kind;
+    return inconvenient || kind >= 0 ? plumb::tests::draw_inconvenient_case(seed, number)
                         : plumb::tests::draw_case(seed, number);
   };
   const auto scores = plumb::tests::run_study(draw, cases, [cases](int done) {
@@ -27,6 +37,7 @@ int main(int argc, char** argv) {
   });
   for (std::size_t i = 0; list && i < scores.size(); ++i)
     std::printf("%s\n", plumb::tests::line_of(static_cast<int>(i), scores[i]).c_str());
+  inconvenient = inconvenient || kind >= 0;
   const auto marks = inconvenient ? plumb::tests::inconvenient_marks_of(scores, 2.0)
                                   : plumb::tests::marks_of(scores, 2.0);
   std::printf("%s", plumb::tests::table_of(marks).c_str());
