@@ -44,6 +44,7 @@ std::vector<Eigen::Index> poses_in_order(const WhitenedFit& s) {
 
 /// Columns cleared of the model and made orthonormal, over the fit lines.
 Eigen::MatrixXd cleared(const WhitenedFit& s, Eigen::MatrixXd X) {
+  if (X.cols() == 0) return X;
   const auto U = s.U.topRows(s.fit_lines);
   for (int pass = 0; pass < 2; ++pass) X -= U * (U.transpose() * X).eval();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
@@ -78,8 +79,9 @@ class CutSearch {
     const Eigen::MatrixXd others = cleared(s_, columns(cuts));
     scale_ = evidence_scale(s_);
     scale_.lines = std::max(1.0, scale_.lines - static_cast<double>(others.cols()));
-    U_.resize(Eigen::NoChange, s_.rank + others.cols());
-    U_ << s_.U.topRows(s_.fit_lines), others;
+    U_.resize(s_.fit_lines, s_.rank + others.cols());
+    U_.leftCols(s_.rank) = s_.U.topRows(s_.fit_lines);
+    U_.rightCols(others.cols()) = others;
     y_ = s_.y.head(s_.fit_lines);
     y_ -= others * (others.transpose() * y_).eval();
     Q_ = y_.squaredNorm();
@@ -158,7 +160,8 @@ double row_before(const WhitenedFit& s, const std::vector<Eigen::Index>& order, 
 }
 
 /// The best cut beside `others`, at least kFewestBesideStep poses from each of them.
-std::optional<int> best_beside(CutSearch& part, const std::vector<int>& others, const CutRange& cuts) {
+std::optional<int> best_beside(CutSearch& part, const std::vector<int>& others,
+                               const CutRange& cuts) {
   part.beside(others);
   const auto best = best_cut(
       part.poses(), cuts, [&](int visit) { part.pass(visit); },
@@ -231,9 +234,9 @@ std::vector<ChangePoint> change_points(const WhitenedFit& s, int& tried) {
           return part.ln_bayes();
         });
     if (!best) continue;
-    out.push_back(at_cuts(s, part,
-                          moving.joint >= 0 ? std::vector<int>{best->cut}
-                                            : further_moves(s, part, best->cut)));
+    out.push_back(at_cuts(
+        s, part,
+        moving.joint >= 0 ? std::vector<int>{best->cut} : further_moves(s, part, best->cut)));
   }
   return out;
 }
@@ -305,9 +308,8 @@ void sharpen(const WhitenedFit& s, Eigen::Index poses, ChangePoint& point) {
     std::vector<int> cuts;
     for (const double row : point.after_rows) {
       const auto at = std::partition_point(
-          part.order().begin(), part.order().end(), [&](Eigen::Index pose) {
-            return s.context[static_cast<std::size_t>(pose)].order < row;
-          });
+          part.order().begin(), part.order().end(),
+          [&](Eigen::Index pose) { return s.context[static_cast<std::size_t>(pose)].order < row; });
       cuts.push_back(static_cast<int>(at - part.order().begin()));
     }
     settle(part, cuts, static_cast<int>(poses));

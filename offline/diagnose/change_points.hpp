@@ -14,7 +14,7 @@ namespace plumb::offline {
 /// tracker), once or several times, or a joint (a slipped encoder), once. Every cut between two
 /// poses was tried.
 struct ChangePoint {
-  EffectEntry entry;  // `step` with after_row of the first move, of, and the joint
+  EffectEntry entry;               // `step` with after_row of the first move, of, and the joint
   std::vector<double> after_rows;  // of every move, in order
 };
 

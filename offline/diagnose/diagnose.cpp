@@ -276,7 +276,10 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   const auto rows = without_outliers(w.fit, base.outliers);
   JudgedFit at =
       judged(make_whitened_fit(w.cell, measured, base, rows, w.held), w.not_testable, {});
-  if (auto turned = under_other_gravity(w.cell, measured, base, w.fit, w.held, at, w.not_testable)) {
+  std::optional<UnderOtherGravity> turned;
+  if (judgeable(at.whitened))
+    turned = under_other_gravity(w.cell, measured, base, w.fit, w.held, at, w.not_testable);
+  if (turned) {
     out.gravity = turned->gravity;
     if (turned->gravity.certain) {
       w.cell.gravity = turned->gravity.found;

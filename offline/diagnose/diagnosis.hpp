@@ -45,7 +45,7 @@ struct Candidate {
   ErrorStats alone;                  // held out, with this effect
   ErrorStats after;                  // with the best one and this one
   std::vector<double> cycles;
-  std::string peaks = {};  // of a series of waves: its largest ones in words
+  std::string peaks = {};        // of a series of waves: its largest ones in words
   std::vector<Move> moves = {};  // of a part that moved several times: all of them, in order
   bool supported = false;
   bool plausible = true;

@@ -188,9 +188,8 @@ std::string unsure_words(const Cell& cell, const Diagnosis& d) {
   std::string out;
   for (const auto& added : d.added)
     if (!added.alternatives.empty())
-      out += fmt::format(
-          "; {}: these poses cannot tell, and predict as well with either",
-          either_words(cell, effect_sentence(cell, added), added.alternatives));
+      out += fmt::format("; {}: these poses cannot tell, and predict as well with either",
+                         either_words(cell, effect_sentence(cell, added), added.alternatives));
   return out;
 }
 
@@ -342,13 +341,15 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
           "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
           unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
-      if (!d.tied && (!d.alternatives.empty() || d.gravity)) return missing_words(cell, d);
+      if (!d.tied && (!d.alternatives.empty() || (d.gravity && !d.candidates.empty())))
+        return missing_words(cell, d);
       if (d.tied)
         return fmt::format(
             "Undecidable: {} and {} explain these poses equally well. With either: {}, {}. To tell "
             "them apart, measure {}.",
-            in_words(cell, d.candidates.front()), in_words(cell, *d.tied), fall_words(d.before.mean, d.candidates.front().alone.mean),
-            floor_words(d.floor), separating_measurement(d.candidates.front().entry, *d.tied));
+            in_words(cell, d.candidates.front()), in_words(cell, *d.tied),
+            fall_words(d.before.mean, d.candidates.front().alone.mean), floor_words(d.floor),
+            separating_measurement(d.candidates.front().entry, *d.tied));
       if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format(
             "Undecidable: nothing is supported, but without a noise floor nobody "
@@ -386,9 +387,10 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
 std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
   if (!d.finding_after) return {};
   if (d.gravity && d.gravity->certain)
-    return fmt::format("Nothing was added: under gravity = {} it would be another effect. Correct "
-                       "gravity in cell.toml first.",
-                       gravity_text(d.gravity->stated));
+    return fmt::format(
+        "Nothing was added: under gravity = {} it would be another effect. Correct "
+        "gravity in cell.toml first.",
+        gravity_text(d.gravity->stated));
   const std::string fall = d.added.empty()
                                ? "Nothing was added"
                                : fmt::format("{} {} added: held-out error {} -> {}", d.added.size(),

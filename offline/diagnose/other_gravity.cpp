@@ -22,7 +22,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kNearlyThis = 2.0 * kDegree;   // an axis of the base is meant
+constexpr double kNearlyThis = 2.0 * kDegree;    // an axis of the base is meant
 constexpr double kSameAsStated = 3.0 * kDegree;  // no other direction
 constexpr Index kDirectionPoses = 400;
 constexpr int kAlternations = 20;
@@ -164,7 +164,8 @@ Direction best_direction(const WhitenedFit& s, const ArmState& state, double siz
     std::vector<EffectEntry> entries;
     for (int j = 0; j < (of_joints ? s.joints() : 1); ++j) {
       if (of_joints && !s.chain.revolute(j)) continue;
-      EffectEntry entry{.name = std::string(effect->name), .joints = {}, .options = {}, .place = {}};
+      EffectEntry entry{
+          .name = std::string(effect->name), .joints = {}, .options = {}, .place = {}};
       if (of_joints) entry.joints = {j};
       const auto load = axes.load(entry, each);
       if (!load) continue;
@@ -253,13 +254,13 @@ std::optional<UnderOtherGravity> under_other_gravity(const Cell& cell, const Mea
                                         without_outliers(rows, out.calibration.outliers), held),
                       not_testable, {});
   const Found* best = out.judged.look.supported();
-  if (best == nullptr || out.judged.look.unknown() || !grows_with_load(descriptor_of(best->entry.name)))
+  if (best == nullptr || out.judged.look.unknown() ||
+      !grows_with_load(descriptor_of(best->entry.name)))
     return std::nullopt;
-  out.gravity.nats_ahead =
-      best->ln_bayes() + fit_nats(s, out.judged.whitened) - price - to_beat;
-  const bool clearly =
-      leaves_noise(out.judged.whitened, best->scored.explained) || now == nullptr ||
-      best->scored.explained > now->scored.explained + kAhead_share;
+  out.gravity.nats_ahead = best->ln_bayes() + fit_nats(s, out.judged.whitened) - price - to_beat;
+  const bool clearly = leaves_noise(out.judged.whitened, best->scored.explained) ||
+                       now == nullptr ||
+                       best->scored.explained > now->scored.explained + kAhead_share;
   out.gravity.certain = clearly && out.gravity.nats_ahead > kAhead_nats;
   if (!clearly || out.gravity.nats_ahead < kSupported) return std::nullopt;
   return out;

@@ -83,8 +83,8 @@ std::optional<Found> found_ripples(const Scorer& scorer, Ripples waves, double p
 /// A part that moved once or several times, scored with the price of finding every further move.
 Found found_moves(const Scorer& scorer, const ChangePoint& point) {
   const Regressor regressor = moves_regressor(scorer.whitened(), point.entry, point.after_rows);
-  Found out{point.entry, {}, score_moves(scorer, regressor, point.after_rows.size()), {}, 0.0, {},
-            0.0};
+  Found out{point.entry, {}, score_moves(scorer, regressor, point.after_rows.size()), {}, 0.0,
+            {},          0.0};
   out.moves = sized_moves(scorer.whitened(), regressor, out.scored.theta);
   return out;
 }

@@ -17,11 +17,11 @@ struct Found {
   EffectEntry entry;
   Pattern pattern;
   RegressorScore scored;
-  Gain gain;                   // of what could be chosen; else zero
-  double score = 0.0;          // ln B less ln of the number of regressors tried
-  std::vector<double> cycles;  // of ripple: all its waves, strongest first
-  double rms_joint = 0.0;      // of a pattern at a joint: its fitted size [rad]
-  std::string peaks = {};      // of a series: its largest waves in words
+  Gain gain;                     // of what could be chosen; else zero
+  double score = 0.0;            // ln B less ln of the number of regressors tried
+  std::vector<double> cycles;    // of ripple: all its waves, strongest first
+  double rms_joint = 0.0;        // of a pattern at a joint: its fitted size [rad]
+  std::string peaks = {};        // of a series: its largest waves in words
   std::vector<Move> moves = {};  // of a part that moved several times: all of them, in order
   double ln_bayes() const { return scored.evidence.ln_bayes; }
 

@@ -149,9 +149,9 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
       return {good_enough(cell, d.before) ? kCompile : kMeasure};
     std::vector<double> rows;
     for (const Move& move : first.moves) rows.push_back(move.after_row);
-    std::vector<std::string> out{"add " + adding_arguments(cell, first.entry,
-                                                           rows.empty() ? first.cycles : rows),
-                                 "diagnose --apply   # all that is supported, one by one"};
+    std::vector<std::string> out{
+        "add " + adding_arguments(cell, first.entry, rows.empty() ? first.cycles : rows),
+        "diagnose --apply   # all that is supported, one by one"};
     if (!d.alternatives.empty())
       out.insert(out.begin(), separating(cell, first.entry, d.alternatives.front().entry) +
                                   "   # which of them is it?");

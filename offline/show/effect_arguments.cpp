@@ -49,8 +49,9 @@ std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
     out += (i == 0 ? " --joints " : ",") + cell.nominal.joints[effect.joints[i]].name;
   for (const auto& [key, value] : effect.options)
     out += fmt::format(" --set {}={}", key,
-                       (key == kCycles || key == kAfterRow) && !cycles.empty() ? fmt::format("{}", fmt::join(cycles, ","))
-                                                         : value_text(value));
+                       (key == kCycles || key == kAfterRow) && !cycles.empty()
+                           ? fmt::format("{}", fmt::join(cycles, ","))
+                           : value_text(value));
   return out;
 }
 

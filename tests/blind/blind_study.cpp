@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     if (kind >= 0)
       number = number * static_cast<int>(plumb::tests::inconvenient_kinds().size()) + kind;
     return inconvenient || kind >= 0 ? plumb::tests::draw_inconvenient_case(seed, number)
-                        : plumb::tests::draw_case(seed, number);
+                                     : plumb::tests::draw_case(seed, number);
   };
   const auto scores = plumb::tests::run_study(draw, cases, [cases](int done) {
     if (done % 50 == 0) std::fprintf(stderr, "%d of %d\n", done, cases);
