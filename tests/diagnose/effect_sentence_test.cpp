@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/diagnosis_text.hpp"
+#include "effects/effect_option.hpp"
 #include "effects/fitted_laws.hpp"
 
 namespace plumb::offline {
