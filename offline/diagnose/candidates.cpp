@@ -60,6 +60,8 @@ std::vector<CandidateNumber> numbers_of(format::Model model, const Regressor& re
   for (const Eigen::Index c : numbers_told(regressor, size.theta)) {
     const int member = regressor.members[static_cast<std::size_t>(c)];
     if (!cycles.empty()) model.effects[0].constants = {cycles[static_cast<std::size_t>(c / 2)]};
+    if (!regressor.after_rows.empty())
+      model.effects[0].constants.front() = regressor.after_rows[static_cast<std::size_t>(c)] - 0.5;
     EffectParameter info = effect_parameter(model, 0, member);
     // How large a wave may be does not depend on how the others fall off.
     if (is_series(regressor.entry.name))
@@ -100,6 +102,7 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
   out.supported = found.score > kSupported && gain.clear;
   out.peaks = found.peaks;
+  out.moves = found.moves;
   const format::Model model = model_of(s, regressor);
   const FittedSize size = fitted_size(found.scored, fit_prior(model, regressor),
                                       descriptor_of(found.entry.name).prior_tail);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/change_points.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,6 +19,8 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kSamePayload_kg = 1e-6;
+constexpr double kIndependent = 1e-7;  // of a column beside the others
+constexpr double kWidest = kPriorWidths.back();
 
 EffectEntry step_of(const MovingPart& part) {
   EffectEntry out{.name = change_point_effect(), .joints = {}, .options = {}, .place = {}};
@@ -31,24 +35,111 @@ Eigen::MatrixXd motions_of(const WhitenedFit& s, const MovingPart& part) {
                                               : Eigen::MatrixXd(s.joint[part.joint]);
 }
 
-/// A part that may have moved, and what is summed of its motions over the poses behind a cut.
-struct Kind {
-  EffectEntry entry;
-  Eigen::MatrixXd motions;  // (lines, c) per typical step
-  RunningSums behind;
+std::vector<Eigen::Index> poses_in_order(const WhitenedFit& s) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(s.fit_poses()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  put_in_order(order, [&](Eigen::Index pose) { return s.context[pose].order; });
+  return order;
+}
 
-  Kind(const WhitenedFit& s, const MovingPart& part)
-      : entry(step_of(part)),
-        motions(motions_of(s, part) * kTypicalStep),
-        behind(motions.cols(), s.rank) {}
+/// Columns cleared of the model and made orthonormal, over the fit lines.
+Eigen::MatrixXd cleared(const WhitenedFit& s, Eigen::MatrixXd X) {
+  if (X.cols() == 0) return X;
+  const auto U = s.U.topRows(s.fit_lines);
+  for (int pass = 0; pass < 2; ++pass) X -= U * (U.transpose() * X).eval();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
+  qr.setThreshold(kIndependent);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(X.rows(), qr.rank());
+}
 
-  void pass(const WhitenedFit& s, Eigen::Index pose) {
-    behind.add(motions.middleRows(pose * s.axes, s.axes), s.y.segment(pose * s.axes, s.axes),
-               s.U.middleRows(pose * s.axes, s.axes));
+/// A part that may have moved, and what is summed of its motions over the poses behind a cut. Its
+/// other moves, where it has some, belong to the model.
+class CutSearch {
+ public:
+  CutSearch(const WhitenedFit& s, const MovingPart& part)
+      : s_(s),
+        entry_(step_of(part)),
+        motions_((motions_of(s, part) * kTypicalStep).topRows(s.fit_lines)),
+        order_(poses_in_order(s)),
+        scale_(evidence_scale(s)),
+        behind_(motions_.cols(), s.rank),
+        U_(s.U.topRows(s.fit_lines)),
+        y_(s.y.head(s.fit_lines)),
+        Q_(s.Q) {}
+
+  const EffectEntry& entry() const { return entry_; }
+  const std::vector<Eigen::Index>& order() const { return order_; }
+  int poses() const { return static_cast<int>(order_.size()); }
+  CutRange cuts() const {
+    return cuts_of(VisitRun{0, poses()}, static_cast<int>(kFewestBesideStep));
   }
-  double ln_bayes(const WhitenedFit& s, const EvidenceScale& scale) const {
-    return evidence(behind.XX - behind.UX.transpose() * behind.UX, behind.Xy, s.Q, scale).ln_bayes;
+
+  /// The columns of these cuts become part of the model.
+  void beside(const std::vector<int>& cuts) {
+    const Eigen::MatrixXd others = cleared(s_, columns(cuts));
+    scale_ = evidence_scale(s_);
+    scale_.lines = std::max(1.0, scale_.lines - static_cast<double>(others.cols()));
+    U_.resize(s_.fit_lines, s_.rank + others.cols());
+    U_.leftCols(s_.rank) = s_.U.topRows(s_.fit_lines);
+    U_.rightCols(others.cols()) = others;
+    y_ = s_.y.head(s_.fit_lines);
+    y_ -= others * (others.transpose() * y_).eval();
+    Q_ = y_.squaredNorm();
+    behind_ = RunningSums(motions_.cols(), U_.cols());
   }
+
+  /// To be called for the poses from the last one on.
+  void pass(int visit) {
+    const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
+    behind_.add(motions_.middleRows(at, s_.axes), y_.segment(at, s_.axes),
+                U_.middleRows(at, s_.axes));
+  }
+  double ln_bayes() const { return evidence(gram(), behind_.Xy, Q_, scale_).ln_bayes; }
+
+  /// What the motion behind the cut explains: as good as the evidence for finding the place, and
+  /// much cheaper.
+  double explained() const {
+    RunningSums::Square whole = gram();
+    whole.diagonal().array() += scale_.variance / (kWidest * kWidest);
+    return behind_.Xy.dot(whole.ldlt().solve(behind_.Xy));
+  }
+
+  /// Of all these moves together.
+  double ln_bayes(const std::vector<int>& cuts) const {
+    Eigen::MatrixXd X = columns(cuts);
+    const auto U = s_.U.topRows(s_.fit_lines);
+    X -= U * (U.transpose() * X).eval();
+    return evidence(X.transpose() * X, X.transpose() * s_.y.head(s_.fit_lines), s_.Q,
+                    evidence_scale(s_))
+        .ln_bayes;
+  }
+
+ private:
+  RunningSums::Square gram() const { return behind_.XX - behind_.UX.transpose() * behind_.UX; }
+
+  /// The motions behind each cut, shape (fit lines, cuts * numbers).
+  Eigen::MatrixXd columns(const std::vector<int>& cuts) const {
+    const Eigen::Index each = motions_.cols();
+    Eigen::MatrixXd out =
+        Eigen::MatrixXd::Zero(motions_.rows(), each * static_cast<Eigen::Index>(cuts.size()));
+    for (std::size_t k = 0; k < cuts.size(); ++k)
+      for (int visit = cuts[k]; visit < poses(); ++visit) {
+        const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
+        out.block(at, static_cast<Eigen::Index>(k) * each, s_.axes, each) =
+            motions_.middleRows(at, s_.axes);
+      }
+    return out;
+  }
+
+  const WhitenedFit& s_;
+  EffectEntry entry_;
+  Eigen::MatrixXd motions_;  // (fit lines, c) per typical step
+  std::vector<Eigen::Index> order_;
+  EvidenceScale scale_;
+  RunningSums behind_;
+  Eigen::MatrixXd U_;  // of the model and the other moves
+  Eigen::VectorXd y_;
+  double Q_;
 };
 
 /// Whether the payload changes at this pose: constant before and constant behind. The joints then
@@ -62,67 +153,167 @@ bool changes_payload(const WhitenedFit& s, const std::vector<Eigen::Index>& orde
   return true;
 }
 
-std::vector<Eigen::Index> poses_in_order(const WhitenedFit& s) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(s.fit_poses()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  put_in_order(order, [&](Eigen::Index pose) { return s.context[pose].order; });
-  return order;
-}
-
 /// The row before the cut; if rows between the two poses were not scanned, the middle of them.
 double row_before(const WhitenedFit& s, const std::vector<Eigen::Index>& order, int cut) {
   const double before = s.context[order[cut - 1]].order, after = s.context[order[cut]].order;
   return std::floor(0.5 * (before + after + 1.0));
 }
 
-CutRange cuts_between(const std::vector<Eigen::Index>& order) {
-  return cuts_of(VisitRun{0, static_cast<int>(order.size())}, static_cast<int>(kFewestBesideStep));
+/// The best cut beside `others`, at least kFewestBesideStep poses from each of them.
+std::optional<int> best_beside(CutSearch& part, const std::vector<int>& others,
+                               const CutRange& cuts) {
+  part.beside(others);
+  const auto best = best_cut(
+      part.poses(), cuts, [&](int visit) { part.pass(visit); },
+      [&](int cut) -> std::optional<double> {
+        for (const int other : others)
+          if (std::abs(cut - other) < kFewestBesideStep) return std::nullopt;
+        return part.explained();
+      });
+  if (!best) return std::nullopt;
+  return best->cut;
+}
+
+/// Looks for every cut again beside the others, until none changes its place. near: how far.
+void settle(CutSearch& part, std::vector<int>& cuts, int near) {
+  for (int round = 0; round < kSettlingRounds; ++round) {
+    bool changed = false;
+    for (int& cut : cuts) {
+      std::vector<int> others;
+      for (const int other : cuts)
+        if (other != cut) others.push_back(other);
+      const auto again = best_beside(part, others, cuts_near(part.cuts(), cut, near));
+      changed = changed || (again && *again != cut);
+      if (again) cut = *again;
+    }
+    if (!changed) break;
+  }
+  std::sort(cuts.begin(), cuts.end());
+}
+
+double price_of_place(Eigen::Index poses) {
+  return std::log(static_cast<double>(std::max<Eigen::Index>(1, poses)));
+}
+
+/// Further moves of the part, as long as the evidence pays for their places.
+std::vector<int> further_moves(const WhitenedFit& s, CutSearch& part, int first) {
+  std::vector<int> out{first};
+  double ln_bayes = part.ln_bayes(out);
+  while (ln_bayes > 0.0 && out.size() < kMostMoves) {
+    std::vector<int> more = out;
+    const auto next = best_beside(part, out, part.cuts());
+    if (!next) break;
+    more.push_back(*next);
+    settle(part, more, part.poses());
+    const double with = part.ln_bayes(more);
+    if (with < ln_bayes + kSupported + price_of_place(s.fit_poses())) break;
+    out = std::move(more);
+    ln_bayes = with;
+  }
+  return out;
+}
+
+ChangePoint at_cuts(const WhitenedFit& s, const CutSearch& part, const std::vector<int>& cuts) {
+  ChangePoint out{part.entry(), {}};
+  for (const int cut : cuts) out.after_rows.push_back(row_before(s, part.order(), cut));
+  set_option(out.entry, OptionKey::kAfterRow, out.after_rows.front());
+  return out;
 }
 
 }  // namespace
 
 std::vector<ChangePoint> change_points(const WhitenedFit& s, int& tried) {
-  const std::vector<Eigen::Index> order = poses_in_order(s);
-  const EvidenceScale scale = evidence_scale(s);
   std::vector<ChangePoint> out;
-  for (const MovingPart& part : moving_parts(s.joints())) {
-    Kind kind(s, part);
+  for (const MovingPart& moving : moving_parts(s.joints())) {
+    CutSearch part(s, moving);
     const auto best = best_cut(
-        static_cast<int>(order.size()), cuts_between(order),
-        [&](int visit) { kind.pass(s, order[visit]); },
+        part.poses(), part.cuts(), [&](int visit) { part.pass(visit); },
         [&](int cut) -> std::optional<double> {
-          if (part.joint >= 0 && changes_payload(s, order, cut)) return std::nullopt;
+          if (moving.joint >= 0 && changes_payload(s, part.order(), cut)) return std::nullopt;
           ++tried;
-          return kind.ln_bayes(s, scale);
+          return part.ln_bayes();
         });
     if (!best) continue;
-    set_option(kind.entry, OptionKey::kAfterRow, row_before(s, order, best->cut));
-    out.push_back({std::move(kind.entry), best->score});
+    out.push_back(at_cuts(
+        s, part,
+        moving.joint >= 0 ? std::vector<int>{best->cut} : further_moves(s, part, best->cut)));
   }
   return out;
 }
 
-void sharpen(const WhitenedFit& s, Eigen::Index poses, EffectEntry& step) {
-  const std::vector<Eigen::Index> order = poses_in_order(s);
-  const EvidenceScale scale = evidence_scale(s);
-  const double after_row = number_option(step, OptionKey::kAfterRow, 0.0);
-  const auto found = static_cast<int>(
-      std::partition_point(order.begin(), order.end(),
-                           [&](auto pose) { return s.context[pose].order < after_row; }) -
-      order.begin());
-  for (const MovingPart& part : moving_parts(s.joints())) {
-    const EffectEntry one = step_of(part);
-    if (one.joints != step.joints ||
-        text_option(one, OptionKey::kOf, "") != text_option(step, OptionKey::kOf, ""))
+Regressor moves_regressor(const WhitenedFit& s, const EffectEntry& step,
+                          const std::vector<double>& after_rows) {
+  Regressor out;
+  for (const double row : after_rows) {
+    EffectEntry one = step;
+    set_option(one, OptionKey::kAfterRow, row);
+    const Regressor move = library_regressor(s, one);
+    if (out.columns.cols() == 0) {
+      out = move;
+    } else if (move.columns.cols() > 0) {
+      Eigen::MatrixXd columns(out.columns.rows(), out.columns.cols() + move.columns.cols());
+      columns << out.columns, move.columns;
+      out.columns = std::move(columns);
+      Eigen::VectorXd typical(out.typical.size() + move.typical.size());
+      typical << out.typical, move.typical;
+      out.typical = std::move(typical);
+      out.members.insert(out.members.end(), move.members.begin(), move.members.end());
+      out.positive.insert(out.positive.end(), move.positive.begin(), move.positive.end());
+    }
+    out.after_rows.resize(static_cast<std::size_t>(out.columns.cols()), row);
+  }
+  out.entry = step;
+  return out;
+}
+
+RegressorScore score_moves(const Scorer& scorer, const Regressor& regressor, std::size_t moves) {
+  RegressorScore out = scorer.score(regressor);
+  if (moves > 1)
+    out.evidence.ln_bayes -=
+        static_cast<double>(moves - 1) * price_of_place(scorer.whitened().fit_poses());
+  return out;
+}
+
+std::vector<Move> sized_moves(const WhitenedFit& s, const Regressor& regressor,
+                              const Eigen::VectorXd& theta) {
+  std::vector<Move> out;
+  for (const double row : regressor.after_rows)
+    if (out.empty() || out.back().after_row != row) out.push_back({row, 0.0});
+  if (out.size() < 2) return {};
+  for (Move& move : out) {
+    Eigen::VectorXd sizes = theta;
+    for (std::size_t c = 0; c < regressor.after_rows.size(); ++c)
+      if (regressor.after_rows[c] != move.after_row) sizes(static_cast<Eigen::Index>(c)) = 0.0;
+    Eigen::VectorXd moved = motion(s, regressor, sizes).head(s.fit_lines);
+    double sum = 0.0;
+    int behind = 0;
+    for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
+      if (!(s.context[static_cast<std::size_t>(i)].order > move.after_row - 0.5)) continue;
+      unwhiten(s, i, moved.segment(i * s.axes, s.axes));
+      sum += moved.segment(i * s.axes, s.axes).squaredNorm();
+      ++behind;
+    }
+    move.size_m = std::sqrt(sum / std::max(1, behind));
+  }
+  return out;
+}
+
+void sharpen(const WhitenedFit& s, Eigen::Index poses, ChangePoint& point) {
+  for (const MovingPart& moving : moving_parts(s.joints())) {
+    const EffectEntry one = step_of(moving);
+    if (one.joints != point.entry.joints ||
+        text_option(one, OptionKey::kOf, "") != text_option(point.entry, OptionKey::kOf, ""))
       continue;
-    Kind kind(s, part);
-    const auto best = best_cut(
-        static_cast<int>(order.size()),
-        cuts_near(cuts_between(order), found, static_cast<int>(poses)),
-        [&](int visit) { kind.pass(s, order[visit]); },
-        [&](int) -> std::optional<double> { return kind.ln_bayes(s, scale); });
-    if (best && best->score > kImpossible)
-      set_option(step, OptionKey::kAfterRow, row_before(s, order, best->cut));
+    CutSearch part(s, moving);
+    std::vector<int> cuts;
+    for (const double row : point.after_rows) {
+      const auto at = std::partition_point(
+          part.order().begin(), part.order().end(),
+          [&](Eigen::Index pose) { return s.context[static_cast<std::size_t>(pose)].order < row; });
+      cuts.push_back(static_cast<int>(at - part.order().begin()));
+    }
+    settle(part, cuts, static_cast<int>(poses));
+    point = at_cuts(s, part, cuts);
     return;
   }
 }

@@ -159,6 +159,9 @@ inline constexpr double kNoMove = 1e-5;
 inline constexpr double kLeastForHarmonics_rad = 0.2;
 /// Poses on either side of a step. data.
 inline constexpr Eigen::Index kFewestBesideStep = 4;
+/// Moves of one part of the set-up, and how often their places are looked for again. cost.
+inline constexpr std::size_t kMostMoves = 4;
+inline constexpr int kSettlingRounds = 3;
 
 // How far a search goes.
 

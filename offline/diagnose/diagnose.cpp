@@ -15,6 +15,7 @@
 #include "diagnose/forward_selection.hpp"
 #include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
+#include "diagnose/other_gravity.hpp"
 #include "diagnose/refit.hpp"
 #include "effects/registry.hpp"
 #include "fit/few_poses.hpp"
@@ -210,7 +211,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
     out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
-                         held_by_step.back().stats(), step.alternatives});
+                         held_by_step.back().stats(), step.alternatives, step.moves});
   }
   const std::size_t kept = steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
@@ -285,11 +286,23 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
       w.not_testable.push_back(answer.effect);
     }
   tell_step(request, 0);
-  const Calibration base = calibrate(w.cell, measured, w.fit);
+  Calibration base = calibrate(w.cell, measured, w.fit);
   tell_step(request, 1);
   const auto rows = without_outliers(w.fit, base.outliers);
-  const JudgedFit at =
+  JudgedFit at =
       judged(make_whitened_fit(w.cell, measured, base, rows, w.held), w.not_testable, {});
+  std::optional<UnderOtherGravity> turned;
+  if (judgeable(at.whitened))
+    turned = under_other_gravity(w.cell, measured, base, w.fit, w.held, at, w.not_testable);
+  if (turned) {
+    out.gravity = turned->gravity;
+    if (turned->gravity.certain) {
+      w.cell.gravity = turned->gravity.found;
+      base = std::move(turned->calibration);
+      at = std::move(turned->judged);
+      at.whitened.cell = &w.cell;
+    }
+  }
   const WhitenedFit& whitened = at.whitened;
   const Scan& first = at.look;
   out.repeatability = at.repeatability;
@@ -311,13 +324,18 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
     out.tied = other->entry;
   }
   if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(whitened, *first.pattern);
+  const bool other_gravity = out.gravity && out.gravity->certain;
+  if (out.gravity && !other_gravity && out.finding == Finding::kMissing)
+    out.finding = Finding::kUndecidable;
   tell_step(request, 2);
   const HeldOut held = held_out_of(w, w.cell.effects, base);
   out.before = out.after = held.stats();
   out.held_out_excess = held_out_excess_of(w, held, base, out.floor);
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);
-  if (request.apply) go_all_the_way(w, base, whitened, first, out);
+  if (request.apply && !other_gravity) go_all_the_way(w, base, whitened, first, out);
+  // Whatever was added would be compiled with the gravity that the cell states.
+  if (request.apply && other_gravity) out.finding_after = Finding::kUndecidable;
   out.text = verdict_text(w.cell, out);
   out.text_after = verdict_after_text(w.cell, out);
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "check/effect_rules.hpp"
+#include "diagnose/move.hpp"
 #include "diagnose/regressor.hpp"
 #include "fit/error_stats.hpp"
 #include "fit/held_out_excess.hpp"
@@ -43,7 +45,8 @@ struct Candidate {
   ErrorStats alone;                  // held out, with this effect
   ErrorStats after;                  // with the best one and this one
   std::vector<double> cycles;
-  std::string peaks = {};  // of a series of waves: its largest ones in words
+  std::string peaks = {};        // of a series of waves: its largest ones in words
+  std::vector<Move> moves = {};  // of a part that moved several times: all of them, in order
   bool supported = false;
   bool plausible = true;
   std::vector<CandidateNumber> numbers;
@@ -90,6 +93,15 @@ struct Addition {
   double ln_bayes = 0.0;
   ErrorStats held;
   std::vector<Alternative> alternatives;  // what it may be instead; all of its fate
+  std::vector<Move> moves = {};           // of a part that moved several times
+};
+
+/// Gravity in another direction than the cell states, under which the loads explain these poses
+/// better. Base frame [m/s^2].
+struct OtherGravity {
+  std::array<double, 3> stated{}, found{};
+  double nats_ahead = 0.0;  // of the best explanation under the stated one; two angles are paid for
+  bool certain = false;     // 10 nats ahead; else these poses cannot tell
 };
 
 /// Why a selection ended: an effect and its alternatives, some of which would be compiled and some
@@ -116,6 +128,9 @@ struct Diagnosis {
   /// What the first candidate may be instead: within 10 nats of it, and mutually confounded with
   /// it.
   std::vector<Alternative> alternatives;
+  /// Gravity acts in another direction, or may do so. Where it is certain, `candidates` are those
+  /// under it, and nothing is added before the cell says so.
+  std::optional<OtherGravity> gravity;
   std::optional<Undecided> undecided;  // with `apply`: where it stopped for that reason
   bool full = false;                   // more would be supported, but a model holds no more effects
   std::vector<Candidate> candidates;   // by ln B

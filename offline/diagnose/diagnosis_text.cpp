@@ -11,6 +11,7 @@
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_sentence.hpp"
+#include "diagnose/other_gravity.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
 
@@ -187,9 +188,8 @@ std::string unsure_words(const Cell& cell, const Diagnosis& d) {
   std::string out;
   for (const auto& added : d.added)
     if (!added.alternatives.empty())
-      out += fmt::format(
-          "; {}: these poses cannot tell, and predict as well with either",
-          either_words(cell, effect_sentence(cell, added.entry, added.cycles), added.alternatives));
+      out += fmt::format("; {}: these poses cannot tell, and predict as well with either",
+                         either_words(cell, effect_sentence(cell, added), added.alternatives));
   return out;
 }
 
@@ -219,7 +219,7 @@ std::string unlikely_words(const Cell& cell, const Diagnosis& d) {
 std::string tie_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& first = d.candidates.front();
   return fmt::format("one of them serves, but these poses cannot tell {} from {}: measure {}",
-                     in_words(cell, first.entry, first.cycles), in_words(cell, *d.tied),
+                     in_words(cell, first), in_words(cell, *d.tied),
                      separating_measurement(first.entry, *d.tied));
 }
 
@@ -283,6 +283,33 @@ std::string in_words(const Cell& cell, const EffectEntry& entry,
   return fmt::format("{}{} ({})", title_of(cell, entry), waves, command_name(cell, entry));
 }
 
+namespace {
+
+std::string in_words(const Cell& cell, EffectEntry entry, const std::vector<double>& cycles,
+                     const std::vector<Move>& moves) {
+  if (moves.empty()) return offline::in_words(cell, entry, cycles);
+  entry.options.erase(option_name(OptionKey::kAfterRow));
+  std::string rows;
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    rows += fmt::format("{}{:g}",
+                        i == 0                  ? ""
+                        : i + 1 == moves.size() ? " and "
+                                                : ", ",
+                        moves[i].after_row);
+  return fmt::format("{} after rows {} ({})", title_of(cell, entry), rows,
+                     command_name(cell, entry));
+}
+
+}  // namespace
+
+std::string in_words(const Cell& cell, const Candidate& candidate) {
+  return in_words(cell, candidate.entry, candidate.cycles, candidate.moves);
+}
+
+std::string in_words(const Cell& cell, const Addition& added) {
+  return in_words(cell, added.entry, added.cycles, added.moves);
+}
+
 std::string key_in_words(std::string key) {
   std::replace(key.begin(), key.end(), ',', '+');
   return fmt::format("{} ({})", title_of(key.substr(0, key.find(':'))), key);
@@ -303,7 +330,9 @@ std::string planning_argument(const Cell& cell, const EffectEntry& effect) {
   return out;
 }
 
-std::string verdict_text(const Cell& cell, const Diagnosis& d) {
+namespace {
+
+std::string finding_text(const Cell& cell, const Diagnosis& d) {
   switch (d.finding) {
     case Finding::kMissing:
       return missing_words(cell, d);
@@ -312,14 +341,15 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
           "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
           unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
-      if (!d.tied && !d.alternatives.empty()) return missing_words(cell, d);
+      if (!d.tied && (!d.alternatives.empty() || (d.gravity && !d.candidates.empty())))
+        return missing_words(cell, d);
       if (d.tied)
         return fmt::format(
             "Undecidable: {} and {} explain these poses equally well. With either: {}, {}. To tell "
             "them apart, measure {}.",
-            in_words(cell, d.candidates.front().entry, d.candidates.front().cycles),
-            in_words(cell, *d.tied), fall_words(d.before.mean, d.candidates.front().alone.mean),
-            floor_words(d.floor), separating_measurement(d.candidates.front().entry, *d.tied));
+            in_words(cell, d.candidates.front()), in_words(cell, *d.tied),
+            fall_words(d.before.mean, d.candidates.front().alone.mean), floor_words(d.floor),
+            separating_measurement(d.candidates.front().entry, *d.tied));
       if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format(
             "Undecidable: nothing is supported, but without a noise floor nobody "
@@ -332,8 +362,35 @@ std::string verdict_text(const Cell& cell, const Diagnosis& d) {
   }
 }
 
+}  // namespace
+
+std::string gravity_text(const std::array<double, 3>& g) {
+  const auto plain = [](double x) { return x == 0.0 ? 0.0 : x; };  // no -0
+  return fmt::format("[{:g}, {:g}, {:g}]", plain(g[0]), plain(g[1]), plain(g[2]));
+}
+
+std::string verdict_text(const Cell& cell, const Diagnosis& d) {
+  const std::string found = finding_text(cell, d);
+  if (!d.gravity) return found;
+  const std::string along = gravity_text(d.gravity->found);
+  if (!d.gravity->certain)
+    return fmt::format(
+        "{} Or gravity acts along {} in the base frame, not along {} as cell.toml says ({}): these "
+        "poses cannot tell; look how the arm stands.",
+        found, along, gravity_text(d.gravity->stated), standing_words(d.gravity->found));
+  return fmt::format(
+      "Gravity acts along {} in the base frame, not along {} as cell.toml says: {}. Set gravity = "
+      "{} in [robot], if it stands so, and diagnose again. With that: {}",
+      along, gravity_text(d.gravity->stated), standing_words(d.gravity->found), along, found);
+}
+
 std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
   if (!d.finding_after) return {};
+  if (d.gravity && d.gravity->certain)
+    return fmt::format(
+        "Nothing was added: under gravity = {} it would be another effect. Correct "
+        "gravity in cell.toml first.",
+        gravity_text(d.gravity->stated));
   const std::string fall = d.added.empty()
                                ? "Nothing was added"
                                : fmt::format("{} {} added: held-out error {} -> {}", d.added.size(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "diagnose/diagnosis.hpp"
@@ -14,6 +15,10 @@ std::string in_words(const Cell& cell, const EffectEntry& entry);
 /// The same of a ripple with all its waves: "gear ripple, 20 and 8.5 cycles a turn
 /// (gear_ripple:J2)".
 std::string in_words(const Cell& cell, const EffectEntry& entry, const std::vector<double>& cycles);
+
+/// The same of a part that moved several times: "step of the base after rows 41 and 97 (step)".
+std::string in_words(const Cell& cell, const Candidate& candidate);
+std::string in_words(const Cell& cell, const Addition& added);
 
 /// The same of an effect that is known by its key: "balancing spring (gravity_compensator:J2)".
 std::string key_in_words(std::string key);
@@ -38,6 +43,9 @@ bool is_either(const Diagnosis& diagnosis, const EffectEntry& entry);
 /// Whether another effect, known by its key, explains these poses nearly as well as the first
 /// candidate: the evidence hardly sets them apart.
 bool is_near_rival(const Cell& cell, const Diagnosis& diagnosis, const std::string& key);
+
+/// A direction of gravity as cell.toml writes it: "[0, 0, -9.81]".
+std::string gravity_text(const std::array<double, 3>& gravity);
 
 /// The finding at the start, and with `apply` at the end, each in one sentence.
 std::string verdict_text(const Cell& cell, const Diagnosis& diagnosis);

@@ -23,15 +23,15 @@ void drop_weak(Selection& s, const EffectEntry& fresh) {
   }
 }
 
-bool replace(Selection& s, const EffectEntry& entry) {
-  const JudgedModel without = s.without(entry, s.banned());
-  const auto better = better_explanation(without.whitened, without.look, s.key(entry),
+bool replace(Selection& s, const Found& found) {
+  const JudgedModel without = s.without(found.entries(), s.banned());
+  const auto better = better_explanation(without.whitened, without.look, s.key(found.entry),
                                          s.start().not_testable, s.banned());
   if (!better) return false;
   auto effects = without.model.cell->effects;
-  for (const auto& found : better->effects) effects = with_found(std::move(effects), found);
+  for (const auto& one : better->effects) effects = with_found(std::move(effects), one);
   s.look_at(s.fitted(effects));
-  forget(s.added, entry);
+  for (const auto& entry : found.entries()) forget(s.added, entry);
   s.added.insert(s.added.end(), better->effects.begin(), better->effects.end());
   drop_weak(s, better->effects.back().entry);
   return true;
@@ -47,10 +47,10 @@ bool doubt_strongest(Selection& s) {
   if (strongest == s.added.end() || is_wave(strongest->entry.name) ||
       is_series(strongest->entry.name))
     return false;
-  const EffectEntry entry = strongest->entry;
-  if (!s.doubted.insert(s.key(entry)).second) return false;
+  const Found found = *strongest;
+  if (!s.doubted.insert(s.key(found.entry)).second) return false;
   bool replaced = false;
-  if (!unless_refused([&] { replaced = replace(s, entry); })) s.not_compared_without(entry);
+  if (!unless_refused([&] { replaced = replace(s, found); })) s.not_compared_without(found.entry);
   return replaced;
 }
 

@@ -7,6 +7,7 @@
 
 #include "diagnose/diagnosis_text.hpp"
 #include "effects/registry.hpp"
+#include "fit/moving_part.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -34,6 +35,23 @@ std::string filled_in(const Cell& cell, const EffectEntry& entry, const std::vec
                      waves_words(cycles), one ? "is" : "are");
 }
 
+MovingPart part_of(const EffectEntry& step) {
+  const std::string of = text_option(step, OptionKey::kOf, "tool");
+  return {of == "base"    ? MotionSource::kBase
+          : of == "joint" ? MotionSource::kJoint
+                          : MotionSource::kTool,
+          step.joints.empty() ? -1 : step.joints.front()};
+}
+
+std::string moves_words(const Cell& cell, const EffectEntry& step, const std::vector<Move>& moves) {
+  std::string out = in_words(cell, part_of(step)) + " moved ";
+  out += moves.size() == 2 ? "twice" : fmt::format("{} times", moves.size());
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    out += fmt::format("{} after row {:g} by {:.2f} mm", i == 0 ? ":" : ",", moves[i].after_row,
+                       moves[i].size_m * 1e3);
+  return out;
+}
+
 }  // namespace
 
 std::string effect_sentence(const Cell& cell, const EffectEntry& entry,
@@ -44,11 +62,17 @@ std::string effect_sentence(const Cell& cell, const EffectEntry& entry,
 }
 
 std::string effect_sentence(const Cell& cell, const Candidate& candidate) {
+  if (!candidate.moves.empty()) return moves_words(cell, candidate.entry, candidate.moves);
   const EffectDescriptor* effect = find_descriptor(candidate.entry.name);
   if (effect != nullptr && effect->negative_sentence != nullptr &&
       all_below_zero(candidate.numbers))
     return filled_in(cell, candidate.entry, candidate.cycles, effect->negative_sentence);
   return effect_sentence(cell, candidate.entry, candidate.cycles);
+}
+
+std::string effect_sentence(const Cell& cell, const Addition& added) {
+  if (!added.moves.empty()) return moves_words(cell, added.entry, added.moves);
+  return effect_sentence(cell, added.entry, added.cycles);
 }
 
 }  // namespace plumb::offline

@@ -18,4 +18,8 @@ std::string effect_sentence(const Cell& cell, const EffectEntry& entry,
 /// over-compensated on reversal".
 std::string effect_sentence(const Cell& cell, const Candidate& candidate);
 
+/// Of an effect that was added. A part that moved several times: "the tracker or the base moved
+/// twice: after row 41 by 0.31 mm, after row 97 by 0.22 mm".
+std::string effect_sentence(const Cell& cell, const Addition& added);
+
 }  // namespace plumb::offline

@@ -21,12 +21,12 @@ const Found* better_than(const Selection& s, const JudgedModel& without, const s
   return hardly ? nullptr : other;
 }
 
-bool exchange_one(Selection& s, const EffectEntry& entry) {
-  const JudgedModel without = s.without(entry, s.banned());
-  const Found* other = better_than(s, without, s.key(entry));
+bool exchange_one(Selection& s, const Found& found) {
+  const JudgedModel without = s.without(found.entries(), s.banned());
+  const Found* other = better_than(s, without, s.key(found.entry));
   if (other == nullptr) return false;
   s.look_at(s.fitted(with_found(without.model.cell->effects, *other)));
-  forget(s.added, entry);
+  for (const auto& entry : found.entries()) forget(s.added, entry);
   s.added.push_back(*other);
   return true;
 }
@@ -98,7 +98,7 @@ bool exchange(Selection& s) {
   for (const Found& found : std::vector<Found>(s.added)) {
     if (!is_due(s, found.entry)) continue;
     bool done = false;
-    if (!unless_refused([&] { done = exchange_one(s, found.entry); }))
+    if (!unless_refused([&] { done = exchange_one(s, found); }))
       s.not_compared_without(found.entry);
     if (done) return true;
   }

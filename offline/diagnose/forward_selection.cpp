@@ -24,6 +24,7 @@ namespace {
 Found as_many_as_fit(const Selection& s, Found found) {
   const std::size_t room = kMostEffects - std::min(kMostEffects, s.cell().effects.size());
   if (found.cycles.size() > room) found.cycles.resize(room);
+  if (found.moves.size() > room) found.moves.resize(room);
   return found;
 }
 
@@ -86,6 +87,7 @@ std::vector<ForwardStep> steps(Selection& s) {
     out.push_back({entry,
                    found.cycles,
                    found.peaks,
+                   found.moves,
                    found.ln_bayes(),
                    others == s.unsure.end() ? std::vector<Alternative>() : others->second,
                    last ? s.cell().effects : effects,

@@ -16,6 +16,7 @@ struct ForwardStep {
   EffectEntry entry;
   std::vector<double> cycles;  // of a ripple: all its waves
   std::string peaks;           // of a series of waves: its largest ones in words
+  std::vector<Move> moves;     // of a part that moved several times
   double ln_bayes = 0.0;
   std::vector<Alternative> alternatives;  // what it may be instead
   std::vector<EffectEntry> effects;       // the whole list

@@ -21,6 +21,18 @@ void forget(std::vector<Found>& all, const EffectEntry& entry) {
       if (found.cycles.empty()) found.entry.name.clear();
       continue;
     }
+    if (!found.moves.empty()) {
+      const auto all_moves = found.entries();
+      std::vector<Move> left;
+      for (std::size_t i = 0; i < all_moves.size(); ++i)
+        if (!without_effect({all_moves[i]}, entry).empty()) left.push_back(found.moves[i]);
+      found.moves = std::move(left);
+      if (found.moves.empty())
+        found.entry.name.clear();
+      else
+        set_option(found.entry, OptionKey::kAfterRow, found.moves.front().after_row);
+      continue;
+    }
     const auto rest = without_effect({found.entry}, entry);
     if (rest.empty())
       found.entry.name.clear();

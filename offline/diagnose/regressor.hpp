@@ -32,6 +32,7 @@ struct Regressor {
   Eigen::VectorXd typical;     // SI value of the parameter of each column that counts as 1
   std::vector<int> members;    // place of each column among the effect's parameters
   std::vector<bool> positive;  // columns whose size cannot be negative; empty: none
+  std::vector<double> after_rows = {};  // of a part that moved several times: each column's move
   bool of_library() const { return !entry.name.empty(); }
 };
 

@@ -80,6 +80,15 @@ std::optional<Found> found_ripples(const Scorer& scorer, Ripples waves, double p
   return out;
 }
 
+/// A part that moved once or several times, scored with the price of finding every further move.
+Found found_moves(const Scorer& scorer, const ChangePoint& point) {
+  const Regressor regressor = moves_regressor(scorer.whitened(), point.entry, point.after_rows);
+  Found out{point.entry, {}, score_moves(scorer, regressor, point.after_rows.size()), {}, 0.0,
+            {},          0.0};
+  out.moves = sized_moves(scorer.whitened(), regressor, out.scored.theta);
+  return out;
+}
+
 /// Collects the best of every effect and joint.
 class Collector {
  public:
@@ -99,6 +108,13 @@ class Collector {
     if (!keep(pattern_, regressor, scorer_.score(regressor)) || regressor.joint < 0) return;
     const Eigen::VectorXd fitted = regressor.columns * pattern_->scored.theta;
     pattern_->rms_joint = std::sqrt(fitted.squaredNorm() / static_cast<double>(fitted.size()));
+  }
+  void take(Found found) {
+    ++regressors_;
+    const std::string key = key_of(*whitened_.cell, found.entry);
+    if (is_out(whitened_, banned_, key, found.entry)) return;
+    std::optional<Found>& best = best_[key];
+    if (!best || found.ln_bayes() > best->ln_bayes()) best = std::move(found);
   }
   void count(int more) { regressors_ += more; }
 
@@ -274,6 +290,23 @@ void score_again(const Scorer& scorer, Found& found, const Regressor& regressor)
   found.score += found.ln_bayes() - before;
 }
 
+/// The moves of a part at the best cuts of all poses near those that were found.
+void score_moves_again(const Scorer& scorer, Found& found) {
+  const WhitenedFit& s = scorer.whitened();
+  std::vector<double> rows;
+  for (const Move& move : found.moves) rows.push_back(move.after_row);
+  const double before = found.ln_bayes();
+  ChangePoint point{found.entry, std::move(rows)};
+  if (point.after_rows.empty())
+    point.after_rows = {number_option(found.entry, OptionKey::kAfterRow, 0.0)};
+  sharpen(s, 2 * s.fit_poses() / kScanPoses, point);
+  Found again = found_moves(scorer, point);
+  found.entry = std::move(again.entry);
+  found.scored = std::move(again.scored);
+  found.moves = std::move(again.moves);
+  found.score += found.ln_bayes() - before;
+}
+
 /// Scores again on all poses what was found on a part of them: the best of the library, all that is
 /// supported, and the best pattern.
 void score_on_all(const Scorer& scorer, Scan& out) {
@@ -282,8 +315,9 @@ void score_on_all(const Scorer& scorer, Scan& out) {
     Found& found = out.library[i];
     if (i >= kScoredAgain && !(found.score > kSupported)) continue;
     if (is_change_point(found.entry.name))
-      sharpen(whitened, 2 * whitened.fit_poses() / kScanPoses, found.entry);
-    score_again(scorer, found, regressor_of(whitened, found));
+      score_moves_again(scorer, found);
+    else
+      score_again(scorer, found, regressor_of(whitened, found));
   }
   if (!out.pattern) return;
   visit_patterns(whitened, [&](const Regressor& regressor) {
@@ -315,8 +349,13 @@ void sort_by_evidence(Scan& out) {
 }  // namespace
 
 std::vector<EffectEntry> Found::entries() const {
-  if (!is_wave(entry.name)) return {entry};
   std::vector<EffectEntry> out;
+  for (const Move& move : moves) {
+    out.push_back(entry);
+    set_option(out.back(), OptionKey::kAfterRow, move.after_row);
+  }
+  if (!out.empty()) return out;
+  if (!is_wave(entry.name)) return {entry};
   for (const double k : cycles) {
     out.push_back(entry);
     set_option(out.back(), OptionKey::kCyclesPerTurn, k);
@@ -326,6 +365,11 @@ std::vector<EffectEntry> Found::entries() const {
 
 Regressor regressor_of(const WhitenedFit& whitened, const Found& found) {
   if (is_series(found.entry.name)) return series_regressor(whitened, found.entry);
+  if (!found.moves.empty()) {
+    std::vector<double> after_rows;
+    for (const Move& move : found.moves) after_rows.push_back(move.after_row);
+    return moves_regressor(whitened, found.entry, after_rows);
+  }
   return is_wave(found.entry.name)
              ? ripple_regressor(whitened, found.entry.joints.front(), found.cycles)
              : library_regressor(whitened, found.entry);
@@ -372,8 +416,8 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
   if (!contains(not_testable, change_point_effect())) {
     int cuts = 0;
     for (const auto& point : change_points(whitened, cuts)) {
-      const Regressor regressor = library_regressor(whitened, point.entry);
-      if (regressor.columns.cols() > 0) all.take(regressor);
+      Found found = found_moves(scorer, point);
+      if (found.scored.theta.size() > 0) all.take(std::move(found));
     }
     all.count(cuts);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/move.hpp"
 #include "diagnose/regressor.hpp"
 #include "diagnose/regressor_score.hpp"
 
@@ -16,14 +17,15 @@ struct Found {
   EffectEntry entry;
   Pattern pattern;
   RegressorScore scored;
-  Gain gain;                   // of what could be chosen; else zero
-  double score = 0.0;          // ln B less ln of the number of regressors tried
-  std::vector<double> cycles;  // of ripple: all its waves, strongest first
-  double rms_joint = 0.0;      // of a pattern at a joint: its fitted size [rad]
-  std::string peaks = {};      // of a series: its largest waves in words
+  Gain gain;                     // of what could be chosen; else zero
+  double score = 0.0;            // ln B less ln of the number of regressors tried
+  std::vector<double> cycles;    // of ripple: all its waves, strongest first
+  double rms_joint = 0.0;        // of a pattern at a joint: its fitted size [rad]
+  std::string peaks = {};        // of a series: its largest waves in words
+  std::vector<Move> moves = {};  // of a part that moved several times: all of them, in order
   double ln_bayes() const { return scored.evidence.ln_bayes; }
 
-  /// As it would stand in the cell: every wave of a ripple is an entry.
+  /// As it would stand in the cell: every wave of a ripple is an entry, and every move of a part.
   std::vector<EffectEntry> entries() const;
 };
 

@@ -45,9 +45,11 @@ WhitenedFit Selection::whitened_fit_of(const FittedModel& model) const {
                            without_outliers(start_.fit, model.calibration.outliers), {});
 }
 
-JudgedModel Selection::without(const EffectEntry& entry,
+JudgedModel Selection::without(const std::vector<EffectEntry>& entries,
                                const std::vector<std::string>& banned) const {
-  FittedModel model = fitted(without_effect(cell().effects, entry));
+  std::vector<EffectEntry> left = cell().effects;
+  for (const auto& entry : entries) left = without_effect(std::move(left), entry);
+  FittedModel model = fitted(left);
   JudgedFit found = judged(whitened_fit_of(model), start_.not_testable, banned);
   return {std::move(model), std::move(found.whitened), std::move(found.look)};
 }

@@ -40,7 +40,11 @@ class Selection {
                           Refit how = Refit::kNearby) const;
   WhitenedFit whitened_fit_of(const FittedModel& model) const;
   /// The present model less an effect, and what is then missing.
-  JudgedModel without(const EffectEntry& entry, const std::vector<std::string>& banned) const;
+  JudgedModel without(const EffectEntry& entry, const std::vector<std::string>& banned) const {
+    return without(std::vector<EffectEntry>{entry}, banned);
+  }
+  JudgedModel without(const std::vector<EffectEntry>& entries,
+                      const std::vector<std::string>& banned) const;
 
   /// Stands at another model from now on. look_at: what was set aside is tried again there.
   void go_to(JudgedModel there);

@@ -71,6 +71,17 @@ Json effects_of(const std::vector<std::string>& keys) {
   return out;
 }
 
+/// Of a part that moved several times; options.after_row is that of the first move.
+void put_moves(Json& out, const std::vector<Move>& moves) {
+  if (moves.empty()) return;
+  out["moves"] = Json::array();
+  for (const Move& move : moves) {
+    Json one{{"after_row", move.after_row}};
+    put(one, "size_mm", to_mm(move.size_m));
+    out["moves"].push_back(std::move(one));
+  }
+}
+
 Json candidate_json(const Cell& cell, const Candidate& c) {
   Json out{{"effect", c.entry.name}, {"joints", joints_json(cell, c.entry)}, {"title", c.title}};
   put(out, "ln_bayes", c.ln_bayes);
@@ -89,6 +100,7 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
   put(out, "largest_mm", to_mm(c.largest_m));
   out["confounded_with"] = effects_of(c.confounded_with);
   out["confounded"] = c.confounded_with;
+  put_moves(out, c.moves);
   if (!c.separate.empty()) out["separate_by"] = c.separate;
   return out;
 }
@@ -152,6 +164,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     put(one, "ln_bayes", a.ln_bayes);
     put_error(one, "held_out", a.held);
     one["alternatives"] = alternatives_json(cell, a.alternatives);
+    put_moves(one, a.moves);
     out["added"].push_back(std::move(one));
   }
   out["candidates"] = Json::array();
@@ -164,6 +177,12 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
                         {"cycles_per_turn", d.undecided->cycles},
                         {"domain", d.undecided->domain},
                         {"alternatives", alternatives_json(cell, d.undecided->alternatives)}};
+  if (d.gravity) {
+    out["gravity"] = {{"stated", d.gravity->stated},
+                      {"found", d.gravity->found},
+                      {"certain", d.gravity->certain}};
+    put(out["gravity"], "nats_ahead", d.gravity->nats_ahead);
+  }
   out["not_testable"] = Json::array();
   for (const auto& t : d.not_testable)
     out["not_testable"].push_back({{"effect", t.effect}, {"why", t.why}, {"measure", t.measure}});

@@ -25,7 +25,7 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
     table.add({name, mm(e.mean), mm(e.rms), mm(e.p95), mm(e.max)});
   };
   add("now", d.before);
-  for (const auto& a : d.added) add("+ " + in_words(cell, a.entry, a.cycles), a.held);
+  for (const auto& a : d.added) add("+ " + in_words(cell, a), a.held);
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
   if (d.floor.source != NoiseFloor::Source::kNone)
     table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
@@ -47,7 +47,7 @@ std::string short_table(const Cell& cell, const Diagnosis& d) {
   for (std::size_t i = 0; i < std::min(kShown, d.candidates.size()); ++i) {
     const Candidate& c = d.candidates[i];
     table.add({fmt::format("{:>2}", i + 1), mm(c.alone.mean), mm(c.after.mean), support_words(d, c),
-               in_words(cell, c.entry, c.cycles)});
+               in_words(cell, c)});
   }
   std::string out = table.text();
   if (d.candidates.size() > kShown)
@@ -141,13 +141,18 @@ std::string diagnose_text(const Cell& cell, const Diagnosis& d, Candidates shown
 }
 
 std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
+  if (d.gravity && d.gravity->certain)
+    return {"diagnose   # once cell.toml says gravity = " + gravity_text(d.gravity->found)};
   const Finding finding = d.finding_after.value_or(d.finding);
   if (finding == Finding::kMissing) {
     const Candidate& first = d.candidates.front();
     if (!falls(d.before.mean, first.alone.mean))
       return {good_enough(cell, d.before) ? kCompile : kMeasure};
-    std::vector<std::string> out{"add " + adding_arguments(cell, first.entry, first.cycles),
-                                 "diagnose --apply   # all that is supported, one by one"};
+    std::vector<double> rows;
+    for (const Move& move : first.moves) rows.push_back(move.after_row);
+    std::vector<std::string> out{
+        "add " + adding_arguments(cell, first.entry, rows.empty() ? first.cycles : rows),
+        "diagnose --apply   # all that is supported, one by one"};
     if (!d.alternatives.empty())
       out.insert(out.begin(), separating(cell, first.entry, d.alternatives.front().entry) +
                                   "   # which of them is it?");

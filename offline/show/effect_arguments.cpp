@@ -20,6 +20,7 @@ std::string formula_arguments(const EffectEntry& effect) {
 }
 
 constexpr const char* kCycles = "cycles_per_turn";
+constexpr const char* kAfterRow = "after_row";
 
 std::string value_text(const EffectEntry::Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
@@ -48,8 +49,9 @@ std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
     out += (i == 0 ? " --joints " : ",") + cell.nominal.joints[effect.joints[i]].name;
   for (const auto& [key, value] : effect.options)
     out += fmt::format(" --set {}={}", key,
-                       key == kCycles && !cycles.empty() ? fmt::format("{}", fmt::join(cycles, ","))
-                                                         : value_text(value));
+                       (key == kCycles || key == kAfterRow) && !cycles.empty()
+                           ? fmt::format("{}", fmt::join(cycles, ","))
+                           : value_text(value));
   return out;
 }
 

@@ -9,7 +9,8 @@
 namespace plumb::offline::show {
 
 /// The arguments of `plumb add`; a ripple with all its waves:
-/// gear_ripple --joints J2 --set cycles_per_turn=7.91,17.49.
+/// gear_ripple --joints J2 --set cycles_per_turn=7.91,17.49; a step with the rows of all its moves
+/// in place of cycles.
 std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
                              const std::vector<double>& cycles);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blind study: arms with something hidden, diagnosed by who never sees the truth.
-//   blind_study [--inconvenient] [CASES] [SEED] [POSES] [--list]
-// With POSES: the first CASES cases that have so many.
+//   blind_study [CASES] [SEED] [POSES] [--list]
+//   blind_study --inconvenient [--kind NUMBER] [CASES] [SEED] [POSES] [--list]
+// With POSES: the first CASES cases that have so many. --kind: arms of one kind alone, numbered
+// from 0 as in its table.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,13 +18,22 @@
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto asked_for = [&words](const char* option) { return std::erase(words, option) > 0; };
-  const bool list = asked_for("--list"), inconvenient = asked_for("--inconvenient");
+  const bool list = asked_for("--list");
+  const bool inconvenient = asked_for("--inconvenient");
+  int kind = -1;  // inconvenient arms of every kind
+  if (const auto at = std::find(words.begin(), words.end(), "--kind");
+      at != words.end() && at + 1 != words.end()) {
+    kind = std::atoi((at + 1)->c_str());
+    words.erase(at, at + 2);
+  }
   const int cases = !words.empty() ? std::atoi(words[0].c_str()) : 2000;
   const auto seed = static_cast<std::uint64_t>(words.size() > 1 ? std::atoll(words[1].c_str()) : 1);
   const int poses = words.size() > 2 ? std::atoi(words[2].c_str()) : 0;
   const auto draw = [=](int number) {
+    if (kind >= 0)
+      number = number * static_cast<int>(plumb::tests::inconvenient_kinds().size()) + kind;
     return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
-                        : plumb::tests::draw_case(seed, number);
+                                     : plumb::tests::draw_case(seed, number);
   };
   std::vector<int> numbers;
   for (int i = 0; i < 100 * cases && static_cast<int>(numbers.size()) < cases; ++i)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/diagnosis_text.hpp"
+#include "effects/effect_option.hpp"
 #include "effects/fitted_laws.hpp"
 
 namespace plumb::offline {
@@ -35,6 +36,21 @@ TEST(EffectSentence, SpeaksOfOneJointAndOfTwo) {
   EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 yields under gravity (masses not given)");
   entry.joints = {1, 2};
   EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 and J3 yield under gravity (masses not given)");
+}
+
+TEST(EffectSentence, APartThatMovedSeveralTimesIsOneFinding) {
+  const Cell cell = three_joints();
+  Candidate found;
+  found.entry = {.name = "step", .joints = {}, .options = {}, .place = {}};
+  set_option(found.entry, OptionKey::kOf, std::string("base"));
+  set_option(found.entry, OptionKey::kAfterRow, 41.0);
+  found.moves = {{41.0, 0.31e-3}, {97.0, 0.22e-3}};
+  EXPECT_EQ(
+      effect_sentence(cell, found),
+      "the tracker or the base moved twice: after row 41 by 0.31 mm, after row 97 by 0.22 mm");
+  EXPECT_EQ(in_words(cell, found), "step of the base after rows 41 and 97 (step)");
+  found.moves.push_back({120.0, 0.1e-3});
+  EXPECT_NE(effect_sentence(cell, found).find("moved 3 times"), std::string::npos);
 }
 
 TEST(EffectSentence, ANegativeReversalIsOneThatIsOverCompensated) {

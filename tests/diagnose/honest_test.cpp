@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
 
 #include "diagnose/change_points.hpp"
 #include "diagnose/diagnosis.hpp"
@@ -227,6 +230,84 @@ TEST(DiagnoseHonest, AnotherPayloadFromOnePoseOnIsNoSlippedEncoder) {
       EXPECT_GT(std::abs(std::get<double>(point.entry.options.at("after_row")) - row), 0.6)
           << key_of(at.cell, point.entry);
     }
+}
+
+/// The rows behind which the truth says that something moved: the last ones before it, from 1.
+std::vector<double> true_moves(const BlindCase& blind) {
+  const auto truth = nlohmann::json::parse(blind.truth_json);
+  std::vector<double> out;
+  const std::function<void(const nlohmann::json&)> look = [&](const nlohmann::json& at) {
+    if (at.is_object() && at.contains("row_after"))
+      out.push_back(at["row_after"].get<double>());
+    else if (at.is_structured())
+      for (const auto& part : at) look(part);
+  };
+  look(truth);
+  return out;
+}
+
+TEST(DiagnoseHonest, ASetUpThatMovesTwiceIsOneFindingWithBothMoments) {
+  for (const std::string law : {"two_steps_base", "two_steps_reflector"}) {
+    BlindRequest request = hiding(law + "::5");
+    request.masses = StatedMasses::kRight;
+    const BlindCase blind = make_blind_case(request);
+    const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+    ASSERT_EQ(d.finding, Finding::kMissing) << d.text;
+    const Candidate& first = d.candidates.front();
+    EXPECT_EQ(first.entry.name, "step");
+    const std::vector<double> truth = true_moves(blind);
+    ASSERT_EQ(truth.size(), 2U) << blind.truth_json;
+    ASSERT_EQ(first.moves.size(), 2U) << d.text;
+    for (std::size_t i = 0; i < 2; ++i) {
+      // Readings that are held out may lie beside the cut: the middle of them is named.
+      EXPECT_NEAR(first.moves[i].after_row, truth[i], 2.0) << law;
+      EXPECT_GT(first.moves[i].size_m, 0.0);
+    }
+    EXPECT_NE(d.text.find("moved twice"), std::string::npos) << d.text;
+    ASSERT_EQ(d.added.size(), 1U) << d.text_after;
+    EXPECT_EQ(std::count_if(d.effects.begin(), d.effects.end(),
+                            [](const EffectEntry& e) { return e.name == "step"; }),
+              2);
+    EXPECT_LT(d.after.mean, d.before.mean);
+  }
+}
+
+TEST(DiagnoseHonest, ASetUpThatMovesOnceMovedOnce) {
+  const Diagnosis d = diagnosed(hiding("step_base::5"));
+  ASSERT_FALSE(d.candidates.empty());
+  EXPECT_EQ(d.candidates.front().entry.name, "step");
+  EXPECT_TRUE(d.candidates.front().moves.empty()) << d.text;
+}
+
+BlindRequest yielding_under(const std::array<double, 3>& gravity) {
+  BlindRequest out = hiding("joint_compliance:J2:5");
+  out.masses = StatedMasses::kRight;
+  out.imperfections.gravity = gravity;
+  return out;
+}
+
+TEST(DiagnoseHonest, GravityThatActsElsewhereIsNamedAndNothingIsAddedUnderTheWrongOne) {
+  for (const auto& gravity : {std::array{0.0, 0.0, 9.81}}) {
+    const BlindCase blind = make_blind_case(yielding_under(gravity));
+    const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+    ASSERT_TRUE(d.gravity.has_value()) << d.text;
+    EXPECT_TRUE(d.gravity->certain) << d.text;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(d.gravity->found[k], gravity[k], 0.6) << d.text;
+    EXPECT_EQ(d.finding, Finding::kMissing);
+    EXPECT_EQ(d.candidates.front().entry.name, "joint_compliance") << d.text;
+    EXPECT_EQ(d.candidates.front().entry.joints, std::vector<int>{1}) << d.text;
+    EXPECT_NE(d.text.find("Gravity acts along"), std::string::npos) << d.text;
+    EXPECT_TRUE(d.added.empty());
+    EXPECT_EQ(d.effects.size(), blind.cell.effects.size());
+  }
+}
+
+TEST(DiagnoseHonest, GravityThatActsAsStatedIsLeftAlone) {
+  for (const std::string effect : {"joint_compliance:J2:5", "drift::5"}) {
+    BlindRequest request = hiding(effect);
+    request.masses = StatedMasses::kRight;
+    EXPECT_FALSE(diagnosed(request).gravity.has_value()) << effect;
+  }
 }
 
 }  // namespace
