@@ -191,7 +191,7 @@ double most_of(const WhitenedFit& whitened, const EffectEntry& entry,
 
 /// Climbs from the best value on the grid, by a factor that shrinks where no neighbour is better.
 void refine(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
-  const Refinement* refinement = descriptor_of(found.entry.name).refinement;
+  const Refinement* refinement = refinement_of(*whitened.cell, found.entry);
   if (refinement == nullptr) return;
   const double most = most_of(whitened, found.entry, *refinement);
   double factor = refinement->factor;
@@ -217,7 +217,7 @@ void refine(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
 
 /// Refinement comes to numbers with many digits; nobody wants them in a cell file.
 void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
-  const Refinement* refinement = descriptor_of(found.entry.name).refinement;
+  const Refinement* refinement = refinement_of(*whitened.cell, found.entry);
   if (refinement == nullptr) return;
   const double value = number_option(found.entry, refinement->key, 0.0);
   set_option(found.entry, refinement->key, three_digits(value));

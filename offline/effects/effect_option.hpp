@@ -15,6 +15,7 @@ enum class OptionKey {
   kCyclesPerTurn,
   kTorque_Nm,
   kTransition,
+  kTransition_mm,
   kSettling,
   kSensor,
   kReferenceTemperature,

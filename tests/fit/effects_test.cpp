@@ -60,6 +60,8 @@ EffectEntry entry_of(const std::string& name) {
   EffectEntry out{.name = name, .joints = {}, .options = {}, .place = {}};
   if (name == "gear_ripple") out.options["cycles_per_turn"] = 8.5;
   if (name == "cross_compliance") out.joints = {2, 1};
+  if (name == "drive_coupling") out.joints = {2, 1};
+  if (name == "rail_bow") out.joints = {1, 3};
   if (name == "joint_table") out.joints = {1};
   if (name == "joint_series") out.joints = {1, 4};
   if (name == "gravity_free") out.joints = {1, 2};
