@@ -72,9 +72,9 @@ void read_joints(TomlTable& t, CellDraft& draft, EffectEntry& entry) {
   const std::string fault = joints_fault(entry, draft.cell.nominal);
   if (fault.empty() || !known) return;
   const std::string message = fmt::format("effect '{}' {}", entry.name, fault);
-  const std::string help =
-      is_of_slides(entry.name) ? kSlidesHelp
-      : entry.joints.empty()   ? fmt::format("add joints = [...] to [effects.{}]", entry.name)
+  const std::string help = is_of_slides(entry.name) ? kSlidesHelp
+                           : entry.joints.empty()
+                               ? fmt::format("add joints = [...] to [effects.{}]", entry.name)
                                : "correct the list, or delete it";
   if (const toml::node* node = t.node("joints"))
     t.error("E-CELL-JOINT", message, *node, "not these", help);

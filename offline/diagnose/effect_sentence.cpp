@@ -37,7 +37,8 @@ std::string filled_in(const Cell& cell, const EffectEntry& entry, const std::vec
   const bool one = entry.joints.size() == 1;
   return fmt::format(fmt::runtime(sentence), joints.empty() ? "the joints" : joints, one ? "s" : "",
                      waves_words(cycles), one ? "is" : "are", joint_name(cell, entry, 0),
-                     joint_name(cell, entry, entry.joints.size() - 1));
+                     joint_name(cell, entry, entry.joints.size() - 1),
+                     fmt::format("{:.4g}", number_option(entry, OptionKey::kPitch_mm, 0.0)));
 }
 
 /// Null if the law says nothing else where all its joints slide.

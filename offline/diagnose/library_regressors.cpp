@@ -194,6 +194,15 @@ std::vector<EffectEntry::Value> shares_of(double whole, std::span<const double> 
   return out;
 }
 
+/// Pitches between two shares of a travel [m], half a period over the travel from one to the next.
+std::vector<EffectEntry::Value> pitches_mm(double travel, double longest, double shortest) {
+  std::vector<EffectEntry::Value> out;
+  if (!(travel > kLeastTravel_m)) return out;
+  for (double periods = 1.0 / longest; periods <= 1.0 / shortest; periods += 0.5)
+    out.emplace_back(five_digits(1e3 * travel / periods));
+  return out;
+}
+
 /// The values of one option that are tried.
 std::vector<EffectEntry::Value> values_of(const WhitenedFit& s, const EffectEntry& entry,
                                           const GridAxis& axis) {
@@ -202,6 +211,8 @@ std::vector<EffectEntry::Value> values_of(const WhitenedFit& s, const EffectEntr
       return std::vector<EffectEntry::Value>(s.sensors.begin(), s.sensors.end());
     case GridAxis::Values::kOfSession:
       return shares_of(session_of(s), axis.values);
+    case GridAxis::Values::kPitches:
+      return pitches_mm(travel_of(s, entry.joints.front()), axis.values[0], axis.values[1]);
     case GridAxis::Values::kOfLargestTorque: {
       const double torque = largest_torque(s, entry.joints.front());
       if (!(torque > 0.0)) return {};

@@ -54,6 +54,9 @@ void visit_library(const WhitenedFit& whitened, const std::vector<std::string>& 
 /// Null: the grid is fine enough.
 const Refinement* refinement_of(const Cell& cell, const EffectEntry& entry);
 
+/// How far a joint travels over the fit poses [rad] or [m].
+double travel_of(const WhitenedFit& whitened, int joint);
+
 /// One regressor of the library again, with other constants.
 Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
 

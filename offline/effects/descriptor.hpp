@@ -50,6 +50,8 @@ struct GridAxis {
     kOfLargestTorque,  // `values` are shares of the largest torque on the joint
     kOfSession,        // `values` are shares of the time from the first to the last pose
     kSensors,          // every temperature sensor of the measurements
+    kPitches,          // from the first to the second share of the joint's travel, in steps that
+                       // the travel can tell apart
   };
   OptionKey key;
   Values kind = Values::kAsListed;
@@ -66,6 +68,7 @@ struct Refinement {
   };
   OptionKey key;
   double factor = 1.7;
+  bool of_travel = false;  // instead, the factor is what the joint's travel can tell apart
   Most kind = Most::kAsStated;
   double most = 0.0;
 };
@@ -116,7 +119,7 @@ struct EffectDescriptor {
   // several; {2}: the waves of a ripple in words.
   const char* sentence = "";  // empty: the title says it
   /// The same where all its numbers are below zero, if that says something else. {3}: "is" or
-  /// "are". {4}, {5}: the first and the last of its joints.
+  /// "are". {4}, {5}: the first and the last of its joints. {6}: its pitch in mm.
   const char* negative_sentence = nullptr;
   /// The title of one entry, if it says more than the law's title. `joint` is the first one listed.
   std::string (*entry_title)(const EffectEntry& entry, const std::string& joint) = nullptr;

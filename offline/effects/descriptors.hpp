@@ -30,6 +30,7 @@ const EffectDescriptor& law_descriptor(effects::JointSeries);
 const EffectDescriptor& law_descriptor(effects::JointTable);
 const EffectDescriptor& law_descriptor(effects::LinkFlexure);
 const EffectDescriptor& law_descriptor(effects::PayloadCompliance);
+const EffectDescriptor& law_descriptor(effects::PitchError);
 const EffectDescriptor& law_descriptor(effects::RailBow);
 const EffectDescriptor& law_descriptor(effects::Reversal);
 const EffectDescriptor& law_descriptor(effects::SettlingLag);

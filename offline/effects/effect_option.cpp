@@ -15,6 +15,8 @@ const char* option_name(OptionKey key) {
       return "transition_deg";
     case OptionKey::kTransition_mm:
       return "transition_mm";
+    case OptionKey::kPitch_mm:
+      return "pitch_mm";
     case OptionKey::kSettling:
       return "settling_s";
     case OptionKey::kSensor:

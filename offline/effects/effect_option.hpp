@@ -16,6 +16,7 @@ enum class OptionKey {
   kTorque_Nm,
   kTransition,
   kTransition_mm,
+  kPitch_mm,
   kSettling,
   kSensor,
   kReferenceTemperature,

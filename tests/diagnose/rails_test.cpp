@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <numbers>
 
 #include "diagnose/diagnosis.hpp"
+#include "plumb/runtime/transform.hpp"
 #include "simulate/arm_rows.hpp"
 #include "simulate/simulate.hpp"
 #include "simulate/study_arms.hpp"
@@ -132,6 +132,22 @@ TEST(DiagnoseRails, TheScaleOfOneRailOfThreeIsCertain) {
   EXPECT_TRUE(d.alternatives.empty()) << d.text;
   EXPECT_NE(d.text.find("the scale of J2 is wrong"), std::string::npos) << d.text;
   EXPECT_NEAR(only_number(d).value, 120e-6, 12e-6);
+}
+
+/// A pinion beside its axis, with a little of its third harmonic.
+TEST(DiagnoseRails, APeriodicErrorOfARackIsNamedWithItsPitch) {
+  Measured arm = measured(sim::track_arm(), 9);
+  for (double& q : arm.rows().q.col(0)) {
+    const double phase = 2.0 * std::numbers::pi * q / 0.2356;
+    q -= 60e-6 * std::sin(phase + 0.7) + 6e-6 * std::sin(3.0 * phase);
+  }
+  const Diagnosis d = diagnosed(arm);
+  ASSERT_EQ(d.finding, Finding::kMissing) << d.text;
+  const EffectEntry& first = d.candidates.front().entry;
+  EXPECT_TRUE(is(first, "pitch_error", {0})) << d.text;
+  ASSERT_TRUE(first.options.contains("pitch_mm")) << d.text;
+  EXPECT_NEAR(std::get<double>(first.options.at("pitch_mm")), 235.6, 1.5);
+  EXPECT_LT(d.after.mean, 0.7 * d.before.mean);
 }
 
 /// Play of an arm that always stops behind the flank it is pushed by.

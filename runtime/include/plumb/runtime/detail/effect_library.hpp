@@ -23,6 +23,7 @@
 #include "plumb/runtime/detail/effects/joint_table.hpp"
 #include "plumb/runtime/detail/effects/link_flexure.hpp"
 #include "plumb/runtime/detail/effects/payload_compliance.hpp"
+#include "plumb/runtime/detail/effects/pitch_error.hpp"
 #include "plumb/runtime/detail/effects/rail_bow.hpp"
 #include "plumb/runtime/detail/effects/reversal.hpp"
 #include "plumb/runtime/detail/effects/thermal_growth.hpp"
@@ -38,7 +39,7 @@ using EffectLaws =
                effects::LinkFlexure, effects::GearHarmonics, effects::GearRipple,
                effects::JointTable, effects::JointSeries, effects::EncoderScale,
                effects::EncoderEccentricity, effects::Reversal, effects::BacklashLoad,
-               effects::AxisWobble, effects::RailBow, effects::WristCoupling,
+               effects::AxisWobble, effects::RailBow, effects::PitchError, effects::WristCoupling,
                effects::DriveCoupling, effects::CrossCompliance, effects::ThermalGrowth,
                effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
                effects::PayloadCompliance, effects::WrenchCompliance, effects::Formula>;
