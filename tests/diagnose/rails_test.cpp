@@ -24,7 +24,7 @@ using tests::Random;
 
 constexpr int kPoses = 150;
 
-/// Moves of three rails at right angles and a wrist of two joints.
+/// Three rails at right angles and a wrist of two joints.
 Cell gantry() {
   return sim::cell_from_sheet(
       format::Convention::kModified,
@@ -112,7 +112,8 @@ TEST(DiagnoseRails, ABentTrackIsNamedAndTakenOut) {
 }
 
 /// One rail that is too long, and a tracker whose unit of length is too short, measure the same.
-TEST(DiagnoseRails, TheScaleOfTheOnlyRailMayBeThatOfTheTracker) {
+/// Hardly any tracker is so far off, so the rail leads; the list says what else looks like it.
+TEST(DiagnoseRails, TheScaleOfTheOnlyRailIsLikeThatOfTheTracker) {
   Measured arm = measured(sim::track_arm(), 4);
   arm.rows().q.col(0) /= 1.0 + 120e-6;
   const Diagnosis d = diagnosed(arm);
