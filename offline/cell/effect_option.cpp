@@ -25,6 +25,18 @@ std::optional<double> number_of(const std::string& text) {
   return number;
 }
 
+bool slides(const format::JointRow& row) { return row.type == format::JointType::kPrismatic; }
+
+/// Of an effect that only joints that slide can have.
+std::string sliding_fault(const std::vector<int>& joints, const format::Chain& arm) {
+  if (std::none_of(arm.joints.begin(), arm.joints.end(), slides))
+    return "needs a joint that slides, and this arm has none";
+  for (const int joint : joints)
+    if (const auto& row = arm.joints[static_cast<std::size_t>(joint)]; !slides(row))
+      return "is of joints that slide, and " + row.name + " turns";
+  return "";
+}
+
 }  // namespace
 
 std::span<const EffectOption> options_of(std::string_view effect) {
@@ -67,7 +79,7 @@ void fill_in_usual(EffectEntry& entry) {
       set_option(entry, option.key, std::string(option.assumed));
 }
 
-std::string joints_fault(const EffectEntry& entry) {
+std::string joints_fault(const EffectEntry& entry, const format::Chain& arm) {
   const auto& joints = entry.joints;
   const std::set<int> different(joints.begin(), joints.end());
   const EffectDescriptor* effect = find_descriptor(entry.name);
@@ -75,13 +87,14 @@ std::string joints_fault(const EffectEntry& entry) {
   if (list == JointList::kOrderedPair)
     return joints.size() == 2 && different.size() == 2
                ? ""
-               : "needs two joints: the one that yields, then the one whose torque it yields to";
+               : std::string("needs two joints: ") + effect->pair;
   if (different.size() != joints.size()) return "names a joint twice";
   if (list == JointList::kOneIfEncoder) {
     if (text_option(entry, OptionKey::kOf, "") == "joint")
       return joints.size() == 1 ? "" : "of = \"joint\" needs the one joint that slipped";
     return joints.empty() ? "" : "takes a joint only with of = \"joint\"";
   }
+  if (list == JointList::kSliding) return sliding_fault(joints, arm);
   return joints.empty() || list == JointList::kSet ? "" : "takes no joints";
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "effects/effect_option.hpp"
+#include "plumb/format/model.hpp"
 
 namespace plumb::offline {
 
@@ -25,7 +26,7 @@ std::optional<EffectEntry::Value> option_value(const EffectOption& option, const
 /// Fills in the words that are meant where nothing is said: a step is one of the tool.
 void fill_in_usual(EffectEntry& entry);
 
-/// Why the effect cannot have these joints: "takes no joints"; empty if it can.
-std::string joints_fault(const EffectEntry& entry);
+/// Why the effect cannot have these joints of that arm: "takes no joints"; empty if it can.
+std::string joints_fault(const EffectEntry& entry, const format::Chain& arm);
 
 }  // namespace plumb::offline

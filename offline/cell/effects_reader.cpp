@@ -51,6 +51,14 @@ void read_option(const EffectOption& option, TomlTable& t, EffectEntry& entry) {
   }
 }
 
+constexpr const char* kSlidesHelp =
+    "delete it; a joint that slides has type = \"prismatic\" in [robot]";
+
+bool is_of_slides(const std::string& effect) {
+  const EffectDescriptor* found = find_descriptor(effect);
+  return found != nullptr && found->joints == JointList::kSliding;
+}
+
 void read_joints(TomlTable& t, CellDraft& draft, EffectEntry& entry) {
   bool known = true;
   for (const auto& [joint, node] : t.texts("joints")) {
@@ -61,10 +69,11 @@ void read_joints(TomlTable& t, CellDraft& draft, EffectEntry& entry) {
     else
       entry.joints.push_back(index);
   }
-  const std::string fault = joints_fault(entry);
+  const std::string fault = joints_fault(entry, draft.cell.nominal);
   if (fault.empty() || !known) return;
   const std::string message = fmt::format("effect '{}' {}", entry.name, fault);
-  const std::string help = entry.joints.empty()
+  const std::string help = is_of_slides(entry.name) ? kSlidesHelp
+                           : entry.joints.empty()
                                ? fmt::format("add joints = [...] to [effects.{}]", entry.name)
                                : "correct the list, or delete it";
   if (const toml::node* node = t.node("joints"))
@@ -97,9 +106,11 @@ void read_plain(const std::string& name, const toml::node& node, TomlTable& t, C
       return t.error("E-CELL-MISSING", fmt::format("effect '{}' needs '{}'", name, option.name()),
                      node, "a table is needed",
                      fmt::format("{} = {{ {} = {} }}", name, option.name(), option.example));
-  if (const std::string fault = joints_fault(entry); !fault.empty())
+  if (const std::string fault = joints_fault(entry, draft.cell.nominal); !fault.empty())
     return t.error("E-CELL-JOINT", fmt::format("effect '{}' {}", name, fault), node,
-                   "a table is needed", fmt::format("{} = {{ joints = [\"J2\", \"J3\"] }}", name));
+                   "a table is needed",
+                   is_of_slides(name) ? kSlidesHelp
+                                      : fmt::format("{} = {{ joints = [\"J2\", \"J3\"] }}", name));
   draft.cell.effects.push_back(std::move(entry));
 }
 

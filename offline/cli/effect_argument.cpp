@@ -51,7 +51,7 @@ EffectEntry one_effect(const Cell& cell, const std::string& text) {
   for (std::size_t k = 1; k < numbers.size(); ++k) read_number(numbers[k], out);
   if (out.name == "geometry" || out.name == "local_tree")
     refuse(fmt::format("{} is no single effect, so nothing can be separated from it", out.name));
-  if (const std::string fault = joints_fault(out); !fault.empty())
+  if (const std::string fault = joints_fault(out, cell.nominal); !fault.empty())
     refuse(fmt::format("{} {}", out.name, fault),
            "plumb plan --separate cross_compliance:J3+J2,joint_compliance:J2");
   if (is_wave(out.name) && !has_option(out, OptionKey::kCyclesPerTurn))

@@ -83,12 +83,12 @@ std::vector<EffectEntry> with_option(const std::vector<EffectEntry>& entries,
 }
 
 /// What a whole effect cannot do without.
-void check_whole(const EffectEntry& entry, const std::string& joints) {
+void check_whole(const Cell& cell, const EffectEntry& entry, const std::string& joints) {
   for (const auto& option : options_of(entry.name))
     if (option.required && !has_option(entry, option.key))
       refuse_option(fmt::format("{} needs '{}': {}", entry.name, option.name(), option.rule), "",
                     fmt::format("--set {}={}", option.name(), option.example));
-  if (const std::string fault = joints_fault(entry); !fault.empty())
+  if (const std::string fault = joints_fault(entry, cell.nominal); !fault.empty())
     refuse_option(fmt::format("{} {}", entry.name, fault),
                   joints.empty() ? "" : "--joints " + joints,
                   entry.joints.empty() ? "--joints J2,J3" : "plumb explain " + entry.name);
@@ -146,7 +146,7 @@ std::vector<EffectEntry> EffectOptions::to_add(const Cell& cell) const {
   auto out = to_drop(cell);
   for (auto& entry : out) {
     fill_in_usual(entry);
-    check_whole(entry, fmt::format("{}", fmt::join(joints, ",")));
+    check_whole(cell, entry, fmt::format("{}", fmt::join(joints, ",")));
   }
   if (is_formula(name) && formula.empty()) refuse_option("formula needs a law", kFormulaExample);
   return out;

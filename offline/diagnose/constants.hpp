@@ -133,6 +133,8 @@ inline constexpr double kMostRange_rad = 8.0 * std::numbers::pi;
 /// Steps of the grid between two waves that the range can tell apart; 2 is a whole wave more over
 /// the range. study.
 inline constexpr double kLeastSteps = 1.6;
+/// A joint that slides by less shows no pitch [m]. data.
+inline constexpr double kLeastTravel_m = 0.05;
 /// Waves of one joint. cost.
 inline constexpr std::size_t kMostWaves = 12;
 /// Waves of a series at each of its joints. arms; cost.
@@ -175,6 +177,8 @@ inline constexpr int kLongestExplanation = 3, kRivalsFollowed = 5;
 /// Refinements of a constant; they end where neighbours are nearer than the factor. cost.
 inline constexpr int kRefinements = 12;
 inline constexpr double kFinestFactor = 1.05;
+/// The same of a pitch, as a share of its first step. cost.
+inline constexpr double kFinestOfTravel = 0.1;
 /// So many poses tell what lowers a held-out error by 1 %: its evidence is then above 100 nats.
 /// Small waves add up, and each is looked for with more. cost.
 inline constexpr Eigen::Index kScanPoses = 4000, kWavePoses = 10000;

@@ -82,6 +82,14 @@ std::vector<EffectEntry> taken_out(const std::vector<EffectEntry>& before,
   return out;
 }
 
+bool all_slide(const Cell& cell, const EffectEntry& entry) {
+  return !entry.joints.empty() &&
+         std::all_of(entry.joints.begin(), entry.joints.end(), [&](int joint) {
+           const auto& row = cell.nominal.joints[static_cast<std::size_t>(joint)];
+           return row.type == format::JointType::kPrismatic;
+         });
+}
+
 bool has_effect(const std::vector<EffectEntry>& effects, const EffectEntry& entry) {
   return std::any_of(effects.begin(), effects.end(), [&](const EffectEntry& old) {
     if (old.name != entry.name || old.options != entry.options) return false;

@@ -16,6 +16,9 @@ std::vector<EffectEntry> without_effect(std::vector<EffectEntry> effects, const 
 std::vector<EffectEntry> taken_out(const std::vector<EffectEntry>& before,
                                    const std::vector<EffectEntry>& after);
 
+/// Whether the entry lists joints, all of which slide.
+bool all_slide(const Cell& cell, const EffectEntry& entry);
+
 /// Whether the list already has that effect at all these joints, options alike.
 bool has_effect(const std::vector<EffectEntry>& effects, const EffectEntry& entry);
 

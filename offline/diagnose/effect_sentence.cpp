@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "diagnose/diagnosis_text.hpp"
+#include "diagnose/effect_list.hpp"
 #include "effects/registry.hpp"
 #include "fit/moving_part.hpp"
 
@@ -27,12 +28,24 @@ bool all_below_zero(const std::vector<CandidateNumber>& numbers) {
                                          [](const CandidateNumber& n) { return n.value < 0.0; });
 }
 
+std::string joint_name(const Cell& cell, const EffectEntry& entry, std::size_t place) {
+  return place < entry.joints.size() ? cell.nominal.joints[entry.joints[place]].name : "";
+}
+
 std::string filled_in(const Cell& cell, const EffectEntry& entry, const std::vector<double>& cycles,
                       const char* sentence) {
   const std::string joints = joints_of(cell, entry);
   const bool one = entry.joints.size() == 1;
   return fmt::format(fmt::runtime(sentence), joints.empty() ? "the joints" : joints, one ? "s" : "",
-                     waves_words(cycles), one ? "is" : "are");
+                     waves_words(cycles), one ? "is" : "are", joint_name(cell, entry, 0),
+                     joint_name(cell, entry, entry.joints.size() - 1),
+                     fmt::format("{:.4g}", number_option(entry, OptionKey::kPitch_mm, 0.0)));
+}
+
+/// Null if the law says nothing else where all its joints slide.
+const AtSlide* at_slide(const Cell& cell, const EffectEntry& entry) {
+  const EffectDescriptor& effect = descriptor_of(entry.name);
+  return effect.at_slide != nullptr && all_slide(cell, entry) ? effect.at_slide : nullptr;
 }
 
 MovingPart part_of(const EffectEntry& step) {
@@ -58,15 +71,18 @@ std::string effect_sentence(const Cell& cell, const EffectEntry& entry,
                             const std::vector<double>& cycles) {
   const EffectDescriptor* effect = find_descriptor(entry.name);
   if (effect == nullptr || *effect->sentence == '\0') return in_words(cell, entry, cycles);
-  return filled_in(cell, entry, cycles, effect->sentence);
+  const AtSlide* slide = at_slide(cell, entry);
+  return filled_in(cell, entry, cycles, slide != nullptr ? slide->sentence : effect->sentence);
 }
 
 std::string effect_sentence(const Cell& cell, const Candidate& candidate) {
   if (!candidate.moves.empty()) return moves_words(cell, candidate.entry, candidate.moves);
   const EffectDescriptor* effect = find_descriptor(candidate.entry.name);
-  if (effect != nullptr && effect->negative_sentence != nullptr &&
-      all_below_zero(candidate.numbers))
-    return filled_in(cell, candidate.entry, candidate.cycles, effect->negative_sentence);
+  if (effect == nullptr || !all_below_zero(candidate.numbers))
+    return effect_sentence(cell, candidate.entry, candidate.cycles);
+  const AtSlide* slide = at_slide(cell, candidate.entry);
+  const char* negative = slide != nullptr ? slide->negative_sentence : effect->negative_sentence;
+  if (negative != nullptr) return filled_in(cell, candidate.entry, candidate.cycles, negative);
   return effect_sentence(cell, candidate.entry, candidate.cycles);
 }
 

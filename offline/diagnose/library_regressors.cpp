@@ -4,6 +4,7 @@
 #include <span>
 
 #include "diagnose/constants.hpp"
+#include "diagnose/effect_list.hpp"
 #include "diagnose/few_digits.hpp"
 #include "diagnose/regressor.hpp"
 #include "effects/fitted_laws.hpp"
@@ -14,6 +15,7 @@
 namespace plumb::offline {
 namespace {
 
+constexpr int kJointsWithWrist = 6;    // an arm of fewer has no wrist of three
 constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
 
 struct Bound {
@@ -119,6 +121,7 @@ double stated_typical(const WhitenedFit& s, const Bound& bound, const EffectPara
 void scale(const Bound& bound, Regressor& out) {
   const WhitenedFit& s = bound.whitened;
   format::Model model;
+  model.calibrated = s.cell->nominal;
   model.effects = {bound.effect};
   std::vector<Eigen::Index> moving;
   std::vector<double> typical;
@@ -146,11 +149,33 @@ EffectEntry entry_of(const EffectDescriptor& effect, std::vector<int> joints = {
       .name = std::string(effect.name), .joints = std::move(joints), .options = {}, .place = {}};
 }
 
-std::vector<int> turning(const WhitenedFit& s) {
+/// Joints that turn, or those that slide.
+std::vector<int> joints_of(const WhitenedFit& s, bool turning) {
   std::vector<int> out;
   for (int j = 0; j < s.joints(); ++j)
-    if (s.chain.revolute(j)) out.push_back(j);
+    if (s.chain.revolute(j) == turning) out.push_back(j);
   return out;
+}
+
+std::vector<int> turning(const WhitenedFit& s) { return joints_of(s, true); }
+
+/// Ordered pairs of neighbours whose second joint turns: its drive may move the first. Pairs within
+/// the last three of six joints or more are left to the law of a wrist, which is one of all three.
+std::vector<EffectEntry> neighbours(const WhitenedFit& s, const EffectDescriptor& effect) {
+  std::vector<EffectEntry> out;
+  const int wrist = s.joints() >= kJointsWithWrist ? s.joints() - 3 : s.joints();
+  for (int j = 0; j + 1 < s.joints(); ++j) {
+    if (s.chain.revolute(j) && j < wrist) out.push_back(entry_of(effect, {j + 1, j}));
+    if (s.chain.revolute(j + 1) && j < wrist) out.push_back(entry_of(effect, {j, j + 1}));
+  }
+  return out;
+}
+
+/// Where diagnose tries values of its options: those of the law, or of a joint that slides.
+std::span<const GridAxis> grid_of(const WhitenedFit& s, const EffectEntry& entry) {
+  const EffectDescriptor& effect = descriptor_of(entry.name);
+  return effect.at_slide != nullptr && all_slide(*s.cell, entry) ? effect.at_slide->grid
+                                                                 : effect.grid;
 }
 
 double session_of(const WhitenedFit& s) {
@@ -169,6 +194,15 @@ std::vector<EffectEntry::Value> shares_of(double whole, std::span<const double> 
   return out;
 }
 
+/// Pitches between two shares of a travel [m], half a period over the travel from one to the next.
+std::vector<EffectEntry::Value> pitches_mm(double travel, double longest, double shortest) {
+  std::vector<EffectEntry::Value> out;
+  if (!(travel > kLeastTravel_m)) return out;
+  for (double periods = 1.0 / longest; periods <= 1.0 / shortest; periods += 0.5)
+    out.emplace_back(five_digits(1e3 * travel / periods));
+  return out;
+}
+
 /// The values of one option that are tried.
 std::vector<EffectEntry::Value> values_of(const WhitenedFit& s, const EffectEntry& entry,
                                           const GridAxis& axis) {
@@ -177,6 +211,8 @@ std::vector<EffectEntry::Value> values_of(const WhitenedFit& s, const EffectEntr
       return std::vector<EffectEntry::Value>(s.sensors.begin(), s.sensors.end());
     case GridAxis::Values::kOfSession:
       return shares_of(session_of(s), axis.values);
+    case GridAxis::Values::kPitches:
+      return pitches_mm(travel_of(s, entry.joints.front()), axis.values[0], axis.values[1]);
     case GridAxis::Values::kOfLargestTorque: {
       const double torque = largest_torque(s, entry.joints.front());
       if (!(torque > 0.0)) return {};
@@ -219,7 +255,14 @@ std::vector<EffectEntry> entries_of(const WhitenedFit& s, const EffectDescriptor
       if (s.joints() > 1 && s.chain.revolute(1)) out.push_back(entry_of(effect, {1}));
       break;
     case CandidateJoints::kEach:
-      for (int j : turning(s)) out.push_back(entry_of(effect, {j}));
+      for (int j = 0; j < s.joints(); ++j)
+        if (s.chain.revolute(j) || effect.at_slide != nullptr) out.push_back(entry_of(effect, {j}));
+      break;
+    case CandidateJoints::kSliding:
+      for (int j : joints_of(s, false)) out.push_back(entry_of(effect, {j}));
+      break;
+    case CandidateJoints::kNeighbours:
+      out = neighbours(s, effect);
       break;
     case CandidateJoints::kNone:
       out.push_back(entry_of(effect));
@@ -238,6 +281,12 @@ double largest_torque(const WhitenedFit& s, int joint) {
   for (std::size_t i = 0; i < s.loads.size(); ++i)
     out = std::max(out, std::abs(s.loads[i].torque(joint, s.chain, s.frames[i])));
   return out;
+}
+
+const Refinement* refinement_of(const Cell& cell, const EffectEntry& entry) {
+  const EffectDescriptor& effect = descriptor_of(entry.name);
+  return effect.at_slide != nullptr && all_slide(cell, entry) ? effect.at_slide->refinement
+                                                              : effect.refinement;
 }
 
 Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entry) {
@@ -259,7 +308,7 @@ void visit_library(const WhitenedFit& whitened, const std::vector<std::string>& 
   for (const EffectDescriptor* effect : effect_descriptors()) {
     if (effect->search != Search::kGrid || listed(not_testable, effect->name)) continue;
     for (const auto& entry : entries_of(whitened, *effect))
-      for (const auto& tried : on_grid(whitened, entry, effect->grid)) {
+      for (const auto& tried : on_grid(whitened, entry, grid_of(whitened, entry))) {
         const Regressor regressor = library_regressor(whitened, tried);
         if (regressor.columns.cols() > 0) visit(regressor);
       }

@@ -8,6 +8,7 @@
 
 #include "cell/cell.hpp"
 #include "diagnose/whitened_fit.hpp"
+#include "effects/descriptor.hpp"
 
 namespace plumb::offline {
 
@@ -49,6 +50,13 @@ using RegressorVisitor = std::function<void(const Regressor&)>;
 /// parameters on a grid. Nothing is visited twice; columns live only during the visit.
 void visit_library(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,
                    const RegressorVisitor& visit);
+
+/// How the best value on the grid of an option is refined, which differs where its joints slide.
+/// Null: the grid is fine enough.
+const Refinement* refinement_of(const Cell& cell, const EffectEntry& entry);
+
+/// How far a joint travels over the fit poses [rad] or [m].
+double travel_of(const WhitenedFit& whitened, int joint);
 
 /// One regressor of the library again, with other constants.
 Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entry);

@@ -11,18 +11,22 @@ namespace plumb::offline {
 namespace {
 
 double range_of(const WhitenedFit& s, int joint) {
-  double low = 1e300, high = -1e300;
-  for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
-    low = std::min(low, s.q(i)[joint]);
-    high = std::max(high, s.q(i)[joint]);
-  }
-  return std::min(high - low, kMostRange_rad);
+  return std::min(travel_of(s, joint), kMostRange_rad);
 }
 
 /// Slower waves over the joint's range are its first two harmonics, or a straight line.
 double first_ripple(double range) { return 2.0 + 2.0 * M_PI / range; }
 
 }  // namespace
+
+double travel_of(const WhitenedFit& s, int joint) {
+  double low = 1e300, high = -1e300;
+  for (Eigen::Index i = 0; i < s.fit_poses(); ++i) {
+    low = std::min(low, s.q(i)[joint]);
+    high = std::max(high, s.q(i)[joint]);
+  }
+  return high - low;
+}
 
 std::vector<double> ripple_grid(const WhitenedFit& s, int joint) {
   std::vector<double> out;

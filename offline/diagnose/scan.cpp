@@ -205,12 +205,22 @@ double most_of(const WhitenedFit& whitened, const EffectEntry& entry,
              : refinement.most;
 }
 
+/// A pitch changes by a quarter of a period over the travel: half a step of its grid.
+double first_factor(const WhitenedFit& whitened, const EffectEntry& entry,
+                    const Refinement& refinement) {
+  if (!refinement.of_travel) return refinement.factor;
+  const double pitch = 1e-3 * number_option(entry, refinement.key, 0.0);
+  return 1.0 + 0.25 * pitch / std::max(travel_of(whitened, entry.joints.front()), kLeastTravel_m);
+}
+
 /// Climbs from the best value on the grid, by a factor that shrinks where no neighbour is better.
 void refine(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
-  const Refinement* refinement = descriptor_of(found.entry.name).refinement;
+  const Refinement* refinement = refinement_of(*whitened.cell, found.entry);
   if (refinement == nullptr) return;
   const double most = most_of(whitened, found.entry, *refinement);
-  double factor = refinement->factor;
+  double factor = first_factor(whitened, found.entry, *refinement);
+  const double finest =
+      refinement->of_travel ? 1.0 + kFinestOfTravel * (factor - 1.0) : kFinestFactor;
   for (int i = 0; i < kRefinements; ++i) {
     bool better = false;
     for (const double sign : {-1.0, 1.0}) {
@@ -227,16 +237,17 @@ void refine(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
     }
     if (better) continue;
     factor = std::sqrt(factor);
-    if (factor < kFinestFactor) break;
+    if (factor < finest) break;
   }
 }
 
 /// Refinement comes to numbers with many digits; nobody wants them in a cell file.
 void round_refined(const WhitenedFit& whitened, const Scorer& scorer, Found& found) {
-  const Refinement* refinement = descriptor_of(found.entry.name).refinement;
+  const Refinement* refinement = refinement_of(*whitened.cell, found.entry);
   if (refinement == nullptr) return;
   const double value = number_option(found.entry, refinement->key, 0.0);
-  set_option(found.entry, refinement->key, three_digits(value));
+  set_option(found.entry, refinement->key,
+             refinement->of_travel ? five_digits(value) : three_digits(value));
   found.scored = scorer.score(library_regressor(whitened, found.entry));
 }
 

@@ -32,6 +32,11 @@ class ConstantsSource {
   virtual std::optional<double> mean_temperature(const std::string& sensor) const = 0;
 
   virtual bool has_direction() const = 0;
+
+  virtual bool slides(int joint) const = 0;
+
+  /// Smallest and largest position of a joint over the measured poses [rad] or [m].
+  virtual Span travel(int joint) const = 0;
 };
 
 /// Throws Failure (kInput): "effect 'drift' WHY", at the line of the entry.

@@ -19,6 +19,7 @@ constexpr EffectDescriptor kCrossComplianceDescriptor{
     .law = &effects::CrossCompliance::kInfo,
     .explanation = "One joint yields under the torque of another: dq_i = c tau_j. Needs: masses.",
     .joints = JointList::kOrderedPair,
+    .pair = "the one that yields, then the one whose torque it yields to",
     .testable = cross_compliance_testable,
     .measure = "masses in cell.toml, or two payloads",
     .sentence = "a joint yields under the torque of another ({0})",

@@ -26,6 +26,11 @@ std::string joints_within(const DataSense& data, double range_rad) {
   return joint_list(data, [&](int j) { return data.range[j] < range_rad; });
 }
 
+std::string long_slides(const DataSense& data) {
+  return all_joint_list(data,
+                        [&](int j) { return !data.turns[j] && data.range[j] >= kLongTravel_m; });
+}
+
 std::string except_joints(const std::string& joints, const char* why) {
   return joints.empty() ? "" : fmt::format("; not at {}: {}", joints, why);
 }

@@ -15,6 +15,7 @@ Testability cannot_show(std::string why);
 
 inline constexpr int kFewPoses = 40, kManyPoses = 150, kDensePoses = 500;
 inline constexpr double kLever_m = 0.02;  // least DataSense::lever_m that counts as a varying load
+inline constexpr double kLongTravel_m = 0.1;                  // of a joint that slides
 inline constexpr double kWideRange_rad = 1.0471975511965976;  // 60 deg
 
 /// Names of the turning joints for which holds(joint) is true: "J2, J3".
@@ -26,12 +27,24 @@ std::string joint_list(const DataSense& data, Holds holds) {
   return out;
 }
 
+/// The same of all joints, whether they turn or slide.
+template <class Holds>
+std::string all_joint_list(const DataSense& data, Holds holds) {
+  std::string out;
+  for (int j = 0; j < data.joints(); ++j)
+    if (holds(j)) out += (out.empty() ? "" : ", ") + data.names[j];
+  return out;
+}
+
 /// Joints whose gravity torque varies with the pose, and those where it does not.
 std::string loaded_joints(const DataSense& data);
 std::string unloaded_joints(const DataSense& data);
 
 /// Joints that use a range smaller than that [rad].
 std::string joints_within(const DataSense& data, double range_rad);
+
+/// Joints that slide by kLongTravel_m or more.
+std::string long_slides(const DataSense& data);
 
 /// "; not at J1: gravity never turns it", or nothing if there are no joints.
 std::string except_joints(const std::string& joints, const char* why);

@@ -18,7 +18,8 @@ namespace plumb::offline {
 enum class JointList {
   kNone,          // it belongs to the whole arm
   kSet,           // any of them, each once; no list means all joints that turn
-  kOrderedPair,   // two: the one that moves, then the one whose torque moves it
+  kSliding,       // joints that slide, each once; no list means all of them
+  kOrderedPair,   // two: the one that moves, then the one that moves it
   kOneIfEncoder,  // the one whose encoder slipped if `of = "joint"`, otherwise none
   kInFormula,     // none: the text of the formula names them
 };
@@ -35,9 +36,11 @@ enum class Search {
 /// For which joints diagnose makes candidates of a law that is searched on a grid.
 enum class CandidateJoints {
   kNone,         // one candidate without joints
-  kEach,         // one for every joint that turns
+  kEach,         // one for every joint that turns; see also EffectDescriptor::at_slide
+  kSliding,      // one for every joint that slides
   kLoadedPairs,  // one for every ordered pair whose second joint carries a load
   kSecond,       // the second joint alone
+  kNeighbours,   // one for every ordered pair of neighbours whose second joint turns
 };
 
 /// How the points of a grid of one option come about.
@@ -47,6 +50,8 @@ struct GridAxis {
     kOfLargestTorque,  // `values` are shares of the largest torque on the joint
     kOfSession,        // `values` are shares of the time from the first to the last pose
     kSensors,          // every temperature sensor of the measurements
+    kPitches,          // from the first to the second share of the joint's travel, in steps that
+                       // the travel can tell apart
   };
   OptionKey key;
   Values kind = Values::kAsListed;
@@ -63,8 +68,21 @@ struct Refinement {
   };
   OptionKey key;
   double factor = 1.7;
+  bool of_travel = false;  // instead, the factor is what the joint's travel can tell apart
   Most kind = Most::kAsStated;
   double most = 0.0;
+};
+
+/// What differs where a law that is tried at each joint stands at one that slides: it moves by
+/// metres where the others turn by radians.
+struct AtSlide {
+  const char* unit;  // of its parameters
+  double typical;    // 1 sigma of their prior, in that unit
+  // As those of the descriptor.
+  const char* sentence;
+  const char* negative_sentence = nullptr;
+  std::span<const GridAxis> grid = {};
+  const Refinement* refinement = nullptr;
 };
 
 /// Laws of one cause describe the same motion more or less finely: what a coarse one leaves is no
@@ -91,6 +109,7 @@ struct EffectDescriptor {
   // What a cell file may say of it.
   std::span<const EffectOption> options = {};
   JointList joints = JointList::kNone;
+  const char* pair = "";  // of two joints: which is named first, and which second
 
   // Which data show it. Null: it is no effect that data are asked for.
   Testability (*testable)(const DataSense& data) = nullptr;
@@ -100,7 +119,7 @@ struct EffectDescriptor {
   // several; {2}: the waves of a ripple in words.
   const char* sentence = "";  // empty: the title says it
   /// The same where all its numbers are below zero, if that says something else. {3}: "is" or
-  /// "are".
+  /// "are". {4}, {5}: the first and the last of its joints. {6}: its pitch in mm.
   const char* negative_sentence = nullptr;
   /// The title of one entry, if it says more than the law's title. `joint` is the first one listed.
   std::string (*entry_title)(const EffectEntry& entry, const std::string& joint) = nullptr;
@@ -110,6 +129,7 @@ struct EffectDescriptor {
   CandidateJoints candidate_joints = CandidateJoints::kNone;
   std::span<const GridAxis> grid = {};
   const Refinement* refinement = nullptr;  // null: the grid is fine enough
+  const AtSlide* at_slide = nullptr;       // null: it is not tried at joints that slide
   bool turns_listed_joint_only = false;    // it moves nothing but the position of that joint
   bool once_a_joint = false;               // a joint has one of them, with one value of its options
   const OptionKey* told_apart_by = nullptr;  // entries that differ in it are different effects

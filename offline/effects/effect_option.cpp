@@ -13,6 +13,10 @@ const char* option_name(OptionKey key) {
       return "torque_Nm";
     case OptionKey::kTransition:
       return "transition_deg";
+    case OptionKey::kTransition_mm:
+      return "transition_mm";
+    case OptionKey::kPitch_mm:
+      return "pitch_mm";
     case OptionKey::kSettling:
       return "settling_s";
     case OptionKey::kSensor:

@@ -15,6 +15,8 @@ enum class OptionKey {
   kCyclesPerTurn,
   kTorque_Nm,
   kTransition,
+  kTransition_mm,
+  kPitch_mm,
   kSettling,
   kSensor,
   kReferenceTemperature,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
@@ -17,14 +18,18 @@
 namespace plumb::offline {
 namespace {
 
+bool slides(const format::Chain& arm, int joint) {
+  return arm.joints[static_cast<std::size_t>(joint)].type == format::JointType::kPrismatic;
+}
+
 std::vector<std::uint8_t> joints_of(const Cell& cell, const EffectEntry& entry,
                                     const EffectInfo& info) {
+  const bool sliding = descriptor_of(entry.name).joints == JointList::kSliding;
   std::vector<std::uint8_t> out;
   for (int j : entry.joints) out.push_back(static_cast<std::uint8_t>(j));
   if (!out.empty() || !info.per_joint) return out;
   for (int j = 0; j < cell.joints(); ++j)
-    if (cell.nominal.joints[j].type == format::JointType::kRevolute)
-      out.push_back(static_cast<std::uint8_t>(j));
+    if (slides(cell.nominal, j) == sliding) out.push_back(static_cast<std::uint8_t>(j));
   return out;
 }
 
@@ -70,6 +75,11 @@ class DataSource : public ConstantsSource {
     return count > 0.0 ? std::optional(sum / count) : std::nullopt;
   }
   bool has_direction() const override { return measured_.context.has_direction(); }
+  bool slides(int joint) const override { return plumb::offline::slides(cell_.nominal, joint); }
+  Span travel(int joint) const override {
+    const auto q = measured_.q.col(joint);
+    return {q.minCoeff(), q.maxCoeff()};
+  }
 
  private:
   const Cell& cell_;
@@ -216,6 +226,26 @@ ParameterPlace place_of(const format::Model& model, const format::Effect& effect
   return {-1, parameter - first};
 }
 
+/// The unit of a share of one joint's position that moves another one.
+const char* unit_of_ratio(const format::Model& model, const format::Effect& effect) {
+  const bool first = slides(model.calibrated, effect.joints[0]);
+  const bool second = slides(model.calibrated, effect.joints[1]);
+  return first == second ? "1" : first ? "m/rad" : "rad/m";
+}
+
+/// The unit and size that a parameter has at a joint that slides.
+void fit_to_slide(const format::Model& model, const format::Effect& effect,
+                  const EffectDescriptor& law, std::size_t place, EffectParameter& out) {
+  if (law.law->per_joint && law.at_slide != nullptr) {
+    const std::size_t each = effect.parameters.size() / effect.joints.size();
+    if (!slides(model.calibrated, effect.joints[place / each])) return;
+    out.unit = law.at_slide->unit;
+    out.typical = law.at_slide->typical;
+  }
+  if (law.joints == JointList::kOrderedPair && std::string_view(out.unit) == "1")
+    out.unit = unit_of_ratio(model, effect);
+}
+
 /// The name of a parameter within its joint.
 std::string own_name(const EffectDescriptor& law, const ParameterPlace& at) {
   const auto place = static_cast<std::size_t>(at.place);
@@ -240,6 +270,7 @@ EffectParameter effect_parameter(const format::Model& model, int effect, int par
   EffectParameter out = own[place % own.size()];
   if (law.typical != nullptr)
     out.typical = law.typical(e, static_cast<int>(place % (e.parameters.size() / e.joints.size())));
+  fit_to_slide(model, e, law, place, out);
   return out;
 }
 

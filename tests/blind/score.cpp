@@ -168,7 +168,8 @@ std::vector<EffectEntry> one_by_one(const std::vector<Addition>& added) {
   std::vector<EffectEntry> out;
   for (const auto& a : added) {
     out.push_back(a.entry);
-    if (a.entry.name == "cross_compliance" || a.entry.joints.size() < 2) continue;
+    const bool pair = descriptor_of(a.entry.name).joints == JointList::kOrderedPair;
+    if (pair || a.entry.joints.size() < 2) continue;
     out.pop_back();
     for (const int joint : a.entry.joints) {
       out.push_back(a.entry);

@@ -194,6 +194,10 @@ TEST(CellMessage, OfJointsThatAnEffectCannotHave) {
   EXPECT_EQ(with("[effects]\ncross_compliance = true"), Summary{"E-CELL-JOINT 6:20"});
   EXPECT_EQ(with("[effects.cross_compliance]\njoints = [\"J1\", \"J1\"]"),
             Summary{"E-CELL-JOINT 6:10"});
+  EXPECT_EQ(with("[effects.rail_bow]"), Summary{"E-CELL-JOINT 5:1"});
+  EXPECT_EQ(with("[effects]\nrail_bow = true"), Summary{"E-CELL-JOINT 6:12"});
+  EXPECT_EQ(with("[effects.rail_bow]\njoints = [\"J1\"]"), Summary{"E-CELL-JOINT 6:10"});
+  EXPECT_EQ(with("[effects.drive_coupling]"), Summary{"E-CELL-JOINT 5:1"});
   EXPECT_EQ(with("[effects.joint_compliance]\njoints = [\"J1\", \"J1\"]"),
             Summary{"E-CELL-JOINT 6:10"});
   EXPECT_EQ(with("[effects.step]\nafter_row = 3\njoints = [\"J1\"]"), Summary{"E-CELL-JOINT 7:10"});

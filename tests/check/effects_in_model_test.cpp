@@ -77,10 +77,11 @@ MeasurementFiles rich_measurements(const Cell& cell) {
 EffectEntry entry_of(const std::string& name) {
   EffectEntry out{.name = name, .joints = {}, .options = {}, .place = {}};
   if (name == "gear_ripple") out.options["cycles_per_turn"] = 8.5;
-  if (name == "cross_compliance") out.joints = {2, 1};
+  if (name == "cross_compliance" || name == "drive_coupling") out.joints = {2, 1};
   if (name == "joint_table") out.joints = {1};
   if (name == "gravity_free") out.joints = {1, 2};
-  if (name == "axis_wobble") out.joints = {0, 3};
+  if (name == "axis_wobble" || name == "rail_bow" || name == "pitch_error") out.joints = {0, 3};
+  if (name == "pitch_error") out.options["pitch_mm"] = 450.0;
   if (name == "step") out.options["after_row"] = 60.0;
   if (name == "step") out.options["of"] = std::string("base");
   if (name == "thermal_growth") out.options["sensor"] = std::string("temp_arm");

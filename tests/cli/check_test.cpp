@@ -78,7 +78,7 @@ TEST_F(CheckVerb, TheResultHasTheKeysThatChecksRelyOn) {
   for (const auto& effect : result.at("effects"))
     for (const auto* key : {"effect", "testable", "why", "measure"})
       EXPECT_TRUE(effect.at(key).is_string());
-  EXPECT_EQ(result.at("effects").size(), 27U);
+  EXPECT_EQ(result.at("effects").size(), 30U);
 }
 
 TEST_F(CheckVerb, CalibrabilityIsOfTheOrderThatFitPrints) {

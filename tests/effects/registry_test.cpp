@@ -102,12 +102,24 @@ TEST(EffectRegistry, ConstantsAndOptionsAreDescribedCompletely) {
 TEST(EffectRegistry, CandidatesAreMadeForJointsThatAnEntryMayList) {
   for (const EffectDescriptor* effect : effect_descriptors()) {
     if (effect->law == nullptr) continue;
-    EXPECT_EQ(effect->law->per_joint, effect->joints == JointList::kSet) << effect->name;
+    const bool set = effect->joints == JointList::kSet || effect->joints == JointList::kSliding;
+    EXPECT_EQ(effect->law->per_joint, set) << effect->name;
+    const bool pair = effect->joints == JointList::kOrderedPair;
+    EXPECT_EQ(std::string(effect->pair).empty(), !pair) << effect->name;
     if (effect->candidate_joints == CandidateJoints::kEach ||
         effect->candidate_joints == CandidateJoints::kSecond) {
       EXPECT_EQ(effect->joints, JointList::kSet) << effect->name;
     }
-    if (effect->candidate_joints == CandidateJoints::kLoadedPairs) {
+    EXPECT_EQ(effect->candidate_joints == CandidateJoints::kSliding,
+              effect->joints == JointList::kSliding)
+        << effect->name;
+    if (effect->at_slide != nullptr) {
+      EXPECT_EQ(effect->candidate_joints, CandidateJoints::kEach) << effect->name;
+      EXPECT_EQ(effect->at_slide->grid.empty(), effect->grid.empty()) << effect->name;
+      EXPECT_GT(effect->at_slide->typical, 0.0) << effect->name;
+    }
+    if (effect->candidate_joints == CandidateJoints::kLoadedPairs ||
+        effect->candidate_joints == CandidateJoints::kNeighbours) {
       EXPECT_EQ(effect->joints, JointList::kOrderedPair) << effect->name;
     }
     if (effect->group_share > 0.0) {

@@ -60,6 +60,9 @@ EffectEntry entry_of(const std::string& name) {
   EffectEntry out{.name = name, .joints = {}, .options = {}, .place = {}};
   if (name == "gear_ripple") out.options["cycles_per_turn"] = 8.5;
   if (name == "cross_compliance") out.joints = {2, 1};
+  if (name == "drive_coupling") out.joints = {2, 1};
+  if (name == "rail_bow" || name == "pitch_error") out.joints = {1, 3};
+  if (name == "pitch_error") out.options["pitch_mm"] = 450.0;
   if (name == "joint_table") out.joints = {1};
   if (name == "joint_series") out.joints = {1, 4};
   if (name == "gravity_free") out.joints = {1, 2};

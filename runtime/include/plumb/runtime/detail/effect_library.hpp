@@ -9,6 +9,7 @@
 #include "plumb/runtime/detail/effects/backlash_load.hpp"
 #include "plumb/runtime/detail/effects/base_compliance.hpp"
 #include "plumb/runtime/detail/effects/cross_compliance.hpp"
+#include "plumb/runtime/detail/effects/drive_coupling.hpp"
 #include "plumb/runtime/detail/effects/encoder_eccentricity.hpp"
 #include "plumb/runtime/detail/effects/encoder_scale.hpp"
 #include "plumb/runtime/detail/effects/formula.hpp"
@@ -22,6 +23,8 @@
 #include "plumb/runtime/detail/effects/joint_table.hpp"
 #include "plumb/runtime/detail/effects/link_flexure.hpp"
 #include "plumb/runtime/detail/effects/payload_compliance.hpp"
+#include "plumb/runtime/detail/effects/pitch_error.hpp"
+#include "plumb/runtime/detail/effects/rail_bow.hpp"
 #include "plumb/runtime/detail/effects/reversal.hpp"
 #include "plumb/runtime/detail/effects/thermal_growth.hpp"
 #include "plumb/runtime/detail/effects/tool_sag.hpp"
@@ -31,13 +34,15 @@
 namespace plumb {
 
 /// All laws of the robot and of its surroundings. A new law is one header and one line here.
-using EffectLaws = std::tuple<
-    effects::JointCompliance, effects::JointComplianceSoft, effects::GravityFree,
-    effects::LinkFlexure, effects::GearHarmonics, effects::GearRipple, effects::JointTable,
-    effects::JointSeries, effects::EncoderScale, effects::EncoderEccentricity, effects::Reversal,
-    effects::BacklashLoad, effects::AxisWobble, effects::WristCoupling, effects::CrossCompliance,
-    effects::ThermalGrowth, effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
-    effects::PayloadCompliance, effects::WrenchCompliance, effects::Formula>;
+using EffectLaws =
+    std::tuple<effects::JointCompliance, effects::JointComplianceSoft, effects::GravityFree,
+               effects::LinkFlexure, effects::GearHarmonics, effects::GearRipple,
+               effects::JointTable, effects::JointSeries, effects::EncoderScale,
+               effects::EncoderEccentricity, effects::Reversal, effects::BacklashLoad,
+               effects::AxisWobble, effects::RailBow, effects::PitchError, effects::WristCoupling,
+               effects::DriveCoupling, effects::CrossCompliance, effects::ThermalGrowth,
+               effects::BaseCompliance, effects::ToolSag, effects::GravityCompensator,
+               effects::PayloadCompliance, effects::WrenchCompliance, effects::Formula>;
 
 inline constexpr int kEffectLaws = static_cast<int>(std::tuple_size_v<EffectLaws>);
 
