@@ -111,6 +111,7 @@ void Svg::attributes(const Paint& fill, const LineStyle& edge) {
     classes += fmt::format("{}s{}", classes.empty() ? "" : " ", edge.paint.tone());
   if (!classes.empty()) body_ += " class=\"" + classes + "\"";
   body_ += fmt::format(" fill=\"{}\"", fill.value());
+  if (fill.opacity() < 1.0) body_ += fmt::format(" fill-opacity=\"{:.2g}\"", fill.opacity());
   if (edge.paint.value() == "none") return;
   body_ += fmt::format(" stroke=\"{}\" stroke-width=\"{:g}\"", edge.paint.value(), edge.width);
   if (!edge.dashes.empty()) body_ += fmt::format(" stroke-dasharray=\"{}\"", edge.dashes);
