@@ -128,6 +128,7 @@ void Svg::close(const char* element, const std::string& pose, const std::string&
 void Svg::line(Point from, Point to, const LineStyle& style) { polyline({from, to}, style); }
 
 void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
+  if (points.empty()) return;
   body_ += "<path d=\"";
   bool begun = false;
   for (const Point& p : points) {
@@ -144,6 +145,7 @@ void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
 }
 
 void Svg::area(const std::vector<Point>& outline, const Paint& fill, double opacity) {
+  if (outline.size() < 3) return;  // a path must begin somewhere
   body_ += "<path d=\"";
   char move = 'M';
   for (const Point& p : outline) {

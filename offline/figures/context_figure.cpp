@@ -148,9 +148,12 @@ std::string context_sentence(const RunResults& results, Quantity quantity,
       length_text(std::abs(most.value) * span));
 }
 
+struct ContextMeans {
+  std::vector<draw::Point> middle, low, high;  // the last two: their 95 % intervals
+};
+
 /// Means over steps that hold equally many poses, or over the values if they are few.
-void draw_means(const RunResults& results, const Known& known, int axis, double per_m,
-                draw::Panel& panel) {
+ContextMeans means_of(const RunResults& results, const Known& known, int axis, double per_m) {
   std::vector<draw::Point> middle, low, high;
   const std::size_t n = known.rows.size();
   const std::size_t each = std::max<std::size_t>(4, (n + kContextSteps - 1) / kContextSteps);
@@ -171,11 +174,7 @@ void draw_means(const RunResults& results, const Known& known, int axis, double 
     low.push_back({x / m, y / m - half});
     high.push_back({x / m, y / m + half});
   }
-  panel.band(low, high, Tone::kBand);
-  panel.line(middle, {.paint = Tone::kPaper, .width = 4.0});
-  panel.line(middle, {.paint = Tone::kInk, .width = 2.0});
-  for (const auto& at : middle)
-    panel.mark(at.x, at.y, {.shape = draw::Shape::kSquare, .paint = Tone::kInk, .size = 2.5});
+  return {std::move(middle), std::move(low), std::move(high)};
 }
 
 }  // namespace
@@ -228,6 +227,8 @@ std::string context_figure(const RunResults& results, Quantity quantity, double 
                fmt::format("e{} [{}]", kComponent[static_cast<std::size_t>(axes[k])], unit.name),
            .low = -most * unit.per_m,
            .high = most * unit.per_m});
+      const ContextMeans means = means_of(results, known, axes[k], unit.per_m);
+      panel.band(means.low, means.high, Tone::kBand);
       panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
       const double stride =
           std::max(1.0, static_cast<double>(known.rows.size()) / kMostContextPoints);
@@ -242,7 +243,11 @@ std::string context_figure(const RunResults& results, Quantity quantity, double 
                     .pose = results.pose(row),
                     .words = pose_numbers(results, row)});
       }
-      draw_means(results, known, axes[k], unit.per_m, panel);
+      panel.line(means.middle, {.paint = Tone::kPaper, .width = 4.0});
+      panel.line(means.middle, {.paint = Tone::kInk, .width = 2.0});
+      for (const auto& mean : means.middle)
+        panel.mark(mean.x, mean.y,
+                   {.shape = draw::Shape::kSquare, .paint = Tone::kInk, .size = 2.5});
     }
   }
   return sheet.file();

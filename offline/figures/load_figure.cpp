@@ -22,6 +22,7 @@ using draw::Tone;
 
 constexpr std::size_t kMostLoadPoints = 1000;
 constexpr int kLoadSteps = 60;  // of the curve of a fitted law
+constexpr std::size_t kMostSigmas = 100;
 constexpr int kFewLoadSteps = 9;
 constexpr double kManyJumps = 4.0;  // times its range that a function of the load cannot travel
 constexpr double kLoad95 = 1.96;
@@ -33,7 +34,7 @@ struct Loaded {
   JointResidual::Pose pose;
   double load = 0.0;   // [N m] or [N]
   double law = 0.0;    // what the fitted spring adds [rad] or [m]
-  double sigma = 0.0;  // and how sure that is
+  double sigma = NAN;  // and how sure that is; NaN where nobody asked
 };
 
 struct Loading {
@@ -70,13 +71,16 @@ Loading loading_of(const RunResults& results, const JointResidual& joint) {
           context_at(results.measured.context, pose.row, {}).known, loads);
     Loaded one{.pose = pose, .load = loads.torque(joint.joint, chain, frames)};
     if (!std::isfinite(one.load)) continue;
-    const auto [value, sigma] = law.with_sigma(pose.row);
-    one.law = value, one.sigma = sigma;
-    one.pose.value += value;
+    one.law = law.at_pose(pose.row);
+    one.pose.value += one.law;
     out.poses.push_back(one);
   }
   std::stable_sort(out.poses.begin(), out.poses.end(),
                    [](const Loaded& a, const Loaded& b) { return a.load < b.load; });
+  // The curve is sure enough with some of them.
+  const std::size_t stride = 1 + out.poses.size() / kMostSigmas;
+  for (std::size_t i = 0; i < out.poses.size(); i += stride)
+    out.poses[i].sigma = law.with_sigma(out.poses[i].pose.row).sigma;
   return out;
 }
 
@@ -154,6 +158,10 @@ std::string load_sentence(const JointResidual& joint, const Loading& all, const 
       joint.name, slope_text(joint, line.slope), std::abs(line.slope) / line.slope_se);
 }
 
+struct LoadCurve {
+  std::vector<draw::Point> middle, under, over;  // the last two: its 95 % interval
+};
+
 /// How many steps of the load the curve has: many if the law is a function of it, few if it also
 /// depends on where the arm is.
 int curve_steps(const Loading& all) {
@@ -166,29 +174,29 @@ int curve_steps(const Loading& all) {
 }
 
 /// The fitted law as means over equal steps of the load, with its interval.
-void draw_law(const Loading& all, draw::Panel& panel) {
+LoadCurve law_curve(const Loading& all) {
   const double low = all.poses.front().load, high = all.poses.back().load;
   const int steps = curve_steps(all);
   std::vector<draw::Point> middle, under, over;
   std::size_t at = 0;
   for (int k = 0; k < steps; ++k) {
     const double end = k + 1 == steps ? INFINITY : low + (high - low) * (k + 1) / steps;
-    double n = 0.0, load = 0.0, value = 0.0, sigma = 0.0;
-    for (; at < all.poses.size() && all.poses[at].load < end; ++at)
-      n += 1.0, load += all.poses[at].load, value += all.poses[at].law,
-          sigma += all.poses[at].sigma;
+    double n = 0.0, load = 0.0, value = 0.0, sigma = 0.0, sigmas = 0.0;
+    for (; at < all.poses.size() && all.poses[at].load < end; ++at) {
+      n += 1.0, load += all.poses[at].load, value += all.poses[at].law;
+      if (std::isfinite(all.poses[at].sigma)) sigma += all.poses[at].sigma, sigmas += 1.0;
+    }
     if (n == 0.0) continue;
-    const double half = kLoad95 * sigma / n;
     middle.push_back({load / n, 1e6 * value / n});
+    if (sigmas == 0.0) continue;
+    const double half = kLoad95 * sigma / sigmas;
     under.push_back({load / n, 1e6 * (value / n - half)});
     over.push_back({load / n, 1e6 * (value / n + half)});
   }
-  panel.band(under, over, Tone::kBand);
-  panel.line(middle, {.paint = Tone::kPaper, .width = 4.0});
-  panel.line(middle, {.paint = Tone::kInk, .width = 2.0});
+  return {std::move(middle), std::move(under), std::move(over)};
 }
 
-void draw_line(const Loading& all, const Line& line, draw::Panel& panel) {
+LoadCurve line_curve(const Loading& all, const Line& line) {
   std::vector<draw::Point> middle, under, over;
   for (int k = 0; k <= kLoadSteps; ++k) {
     const double x =
@@ -197,9 +205,7 @@ void draw_line(const Loading& all, const Line& line, draw::Panel& panel) {
     under.push_back({x, 1e6 * (line.at(x) - line.half(x))});
     over.push_back({x, 1e6 * (line.at(x) + line.half(x))});
   }
-  panel.band(under, over, Tone::kBand);
-  panel.line(middle, {.paint = Tone::kPaper, .width = 4.0});
-  panel.line(middle, {.paint = Tone::kInk, .width = 2.0});
+  return {std::move(middle), std::move(under), std::move(over)};
 }
 
 /// Of the values [µrad] or [µm]: zero, the law, and all but the outermost hundredth of the points.
@@ -260,6 +266,8 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
       {.title = fmt::format("equivalent deviation of {} [{}]", joint.name, deviation_unit(joint)),
        .low = low,
        .high = high});
+  const LoadCurve curve = !shown ? LoadCurve{} : fitted ? law_curve(all) : line_curve(all, line);
+  panel.band(curve.under, curve.over, Tone::kBand);
   panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
   const double stride =
       std::max(1.0, static_cast<double>(all.poses.size()) / static_cast<double>(kMostLoadPoints));
@@ -273,8 +281,8 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
                     draw::digits(1e6 * at.pose.value, 3), deviation_unit(joint));
     panel.mark(at.load, std::clamp(1e6 * at.pose.value, panel.y_low(), panel.y_high()), mark);
   }
-  if (shown && fitted) draw_law(all, panel);
-  if (shown && !fitted) draw_line(all, line, panel);
+  panel.line(curve.middle, {.paint = Tone::kPaper, .width = 4.0});
+  panel.line(curve.middle, {.paint = Tone::kInk, .width = 2.0});
   return sheet.file();
 }
 

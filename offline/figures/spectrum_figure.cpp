@@ -90,6 +90,11 @@ std::string cycles_text(double cycles) {
   return cycles < 100.0 ? fmt::format("{:.1f}", cycles) : fmt::format("{:.0f}", cycles);
 }
 
+/// Of place k of a spectrum: its first one stands for all slower waves, too.
+std::string cycles_at(const Spectrum& of, std::size_t k) {
+  return (k == 0 ? "at most " : "") + cycles_text(of.cycles[k]);
+}
+
 std::string per_words(const JointResidual& joint) { return joint.turns ? "a turn" : "a metre"; }
 
 struct Drawn {
@@ -108,12 +113,10 @@ std::string spectrum_sentence(const JointResidual& joint, const Drawn& drawn) {
     out = fmt::format(
         "Without its fitted law, a wave of {} cycles {} would explain {:.0f} % of the "
         "deviations of {}; ",
-        cycles_text(drawn.before.cycles[k]), per_words(joint), 100.0 * drawn.before.share[k],
-        joint.name);
+        cycles_at(drawn.before, k), per_words(joint), 100.0 * drawn.before.share[k], joint.name);
     out += left.empty() ? "no wave is left beyond chance." : "";
     if (!left.empty())
-      out += fmt::format("left is one of {}, with {:.0f} %.",
-                         cycles_text(drawn.left.cycles[left.front()]),
+      out += fmt::format("left is one of {}, with {:.0f} %.", cycles_at(drawn.left, left.front()),
                          100.0 * drawn.left.share[left.front()]);
     return out;
   }
@@ -122,8 +125,8 @@ std::string spectrum_sentence(const JointResidual& joint, const Drawn& drawn) {
                        joint.name);
   const auto k = left.front();
   return fmt::format(
-      "A wave of {} cycles {} explains {:.0f} % of what is left of {}{}.",
-      cycles_text(drawn.left.cycles[k]), per_words(joint), 100.0 * drawn.left.share[k], joint.name,
+      "A wave of {} cycles {} explains {:.0f} % of what is left of {}{}.", cycles_at(drawn.left, k),
+      per_words(joint), 100.0 * drawn.left.share[k], joint.name,
       left.size() > 1 ? fmt::format("; {} more peaks are beyond chance", left.size() - 1) : "");
 }
 
@@ -149,8 +152,9 @@ void name_peaks(const Spectrum& of, Tone tone, draw::Panel& panel) {
                {.shape = draw::Shape::kDiamond,
                 .paint = tone,
                 .size = 3.2,
-                .words = fmt::format("k = {}: {:.1f} %", cycles_text(x), y)});
-    panel.label(x, y, "k = " + cycles_text(x), {.size = 11.0, .paint = tone, .halo = 3.0});
+                .words = fmt::format("k = {}: {:.1f} %", cycles_at(of, k), y)});
+    panel.label(x, y, (k == 0 ? "k ≤ " : "k = ") + cycles_text(x),
+                {.size = 11.0, .paint = tone, .halo = 3.0});
   }
 }
 
@@ -193,8 +197,8 @@ Spectrum spectrum_of(const JointResidual& joint, const std::vector<double>& valu
 std::vector<std::size_t> peaks_of(const Spectrum& of, std::size_t most) {
   std::vector<std::size_t> all, out;
   for (std::size_t k = 0; k < of.share.size(); ++k) {
-    // At the ends nobody knows whether it rises further.
-    const bool rises = k > 0 && of.share[k] > of.share[k - 1];
+    // The first one may stand for a slower wave, the last one is no peak.
+    const bool rises = k == 0 || of.share[k] > of.share[k - 1];
     const bool falls = k + 1 < of.share.size() && of.share[k] >= of.share[k + 1];
     if (rises && falls && of.share[k] > of.chance) all.push_back(k);
   }
