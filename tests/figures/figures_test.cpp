@@ -250,7 +250,7 @@ TEST(Waterfall, TakesTheRunsThatLeadToThisOneAndCountsPosesThatBecameWorse) {
   const auto steps = waterfall_steps(made.results(), earlier);
   ASSERT_EQ(steps.size(), 4U);
   EXPECT_EQ(steps[1].added, "geometry");
-  EXPECT_EQ(steps[2].added, "drift");
+  EXPECT_EQ(steps[2].added, "drift of tracker or base");
   EXPECT_EQ(steps[3].added, "gear ripple (2 times)");
   EXPECT_DOUBLE_EQ(steps[3].mean_m, 1e-4);
   EXPECT_EQ(steps[2].worse, 0);
