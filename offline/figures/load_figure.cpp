@@ -243,6 +243,16 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
   const Loading all = loading_of(results, joint);
   const Line line = line_of(all);
   const bool fitted = !all.law.empty(), shown = varies(all);
+  const LoadCurve curve = !shown ? LoadCurve{} : fitted ? law_curve(all) : line_curve(all, line);
+  const auto [low, high] = range_of(all);
+  auto notes = load_notes(results, all);
+  for (std::size_t i = 0; i < curve.over.size(); ++i)
+    if (curve.over[i].y - curve.under[i].y > high - low) {
+      notes.emplace_back(
+          "The interval is wider than this axis: these poses can hardly tell the law from other "
+          "numbers of the model, such as the zero of the joint.");
+      break;
+    }
   std::vector<draw::LegendEntry> legend{
       {.words = "held out", .mark = Mark{}},
       {.words = "fitted", .mark = Mark{.fill = Mark::Fill::kHollow}}};
@@ -254,8 +264,7 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
   draw::Sheet sheet(width, {.title = fmt::format("Deviation of {} over the load on it", joint.name),
                             .sentence = load_sentence(joint, all, line),
                             .legend = std::move(legend),
-                            .notes = load_notes(results, all)});
-  const auto [low, high] = range_of(all);
+                            .notes = std::move(notes)});
   const double alone = shown ? 0.0 : 1.0;  // [N m] around a load that does not change
   draw::Panel panel(
       sheet.svg(), sheet.room(380.0),
@@ -266,7 +275,6 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
       {.title = fmt::format("equivalent deviation of {} [{}]", joint.name, deviation_unit(joint)),
        .low = low,
        .high = high});
-  const LoadCurve curve = !shown ? LoadCurve{} : fitted ? law_curve(all) : line_curve(all, line);
   panel.band(curve.under, curve.over, Tone::kBand);
   panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
   const double stride =
