@@ -8,6 +8,8 @@
 #include "cli/model_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
+#include "figures/bench_figures.hpp"
+#include "figures/registry.hpp"
 #include "program/output_files.hpp"
 #include "show/latency_view.hpp"
 
@@ -59,7 +61,7 @@ bool passes(const BenchArguments& options, const bench::Benchmark& found, Outcom
 
 void draw(const BenchArguments& options, const bench::Benchmark& found, Outcome& outcome) {
   OutputFiles files;
-  files.add(options.figure, show::bench_figure(found));
+  files.add(options.figure, figures::latency_figure(found, figures::kUsualWidth));
   files.commit(options.write, outcome);
   outcome.text += "\n" + wrote(options.figure, options.write) + "\n";
 }

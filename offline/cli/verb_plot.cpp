@@ -4,18 +4,25 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/benchmark.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "compile/compiler.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "figures/bench_figures.hpp"
 #include "figures/evidence_figure.hpp"
+#include "figures/observability_figure.hpp"
 #include "figures/registry.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline::cli {
 namespace {
+
+constexpr int kNextPoses = 30;       // of the figure observability, as plumb plan
+constexpr long kTimedCalls = 20000;  // of each part of the cycle
 
 struct PlotArguments {
   std::string name, output, run;
@@ -29,7 +36,7 @@ void list_figures(Outcome& outcome) {
   outcome.text = "Figures of plumb plot; JN stands for a joint such as J2:\n\n";
   for (const auto& row : figures::figure_list()) {
     outcome.result["figures"].push_back({{"name", row.name}, {"shows", row.shows}});
-    outcome.text += fmt::format("  {:<16}  {}\n", row.name, row.shows);
+    outcome.text += fmt::format("  {:<19}  {}\n", row.name, row.shows);
   }
 }
 
@@ -89,16 +96,32 @@ std::string evidence_of(const PlotArguments& options, const Cell& cell,
   return figures::evidence(cell, found, options.width);
 }
 
+std::string planned(const figures::RunResults& results, int width) {
+  const Progress progress("planning the next poses");
+  return figures::observability_figure(figures::information_growth(results, kNextPoses),
+                                       results.run.number, width);
+}
+
+std::string timed(const std::string& name, const Cell& cell, const Run& run, int width) {
+  const format::Model model = compile(cell, run);
+  const Progress progress("timing the cycle of the compiled run");
+  const bench::Benchmark found = bench::benchmark(model, {.calls = kTimedCalls}, 1);
+  return name == "latency" ? figures::latency_figure(found, width)
+                           : figures::cost_figure(found, width);
+}
+
 std::string run_figure(const PlotArguments& options, const Cell& cell, MeasurementFiles& measured,
                        Outcome& outcome) {
   using Needs = figures::FigureRow::Needs;
   const Run run = run_to_draw(options, cell, measured);
   stand_on_base_of(run, cell, measured);
   outcome.result["run"] = run.number;
-  const auto earlier = figures::needs_of(options.name) == Needs::kEarlierRuns
-                           ? earlier_runs(run, cell, measured)
-                           : std::vector<Run>{};
+  const Needs needs = figures::needs_of(options.name);
+  if (needs == Needs::kBench) return timed(options.name, cell, run, options.width);
   const auto results = figures::results_of(cell, measured, run);
+  if (needs == Needs::kPlan) return planned(results, options.width);
+  const auto earlier =
+      needs == Needs::kEarlierRuns ? earlier_runs(run, cell, measured) : std::vector<Run>{};
   return figures::drawn(options.name, results, options.width, earlier).value();
 }
 

@@ -5,8 +5,8 @@
 
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
+#include "figures/study_figures.hpp"
 #include "program/output_files.hpp"
-#include "show/study_figures.hpp"
 #include "show/study_view.hpp"
 #include "study/planar_physics.hpp"
 
@@ -77,7 +77,7 @@ void planar(const StudyArguments& options, Outcome& outcome) {
   outcome.result = show::planar_json(found);
   outcome.text = show::planar_text(found);
   if (options.figures.empty()) return;
-  for (const auto& [name, text] : show::planar_figures(found))
+  for (const auto& [name, text] : figures::planar_figures(found))
     files.add(fs::path(options.figures) / name, text);
   files.commit(options.write, outcome);
   outcome.text += "\n" + wrote(fs::path(options.figures) / "*.svg", options.write) + "\n";

@@ -30,21 +30,6 @@ constexpr std::array<Colour, 9> kViridis{{{68, 1, 84},
                                           {94, 201, 98},
                                           {173, 220, 48},
                                           {253, 231, 37}}};
-constexpr std::array<Colour, 5> kSigned{
-    {{5, 78, 140}, {124, 174, 214}, {247, 247, 247}, {241, 163, 90}, {158, 72, 4}}};
-
-template <std::size_t N>
-Paint along(const std::array<Colour, N>& scale, double share) {
-  const double at = (share > 0.0 ? std::min(share, 1.0) : 0.0) * (N - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), N - 2);
-  const double part = at - static_cast<double>(i);
-  std::string out = "#";
-  for (std::size_t k = 0; k < 3; ++k)
-    out += fmt::format(
-        "{:02x}",
-        static_cast<int>(std::lround(scale[i][k] + part * (scale[i + 1][k] - scale[i][k]))));
-  return Paint(out);
-}
 
 std::string variables(const std::array<const char*, kTones>& colours) {
   std::string out = "{";
@@ -73,9 +58,27 @@ std::string Paint::value() const {
   return colour_.empty() ? kLight[static_cast<std::size_t>(tone_)] : colour_;
 }
 
-Paint magnitude_colour(double share) { return along(kViridis, share); }
+Paint magnitude_colour(double share) {
+  const double at = (share > 0.0 ? std::min(share, 1.0) : 0.0) * (kViridis.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
+  const double part = at - static_cast<double>(i);
+  std::string out = "#";
+  for (std::size_t k = 0; k < 3; ++k)
+    out += fmt::format(
+        "{:02x}", static_cast<int>(
+                      std::lround(kViridis[i][k] + part * (kViridis[i + 1][k] - kViridis[i][k]))));
+  return Paint(out);
+}
 
-Paint signed_colour(double share) { return along(kSigned, 0.5 + 0.5 * share); }
+Paint Paint::faded(double opacity) const {
+  Paint out = *this;
+  out.opacity_ = opacity > 0.0 ? std::min(opacity, 1.0) : 0.0;
+  return out;
+}
+
+Paint signed_colour(double share) {
+  return Paint(share < 0.0 ? Tone::kBlue : Tone::kVermilion).faded(std::abs(share));
+}
 
 bool is_bright(double share) { return share > 0.55; }
 

@@ -32,19 +32,25 @@ class Paint {
   bool is_tone() const { return set_ && colour_.empty(); }
   int tone() const { return static_cast<int>(tone_); }
 
+  /// The same, of which so much (0 .. 1) covers what is below it.
+  Paint faded(double opacity) const;
+  double opacity() const { return opacity_; }
+
   /// The colour on a light ground, or "none".
   std::string value() const;
 
  private:
   Tone tone_ = Tone::kInk;
   std::string colour_;
+  double opacity_ = 1.0;
   bool set_ = false;
 };
 
 /// viridis, for magnitudes: share 0 is dark, 1 is bright. Clamped; NaN counts as 0.
 Paint magnitude_colour(double share);
 
-/// Blue over white to orange, for signed values: share -1 .. 1, symmetric around 0.
+/// Blue or vermilion, for signed values: share -1 .. 1. The nearer to 0, the more of the ground
+/// shows through, so that small values are faint on a light as on a dark ground. NaN counts as 0.
 Paint signed_colour(double share);
 
 /// Whether black letters can be read on this share of magnitude_colour better than white ones.

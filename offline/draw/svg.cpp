@@ -111,6 +111,7 @@ void Svg::attributes(const Paint& fill, const LineStyle& edge) {
     classes += fmt::format("{}s{}", classes.empty() ? "" : " ", edge.paint.tone());
   if (!classes.empty()) body_ += " class=\"" + classes + "\"";
   body_ += fmt::format(" fill=\"{}\"", fill.value());
+  if (fill.opacity() < 1.0) body_ += fmt::format(" fill-opacity=\"{:.2g}\"", fill.opacity());
   if (edge.paint.value() == "none") return;
   body_ += fmt::format(" stroke=\"{}\" stroke-width=\"{:g}\"", edge.paint.value(), edge.width);
   if (!edge.dashes.empty()) body_ += fmt::format(" stroke-dasharray=\"{}\"", edge.dashes);
@@ -127,6 +128,7 @@ void Svg::close(const char* element, const std::string& pose, const std::string&
 void Svg::line(Point from, Point to, const LineStyle& style) { polyline({from, to}, style); }
 
 void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
+  if (points.empty()) return;
   body_ += "<path d=\"";
   bool begun = false;
   for (const Point& p : points) {
@@ -143,6 +145,7 @@ void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
 }
 
 void Svg::area(const std::vector<Point>& outline, const Paint& fill, double opacity) {
+  if (outline.size() < 3) return;  // a path must begin somewhere
   body_ += "<path d=\"";
   char move = 'M';
   for (const Point& p : outline) {

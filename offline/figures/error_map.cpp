@@ -2,13 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "draw/panel.hpp"
-#include "draw/sheet.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/words.hpp"
+#include "figures/workspace_views.hpp"
 #include "figures/worst_band.hpp"
 #include "plumb/runtime/chain.hpp"
 
@@ -20,16 +18,6 @@ using draw::Tone;
 
 constexpr std::size_t kMostArrows = 240;
 constexpr double kArrow_px = 34.0;  // of the 95th percentile before calibration
-constexpr double kMapHeight = 330.0, kWideMapHeight = 430.0, kWidePage = 1100.0,
-                 kNarrowestMap = 250.0;
-
-struct View {
-  const char* name;
-  int across, up;  // axes of the base frame
-};
-constexpr std::array<View, 3> kViews{
-    {{"from above", 0, 1}, {"from the side", 0, 2}, {"from the front", 1, 2}}};
-constexpr std::array<const char*, 3> kAxisNames{"x [mm]", "y [mm]", "z [mm]"};
 
 struct Map {
   Rows3 p_B, before_B, after_B;  // [m]
@@ -64,49 +52,11 @@ Map map_of(const RunResults& results) {
   return out;
 }
 
-struct Range {
-  double low = INFINITY, high = -INFINITY;
-  void add(double v) { low = std::min(low, v), high = std::max(high, v); }
-  double middle() const { return high >= low ? 0.5 * (low + high) : 0.0; }
-  double size() const { return high > low ? high - low : 0.1; }
-};
-
-std::array<Range, 3> ranges_of(const Map& map, const std::vector<int>& rows) {
-  std::array<Range, 3> out;
-  for (int k = 0; k < 3; ++k) {
-    for (const int row : rows) out[static_cast<std::size_t>(k)].add(map.p_B(row, k));
-    for (const auto& p : map.arm_B) out[static_cast<std::size_t>(k)].add(p(k));
-  }
+Extent extent_of(const Map& map, const std::vector<int>& rows) {
+  Extent out;
+  for (const int row : rows) out.add(map.p_B.row(row).transpose());
+  for (const auto& p : map.arm_B) out.add(p);
   return out;
-}
-
-/// Axes of this view on which a metre has `px` pixels in both directions.
-std::array<draw::Axis, 2> axes_of(const View& view, const std::array<Range, 3>& ranges,
-                                  const draw::Box& plot, double px) {
-  std::array<draw::Axis, 2> out;
-  const std::array<int, 2> which{view.across, view.up};
-  const std::array<double, 2> room{plot.width(), plot.height()};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Range& range = ranges[static_cast<std::size_t>(which[k])];
-    const double half = 0.5 * room[k] / px;
-    out[k] = {.title = kAxisNames[static_cast<std::size_t>(which[k])],
-              .low = 1e3 * (range.middle() - half),
-              .high = 1e3 * (range.middle() + half),
-              .ends = draw::Axis::Ends::kExact};
-  }
-  return out;
-}
-
-/// The largest number of pixels a metre at which every view fits into its room with a margin.
-double scale_of(const std::array<Range, 3>& ranges, const draw::Box& plot) {
-  double px = INFINITY;
-  for (const View& view : kViews) {
-    px = std::min(px, (plot.width() - 2.0 * kArrow_px) /
-                          ranges[static_cast<std::size_t>(view.across)].size());
-    px = std::min(
-        px, (plot.height() - 2.0 * kArrow_px) / ranges[static_cast<std::size_t>(view.up)].size());
-  }
-  return px;
 }
 
 /// 1, 2 or 5 times a power of ten, not above `factor`.
@@ -143,16 +93,8 @@ std::string error_map(const RunResults& results, double width) {
   std::vector<int> all = results.judged();
   const std::vector<int> rows = thinned(results, all, kMostArrows);
   const Map map = map_of(results);
-  const auto ranges = ranges_of(map, rows);
-  // Where the frames will be, to give all views one scale.
-  const auto layout = [&](draw::Sheet& sheet) {
-    return sheet.grid(3, kNarrowestMap, width >= kWidePage ? kWideMapHeight : kMapHeight);
-  };
-  draw::Sheet trial(width, {.title = "", .sentence = ""});
-  const draw::Box outer = layout(trial).front();
-  const draw::Axis widest{.title = "x", .low = -8888.0, .high = 8888.0};
-  const draw::Box plot = draw::Panel(trial.svg(), outer, widest, widest, "view").plot();
-  const double px = scale_of(ranges, plot);
+  const WorkspaceViews views(width, extent_of(map, rows), kArrow_px);
+  const double px = views.px_per_m();
   const double usual = quantile_of(sorted_errors(results, all, Which::kBefore), 0.95);
   const double factor = usual > 0.0 ? round_down(kArrow_px / (px * usual)) : 1.0;
   auto notes = error_notes(results);
@@ -168,19 +110,9 @@ std::string error_map(const RunResults& results, double width) {
               .legend = {{.words = "before", .line = draw::LineStyle{Tone::kVermilion, 0.9}},
                          {.words = "after", .line = draw::LineStyle{Tone::kBlue, 1.8}}},
               .notes = std::move(notes)});
-  const auto rooms = layout(sheet);
-  for (std::size_t k = 0; k < kViews.size(); ++k) {
-    // The labels of the ticks decide how much room a frame has; the second time they are known.
-    draw::Box inner = plot;
-    for (int again = 0; again < 2; ++again) {
-      draw::Svg unused(width);
-      auto axes = axes_of(kViews[k], ranges, inner, px);
-      inner = draw::Panel(unused, rooms[k], axes[0], axes[1], kViews[k].name).plot();
-    }
-    const auto axes = axes_of(kViews[k], ranges, inner, px);
-    draw::Panel panel(sheet.svg(), rooms[k], axes[0], axes[1], kViews[k].name);
-    draw_view(results, map, kViews[k], rows, factor, sheet.svg(), panel);
-  }
+  auto panels = views.panels(sheet);
+  for (std::size_t k = 0; k < kViews.size(); ++k)
+    draw_view(results, map, kViews[k], rows, factor, sheet.svg(), panels[k]);
   return sheet.file();
 }
 

@@ -8,6 +8,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
+#include "figures/joint_law.hpp"
 #include "figures/joint_residual.hpp"
 #include "figures/words.hpp"
 
@@ -19,13 +20,9 @@ using draw::Tone;
 
 constexpr std::size_t kMostPoints = 1000, kMostSmallPoints = 200;
 constexpr double kOverMedian = 1.5;  // of the ranges of the joints: the locked scale
-constexpr double kStandOut = 2.0;    // half-widths of the 95 % interval: far beyond chance
-
-constexpr double angle_per(const JointResidual& joint) {
-  return joint.turns ? 180.0 / std::numbers::pi : 1e3;
-}
-const char* angle_unit(const JointResidual& joint) { return joint.turns ? "deg" : "mm"; }
-const char* small_unit(const JointResidual& joint) { return joint.turns ? "µrad" : "µm"; }
+constexpr int kLawPoints = 181;
+constexpr double kLaw95 = 1.96;
+constexpr double kStandOut = 2.0;  // half-widths of the 95 % interval: far beyond chance
 
 /// Holds the curve and all but the outermost hundredth of the points.
 double half_range(const JointResidual& joint) {
@@ -70,14 +67,14 @@ std::string joint_sentence(const JointResidual& joint) {
         "Nothing that depends on the angle of {} stands out: the local mean stays "
         "within {} {} of zero, and chance explains it.",
         joint.name, draw::digits(1e6 * std::max(at.high->value, -at.low->value), 2),
-        small_unit(joint));
+        deviation_unit(joint));
   return fmt::format(
       "What is left at {} runs from {} {} near {:.0f} {} to {} {} near {:.0f} {}; "
       "its local mean explains {:.0f} % of the squared deviations.",
-      joint.name, draw::digits(1e6 * at.low->value, 2), small_unit(joint),
-      std::round(at.low->q * angle_per(joint)) + 0.0, angle_unit(joint),
-      draw::digits(1e6 * at.high->value, 2), small_unit(joint),
-      std::round(at.high->q * angle_per(joint)) + 0.0, angle_unit(joint),
+      joint.name, draw::digits(1e6 * at.low->value, 2), deviation_unit(joint),
+      std::round(at.low->q * position_per(joint)) + 0.0, position_unit(joint),
+      draw::digits(1e6 * at.high->value, 2), deviation_unit(joint),
+      std::round(at.high->q * position_per(joint)) + 0.0, position_unit(joint),
       100.0 * removed_share(joint));
 }
 
@@ -93,37 +90,47 @@ Mark joint_mark(const JointResidual::Pose& pose, double size) {
           .size = size};
 }
 
-/// Returns how many points lie outside the panel and are drawn at its edge.
-int draw_joint(const RunResults& results, const JointResidual& joint, std::size_t most, double size,
-               draw::Panel& panel) {
-  std::vector<draw::Point> low, high, middle;
-  for (const auto& mean : joint.curve) {
-    const double q = mean.q * angle_per(joint);
-    middle.push_back({q, 1e6 * mean.value});
+/// A curve through the points of a joint with its 95 % interval.
+struct JointCurve {
+  std::vector<JointResidual::Mean> points;
+  const char* dashes = "";
+};
+
+void draw_band(const JointResidual& joint, const JointCurve& curve, draw::Panel& panel) {
+  std::vector<draw::Point> low, high;
+  for (const auto& mean : curve.points) {
     if (!std::isfinite(mean.value)) continue;
-    low.push_back({q, 1e6 * (mean.value - mean.half)});
-    high.push_back({q, 1e6 * (mean.value + mean.half)});
+    low.push_back({mean.q * position_per(joint), 1e6 * (mean.value - mean.half)});
+    high.push_back({mean.q * position_per(joint), 1e6 * (mean.value + mean.half)});
   }
   panel.band(low, high, Tone::kBand);
+}
+
+void draw_joint(const RunResults& results, const JointResidual& joint,
+                const std::vector<JointCurve>& curves, std::size_t most, double size,
+                draw::Panel& panel) {
+  for (const auto& curve : curves) draw_band(joint, curve, panel);
   panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
   const double stride =
       std::max(1.0, static_cast<double>(joint.poses.size()) / static_cast<double>(most));
-  int outside = 0;
   for (double at = 0.0; at < static_cast<double>(joint.poses.size()); at += stride) {
     const auto& pose = joint.poses[static_cast<std::size_t>(at)];
     Mark mark = joint_mark(pose, size);
     mark.pose = results.pose(pose.row);
-    mark.words =
-        fmt::format("{}: {} at {:.1f} {}, {} {}, error {}", mark.pose, joint.name,
-                    pose.q * angle_per(joint), angle_unit(joint), draw::digits(1e6 * pose.value, 3),
-                    small_unit(joint), length_text(results.after(pose.row)));
+    mark.words = fmt::format("{}: {} at {:.1f} {}, {} {}, error {}", mark.pose, joint.name,
+                             pose.q * position_per(joint), position_unit(joint),
+                             draw::digits(1e6 * pose.value, 3), deviation_unit(joint),
+                             length_text(results.after(pose.row)));
     const double y = std::clamp(1e6 * pose.value, panel.y_low(), panel.y_high());
-    if (y != 1e6 * pose.value) ++outside;
-    panel.mark(pose.q * angle_per(joint), y, mark);
+    panel.mark(pose.q * position_per(joint), y, mark);
   }
-  panel.line(middle, {.paint = Tone::kPaper, .width = 4.0});
-  panel.line(middle, {.paint = Tone::kInk, .width = 2.0});
-  return outside;
+  for (const auto& curve : curves) {
+    std::vector<draw::Point> middle;
+    for (const auto& mean : curve.points)
+      middle.push_back({mean.q * position_per(joint), 1e6 * mean.value});
+    panel.line(middle, {.paint = Tone::kPaper, .width = 4.0});
+    panel.line(middle, {.paint = Tone::kInk, .width = 2.0, .dashes = curve.dashes});
+  }
 }
 
 std::vector<draw::LegendEntry> joint_legend(const RunResults& results, bool sides) {
@@ -140,9 +147,67 @@ std::vector<draw::LegendEntry> joint_legend(const RunResults& results, bool side
       entry(held ? "held out" : "fitted", 0, held);
     }
   }
+  return out;
+}
+
+void add_mean_legend(std::vector<draw::LegendEntry>& out) {
   out.push_back({.words = "local mean", .line = draw::LineStyle{Tone::kInk, 2.0}});
   out.push_back({.words = "its 95 % interval", .area = Tone::kBand});
+}
+
+/// The points of a joint as they would be without the law of the run, and the law through them.
+struct WithLaw {
+  JointResidual joint;
+  std::vector<JointCurve> curves;  // one, or one for each side
+  std::string names;               // empty: the run has no such law
+  double low = 0.0, high = 0.0, explained = 0.0;
+};
+
+WithLaw with_law(const RunResults& results, const JointResidual& joint) {
+  WithLaw out{.joint = joint, .curves = {{joint.curve}}, .names = {}};
+  const JointLaw law(results, joint.joint, JointLaw::Of::kOwnPosition);
+  if (law.empty() || joint.poses.size() < 2) return out;
+  out.names = law.names();
+  Scatter all, left;
+  for (auto& pose : out.joint.poses) {
+    left.add(pose.weight, pose.value);
+    pose.value += law.at_pose(pose.row);
+    all.add(pose.weight, pose.value);
+  }
+  out.explained = left.explained_of(all);
+  const bool sides = law.has_sides() && knows_sides(joint);
+  out.curves.clear();
+  out.low = INFINITY, out.high = -INFINITY;
+  const double from = joint.poses.front().q, to = joint.poses.back().q;
+  for (const int side : sides ? std::vector{1, -1} : std::vector{0}) {
+    JointCurve curve{.points = {}, .dashes = side < 0 ? "7 4" : ""};
+    for (int k = 0; k < kLawPoints; ++k) {
+      const double q = from + (to - from) * k / (kLawPoints - 1);
+      const auto [value, sigma] = law.at(q, side);
+      curve.points.push_back({q, value, kLaw95 * sigma});
+      out.low = std::min(out.low, value), out.high = std::max(out.high, value);
+    }
+    out.curves.push_back(std::move(curve));
+  }
   return out;
+}
+
+std::string law_sentence(const WithLaw& with) {
+  const JointResidual& joint = with.joint;
+  return fmt::format(
+      "The fitted law of {} ({}) runs from {} to {} {} and explains {:.0f} % of the scatter "
+      "that would be there without it.",
+      joint.name, with.names, draw::digits(1e6 * with.low, 2), draw::digits(1e6 * with.high, 2),
+      deviation_unit(joint), 100.0 * with.explained);
+}
+
+void add_curve_legend(const WithLaw& with, std::vector<draw::LegendEntry>& out) {
+  if (with.names.empty()) return add_mean_legend(out);
+  const bool sides = with.curves.size() > 1;
+  out.push_back({.words = sides ? "fitted law, upward" : "fitted law",
+                 .line = draw::LineStyle{Tone::kInk, 2.0}});
+  if (sides) out.push_back({.words = "downward", .line = draw::LineStyle{Tone::kInk, 2.0, "7 4"}});
+  out.push_back({.words = "its 95 % interval", .area = Tone::kBand});
 }
 
 std::vector<std::string> joint_notes(const RunResults& results) {
@@ -156,32 +221,49 @@ std::vector<std::string> joint_notes(const RunResults& results) {
 
 }  // namespace
 
-std::string joint_figure(const RunResults& results, const JointResidual& joint, double width) {
-  const double half = half_range(joint);
+const char* position_unit(const JointResidual& joint) { return joint.turns ? "deg" : "mm"; }
+const char* deviation_unit(const JointResidual& joint) { return joint.turns ? "µrad" : "µm"; }
+double position_per(const JointResidual& joint) {
+  return joint.turns ? 180.0 / std::numbers::pi : 1e3;
+}
+
+std::string joint_figure(const RunResults& results, const JointResidual& residual, double width) {
+  const WithLaw with = with_law(results, residual);
+  const JointResidual& joint = with.joint;
+  double half = half_range(joint);
+  if (!with.names.empty()) half = std::max(half, 1e6 * std::max(with.high, -with.low));
   auto notes = joint_notes(results);
+  if (!with.names.empty())
+    notes.push_back(
+        "To each point is added what the law contributes to its pose; the scatter of the points "
+        "around the curve is what the model leaves. The interval is that of the fitted numbers.");
   if (joint.poses.size() > kMostPoints)
-    notes.push_back(fmt::format("An even choice of {} of {} points is drawn; the mean uses all.",
+    notes.push_back(fmt::format("An even choice of {} of {} points is drawn; the curve uses all.",
                                 kMostPoints, joint.poses.size()));
   const auto is_outside = [&](const auto& pose) { return 1e6 * std::abs(pose.value) > half; };
   if (const auto n = std::count_if(joint.poses.begin(), joint.poses.end(), is_outside); n > 0)
     notes.push_back(
         fmt::format("{} of {} points lie beyond {} {}; those off the axis are drawn at "
                     "its edge.",
-                    n, joint.poses.size(), draw::digits(half, 2), small_unit(joint)));
+                    n, joint.poses.size(), draw::digits(half, 2), deviation_unit(joint)));
+  auto legend = joint_legend(results, knows_sides(joint));
+  add_curve_legend(with, legend);
   draw::Sheet sheet(
-      width, {.title = fmt::format("What the model leaves, as a deviation of {}", joint.name),
-              .sentence = joint_sentence(joint),
-              .legend = joint_legend(results, knows_sides(joint)),
-              .notes = std::move(notes)});
+      width,
+      {.title = with.names.empty() ? "What the model leaves, as a deviation of " + joint.name
+                                   : "Deviation of " + joint.name + ", with the law fitted to it",
+       .sentence = with.names.empty() ? joint_sentence(joint) : law_sentence(with),
+       .legend = std::move(legend),
+       .notes = std::move(notes)});
   draw::Panel panel(
       sheet.svg(), sheet.room(390.0),
-      {.title = fmt::format("position of {} [{}]", joint.name, angle_unit(joint)),
-       .low = joint.poses.empty() ? 0.0 : joint.poses.front().q * angle_per(joint),
-       .high = joint.poses.empty() ? 1.0 : joint.poses.back().q * angle_per(joint)},
-      {.title = fmt::format("equivalent deviation of {} [{}]", joint.name, small_unit(joint)),
+      {.title = fmt::format("position of {} [{}]", joint.name, position_unit(joint)),
+       .low = joint.poses.empty() ? 0.0 : joint.poses.front().q * position_per(joint),
+       .high = joint.poses.empty() ? 1.0 : joint.poses.back().q * position_per(joint)},
+      {.title = fmt::format("equivalent deviation of {} [{}]", joint.name, deviation_unit(joint)),
        .low = -half,
        .high = half});
-  draw_joint(results, joint, kMostPoints, 3.2, panel);
+  draw_joint(results, joint, with.curves, kMostPoints, 3.2, panel);
   return sheet.file();
 }
 
@@ -209,22 +291,24 @@ std::string joints_figure(const RunResults& results, double width) {
         fmt::format("At most {} points a joint are drawn, an even choice; the means use "
                     "all of them.",
                     kMostSmallPoints));
+  auto legend = joint_legend(results, sides);
+  add_mean_legend(legend);
   draw::Sheet sheet(width, {.title = "What the model leaves, as a deviation of each joint",
                             .sentence = first == nullptr ? "No joint moves in these poses."
                                                          : joint_sentence(*first),
-                            .legend = joint_legend(results, sides),
+                            .legend = std::move(legend),
                             .notes = std::move(notes)});
   const auto rooms = sheet.grid(static_cast<int>(joints.size()), 240.0, 210.0);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const auto& joint = joints[k];
     draw::Panel panel(
         sheet.svg(), rooms[k],
-        {.title = fmt::format("position [{}]", angle_unit(joint)),
-         .low = joint.poses.front().q * angle_per(joint),
-         .high = joint.poses.back().q * angle_per(joint)},
-        {.title = fmt::format("deviation [{}]", small_unit(joint)), .low = -half, .high = half},
+        {.title = fmt::format("position [{}]", position_unit(joint)),
+         .low = joint.poses.front().q * position_per(joint),
+         .high = joint.poses.back().q * position_per(joint)},
+        {.title = fmt::format("deviation [{}]", deviation_unit(joint)), .low = -half, .high = half},
         joint.name);
-    draw_joint(results, joint, kMostSmallPoints, 2.2, panel);
+    draw_joint(results, joint, {{joint.curve}}, kMostSmallPoints, 2.2, panel);
   }
   return sheet.file();
 }

@@ -35,7 +35,29 @@ struct JointResidual {
 /// Of every joint that moves, in their order. Cost: joints * (poses log poses + 100 poses).
 std::vector<JointResidual> joint_residuals(const RunResults& results);
 
-/// One joint, large; and all joints as small panels on one locked scale.
+/// Weighted scatter of values about their mean.
+struct Scatter {
+  double w = 0.0, sum = 0.0, squares = 0.0;
+  void add(double weight, double value) {
+    w += weight, sum += weight * value, squares += weight * value * value;
+  }
+  double about_mean() const { return w > 0.0 ? squares - sum * sum / w : 0.0; }
+
+  /// The share (0 .. 1) of the scatter `before` that is gone.
+  double explained_of(const Scatter& before) const {
+    const double all = before.about_mean();
+    return all > 0.0 && about_mean() < all ? 1.0 - about_mean() / all : 0.0;
+  }
+};
+
+/// The names of the axes of a joint: "deg" or "mm" of its position, "µrad" or "µm" of a deviation,
+/// and how many of the former a radian or metre has.
+const char* position_unit(const JointResidual& joint);
+const char* deviation_unit(const JointResidual& joint);
+double position_per(const JointResidual& joint);
+
+/// One joint, large, with the law that the run fitted for it or else the local mean; and all joints
+/// as small panels on one locked scale.
 std::string joint_figure(const RunResults& results, const JointResidual& joint, double width);
 std::string joints_figure(const RunResults& results, double width);
 

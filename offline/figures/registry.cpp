@@ -6,6 +6,8 @@
 #include "figures/data_figures.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/joint_residual.hpp"
+#include "figures/law_figures.hpp"
+#include "figures/model_figures.hpp"
 #include "figures/run_figures.hpp"
 
 namespace plumb::offline::figures {
@@ -31,17 +33,28 @@ Drawing of_run(std::string (*figure)(const RunResults&, double)) {
   return [figure](const Sources& from, double width) { return figure(from.results, width); };
 }
 
+Drawing of_context(Quantity quantity) {
+  return [quantity](const Sources& from, double width) {
+    return context_figure(from.results, quantity, width);
+  };
+}
+
 std::string waterfall_of(const Sources& from, double width) {
   return waterfall(from.results, waterfall_steps(from.results, from.earlier), width);
 }
 
-std::string joint_of(const Sources& from, double width) {
-  const auto& [results, earlier, joint] = from;
-  for (const auto& one : joint_residuals(results))
-    if (one.joint == joint) return joint_figure(results, one, width);
-  JointResidual still{.joint = joint,
-                      .name = results.cell.nominal.joints[static_cast<std::size_t>(joint)].name};
-  return joint_figure(results, still, width);
+/// A figure of one joint; of one that stands still in these poses, with no poses.
+Drawing of_joint(std::string (*figure)(const RunResults&, const JointResidual&, double)) {
+  return [figure](const Sources& from, double width) {
+    const auto& [results, earlier, joint] = from;
+    for (const auto& one : joint_residuals(results))
+      if (one.joint == joint) return figure(results, one, width);
+    const auto& row = results.cell.nominal.joints[static_cast<std::size_t>(joint)];
+    return figure(
+        results,
+        {.joint = joint, .name = row.name, .turns = row.type != format::JointType::kPrismatic},
+        width);
+  };
 }
 
 const std::vector<Entry>& entries() {
@@ -54,7 +67,12 @@ const std::vector<Entry>& entries() {
        of_run(error_map)},
       {{"joints", "What is left as a deviation of each joint, over its own position"},
        of_run(joints_figure)},
-      {{"joint-JN", "The same of one joint, large"}, joint_of},
+      {{"joint-JN", "The same of one joint, large, with the law that was fitted to it"},
+       of_joint(joint_figure)},
+      {{"spectrum-JN", "Which waves a turn, or a metre, the deviation of a joint has"},
+       of_joint(spectrum_figure)},
+      {{"load-JN", "Deviation of a joint over the load on it, with the fitted spring"},
+       of_joint(load_figure)},
       {{"evidence", "Which effect is missing, with the evidence for each (runs plumb diagnose)",
         FigureRow::Needs::kDiagnosis},
        {}},
@@ -63,6 +81,10 @@ const std::vector<Entry>& entries() {
        waterfall_of},
       {{"order", "What is left in the order of measuring, with jumps and drifts"},
        of_run(order_figure)},
+      {{"context-temperature", "What is left over each temperature that was measured"},
+       of_context(Quantity::kTemperature)},
+      {{"context-payload", "What is left over the payload"}, of_context(Quantity::kPayload)},
+      {{"context-time", "What is left over the time"}, of_context(Quantity::kTime)},
       {{"parameters", "What calibration changed, with 95 % intervals and the usual range of arms"},
        of_run(parameters_figure)},
       {{"regions", "Mean error by joint position and region of the workspace, with counts"},
@@ -70,7 +92,21 @@ const std::vector<Entry>& entries() {
       {{"coverage", "Which part of its range each joint used, held-out poses marked"},
        of_run(coverage_figure)},
       {{"correlation", "Which fitted numbers can hardly be told apart"},
-       of_run(correlation_figure)}};
+       of_run(correlation_figure)},
+      {{"uncertainty", "How sure the corrected point is over the workspace, 1 sigma"},
+       of_run(uncertainty_figure)},
+      {{"observability", "What the next poses would tell, planned and at random (runs plumb plan)",
+        FigureRow::Needs::kPlan},
+       {}},
+      {{"leaf-map", "What the trees correct, and where their leaves end"}, of_run(leaf_map_figure)},
+      {{"refusals", "Where the inverse correction refuses, and why, over workspace and joints"},
+       of_run(refusals_figure)},
+      {{"latency", "How long a cycle of the compiled run takes here (runs plumb bench)",
+        FigureRow::Needs::kBench},
+       {}},
+      {{"cost", "What each effect and the trees cost in a cycle (runs plumb bench)",
+        FigureRow::Needs::kBench},
+       {}}};
   return all;
 }
 

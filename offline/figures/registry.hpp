@@ -17,7 +17,7 @@ using draw::kNarrowest, draw::kWidest, draw::kUsualWidth;
 struct FigureRow {
   std::string name;
   std::string shows;  // one line, without a full stop
-  enum class Needs { kRun, kEarlierRuns, kDiagnosis } needs = Needs::kRun;
+  enum class Needs { kRun, kEarlierRuns, kDiagnosis, kPlan, kBench } needs = Needs::kRun;
 };
 
 /// Every figure, in the order of a report.
@@ -27,10 +27,13 @@ const std::vector<FigureRow>& figure_list();
 std::vector<std::string> figure_names(const Cell& cell);
 
 /// What the figure of that name is drawn from: a run; a run and the earlier ones of the same data;
-/// or a diagnosis, which `evidence` of evidence_figure.hpp draws.
+/// a diagnosis, which `evidence` of evidence_figure.hpp draws; a plan of the next poses
+/// (observability_figure.hpp); or the time that the cycle of the compiled run takes on this machine
+/// (bench_figures.hpp). The last three take seconds, and `drawn` does not draw them.
 FigureRow::Needs needs_of(const std::string& name);
 
-/// The SVG file of a figure of a run, `width` px wide; nothing if this cell has no such figure.
+/// The SVG file of a figure of a run, `width` px wide; nothing if this cell has no such figure
+/// or it needs more than runs.
 std::optional<std::string> drawn(const std::string& name, const RunResults& results, double width,
                                  const std::vector<Run>& earlier = {});
 

@@ -20,7 +20,7 @@ std::string parameters_figure(const RunResults& results, double width);
 
 /// A model on the way to the run: what was added, and what that did to the held-out poses.
 struct WaterfallStep {
-  std::string added;    // "geometry", "joint_compliance"
+  std::string added;    // in plain names: "geometry", "joint compliance and drift"
   double mean_m = 0.0;  // held-out error
   int worse = 0;        // held-out poses whose error grew beyond noise, against the step before
 };

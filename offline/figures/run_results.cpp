@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figures/run_results.hpp"
 
+#include <algorithm>
+
 #include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
 
@@ -21,6 +23,23 @@ RunResults results_of(const Cell& cell, const Measurements& measured, const Run&
   for (int row = 0; row < measured.size(); ++row)
     if (split.used[static_cast<std::size_t>(row)] && !is_held[static_cast<std::size_t>(row)])
       out.fit.push_back(row);
+  return out;
+}
+
+std::vector<std::optional<Parameter>> fitted_parameters(const Run& run) {
+  const Calibration& c = run.fit.calibration;
+  const auto of_effects = effect_parameters(c.state.arm);
+  const auto known = std::min(c.estimates.size(), static_cast<std::size_t>(c.covariance.rows()));
+  std::vector<std::optional<Parameter>> out(known);
+  for (std::size_t k = 0; k < known; ++k) {
+    const std::string& name = c.estimates[k].name;
+    const auto same = [&](const Parameter& parameter) { return parameter.name == name; };
+    if (const auto at = std::find_if(of_effects.begin(), of_effects.end(), same);
+        at != of_effects.end())
+      out[k] = *at;
+    else
+      out[k] = robot_parameter(c.state.arm.calibrated, name);
+  }
   return out;
 }
 

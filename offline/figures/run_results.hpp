@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "fit/parameter.hpp"
 #include "fit/run_store.hpp"
 
 namespace plumb::offline::figures {
@@ -32,5 +34,10 @@ struct RunResults {
 /// Cost: one small fit of tracker frame and target. Throws as `place_nominal`. `measured` must
 /// stand on the base of the run.
 RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run);
+
+/// What each row of the covariance of the run is a number of, by the names that the run keeps;
+/// nothing for a number that this arm does not have (any more). Frame and target are nothing too:
+/// they are not of the arm.
+std::vector<std::optional<Parameter>> fitted_parameters(const Run& run);
 
 }  // namespace plumb::offline::figures

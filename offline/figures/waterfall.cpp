@@ -18,7 +18,7 @@ using draw::Tone;
 
 constexpr double kWorseBeyond = 2.0;  // times the noise floor: more than noise moves an error
 constexpr double kStepRow = 40.0;     // [px]
-constexpr double kLogBeyond = 15.0;   // times the smallest error: a logarithmic axis
+constexpr double kLogSteps = 15.0;    // times the smallest error: a logarithmic axis
 
 using Names = std::vector<std::string>;
 
@@ -31,19 +31,6 @@ Names added_names(Names all, const Names& fewer) {
 
 bool is_part_of(const Names& fewer, const Names& all) {
   return added_names(fewer, all).empty() && fewer.size() < all.size();
-}
-
-/// "gear_ripple x58 and drift"
-std::string name_list(const Names& names) {
-  Names counted;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-        names.begin() + static_cast<std::ptrdiff_t>(i))
-      continue;
-    const auto n = std::count(names.begin(), names.end(), names[i]);
-    counted.push_back(n > 1 ? fmt::format("{} x{}", names[i], n) : names[i]);
-  }
-  return fmt::format("{}", fmt::join(counted, " + "));
 }
 
 std::vector<double> held_errors(const RunResults& results, const Rows3& error_M) {
@@ -98,7 +85,7 @@ std::vector<WaterfallStep> waterfall_steps(const RunResults& results,
     const auto errors = held_errors(
         results,
         run == &results.run ? results.after_M : residuals(results.measured, run->fit.predicted_M));
-    out.push_back({name_list(added_names(run->effects, names)), run->fit.held.mean,
+    out.push_back({effect_names(added_names(run->effects, names), " + "), run->fit.held.mean,
                    grown(last, errors, results.run.fit.floor.mean_m)});
     names = run->effects;
     last = errors;
@@ -126,7 +113,7 @@ std::string waterfall(const RunResults& results, const std::vector<WaterfallStep
   ErrorAxis axis{.unit = unit_for(most), .axis = {}};
   axis.axis.title = "mean held-out error [" + axis.unit.name + "]";
   axis.axis.high = 1.1 * most * axis.unit.per_m;
-  if (most > kLogBeyond * least) {
+  if (most > kLogSteps * least) {
     axis.axis.scale = draw::Axis::Scale::kLog;
     axis.axis.low = 0.8 * least * axis.unit.per_m;
     axis.axis.ends = draw::Axis::Ends::kExact;
@@ -145,9 +132,11 @@ std::string waterfall(const RunResults& results, const std::vector<WaterfallStep
       panel.line({{from, y}, {at, y}},
                  {.paint = at > from ? Tone::kVermilion : Tone::kBlue, .width = 4.0});
     }
-    std::string words = (i == 0 ? "" : "+ ") + steps[i].added + ": " + length_text(steps[i].mean_m);
+    // The numbers first: a long list of names is cut.
+    std::string words = length_text(steps[i].mean_m);
     if (steps[i].worse > 0)
       words += fmt::format(", {} {} worse", steps[i].worse, steps[i].worse == 1 ? "pose" : "poses");
+    words += (i == 0 ? ": " : ": + ") + steps[i].added;
     panel.mark(at, y,
                {.shape = i == 0 ? draw::Shape::kSquare : draw::Shape::kCircle,
                 .paint = i == 0 ? Tone::kVermilion : Tone::kBlue,

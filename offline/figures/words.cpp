@@ -2,12 +2,14 @@
 #include "figures/words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "draw/text_width.hpp"
 #include "draw/ticks.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -18,6 +20,14 @@ constexpr std::size_t kWorstShare = 10;
 
 std::string counted_poses(std::size_t n, const char* kind) {
   return fmt::format("{} {} {}", n, kind, n == 1 ? "pose" : "poses");
+}
+
+std::string plain_name(const std::string& effect) {
+  const EffectDescriptor* known = find_descriptor(effect);
+  if (known != nullptr && known->law != nullptr) return known->law->title;
+  std::string out = effect;
+  std::replace(out.begin(), out.end(), '_', ' ');
+  return out;
 }
 
 /// Different names, in the order of the rows.
@@ -59,6 +69,16 @@ std::string pose_names(const RunResults& results, std::span<const int> rows, std
 std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most) {
   const char* word = names_of(results, rows, most).size() == 1 ? "pose " : "poses ";
   return word + pose_names(results, rows, most);
+}
+
+std::string effect_names(const std::vector<std::string>& effects, const std::string& between) {
+  std::vector<std::string> names;
+  for (auto at = effects.begin(); at != effects.end(); ++at) {
+    if (std::find(effects.begin(), at, *at) != at) continue;
+    const auto n = std::count(effects.begin(), effects.end(), *at);
+    names.push_back(n > 1 ? fmt::format("{} ({} times)", plain_name(*at), n) : plain_name(*at));
+  }
+  return fmt::format("{}", fmt::join(names, between));
 }
 
 std::vector<std::string> error_notes(const RunResults& results) {

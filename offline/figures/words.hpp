@@ -28,6 +28,10 @@ std::string judged_words(const RunResults& results);
 std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most);
 std::string pose_list(const RunResults& results, std::span<const int> rows, std::size_t most);
 
+/// The plain names of effects, each once, as in `plumb explain`: "gear ripple (12 times) and
+/// geometry" with " and " between them.
+std::string effect_names(const std::vector<std::string>& effects, const std::string& between);
+
 /// The notes that every figure of errors carries: the sign, the counts, and that an in-sample error
 /// is no accuracy.
 std::vector<std::string> error_notes(const RunResults& results);

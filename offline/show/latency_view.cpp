@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "bench/cache_sweep.hpp"
-#include "show/duration.hpp"
-#include "show/latency_figure.hpp"
+#include "draw/duration.hpp"
 #include "show/text_table.hpp"
 
 namespace plumb::offline::show {
@@ -19,6 +18,7 @@ using bench::Part;
 using bench::Timing;
 using bench::Timings;
 using bench::Way;
+using draw::duration;
 
 const char* name_of(Way way) {
   if (way == Way::kWarm) return "warm";
@@ -155,12 +155,6 @@ std::string conditions_text(const Benchmark& found) {
       found.timings.clock_ns);
 }
 
-LatencySeries series_of(std::string name, const Timing& timing) {
-  LatencySeries out{.name = std::move(name), .histogram = {}};
-  for (const double ns : timing.ns) out.histogram.add(std::llround(ns));
-  return out;
-}
-
 }  // namespace
 
 Json bench_json(const Benchmark& found) {
@@ -189,21 +183,6 @@ std::string bench_text(const Benchmark& found) {
   for (std::size_t i = 0; i < found.timings.all.size() / 3; ++i) table.add(row(found.timings, i));
   return verdict(found) + fitness(found) + calls_text(found) + "\n" + table.text() + "\n" +
          conditions_text(found);
-}
-
-std::string bench_figure(const Benchmark& found) {
-  const Timing& cycle = found.cycle();
-  const Timing& cold = found.timings.of(Part::kCycle, Way::kCold);
-  LatencyFigure figure;
-  figure.title =
-      fmt::format("whole step: worst {}, 99 % within {}, median {}", duration(cycle.most()),
-                  duration(cycle.p99()), duration(cycle.median()));
-  figure.notes = {"median: " + cycle_share(found)};
-  for (const auto& why : found.why_not_representative)
-    figure.notes.push_back("not representative: " + why);
-  figure.series = {series_of(fmt::format("in the caches, {} calls", cycle.calls()), cycle),
-                   series_of(fmt::format("caches swept, {} calls", cold.calls()), cold)};
-  return svg(figure);
 }
 
 }  // namespace plumb::offline::show

@@ -14,7 +14,4 @@ Json bench_json(const bench::Benchmark& found);
 /// Verdict first: median, its share of the cycle, and whether this machine may judge; then a table.
 std::string bench_text(const bench::Benchmark& found);
 
-/// Histogram of the whole cycle, in the caches and out of them, as SVG.
-std::string bench_figure(const bench::Benchmark& found);
-
 }  // namespace plumb::offline::show

@@ -10,9 +10,6 @@
 #include "bench/allocations.hpp"
 #include "bench/part_models.hpp"
 #include "bench/stopwatch.hpp"
-#include "show/duration.hpp"
-#include "show/latency_figure.hpp"
-#include "tests/bench/well_formed.hpp"
 #include "tests/rt/cycle_model.hpp"
 
 namespace plumb::offline::bench {
@@ -187,35 +184,6 @@ TEST(PartModels, HaveThatPartAndNoOther) {
   EXPECT_EQ(with_one_effect(model, 2).effects[0], model.effects[2]);
   EXPECT_EQ(with_trees_alone(model).trees, model.trees);
   EXPECT_TRUE(with_trees_alone(model).effects.empty());
-}
-
-TEST(LatencyFigure, EscapesItsTextsAndDrawsASingleCall) {
-  show::LatencyFigure figure{.title = "a < b & c", .notes = {"<d>"}, .series = {}};
-  figure.series.push_back({.name = "one", .histogram = {}});
-  EXPECT_EQ(tests::xml_fault(show::svg(figure)), "") << "no call yet";
-  figure.series[0].histogram.add(0);
-  EXPECT_EQ(tests::xml_fault(show::svg(figure)), "");
-  figure.series[0].histogram.add(3'000'000'000);
-  const std::string text = show::svg(figure);
-  EXPECT_EQ(tests::xml_fault(text), "");
-  EXPECT_NE(text.find("a &lt; b &amp; c"), std::string::npos);
-  EXPECT_EQ(text.find("nan"), std::string::npos);
-  EXPECT_NE(text.find("worst, one: 3 s"), std::string::npos) << text;
-}
-
-TEST(WellFormed, SeesWhatIsNot) {
-  for (const auto* bad :
-       {"<a>", "<a></b>", "<a>&</a>", "<a b=\"></a>", "x<a/>", "<a <b/></a>", "<a>></a>"})
-    EXPECT_NE(tests::xml_fault(bad), "") << bad;
-  EXPECT_EQ(tests::xml_fault("<a b=\"1\"><c/>&lt;</a>\n"), "");
-}
-
-TEST(Duration, ReadsInTheUnitThatFits) {
-  EXPECT_EQ(show::duration(0.0), "0 ns");
-  EXPECT_EQ(show::duration(999.4), "999 ns");
-  EXPECT_EQ(show::duration(999.6), "1 us");
-  EXPECT_EQ(show::duration(2412.0), "2.41 us");
-  EXPECT_EQ(show::duration(1.5e6), "1.5 ms");
 }
 
 }  // namespace

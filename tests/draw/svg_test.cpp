@@ -5,6 +5,7 @@
 
 #include "draw/text_width.hpp"
 #include "tests/draw/text_boxes.hpp"
+#include "tests/draw/well_formed.hpp"
 
 namespace plumb::offline::draw {
 namespace {
@@ -48,6 +49,13 @@ TEST(Svg, TheTestOfCollisionsSeesAPlantedOne) {
   EXPECT_EQ(collisions(two, 300.0), "'abcdef' touches 'ghi'\n");
 }
 
+TEST(WellFormed, SeesWhatIsNot) {
+  for (const auto* bad :
+       {"<a>", "<a></b>", "<a>&</a>", "<a b=\"></a>", "x<a/>", "<a <b/></a>", "<a>></a>"})
+    EXPECT_NE(tests::xml_fault(bad), "") << bad;
+  EXPECT_EQ(tests::xml_fault("<a b=\"1\"><c/>&lt;</a>\n"), "");
+}
+
 TEST(Svg, PlacesThatAreNoNumbersAreNotDrawn) {
   Svg svg(300.0);
   svg.mark({NAN, 3.0}, {});
@@ -89,7 +97,10 @@ TEST(Colours, OfMagnitudesRiseInBrightness) {
     EXPECT_GT(luminance, last) << i;
     last = luminance;
   }
-  EXPECT_EQ(signed_colour(0.0).value(), "#f7f7f7") << "zero is neutral";
+  EXPECT_EQ(signed_colour(0.0).opacity(), 0.0) << "zero is the ground, light or dark";
+  EXPECT_EQ(signed_colour(NAN).opacity(), 0.0);
+  EXPECT_EQ(signed_colour(-0.5).opacity(), signed_colour(0.5).opacity());
+  EXPECT_NE(signed_colour(-0.5).value(), signed_colour(0.5).value());
   EXPECT_EQ(magnitude_colour(NAN).value(), magnitude_colour(0.0).value());
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "draw/duration.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline::draw {
@@ -95,6 +96,14 @@ TEST(Digits, AreSignificantOnesWithoutAnExponent) {
   EXPECT_EQ(digits(-0.5, 1), "-0.5");
   EXPECT_EQ(digits(0.0, 3), "0");
   EXPECT_EQ(digits(kNan, 3), "none");
+}
+
+TEST(Duration, ReadsInTheUnitThatFits) {
+  EXPECT_EQ(duration(0.0), "0 ns");
+  EXPECT_EQ(duration(999.4), "999 ns");
+  EXPECT_EQ(duration(999.6), "1 us");
+  EXPECT_EQ(duration(2412.0), "2.41 us");
+  EXPECT_EQ(duration(1.5e6), "1.5 ms");
 }
 
 }  // namespace

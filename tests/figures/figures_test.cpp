@@ -5,16 +5,26 @@
 #include <cmath>
 #include <regex>
 #include <set>
+#include <tuple>
+#include <utility>
 
+#include "figures/bench_figures.hpp"
 #include "figures/data_figures.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/evidence_figure.hpp"
+#include "figures/heat_map.hpp"
+#include "figures/joint_law.hpp"
 #include "figures/joint_residual.hpp"
+#include "figures/law_figures.hpp"
+#include "figures/model_figures.hpp"
+#include "figures/observability_figure.hpp"
 #include "figures/registry.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
 #include "figures/worst_band.hpp"
+#include "fit/calibrate.hpp"
 #include "tests/draw/text_boxes.hpp"
+#include "tests/draw/well_formed.hpp"
 #include "tests/figures/made_run.hpp"
 #include "tests/yardstick.hpp"
 
@@ -36,12 +46,15 @@ std::set<std::string> poses_in(const std::string& svg) {
 std::vector<std::string> run_figures(const Cell& cell) {
   std::vector<std::string> out;
   for (const auto& name : figure_names(cell))
-    if (needs_of(name) != FigureRow::Needs::kDiagnosis) out.push_back(name);
+    if (needs_of(name) == FigureRow::Needs::kRun ||
+        needs_of(name) == FigureRow::Needs::kEarlierRuns)
+      out.push_back(name);
   return out;
 }
 
 bool shows_no_error(const std::string& name) {
-  return name == "parameters" || name == "correlation" || name == "coverage";
+  return name == "parameters" || name == "correlation" || name == "coverage" ||
+         name == "uncertainty" || name == "leaf-map" || name == "refusals";
 }
 
 /// Every figure of the run at the three widths of the page: no label touches another, none leaves
@@ -56,7 +69,7 @@ void expect_sound(const MadeRun& made) {
       EXPECT_EQ(svg.find("inf"), std::string::npos) << name;
       EXPECT_EQ(svg.find("measured - predicted") == std::string::npos, shows_no_error(name))
           << name;
-      EXPECT_EQ(count(svg, "<svg "), count(svg, "</svg>")) << name;
+      EXPECT_EQ(tests::xml_fault(svg), "") << name;
     }
 }
 
@@ -237,8 +250,8 @@ TEST(Waterfall, TakesTheRunsThatLeadToThisOneAndCountsPosesThatBecameWorse) {
   const auto steps = waterfall_steps(made.results(), earlier);
   ASSERT_EQ(steps.size(), 4U);
   EXPECT_EQ(steps[1].added, "geometry");
-  EXPECT_EQ(steps[2].added, "drift");
-  EXPECT_EQ(steps[3].added, "gear_ripple x2");
+  EXPECT_EQ(steps[2].added, "drift of tracker or base");
+  EXPECT_EQ(steps[3].added, "gear ripple (2 times)");
   EXPECT_DOUBLE_EQ(steps[3].mean_m, 1e-4);
   EXPECT_EQ(steps[2].worse, 0);
   EXPECT_EQ(steps[3].worse, 1);
@@ -340,6 +353,274 @@ TEST(Evidence, SaysThatNothingIsSupportedOrCanBeJudged) {
             std::string::npos);
 }
 
+/// What the run fitted as a law of one joint, with numbers that are known to 5 µrad each.
+void add_ripple(MadeRun& made, std::uint8_t joint, double cycles, double sine, double cosine) {
+  auto& c = made.run.fit.calibration;
+  const int place = static_cast<int>(c.state.arm.effects.size());
+  c.state.arm.effects.push_back({.name = "gear_ripple",
+                                 .joints = {joint},
+                                 .parameters = {sine, cosine},
+                                 .context = {},
+                                 .constants = {cycles}});
+  for (int k = 0; k < 2; ++k)
+    c.estimates.push_back(
+        {.name = effect_parameters(c.state.arm)[static_cast<std::size_t>(2 * place + k)].name});
+  const auto n = static_cast<Eigen::Index>(c.estimates.size());
+  c.covariance = 25e-12 * Eigen::MatrixXd::Identity(n, n);
+}
+
+/// Residuals of an arm that has these effects while the model has none.
+void err_by_effects(MadeRun& made) {
+  made.after_M =
+      residuals(made.measured, predict_points(made.run.fit.calibration.state, made.measured)) *
+      -1.0;
+}
+
+JointResidual residual_of(const MadeRun& made, int joint) {
+  for (auto& one : joint_residuals(made.results()))
+    if (one.joint == joint) return one;
+  return {.joint = joint};
+}
+
+TEST(JointLaw, IsTheSumOfTheWavesOfThatJointWithTheirUncertainty) {
+  MadeRun made(60, 6);
+  add_ripple(made, 1, 17.0, 80e-6, -50e-6);
+  add_ripple(made, 1, 3.0, 0.0, 30e-6);
+  add_ripple(made, 2, 5.0, 70e-6, 0.0);
+  const RunResults results = made.results();
+  const JointLaw law(results, 1, JointLaw::Of::kOwnPosition);
+  ASSERT_FALSE(law.empty());
+  EXPECT_EQ(law.names(), "gear ripple (2 times)");
+  for (const double q : {-1.0, 0.1, 0.7}) {
+    const auto [value, sigma] = law.at(q, 0);
+    EXPECT_NEAR(value,
+                80e-6 * std::sin(17.0 * q) - 50e-6 * std::cos(17.0 * q) + 30e-6 * std::cos(3.0 * q),
+                1e-12);
+    EXPECT_NEAR(sigma, 5e-6 * std::sqrt(2.0), 1e-9) << "sin^2 + cos^2 of two waves";
+  }
+  EXPECT_TRUE(JointLaw(results, 0, JointLaw::Of::kOwnPosition).empty());
+  EXPECT_TRUE(JointLaw(results, 1, JointLaw::Of::kLoad).empty());
+  EXPECT_FALSE(law.has_sides());
+  const std::string svg =
+      drawn("joint-" + made.cell.nominal.joints[1].name, results, 900.0).value();
+  EXPECT_NE(svg.find("(gear ripple (2 times)) runs from"), std::string::npos);
+  EXPECT_NE(svg.find(">fitted law<"), std::string::npos);
+}
+
+TEST(Spectrum, NamesTheWaveThatIsThereAndNoneInNoise) {
+  MadeRun made(400, 6);
+  add_ripple(made, 1, 16.9, 80e-6, -50e-6);
+  err_by_effects(made);
+  const JointResidual joint = residual_of(made, 1);
+  std::vector<double> value;
+  for (const auto& pose : joint.poses) value.push_back(pose.value);
+  const Spectrum found = spectrum_of(joint, value, 0.0);
+  const auto peaks = peaks_of(found, 4);
+  ASSERT_FALSE(peaks.empty());
+  EXPECT_NEAR(found.cycles[peaks[0]], 16.9, 0.5 * found.apart);
+  EXPECT_GT(found.share[peaks[0]], 0.9);
+  made.run.fit.calibration.state.arm.effects.clear();
+  const auto& name = made.cell.nominal.joints[1].name;
+  const std::string svg = drawn("spectrum-" + name, made.results(), 900.0).value();
+  EXPECT_NE(svg.find(">k = 1"), std::string::npos);
+  EXPECT_NE(svg.find("is not known"), std::string::npos) << "the gear ratio";
+  made.cell.mechanics[1].gear_ratio = 101.0;
+  EXPECT_NE(drawn("spectrum-" + name, made.results(), 900.0)->find(">motor<"), std::string::npos);
+  int false_alarms = 0;
+  for (int j = 0; j < 6; ++j) {
+    const JointResidual noise = residual_of(MadeRun(300, 6), j);
+    std::vector<double> numbers;
+    for (const auto& pose : noise.poses) numbers.push_back(pose.value);
+    false_alarms += peaks_of(spectrum_of(noise, numbers, 0.0), 4).empty() ? 0 : 1;
+  }
+  EXPECT_LE(false_alarms, 1) << "once in a hundred spectra";
+}
+
+TEST(Load, FindsTheSpringThatIsMissingAndDrawsTheOneThatWasFitted) {
+  MadeRun made(300, 6);
+  made.cell.payload.mass_kg = 8.0;
+  auto& arm = made.run.fit.calibration.state.arm;
+  arm.mechanics.payload_kg = 8.0;
+  arm.gravity = made.cell.gravity;
+  arm.effects.push_back(
+      {.name = "joint_compliance", .joints = {1}, .parameters = {4e-6}, .context = {}});
+  err_by_effects(made);
+  const auto& name = made.cell.nominal.joints[1].name;
+  const auto effects = std::exchange(arm.effects, {});
+  const std::string missing = drawn("load-" + name, made.results(), 900.0).value();
+  EXPECT_NE(missing.find("follows its load: 4.0 µrad per N m"), std::string::npos);
+  arm.effects = effects;
+  made.after_M.setZero();
+  const std::string fitted = drawn("load-" + name, made.results(), 900.0).value();
+  EXPECT_NE(fitted.find("The fitted law of " + name + " (joint compliance)"), std::string::npos);
+  EXPECT_NE(fitted.find("explains 100 %"), std::string::npos);
+  EXPECT_NE(drawn("load-" + name, MadeRun(60, 6).results(), 900.0)->find("1 kg at the flange"),
+            std::string::npos);
+}
+
+TEST(Context, NamesTheTemperatureThatTheErrorFollows) {
+  MadeRun made(200, 6);
+  EXPECT_NE(context_figure(made.results(), Quantity::kTemperature, 700.0).find("do not say"),
+            std::string::npos);
+  made.measured.context.sensors = {"temp<base>", "temp_arm"};
+  made.measured.context.temperature.resize(200, 2);
+  for (int i = 0; i < 200; ++i) {
+    made.measured.context.temperature.row(i) << 20.0 + 0.05 * i, 21.0;
+    made.after_M(i, 2) += 12e-6 * 0.05 * i;
+  }
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = context_figure(made.results(), Quantity::kTemperature, width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_EQ(tests::xml_fault(svg), "");
+    EXPECT_NE(svg.find("z follows"), std::string::npos);
+  }
+  made.measured.context.payload = Eigen::MatrixXd::Constant(200, 4, 2.5);
+  EXPECT_NE(context_figure(made.results(), Quantity::kPayload, 700.0).find("same at all poses"),
+            std::string::npos);
+}
+
+TEST(Uncertainty, IsTheLeverOfAnAngleTimesItsSigma) {
+  MadeRun made(40, 6);
+  EXPECT_NE(uncertainty_figure(made.results(), 700.0).find("does not know the covariance"),
+            std::string::npos);
+  auto& c = made.run.fit.calibration;
+  c.estimates = {{.name = "target.x"}, {.name = made.cell.nominal.joints[0].name + ".d"}};
+  c.covariance = Eigen::Vector2d(1.0, 400e-12).asDiagonal();
+  const std::string svg = uncertainty_figure(made.results(), 700.0);
+  EXPECT_NE(svg.find("uncertain by 0.020 mm in the median, and by up to 0.020 mm"),
+            std::string::npos)
+      << "J1.d shifts every point by as much; the reflector is no part of the arm";
+  EXPECT_EQ(poses_in(svg).size(), 40U);
+  for (const double width : {1280.0, 700.0, 400.0})
+    EXPECT_EQ(collisions(uncertainty_figure(made.results(), width), width), "") << width;
+}
+
+/// Trees of two leaves each: J2 below and above the middle, with two levels.
+void add_trees(MadeRun& made) {
+  auto& arm = made.run.fit.calibration.state.arm;
+  const std::size_t n = made.cell.nominal.joints.size();
+  for (const auto& row : made.cell.nominal.joints) {
+    arm.domain.q_min.push_back(row.q_min);
+    arm.domain.q_max.push_back(row.q_max);
+  }
+  for (auto& tree : arm.trees) {
+    tree.depth = 1;
+    tree.nodes = {{.threshold = 0.0, .input = 1, .low = ~0, .high = ~1}};
+    tree.coefficients.assign(2 * (n + 1), 0.0);
+    tree.coefficients[0] = -5e-5, tree.coefficients[n + 1] = 7e-5;
+    tree.coefficients[4] = 1e-6;
+    tree.bounds = {-1e-4, 1e-4, -1e-4, 1e-4};
+  }
+}
+
+TEST(LeafMap, ShowsTheBorderAndSaysThatThereIsNoTree) {
+  MadeRun made(50, 6);
+  EXPECT_NE(leaf_map_figure(made.results(), 700.0).find("has no tree"), std::string::npos);
+  add_trees(made);
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = leaf_map_figure(made.results(), width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_EQ(tests::xml_fault(svg), "");
+    EXPECT_NE(svg.find("2 for x, 2 for y, 2 for z; they correct up to 0.07"), std::string::npos);
+    EXPECT_NE(svg.find("100 % of their splits are by " + made.cell.nominal.joints[1].name + " and"),
+              std::string::npos)
+        << svg.substr(0, 4000);
+    EXPECT_EQ(poses_in(svg).size(), 50U);
+  }
+}
+
+TEST(Refusals, CountWhatTheGuardCuts) {
+  MadeRun made(50, 6);
+  made.cell.deploy.max_correction_m = 3e-3;
+  const std::string good = refusals_figure(made.results(), 900.0);
+  EXPECT_EQ(good.find("cut by the guard"), std::string::npos);
+  made.run.fit.calibration.state.arm.calibrated.joints[0].d += 5e-3;
+  const std::string cut = refusals_figure(made.results(), 900.0);
+  EXPECT_NE(cut.find("are cut by the guard"), std::string::npos);
+  for (const double width : {1280.0, 700.0, 400.0})
+    EXPECT_EQ(collisions(refusals_figure(made.results(), width), width), "") << width;
+}
+
+TEST(Observability, SaysWhatThePlanBringsAndThatNothingIsPlanned) {
+  InformationGrowth growth{.sigma_now_m = 40e-6, .planned = {}, .random = {}, .remarks = {}};
+  EXPECT_NE(observability_figure(growth, 3, 700.0).find("No further pose"), std::string::npos);
+  for (int k = 1; k <= 10; ++k) {
+    growth.planned.push_back({"N<" + std::to_string(k), 5.0 / k, 40e-6 - 2e-6 * k});
+    growth.random.push_back({"random", 2.0 / k, 40e-6 - 1e-6 * k});
+  }
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = observability_figure(growth, 3, width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_EQ(tests::xml_fault(svg), "");
+    EXPECT_EQ(poses_in(svg).size(), 10U);
+  }
+  const std::string svg = observability_figure(growth, 3, 1280.0);
+  EXPECT_NE(svg.find("from 0.040 mm to 0.020 mm; the first 5 bring half"), std::string::npos);
+}
+
+bench::Benchmark made_benchmark() {
+  using bench::Part;
+  using bench::Way;
+  bench::Benchmark out;
+  out.cycle_s = 0.004;
+  out.poses = 1024;
+  out.why_not_representative = {"virtual machine <\"1\">"};
+  for (const Way way : {Way::kWarm, Way::kChain, Way::kCold})
+    for (const auto& [part, label, ns] : std::vector<std::tuple<Part, std::string, double>>{
+             {Part::kCycle, "", 2000.0},
+             {Part::kCorrect, "", 1800.0},
+             {Part::kGuard, "", 40.0},
+             {Part::kPredict, "", 300.0},
+             {Part::kKinematics, "", 90.0},
+             {Part::kEffect, "gear_ripple:J2", 120.0},
+             {Part::kTrees, "", 290.0}})
+      out.timings.all.push_back(
+          {.part = part, .label = label, .way = way, .ns = {0.9 * ns, ns, 1.5 * ns}});
+  return out;
+}
+
+TEST(Latency, MarksTheWorstCallAndTheCycle) {
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = latency_figure(made_benchmark(), width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_EQ(tests::xml_fault(svg), "");
+    EXPECT_NE(svg.find("the worst of 3 calls took 3 us"), std::string::npos);
+    EXPECT_NE(svg.find(">cycle 4 ms<"), std::string::npos) << width;
+  }
+  bench::Benchmark none = made_benchmark();
+  for (auto& timing : none.timings.all) timing.ns.clear();
+  EXPECT_NE(latency_figure(none, 700.0).find("No call was timed"), std::string::npos);
+  for (auto& timing : none.timings.all) timing.ns = {0.0};
+  EXPECT_EQ(latency_figure(none, 700.0).find("nan"), std::string::npos);
+}
+
+TEST(Cost, NamesTheDearestPart) {
+  for (const double width : {1280.0, 700.0, 400.0}) {
+    const std::string svg = cost_figure(made_benchmark(), width);
+    EXPECT_EQ(collisions(svg, width), "") << width;
+    EXPECT_EQ(tests::xml_fault(svg), "");
+    EXPECT_NE(svg.find("is trees, 200 ns"), std::string::npos);
+    EXPECT_NE(svg.find("gear ripple of J2: 30 ns"), std::string::npos);
+  }
+}
+
+TEST(HeatMap, EqualNeighboursAreOneRectangleAndNothingIsLost) {
+  HeatMap map;
+  map.value.resize(2, 3);
+  map.value << 0.0, 0.0, 1.0,  //
+      1.0, 0.5, 2.0;
+  map.x_title = "a < b & c";
+  const std::string svg = map_file(map, {.title = "map", .sentence = ""}, "mm", 700.0);
+  // Ground, paper and frame of the panel, five of the legend; rows of 2 and 3 different runs.
+  EXPECT_EQ(count(svg, "<rect"), 1 + 2 + 5 + 2 + 3);
+  EXPECT_EQ(count(svg, "fill=\"#fde725\"/>"), 3) << "1 twice, and 2, which is beyond the scale";
+  EXPECT_EQ(tests::xml_fault(svg), "");
+  map.value.setZero();
+  map.most = 0.0;
+  EXPECT_EQ(map_file(map, {.title = "", .sentence = ""}, "mm", 400.0).find("nan"),
+            std::string::npos);
+}
+
 TEST(Thinning, KeepsTheWorstAndIsToldAt12000Poses) {
   MadeRun made(12000, 6);
   made.after_M.row(6000) *= 50.0;
@@ -355,7 +636,9 @@ TEST(Thinning, KeepsTheWorstAndIsToldAt12000Poses) {
 
 TEST(Figures, TakeLessThan100MillisecondsFor1500Poses) {
   if (PLUMB_TIMED == 0) GTEST_SKIP() << "timing is judged in release";
-  const MadeRun made(1500, 6);
+  MadeRun made(1500, 6);
+  for (int k = 0; k < 12; ++k) add_ripple(made, 1, 2.0 + 3.0 * k, 1e-5, 1e-5);
+  add_trees(made);
   const RunResults results = made.results();
   for (const auto& name : run_figures(made.cell)) {
     std::vector<double> ms;
@@ -375,9 +658,11 @@ TEST(Figures, TakeLessThan100MillisecondsFor1500Poses) {
 TEST(Registry, DrawsWhatItListsAndNothingElse) {
   const MadeRun made(20, 2);
   const auto names = run_figures(made.cell);
-  EXPECT_EQ(names.size(), figure_list().size()) << "two joints instead of JN, and no diagnosis";
+  EXPECT_EQ(names.size(), figure_list().size() - 4 + 3)
+      << "two joints instead of JN three times; no diagnosis, no plan, no timing";
   for (const auto& name : names) EXPECT_TRUE(drawn(name, made.results(), 700.0)) << name;
-  for (const auto* name : {"joint-J3", "joint-JN", "evidence", "", "../error-hist"})
+  for (const auto* name : {"joint-J3", "joint-JN", "evidence", "observability", "latency", "cost",
+                           "context-NAME", "", "../error-hist"})
     EXPECT_FALSE(drawn(name, made.results(), 700.0)) << name;
 }
 

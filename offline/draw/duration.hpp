@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace plumb::offline::show {
+namespace plumb::offline::draw {
 
 /// A short time for people: "210 ns", "2.41 us", "1.5 ms", "3 s".
 std::string duration(double ns);
 
-}  // namespace plumb::offline::show
+}  // namespace plumb::offline::draw

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "show/duration.hpp"
+#include "draw/duration.hpp"
 
 #include <fmt/format.h>
 
-namespace plumb::offline::show {
+namespace plumb::offline::draw {
 
 std::string duration(double ns) {
   if (ns < 999.5) return fmt::format("{:.0f} ns", ns);
@@ -12,4 +12,4 @@ std::string duration(double ns) {
   return fmt::format("{:.3g} s", 1e-9 * ns);
 }
 
-}  // namespace plumb::offline::show
+}  // namespace plumb::offline::draw

@@ -12,7 +12,8 @@ inline std::string xml_fault(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '&' && text.compare(at, 4, "&lt;") != 0 && text.compare(at, 4, "&gt;") != 0 &&
-        text.compare(at, 5, "&amp;") != 0)
+        text.compare(at, 5, "&amp;") != 0 && text.compare(at, 5, "&#39;") != 0 &&
+        text.compare(at, 6, "&quot;") != 0)
       return "a bare ampersand";
     if (text[at] != '<') {
       if (text[at] == '>') return "a bare >";

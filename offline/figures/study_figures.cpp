@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "show/study_figures.hpp"
+#include "figures/study_figures.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
+#include <numbers>
 
-#include "show/heat_map.hpp"
-#include "show/units.hpp"
+#include "draw/ticks.hpp"
+#include "figures/heat_map.hpp"
 
-namespace plumb::offline::show {
+namespace plumb::offline::figures {
 namespace {
 
 using study::AxisTrees;
@@ -16,9 +17,27 @@ using study::PlanarStudy;
 using study::StudyRow;
 
 constexpr const char* kAxisName[] = {"x", "y"};
+constexpr double kWidth = 720.0;  // [px]
+
+double to_deg(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+/// A map with the words around it.
+struct StudyMap {
+  HeatMap map;
+  std::string title, sentence;
+
+  std::string file() const {
+    return map_file(
+        map,
+        {.title = title,
+         .sentence = sentence,
+         .notes = {"Planar study, test grid; phi12 and phi23 are the joint positions."}},
+        "mm", kWidth);
+  }
+};
 
 /// One quantity on the test grid: a row for each phi12, a column for each phi23.
-HeatMap map_of(const PlanarStudy& study, const Eigen::VectorXd& value_mm) {
+HeatMap grid_of(const PlanarStudy& study, const Eigen::VectorXd& value_mm) {
   const RowsN& q = study.test_q;
   Eigen::Index columns = 0;
   while (columns < q.rows() && q(columns, 0) == q(0, 0)) ++columns;
@@ -31,7 +50,6 @@ HeatMap map_of(const PlanarStudy& study, const Eigen::VectorXd& value_mm) {
   out.y_high = to_deg(q.col(0).maxCoeff());
   out.x_title = "phi23 [deg]";
   out.y_title = "phi12 [deg]";
-  out.value_title = "[mm]";
   return out;
 }
 
@@ -77,25 +95,30 @@ Eigen::VectorXd remaining_mm(const PlanarStudy& study, int axis) {
   return 1e3 * (truth.p_AC_A - study::rigid_points(study.links.d, study.test_q)).col(axis);
 }
 
-HeatMap signed_map(const PlanarStudy& study, const Eigen::VectorXd& value, std::string title) {
-  HeatMap out = map_of(study, value);
-  out.title = std::move(title);
-  out.scale = ColourScale::kSigned;
-  out.most = value.cwiseAbs().maxCoeff();
+StudyMap signed_map(const PlanarStudy& study, const Eigen::VectorXd& value, std::string title) {
+  StudyMap out{grid_of(study, value), std::move(title), ""};
+  out.map.scale = ColourScale::kSigned;
+  out.map.most = value.cwiseAbs().maxCoeff();
+  out.sentence = fmt::format("It runs from {} to {} mm.", draw::digits(value.minCoeff(), 3),
+                             draw::digits(value.maxCoeff(), 3));
   return out;
 }
 
-HeatMap leaf_map(const StudyRow& row, int axis, HeatMap below) {
-  below.lines = Borders(*row.trees, axis).lines;
-  below.title = fmt::format("{}: {} leaves for {} over {}", row.model,
-                            row.trees->tree[axis].leaves(), kAxisName[axis], below.title);
+StudyMap leaf_map(const StudyRow& row, int axis, StudyMap below) {
+  below.map.lines = Borders(*row.trees, axis).lines;
+  below.sentence =
+      fmt::format("The tree has {} leaves for {}, small where what it learns bends most.",
+                  row.trees->tree[axis].leaves(), kAxisName[axis]);
+  below.title = fmt::format("{}: leaves over the {}", row.model, below.title);
   return below;
 }
 
-HeatMap total_map(const PlanarStudy& study, const StudyRow& row) {
-  HeatMap out = map_of(study, 1e3 * row.error_at_test);
-  out.title = fmt::format("{}: total error, mean {:.3g} mm", row.model, 1e3 * row.test.mean);
-  out.most = 1e3 * row.test.max;
+StudyMap total_map(const PlanarStudy& study, const StudyRow& row) {
+  StudyMap out{grid_of(study, 1e3 * row.error_at_test), row.model + ": total error", ""};
+  out.sentence =
+      fmt::format("The mean is {} mm, the largest {} mm.", draw::digits(1e3 * row.test.mean, 3),
+                  draw::digits(1e3 * row.test.max, 3));
+  out.map.most = 1e3 * row.test.max;
   return out;
 }
 
@@ -105,21 +128,22 @@ std::vector<std::pair<std::string, std::string>> planar_figures(const PlanarStud
   std::vector<std::pair<std::string, std::string>> out;
   const auto positions = study::true_poses(study.request.variant, study.test_q).p_AC_A;
   for (int axis = 0; axis < 2; ++axis) {
-    const HeatMap error =
+    const StudyMap error =
         signed_map(study, remaining_mm(study, axis),
                    fmt::format("error of the calibrated arm, {}", kAxisName[axis]));
-    out.emplace_back(fmt::format("fig{:02}_error_{}.svg", 4 + axis, kAxisName[axis]), svg(error));
-    const HeatMap leaves = leaf_map(study.row("calibrated_llmt"), axis, error);
-    out.emplace_back(fmt::format("fig{:02}_leaves_{}.svg", 6 + axis, kAxisName[axis]), svg(leaves));
-    const HeatMap place =
+    out.emplace_back(fmt::format("fig{:02}_error_{}.svg", 4 + axis, kAxisName[axis]), error.file());
+    const StudyMap leaves = leaf_map(study.row("calibrated_llmt"), axis, error);
+    out.emplace_back(fmt::format("fig{:02}_leaves_{}.svg", 6 + axis, kAxisName[axis]),
+                     leaves.file());
+    const StudyMap place =
         signed_map(study, 1e3 * positions.col(axis), fmt::format("position {}", kAxisName[axis]));
-    const HeatMap alone = leaf_map(study.row("alone"), axis, place);
+    const StudyMap alone = leaf_map(study.row("alone"), axis, place);
     out.emplace_back(fmt::format("fig{:02}_leaves_alone_{}.svg", 8 + axis, kAxisName[axis]),
-                     svg(alone));
+                     alone.file());
   }
   for (const StudyRow& row : study.rows)
-    out.emplace_back(fmt::format("fig10_{}.svg", row.key), svg(total_map(study, row)));
+    out.emplace_back(fmt::format("fig10_{}.svg", row.key), total_map(study, row).file());
   return out;
 }
 
-}  // namespace plumb::offline::show
+}  // namespace plumb::offline::figures
