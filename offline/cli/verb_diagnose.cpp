@@ -3,12 +3,14 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "cli/cell_writing.hpp"
 #include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "report/kept_diagnosis.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/units.hpp"
 
@@ -80,12 +82,12 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                                       : open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   double before_m = std::numeric_limits<double>::infinity();
-  if (options.dry_run) {
-    if (const auto run = current_run(cell, measured)) stand_on_base_of(*run, cell, measured);
-  } else {
-    const Run before = current_or_new_run(cell, measured, Keep::kRun, outcome);
-    if (before.fit.held.n > 0) before_m = before.fit.held.mean;
-    stand_on_base_of(before, cell, measured);
+  std::optional<Run> before = options.dry_run
+                                  ? current_run(cell, measured)
+                                  : current_or_new_run(cell, measured, Keep::kRun, outcome);
+  if (before) {
+    if (!options.dry_run && before->fit.held.n > 0) before_m = before->fit.held.mean;
+    stand_on_base_of(*before, cell, measured);
   }
   const auto found = [&] {
     Progress progress(fmt::format("diagnosing {} poses", measured.size()));
@@ -93,6 +95,7 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                        progress.at(step);
                                      }});
   }();
+  if (before && !options.apply && !options.dry_run) report::keep_diagnosis(*before, found);
   outcome.remark(found.remarks);
   outcome.result = show::diagnose_json(cell, found);
   outcome.text = show::diagnose_text(

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/cell_data.hpp"
+#include "cli/earlier_runs.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
@@ -56,22 +57,6 @@ Run run_to_draw(const PlotArguments& options, const Cell& cell, const Measuremen
                 {.code = "E-PLOT-RUN",
                  .message = "there is no run of the present cell and data to draw",
                  .help = "plumb fit; or an earlier run: plumb plot " + options.name + " --run 1"});
-}
-
-/// Runs before this one that are of the same data and can be read.
-std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured) {
-  std::vector<Run> out;
-  for (const int number : list_runs(cell)) {
-    if (number >= last.number) break;
-    try {
-      Run run = load_run(cell, number);
-      check_same_data(run, measured);
-      out.push_back(std::move(run));
-    } catch (const Failure&) {
-      continue;  // damaged, or of other data: no step of this model
-    }
-  }
-  return out;
 }
 
 std::string evidence_of(const PlotArguments& options, const Cell& cell,
