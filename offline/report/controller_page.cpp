@@ -30,11 +30,12 @@ void put_model(const ReportData& data, Html& html) {
   for (const auto& tree : model.trees) leaves += tree.leaves();
   for (const auto& effect : model.effects) numbers += effect.parameters.size();
   html.paragraph(fmt::format(
-      "The model file takes {} bytes: the arm of {} joints, {} with {}, and {}. How long one cycle "
+      "The model file takes {} bytes: the arm of {} joints, {}, and {}. How long one cycle "
       "takes is a matter of the computer beside the controller; there, plumb bench measures it.",
       audit.bytes, model.nominal.joints.size(),
-      counted_words(model.effects.size(), "effect", "effects"),
-      counted_words(numbers, "number", "numbers"),
+      model.effects.empty() ? "no effect"
+                            : counted_words(model.effects.size(), "effect", "effects") + " with " +
+                                  counted_words(numbers, "number", "numbers"),
       leaves == 0 ? "no tree" : counted_words(leaves, "leaf of trees", "leaves of trees")));
   const auto left = left_out(data, model);
   if (!left.empty())

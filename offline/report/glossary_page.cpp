@@ -12,11 +12,18 @@ namespace {
 
 constexpr std::size_t kShortest = 3;  // letters of a term that is looked for in sentences
 
-/// Terms that are also everyday words: they count only as heads of columns.
-constexpr std::array<std::string_view, 22> kEveryday{
-    "used", "why",   "now",   "joint",  "error",  "before", "after",  "worst",
-    "share", "fall", "size",  "alone",  "effect", "placed", "limits", "change",
-    "run",  "mean",  "max",   "change", "effects", "created"};
+/// Terms that are everyday words: nobody looks them up.
+constexpr std::array<std::string_view, 17> kEveryday{
+    "used", "why",    "now",    "joint", "error", "before", "after",   "worst",     "size",
+    "run",  "effect", "limits", "mean",  "max",   "change", "created", "to measure"};
+
+/// Terms that mean what they say here only as heads of columns.
+constexpr std::array<std::string_view, 5> kHeads{"alone", "share", "fall", "placed", "effects"};
+
+template <std::size_t N>
+bool is_of(const std::array<std::string_view, N>& list, std::string_view term) {
+  return std::find(list.begin(), list.end(), term) != list.end();
+}
 
 bool is_letter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (c & 0x80) != 0;
@@ -58,10 +65,10 @@ bool is_head(const std::string& html, std::string_view term) {
 }
 
 bool is_met(const std::string& html, const std::string& words, std::string_view term) {
+  if (is_of(kEveryday, term)) return false;
   if (is_head(html, term)) return true;
-  const bool everyday = std::find(kEveryday.begin(), kEveryday.end(), term) != kEveryday.end();
   const bool abbreviation = term == "DH" || term == "TCP";
-  return !everyday && (term.size() >= kShortest || abbreviation) && occurs(words, term);
+  return !is_of(kHeads, term) && (term.size() >= kShortest || abbreviation) && occurs(words, term);
 }
 
 }  // namespace

@@ -3,18 +3,58 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "draw/paint.hpp"
 #include "draw/svg.hpp"
 
 namespace plumb::offline::report {
 namespace {
 
-/// A page holds the style of all figures once.
-std::string without_style(std::string_view svg) {
+/// What a page has once is taken out of its figures: their style, and the colours for programs that
+/// know no style, where a class says the colour.
+std::string compacted(std::string_view svg) {
   const std::string style = "<style>\n" + draw::style_sheet() + "</style>\n";
-  std::string out(svg);
-  if (const auto at = out.find(style); at != std::string::npos) out.erase(at, style.size());
-  return out;
+  std::string out;
+  out.reserve(svg.size());
+  const auto skip = [&svg](std::size_t at, std::string_view attribute) {
+    return svg.compare(at, attribute.size(), attribute) == 0
+               ? svg.find('"', at + attribute.size()) + 1
+               : at;
+  };
+  std::size_t from = 0;
+  if (const auto at = svg.find(style); at != std::string_view::npos) {
+    out += svg.substr(0, at);
+    from = at + style.size();
+  }
+  constexpr std::string_view kClass = " class=\"";
+  for (auto at = svg.find(kClass, from); at != std::string_view::npos; at = svg.find(kClass, from)) {
+    const auto end = svg.find('"', at + kClass.size()) + 1;
+    const auto classes = svg.substr(at + kClass.size(), end - at - kClass.size());
+    out += svg.substr(from, end - from);
+    from = classes.starts_with('f') ? skip(end, " fill=\"#") : end;
+    if (classes.find('s') != std::string_view::npos) from = skip(from, " stroke=\"#");
+  }
+  return out += svg.substr(from);
+}
+
+/// Without the numbers and names of the marks, which no telephone shows.
+std::string without_titles(const std::string& svg) {
+  std::string out;
+  std::size_t from = 0;
+  constexpr std::string_view kPose = " data-pose=\"", kTitle = "><title>", kEnd = "</title></";
+  while (true) {
+    const auto pose = svg.find(kPose, from), title = svg.find(kTitle, from);
+    const auto at = std::min(pose, title);
+    if (at == std::string::npos) return out += svg.substr(from);
+    out += svg.substr(from, at - from);
+    if (at == pose) {
+      from = svg.find('"', at + kPose.size()) + 1;
+    } else {
+      out += "/>";
+      from = svg.find('>', svg.find(kEnd, at) + kEnd.size()) + 1;
+    }
+  }
 }
 
 /// The words with line breaks where the text has them; `escaped` would make them blanks.
@@ -84,8 +124,9 @@ void Html::preformatted(std::string_view label, std::string_view text) {
 }
 
 void Html::figure(std::string_view wide_svg, std::string_view narrow_svg) {
-  text_ += "<figure><div class=\"wide\">" + without_style(wide_svg) + "</div>";
-  if (!narrow_svg.empty()) text_ += "<div class=\"narrow\">" + without_style(narrow_svg) + "</div>";
+  text_ += "<figure><div class=\"wide\">" + compacted(wide_svg) + "</div>";
+  if (!narrow_svg.empty())
+    text_ += "<div class=\"narrow\">" + without_titles(compacted(narrow_svg)) + "</div>";
   text_ += "</figure>\n";
 }
 

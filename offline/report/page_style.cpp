@@ -55,7 +55,9 @@ section:first-of-type{break-before:auto}
 h2{border:0;margin-top:0;padding-top:0}
 h2,h3,caption{break-after:avoid}
 figure,tr,.verdict,li,dt,dd{break-inside:avoid}
-figure svg{max-height:250mm;max-width:100%;width:auto}
+figure svg{max-height:245mm;max-width:100%;width:86%;margin:0 auto}
+figure{margin:.5rem 0}
+tbody tr:first-child{break-before:avoid}
 thead{display:table-header-group}
 .scroll{overflow:visible}
 pre{overflow:visible;white-space:pre-wrap;overflow-wrap:anywhere}

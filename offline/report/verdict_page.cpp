@@ -70,9 +70,9 @@ std::string floor_source_words(const NoiseFloor& floor) {
   switch (floor.source) {
     case NoiseFloor::Source::kRepeats:
       return fmt::format(
-          "The noise floor, {} mm, is what noise alone leaves of the error: {:.1f} um per axis, "
-          "from repeats of the same poses ({} independent differences).",
-          mm(floor.mean_m), floor.sigma_m * 1e6, floor.dof);
+          "The noise floor, {} mm, is what noise alone leaves of the error: {:.1f} um per axis, by "
+          "which repeats of the same poses differ.",
+          mm(floor.mean_m), floor.sigma_m * 1e6);
     case NoiseFloor::Source::kSigma:
       return fmt::format(
           "The noise floor, {} mm, is what noise alone leaves of the error if the stated sigma of "
@@ -176,8 +176,8 @@ Html verdict_page(const ReportData& data, const ReportFigures& figures) {
                    show::step_words(data.cell, data.measured, step) + ".");
   html.table(errors(data));
   html.paragraph(floor_source_words(data.run.fit.floor));
-  figures.put(Page::kVerdict, html);
   put_facts(data, html);
+  figures.put(Page::kVerdict, html);
   return html;
 }
 

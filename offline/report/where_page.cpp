@@ -41,7 +41,9 @@ HtmlTable worst_table(const ReportData& data) {
 Html where_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
   html.paragraph(figures::where_sentence(data.results));
-  html.paragraph(show::where_words(data.comparison));
+  const auto& profiles = data.comparison.profiles;
+  if (std::any_of(profiles.begin(), profiles.end(), [](const auto& p) { return p.matters; }))
+    html.paragraph(show::where_words(data.comparison));
   figures.put(Page::kWhere, html);
   html.table(worst_table(data));
   return html;
