@@ -43,16 +43,17 @@ std::string first_message(const Failure& failure) {
 Run run_to_report(const ReportArguments& options, const Cell& cell,
                   const MeasurementFiles& measured, Outcome& outcome) {
   if (options.run.empty())
-    return current_or_new_run(cell, measured,
-                              options.write.dry_run ? Keep::kNothing : Keep::kRun, outcome);
+    return current_or_new_run(cell, measured, options.write.dry_run ? Keep::kNothing : Keep::kRun,
+                              outcome);
   Run run = load_run(cell, run_number(options.run));
   check_same_data(run, measured);
   if (static_cast<int>(run.fit.calibration.state.arm.calibrated.joints.size()) != cell.joints())
-    throw Failure(Exit::kInput, {.code = "E-RUN-DATA",
-                                 .message = fmt::format("run {} is of an arm with another number of "
-                                                        "joints than the present cell.toml",
-                                                        run.number),
-                                 .help = "report the present cell: plumb report"});
+    throw Failure(Exit::kInput,
+                  {.code = "E-RUN-DATA",
+                   .message = fmt::format("run {} is of an arm with another number of "
+                                          "joints than the present cell.toml",
+                                          run.number),
+                   .help = "report the present cell: plumb report"});
   return run;
 }
 
@@ -103,16 +104,17 @@ std::vector<std::string> commands_of(const ReportArguments& options, const Globa
                                      const report::ReportData& data, const std::string& file) {
   std::vector<std::string> out;
   if (data.run_is_current)
-    out.push_back(to_type(
-        globals, data.run.fit.base == Base::kController ? "fit --base controller" : "fit"));
+    out.push_back(
+        to_type(globals, data.run.fit.base == Base::kController ? "fit --base controller" : "fit"));
   out.push_back(to_type(globals, "report -o " + shell_word(file) +
                                      (options.run.empty() ? "" : " --run " + options.run)));
   return out;
 }
 
 std::string report_time() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(
-                                                  std::chrono::system_clock::now())));
+  return fmt::format(
+      "{:%Y-%m-%dT%H:%M:%SZ}",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
 void put_result(const ReportArguments& options, const report::ReportData& data,
@@ -154,11 +156,8 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
   stand_on_base_of(run, cell, measured);
   const auto results = figures::results_of(cell, measured, run);
   const auto comparison = compare::comparison(cell, measured, run.fit);
-  report::ReportData data{.cell = cell,
-                          .measured = measured,
-                          .run = run,
-                          .results = results,
-                          .comparison = comparison};
+  report::ReportData data{
+      .cell = cell, .measured = measured, .run = run, .results = results, .comparison = comparison};
   data.run_is_current = state_of(run, cell, measured) == show::ListedRun::State::kCurrent;
   data.earlier = earlier_runs(run, cell, measured);
   data.created = report_time();
@@ -176,11 +175,12 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
   }
   files.commit(options.write, outcome);
   outcome.text = made.verdict + "\n\n" + wrote(file, options.write) +
-                 fmt::format(" ({:.0f} kB, {} pages)\n", static_cast<double>(made.html.size()) / 1e3,
-                             made.pages);
+                 fmt::format(" ({:.0f} kB, {} pages)\n",
+                             static_cast<double>(made.html.size()) / 1e3, made.pages);
   if (options.pdf) outcome.text += wrote(pdf, options.write) + "\n";
   if (data.diagnosis_is_kept)
-    outcome.text += fmt::format("Its diagnosis was made earlier and kept with run {}.\n", run.number);
+    outcome.text +=
+        fmt::format("Its diagnosis was made earlier and kept with run {}.\n", run.number);
   say_next(globals, next_step(run.fit, cell.tolerance_m), outcome);
 }
 
@@ -190,7 +190,8 @@ void add_report(Program& program) {
   const auto options = std::make_shared<ReportArguments>();
   VerbOptions verb = program.verb(
       {.name = "report",
-       .summary = "One self-contained HTML file: verdict, figures, evidence, model, how to reproduce",
+       .summary =
+           "One self-contained HTML file: verdict, figures, evidence, model, how to reproduce",
        .examples = "  plumb report -o report.html          # of the present cell and data\n"
                    "  plumb report --run 2 --pdf           # an earlier run, and printed to A4"},
       [options](const Globals& g, Outcome& o) { write_report(*options, g, o); });

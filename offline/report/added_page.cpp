@@ -38,13 +38,12 @@ void put_worse(const ReportData& data, Html& html) {
   std::stable_sort(worse.begin(), worse.end(), [&](int a, int b) { return growth(a) > growth(b); });
   html.heading("Who got worse");
   if (worse.empty())
-    return html.paragraph(fmt::format(
-        "None of the {} misses by more than before calibration, beyond noise.",
-        counted_words(results.held.size(), "held-out reading", "held-out readings")));
-  html.paragraph(
-      fmt::format("{} of {} by more than before calibration, beyond noise.", worse.size(),
-                  counted_words(results.held.size(), "held-out reading misses",
-                                "held-out readings miss")));
+    return html.paragraph(
+        fmt::format("None of the {} misses by more than before calibration, beyond noise.",
+                    counted_words(results.held.size(), "held-out reading", "held-out readings")));
+  html.paragraph(fmt::format(
+      "{} of {} by more than before calibration, beyond noise.", worse.size(),
+      counted_words(results.held.size(), "held-out reading misses", "held-out readings miss")));
   HtmlTable table{.caption = "Held-out readings that became worse [mm], the most first",
                   .head = {"pose", "before", "after"}};
   for (std::size_t i = 0; i < std::min(kMostWorse, worse.size()); ++i)
@@ -63,8 +62,9 @@ Html added_page(const ReportData& data, const ReportFigures& figures) {
   }
   const auto steps = figures::waterfall_steps(data.results, data.earlier);
   if (steps.size() <= 2 && data.run.effects.size() > 1)
-    html.paragraph("All effects of this run came at once: there is no earlier run of the same data "
-                   "with fewer of them.");
+    html.paragraph(
+        "All effects of this run came at once: there is no earlier run of the same data "
+        "with fewer of them.");
   const std::string waves = series_words(data.cell, data.run.fit.calibration.state.arm);
   if (!waves.empty()) html.paragraph("Series of waves: " + waves + ".");
   if (data.run.fit.tree) html.paragraph("Tree: " + data.run.fit.tree->reason + ".");

@@ -39,10 +39,11 @@ void put_model(const ReportData& data, Html& html) {
       leaves == 0 ? "no tree" : counted_words(leaves, "leaf of trees", "leaves of trees")));
   const auto left = left_out(data, model);
   if (!left.empty())
-    html.paragraph(fmt::format(
-        "Not in the model, for it belongs to the measurement: {}. The held-out error of this report "
-        "is with it.",
-        listed_words({show::counted(left)})));
+    html.paragraph(
+        fmt::format("Not in the model, for it belongs to the measurement: {}. The held-out error "
+                    "of this report "
+                    "is with it.",
+                    listed_words({show::counted(left)})));
 }
 
 void put_audit(const ReportData& data, Html& html) {
@@ -59,12 +60,13 @@ void put_audit(const ReportData& data, Html& html) {
   for (const auto& remark : audit.remarks) remarks.push_back(remark.message);
   html.list(remarks);
   HtmlTable table{.caption = "What reaches the robot", .head = {"", "value"}, .left_from = 1};
-  table.rows = {{"corrects", show::corrected_text(model.guard)},
-                {"cycle", fmt::format("{:.0f} us", model.guard.cycle_s * 1e6)},
-                {"ramp in and out", fmt::format("{:g} s", model.guard.ramp_s)},
-                {"farthest from the seed",
-                 fmt::format("{:.1f} deg", show::to_deg(model.guard.max_seed_distance))},
-                {"largest turn", fmt::format("{:.4f} deg", show::to_deg(audit.worst_rotation_rad))}};
+  table.rows = {
+      {"corrects", show::corrected_text(model.guard)},
+      {"cycle", fmt::format("{:.0f} us", model.guard.cycle_s * 1e6)},
+      {"ramp in and out", fmt::format("{:g} s", model.guard.ramp_s)},
+      {"farthest from the seed",
+       fmt::format("{:.1f} deg", show::to_deg(model.guard.max_seed_distance))},
+      {"largest turn", fmt::format("{:.4f} deg", show::to_deg(audit.worst_rotation_rad))}};
   if (!model.provenance.covariance.empty())
     table.rows.push_back({"1 sigma of a predicted point (3-D)",
                           fmt::format("mean {} mm, max {} mm", mm(audit.sigma_tool_mean_m),
@@ -87,12 +89,10 @@ void put_bus(const ReportData& data, Html& html) {
     std::vector<std::string> values;
     for (const auto& signal : message.signals)
       values.push_back(signal.unit.empty() ? signal.name : signal.name + " [" + signal.unit + "]");
-    table.rows.push_back({message.name,
-                          message.sender == drivers::Sender::kPlumb ? "plumb-rt" : "controller",
-                          fmt::format("0x{:x}", message.can_id),
-                          fmt::format("{}", message.first_register),
-                          fmt::format("{:g}", message.period_s * 1e3),
-                          fmt::format("{}", fmt::join(values, ", "))});
+    table.rows.push_back(
+        {message.name, message.sender == drivers::Sender::kPlumb ? "plumb-rt" : "controller",
+         fmt::format("0x{:x}", message.can_id), fmt::format("{}", message.first_register),
+         fmt::format("{:g}", message.period_s * 1e3), fmt::format("{}", fmt::join(values, ", "))});
   }
   html.paragraph(
       data.cell.deploy.link == drivers::BusUse::kModbus

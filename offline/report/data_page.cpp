@@ -32,20 +32,21 @@ std::string split_words(const ReportData& data) {
         "Every reading is held out once: the poses are dealt into {} parts, and each part is "
         "predicted by a model that was fitted to the others. Repeats of a pose stay together.",
         split.folds);
-  return fmt::format(
-      "{} are held out, {}; the fit never sees them. {} are fitted.",
-      counted_words(data.results.held.size(), "reading", "readings"),
-      split.marked ? "as the measurement file marks them" : "chosen evenly over the joint positions",
-      counted_words(data.results.fit.size(), "reading", "readings"));
+  return fmt::format("{} are held out, {}; the fit never sees them. {} are fitted.",
+                     counted_words(data.results.held.size(), "reading", "readings"),
+                     split.marked ? "as the measurement file marks them"
+                                  : "chosen evenly over the joint positions",
+                     counted_words(data.results.fit.size(), "reading", "readings"));
 }
 
 std::string counts_words(const ReportData& data, const std::vector<int>& used) {
   const auto& group = data.measured.replicate_group;
   const int poses = group.empty() ? 0 : 1 + *std::max_element(group.begin(), group.end());
   const auto rows = static_cast<std::size_t>(data.measured.size());
-  return fmt::format("The files hold {} at {}; {} used.", counted_words(rows, "reading", "readings"),
-                     counted_words(static_cast<std::size_t>(poses), "pose", "different poses"),
-                     used.size() == rows ? "all of them are" : counted_words(used.size(), "is", "are"));
+  return fmt::format(
+      "The files hold {} at {}; {} used.", counted_words(rows, "reading", "readings"),
+      counted_words(static_cast<std::size_t>(poses), "pose", "different poses"),
+      used.size() == rows ? "all of them are" : counted_words(used.size(), "is", "are"));
 }
 
 std::string repeats_words(const Measurements& measured) {
@@ -57,10 +58,12 @@ std::string repeats_words(const Measurements& measured) {
     most = std::max(most, n);
   }
   if (poses == 0)
-    return "No pose was measured more than once, so the readings themselves say nothing about their "
+    return "No pose was measured more than once, so the readings themselves say nothing about "
+           "their "
            "noise.";
   return fmt::format("{} measured more than once, up to {} times; this is how the noise is known.",
-                     counted_words(static_cast<std::size_t>(poses), "pose was", "poses were"), most);
+                     counted_words(static_cast<std::size_t>(poses), "pose was", "poses were"),
+                     most);
 }
 
 HtmlTable excluded_table(const ReportData& data) {
@@ -155,15 +158,14 @@ Html data_page(const ReportData& data, const ReportFigures& figures) {
   html.paragraph(counts_words(data, used) + " " + split_words(data));
   html.paragraph(repeats_words(data.measured));
   std::vector<std::string> findings;
-  for (const auto& found : {limit_findings(data.cell, data.measured),
-                            constant_findings(data.cell, data.measured)})
+  for (const auto& found :
+       {limit_findings(data.cell, data.measured), constant_findings(data.cell, data.measured)})
     for (const auto& problem : found) findings.push_back(problem.message);
   html.list(findings);
   put_excluded(data, html);
   html.heading("Coverage");
   if (!used.empty()) {
-    const Coverage found =
-        coverage(data.cell, data.measured, used, data.run.fit.calibration.state);
+    const Coverage found = coverage(data.cell, data.measured, used, data.run.fit.calibration.state);
     html.paragraph(box_words(found));
     html.table(coverage_table(data.cell, found));
   }

@@ -84,8 +84,7 @@ Html glossary_page(const ReportData& data, const std::string& pages) {
       found.emplace_back(effect.name, effect.text);
   const auto lower = [](const std::string& text) {
     std::string out;
-    for (const char c : text)
-      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return out;
   };
   std::stable_sort(found.begin(), found.end(),

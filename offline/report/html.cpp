@@ -28,7 +28,8 @@ std::string compacted(std::string_view svg) {
     from = at + style.size();
   }
   constexpr std::string_view kClass = " class=\"";
-  for (auto at = svg.find(kClass, from); at != std::string_view::npos; at = svg.find(kClass, from)) {
+  for (auto at = svg.find(kClass, from); at != std::string_view::npos;
+       at = svg.find(kClass, from)) {
     const auto end = svg.find('"', at + kClass.size()) + 1;
     const auto classes = svg.substr(at + kClass.size(), end - at - kClass.size());
     out += svg.substr(from, end - from);
@@ -97,8 +98,7 @@ void Html::table(const HtmlTable& table) {
     return i == 0 || i >= table.left_from ? " class=\"left\"" : "";
   };
   for (std::size_t i = 0; i < table.head.size(); ++i)
-    text_ +=
-        fmt::format("<th scope=\"col\"{}>{}</th>", side(i), draw::escaped(table.head[i]));
+    text_ += fmt::format("<th scope=\"col\"{}>{}</th>", side(i), draw::escaped(table.head[i]));
   text_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     text_ += "<tr>";
@@ -118,9 +118,9 @@ void Html::facts(const std::vector<std::pair<std::string, std::string>>& facts) 
 }
 
 void Html::preformatted(std::string_view label, std::string_view text) {
-  text_ += fmt::format(
-      "<pre role=\"region\" tabindex=\"0\" aria-label=\"{}\"><code>{}</code></pre>\n",
-      draw::escaped(label), escaped_lines(text));
+  text_ +=
+      fmt::format("<pre role=\"region\" tabindex=\"0\" aria-label=\"{}\"><code>{}</code></pre>\n",
+                  draw::escaped(label), escaped_lines(text));
 }
 
 void Html::figure(std::string_view wide_svg, std::string_view narrow_svg) {

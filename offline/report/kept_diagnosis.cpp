@@ -38,20 +38,13 @@ EffectEntry entry_of(const Json& j) {
 }
 
 Json candidate_to(const Candidate& c) {
-  Json out{{"entry", entry_to(c.entry)},
-           {"title", c.title},
-           {"domain", c.domain},
-           {"ln_bayes", c.ln_bayes},
-           {"gain", {c.gain, c.gain_se}},
-           {"alone", stats_to(c.alone)},
-           {"after", stats_to(c.after)},
-           {"cycles", c.cycles},
-           {"supported", c.supported},
-           {"plausible", c.plausible},
-           {"explained", c.explained},
-           {"absorbed", c.absorbed},
-           {"largest_m", c.largest_m},
-           {"confounded_with", c.confounded_with},
+  Json out{{"entry", entry_to(c.entry)},  {"title", c.title},
+           {"domain", c.domain},          {"ln_bayes", c.ln_bayes},
+           {"gain", {c.gain, c.gain_se}}, {"alone", stats_to(c.alone)},
+           {"after", stats_to(c.after)},  {"cycles", c.cycles},
+           {"supported", c.supported},    {"plausible", c.plausible},
+           {"explained", c.explained},    {"absorbed", c.absorbed},
+           {"largest_m", c.largest_m},    {"confounded_with", c.confounded_with},
            {"separate", c.separate}};
   if (c.rival) out["rival"] = entry_to(*c.rival);
   return out;

@@ -6,8 +6,8 @@
 #include "diagnose/diagnosis.hpp"
 #include "fit/run_store.hpp"
 
-/// What `plumb diagnose` found of the cell and data of a run, in diagnosis.json beside its run.json,
-/// so that a report of the same run need not search again.
+/// What `plumb diagnose` found of the cell and data of a run, in diagnosis.json beside its
+/// run.json, so that a report of the same run need not search again.
 namespace plumb::offline::report {
 
 /// Keeps what a diagnosis without `apply` found. A run that was not kept, and a folder that cannot

@@ -48,25 +48,29 @@ std::vector<std::string> condition_words(const ReportData& data) {
   const DataSense sense = data_sense(data.cell, data.measured, used);
   std::vector<std::string> out;
   if (!sense.has_temperature)
-    out.emplace_back("Temperature: none was recorded. The figures of this report hold for the "
-                     "temperature of that day; how they change with it is not known.");
+    out.emplace_back(
+        "Temperature: none was recorded. The figures of this report hold for the "
+        "temperature of that day; how they change with it is not known.");
   else if (sense.temperature_span_K < 1.0)
-    out.push_back(fmt::format("Temperature: {} varied by {:.1f} degC only, so nothing is known of "
-                              "other temperatures.",
-                              sense.temperature, sense.temperature_span_K));
+    out.push_back(
+        fmt::format("Temperature: {} varied by {:.1f} degC only, so nothing is known of "
+                    "other temperatures.",
+                    sense.temperature, sense.temperature_span_K));
   else
     out.push_back(fmt::format("Temperature: {} varied by {:.1f} degC while measuring.",
                               sense.temperature, sense.temperature_span_K));
   if (sense.payload_span_kg > 0.0)
-    out.push_back(fmt::format("Payload: it varied by {:g} kg while measuring.",
-                              sense.payload_span_kg));
+    out.push_back(
+        fmt::format("Payload: it varied by {:g} kg while measuring.", sense.payload_span_kg));
   else if (sense.has_payload)
-    out.push_back(fmt::format("Payload: measured with one payload, {:g} kg; with another one the arm "
-                              "yields differently, and nothing here says by how much.",
-                              data.cell.payload.mass_kg));
+    out.push_back(
+        fmt::format("Payload: measured with one payload, {:g} kg; with another one the arm "
+                    "yields differently, and nothing here says by how much.",
+                    data.cell.payload.mass_kg));
   else
-    out.emplace_back("Payload: none is stated; the figures hold for the tool that carried the "
-                     "reflector.");
+    out.emplace_back(
+        "Payload: none is stated; the figures hold for the tool that carried the "
+        "reflector.");
   if (sense.hours > 0.0)
     out.push_back(fmt::format("Time: all readings fall within {:.1f} hours.", sense.hours));
   if (!data.run.fit.still.empty())
@@ -95,17 +99,20 @@ std::string outside_words(const ReportData& data) {
 std::string check_words(const ReportData& data) {
   const auto& poses = data.comparison.poses;
   if (data.results.held.empty() || poses.size() < 3)
-    return "Without held-out readings there is no figure against which a later check could be held.";
+    return "Without held-out readings there is no figure against which a later check could be "
+           "held.";
   double sum = 0.0, squares = 0.0;
   for (const auto& pose : poses) sum += pose.error_M.norm();
   const double mean = sum / static_cast<double>(poses.size());
   for (const auto& pose : poses) squares += std::pow(pose.error_M.norm() - mean, 2);
   const double sd = std::sqrt(squares / static_cast<double>(poses.size() - 1));
   return fmt::format(
-      "To check later, measure {0} poses of this range and predict them with this run (plumb predict "
+      "To check later, measure {0} poses of this range and predict them with this run (plumb "
+      "predict "
       "--as-measured --run {1} --data new.csv). While nothing has changed their mean error stays "
       "below {2} mm in 39 of 40 checks; above it, something has.",
-      kPosesToCheck, data.run.number, show::mm(mean + 1.96 * sd / std::sqrt(double(kPosesToCheck))));
+      kPosesToCheck, data.run.number,
+      show::mm(mean + 1.96 * sd / std::sqrt(double(kPosesToCheck))));
 }
 
 std::string when_words(const ReportData& data) {

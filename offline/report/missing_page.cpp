@@ -58,9 +58,10 @@ Html missing_page(const ReportData& data, const ReportFigures& figures) {
   const Diagnosis& d = *data.diagnosis;
   html.paragraph(d.text);
   if (data.diagnosis_is_kept)
-    html.paragraph(fmt::format("This diagnosis was made earlier, of the same cell and data, and kept "
-                               "with run {}.",
-                               data.run.number));
+    html.paragraph(
+        fmt::format("This diagnosis was made earlier, of the same cell and data, and kept "
+                    "with run {}.",
+                    data.run.number));
   put_confounding(data.cell, d, html);
   figures.put(Page::kMissing, html);
   html.table(candidates_table(data.cell, d));

@@ -43,6 +43,7 @@ pre{overflow-x:auto;background:var(--plumb-4);padding:.6rem .8rem;border-radius:
 @media screen and (max-width:44rem){
 .wide:has(+.narrow){display:none}.narrow{display:block}
 nav ol{columns:1}
+table{font-size:.8rem}th,td{padding:.2rem .35rem}td{white-space:nowrap}td.left{white-space:normal}
 dl{grid-template-columns:1fr}dd{margin-bottom:.35rem}
 }
 @page{size:A4;margin:14mm 12mm}

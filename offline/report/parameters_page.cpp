@@ -31,7 +31,8 @@ std::string parameters_sentence(const std::vector<Estimate>& estimates) {
     clear += e.of_robot && std::abs(e.value - e.nominal) > kTwoSided95 * e.std;
   }
   std::string out = fmt::format(
-      "{} of the arm and its effects {} fitted, and {} of frame and target; {} of the arm differ from "
+      "{} of the arm and its effects {} fitted, and {} of frame and target; {} of the arm differ "
+      "from "
       "nominal by more than their 95 % interval.",
       counted_words(robot, "number", "numbers"), robot == 1 ? "is" : "are",
       estimates.size() - robot, clear);

@@ -26,9 +26,10 @@ std::string contents(const std::vector<Titled>& pages) {
 }
 
 std::string section(const Titled& page, std::size_t number) {
-  return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}. "
-                     "{2}</h2>\n",
-                     page.id, number, page.title) +
+  return fmt::format(
+             "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}. "
+             "{2}</h2>\n",
+             page.id, number, page.title) +
          page.body.text() + "</section>\n";
 }
 
@@ -76,8 +77,8 @@ Report make_report(const ReportData& data) {
     body += section(pages[i], i + 1);
   }
   Report out;
-  out.html = head_of(data) + "<body>\n<header><h1>" + heading_of(data) + "</h1></header>\n<main>\n" +
-             body + "</main>\n</body>\n</html>\n";
+  out.html = head_of(data) + "<body>\n<header><h1>" + heading_of(data) +
+             "</h1></header>\n<main>\n" + body + "</main>\n</body>\n</html>\n";
   out.pages = static_cast<int>(pages.size());
   out.verdict = verdict(data.run.fit, data.cell.tolerance_m);
   out.good = is_good(data.run, data.cell.tolerance_m);

@@ -37,7 +37,8 @@ struct ReportData {
     format::Model model;
     Audit audit;
   };
-  std::optional<Controller> controller = {};  // the model of the run; else why it cannot be compiled
+  std::optional<Controller> controller =
+      {};  // the model of the run; else why it cannot be compiled
   std::string why_no_controller = {};
 
   std::optional<drivers::BusLayout> bus = {};  // of [deploy]; else why there is none

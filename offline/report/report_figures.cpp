@@ -23,25 +23,17 @@ struct Place {
   Page page;
 };
 
-constexpr std::array kPlaces{Place{"error-hist", Page::kVerdict},
-                             Place{"error-", Page::kWhere},
-                             Place{"regions", Page::kWhere},
-                             Place{"joint", Page::kPatterns},
-                             Place{"spectrum", Page::kPatterns},
-                             Place{"load", Page::kPatterns},
-                             Place{"context", Page::kPatterns},
-                             Place{"order", Page::kPatterns},
-                             Place{"coverage", Page::kData},
-                             Place{"evidence", Page::kMissing},
-                             Place{"observability", Page::kMissing},
-                             Place{"waterfall", Page::kAdded},
-                             Place{"leaf-map", Page::kAdded},
-                             Place{"parameters", Page::kParameters},
-                             Place{"correlation", Page::kParameters},
-                             Place{"cost", Page::kController},
-                             Place{"latency", Page::kController},
-                             Place{"uncertainty", Page::kLimits},
-                             Place{"refusals", Page::kLimits}};
+constexpr std::array kPlaces{
+    Place{"error-hist", Page::kVerdict},     Place{"error-", Page::kWhere},
+    Place{"regions", Page::kWhere},          Place{"joint", Page::kPatterns},
+    Place{"spectrum", Page::kPatterns},      Place{"load", Page::kPatterns},
+    Place{"context", Page::kPatterns},       Place{"order", Page::kPatterns},
+    Place{"coverage", Page::kData},          Place{"evidence", Page::kMissing},
+    Place{"observability", Page::kMissing},  Place{"waterfall", Page::kAdded},
+    Place{"leaf-map", Page::kAdded},         Place{"parameters", Page::kParameters},
+    Place{"correlation", Page::kParameters}, Place{"cost", Page::kController},
+    Place{"latency", Page::kController},     Place{"uncertainty", Page::kLimits},
+    Place{"refusals", Page::kLimits}};
 
 /// Joints whose own position explains something of the error, the one that explains most first.
 std::vector<std::string> joints_that_matter(const ReportData& data) {

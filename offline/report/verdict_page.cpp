@@ -25,8 +25,9 @@ void put_verdict(const ReportData& data, Html& html) {
   const auto good = is_good(data.run, data.cell.tolerance_m);
   const char* kind = !good ? "open" : *good ? "good" : "bad";
   const char* word = !good ? "? Cannot be judged" : *good ? "✓ Good" : "✗ Not good";
-  html.raw(fmt::format("<div class=\"verdict {}\" role=\"note\"><strong>{}</strong><p>{}</p></div>\n",
-                       kind, word, draw::escaped(verdict(data.run.fit, data.cell.tolerance_m))));
+  html.raw(
+      fmt::format("<div class=\"verdict {}\" role=\"note\"><strong>{}</strong><p>{}</p></div>\n",
+                  kind, word, draw::escaped(verdict(data.run.fit, data.cell.tolerance_m))));
 }
 
 /// Whether the file says the tolerance, outside comments.
@@ -54,16 +55,16 @@ std::string fall_words(const Fit& fit) {
 }
 
 std::string tolerance_words(const ReportData& data) {
-  std::string out =
-      states_tolerance(data.cell.text)
-          ? fmt::format("The tolerance of {} mm", mm(data.cell.tolerance_m))
-          : fmt::format("cell.toml states no tolerance, so {} mm is assumed; this",
-                        mm(data.cell.tolerance_m));
+  std::string out = states_tolerance(data.cell.text)
+                        ? fmt::format("The tolerance of {} mm", mm(data.cell.tolerance_m))
+                        : fmt::format("cell.toml states no tolerance, so {} mm is assumed; this",
+                                      mm(data.cell.tolerance_m));
   if (data.run.fit.held.n == 0)
     return out + fmt::format(" is kept at {} of the fitted readings, which is no accuracy.",
                              percent_words(data.comparison.fit_within_tolerance));
-  return out + fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm.",
-                           100.0 * data.comparison.within_tolerance, mm(data.run.fit.held.max));
+  return out +
+         fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm.",
+                     100.0 * data.comparison.within_tolerance, mm(data.run.fit.held.max));
 }
 
 std::string floor_source_words(const NoiseFloor& floor) {
@@ -87,29 +88,30 @@ std::string floor_source_words(const NoiseFloor& floor) {
 std::vector<std::string> error_row(const std::string& name, const ErrorStats& s,
                                    const MeanInterval& interval = {}) {
   if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
-  return {name,     fmt::format("{}", s.n), mm(s.mean), show::text_of(interval), mm(s.rms),
-          mm(s.p95), mm(s.max)};
+  return {
+      name,     fmt::format("{}", s.n), mm(s.mean), show::text_of(interval), mm(s.rms), mm(s.p95),
+      mm(s.max)};
 }
 
 HtmlTable errors(const ReportData& data) {
   const Fit& fit = data.run.fit;
   namespace head = show::head;
   HtmlTable table{.caption = "Position errors, measured - predicted [mm]",
-                  .head = {head::kPositionError,
-                           head::kReadings, head::kMean, head::kInterval, head::kRms, head::kP95,
-                           head::kMax}};
+                  .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
+                           head::kRms, head::kP95, head::kMax}};
   table.rows.push_back(error_row(fit.base == Base::kArm
                                      ? "before: held-out, nominal arm"
                                      : "before: held-out, controller's own positions",
                                  fit.nominal_held));
   if (fit.tree) table.rows.push_back(error_row("held-out, without the tree", fit.geometry_held));
-  table.rows.push_back(error_row("after: held-out, calibrated", fit.held,
-                                 held_out_interval(data.measured, fit)));
+  table.rows.push_back(
+      error_row("after: held-out, calibrated", fit.held, held_out_interval(data.measured, fit)));
   if (!fit.held_outliers.empty())
     table.rows.push_back(error_row("after, without its outliers", fit.held_without_outliers));
   table.rows.push_back(error_row(show::fit_row_name(fit), fit.fit));
   if (fit.floor.source != NoiseFloor::Source::kNone)
-    table.rows.push_back({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m), "", ""});
+    table.rows.push_back(
+        {"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m), "", ""});
   table.rows.push_back({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
   return table;
 }
@@ -129,13 +131,13 @@ void put_facts(const ReportData& data, Html& html) {
   const auto& chain = data.cell.nominal;
   html.facts(
       {{"Cell", or_none(data.cell.name, "without a name")},
-       {"Robot", fmt::format("{}, {} joints, {} DH", or_none(data.cell.robot_name, "without a name"),
-                             chain.joints.size(),
-                             chain.convention == format::Convention::kStandard ? "standard"
-                                                                               : "modified")},
+       {"Robot",
+        fmt::format("{}, {} joints, {} DH", or_none(data.cell.robot_name, "without a name"),
+                    chain.joints.size(),
+                    chain.convention == format::Convention::kStandard ? "standard" : "modified")},
        {"Serial number", or_none(data.cell.serial, "none stated in cell.toml")},
-       {"Run", fmt::format("{}, made {}", data.run.number > 0 ? fmt::format("{}", data.run.number)
-                                                              : "not kept",
+       {"Run", fmt::format("{}, made {}",
+                           data.run.number > 0 ? fmt::format("{}", data.run.number) : "not kept",
                            data.run.created)},
        {"Model", show::counted(data.run.effects.empty() ? std::vector<std::string>{"nothing fitted"}
                                                         : data.run.effects)},

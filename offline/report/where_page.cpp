@@ -15,10 +15,11 @@ constexpr std::size_t kWorstListed = 10;
 
 HtmlTable worst_table(const ReportData& data) {
   const bool held = data.comparison.set == compare::Comparison::Set::kHeldOut;
-  HtmlTable table{.caption = fmt::format("Worst {} readings, measured - predicted in the measurement "
-                                         "frame [mm], and where the joints were",
-                                         held ? "held-out" : "fitted"),
-                  .head = {"pose", "error", "dx", "dy", "dz"}};
+  HtmlTable table{
+      .caption = fmt::format("Worst {} readings, measured - predicted in the measurement "
+                             "frame [mm], and where the joints were",
+                             held ? "held-out" : "fitted"),
+      .head = {"pose", "error", "dx", "dy", "dz"}};
   for (const auto& row : data.cell.nominal.joints)
     table.head.push_back(fmt::format("{} [{}]", row.name, show::unit(show::slides(row))));
   const auto& poses = data.comparison.poses;

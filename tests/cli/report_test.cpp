@@ -84,8 +84,8 @@ TEST_F(ReportVerb, FitsFirstAndSaysWhatItWrote) {
 TEST_F(ReportVerb, NeedsNothingButItself) {
   for (const auto* loaded : {"<script", "src=", "@import", "url(", "<link rel=\"stylesheet\""})
     EXPECT_EQ(html.find(loaded), std::string::npos) << loaded;
-  EXPECT_EQ(count(html, "http"), count(html, "xmlns=\"http://www.w3.org/2000/svg\"") +
-                                     count(html, "http-equiv"));
+  EXPECT_EQ(count(html, "http"),
+            count(html, "xmlns=\"http://www.w3.org/2000/svg\"") + count(html, "http-equiv"));
   EXPECT_EQ(count(html, "<style>"), 1U) << "figures share one";
 }
 
@@ -110,7 +110,8 @@ TEST_F(ReportVerb, SaysInTheGlossaryOnlyWhatOccurs) {
 TEST_F(ReportVerb, UsesWhatADiagnosisFoundBefore) {
   EXPECT_EQ(report({"--json", "--dry-run"}).json().at("result").at("diagnosis"), "kept");
   const std::string kept = box->read("cell/runs/0001/diagnosis.json");
-  box->write("cell/runs/0001/diagnosis.json", replaced(kept, "\"nested\": false", "\"nested\": true"));
+  box->write("cell/runs/0001/diagnosis.json",
+             replaced(kept, "\"nested\": false", "\"nested\": true"));
   const auto again = report({"--json", "--dry-run"}).json().at("result").at("diagnosis");
   EXPECT_EQ(again, kept.find("\"nested\": false") == std::string::npos ? "kept" : "new");
   box->write("cell/runs/0001/diagnosis.json", kept.substr(0, kept.size() / 2));
@@ -222,7 +223,8 @@ TEST(Report, OfOnePoseIsRefusedAndNothingIsWritten) {
   ASSERT_NO_FATAL_FAILURE(make_cell(box, 2, "30"));
   const std::string rows = box.read("cell/measurements.csv");
   std::size_t end = 0;
-  for (bool row = false; !row; row = rows[end] != '#' && rows[end] != 'p') end = rows.find('\n', end) + 1;
+  for (bool row = false; !row; row = rows[end] != '#' && rows[end] != 'p')
+    end = rows.find('\n', end) + 1;
   box.write("cell/measurements.csv", rows.substr(0, rows.find('\n', end) + 1));
   const Ran ran = box.plumb({"-C", "cell", "report"});
   EXPECT_EQ(ran.exit, 4) << ran.err;
@@ -233,8 +235,9 @@ TEST(Report, EscapesEveryNameAndShowsAFormula) {
   const Sandbox box;
   ASSERT_NO_FATAL_FAILURE(make_cell(box, 2, "30"));
   const std::string evil = "<script>alert('x')</script>";
-  std::string cell = std::regex_replace(box.read("cell/cell.toml"), std::regex("\nname = \"[^\"]*\""),
-                                        "\nname = \"" + evil + "&\\\\\"\"");
+  std::string cell =
+      std::regex_replace(box.read("cell/cell.toml"), std::regex("\nname = \"[^\"]*\""),
+                         "\nname = \"" + evil + "&\\\\\"\"");
   box.write("cell/cell.toml", cell);
   box.write("cell/measurements.csv",
             std::regex_replace(box.read("cell/measurements.csv"), std::regex("\nP0*([0-9]+),"),
