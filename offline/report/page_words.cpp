@@ -18,11 +18,4 @@ std::string listed_words(const std::vector<std::string>& names) {
 
 std::string percent_words(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 
-std::string command_only(const std::string& words) {
-  const auto why = words.find(" # ");
-  std::string out = words.substr(0, why);
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return out;
-}
-
 }  // namespace plumb::offline::report

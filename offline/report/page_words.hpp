@@ -17,7 +17,4 @@ std::string listed_words(const std::vector<std::string>& names);
 /// "42 %".
 std::string percent_words(double share);
 
-/// The command without what it tells people behind " # ".
-std::string command_only(const std::string& words);
-
 }  // namespace plumb::offline::report
