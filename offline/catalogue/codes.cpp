@@ -49,8 +49,16 @@ constexpr Explanation kCodes[] = {
     {"E-PLOT-RUN",
      "A figure shows a run, and there is none of the present cell file and data. plumb fit makes "
      "one; --run N draws an earlier one of the same data."},
+    {"E-REPORT-BROWSER",
+     "plumb report --pdf lets Chromium or Chrome print the report, and none of them is on PATH. "
+     "Nothing was written. Any browser prints the HTML file to A4 as well."},
+    {"E-REPORT-PDF",
+     "The browser that plumb report --pdf starts made no PDF: it failed, or was not ready after "
+     "two "
+     "minutes. Nothing was written. The report without --pdf can be printed by hand."},
     {"N-RUN-NEW",
-     "compare, compile and predict fit first if no run belongs to the present cell file and data."},
+     "compare, compile, predict and report fit first if no run belongs to the present cell file "
+     "and data."},
     {"W-RUN-DAMAGED",
      "A run under runs/ cannot be read: a file of it lacks, was cut short or was edited. The other "
      "runs are listed. plumb fit makes a new one; the damaged folder may be deleted."},

@@ -81,10 +81,10 @@ Run keep(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   return save_run(cell, measured, std::move(fit));
 }
 
-void keep_diagnosis(const Cell& cell, const Run& run, const NoiseFloor& floor) {
+void keep_floor(const Cell& cell, const Run& run, const NoiseFloor& floor) {
   lock_cell(cell.directory);
   const Writing writing;
-  save_diagnosis(run, floor);
+  save_floor(run, floor);
 }
 
 Run current_or_new_run(const Cell& cell, const MeasurementFiles& measured, Keep keep_it,

@@ -29,7 +29,7 @@ Fit fit_with_progress(const Cell& cell, const MeasurementFiles& measured, Outcom
 Run keep(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// Keeps with a run the noise floor that a diagnosis of its model found.
-void keep_diagnosis(const Cell& cell, const Run& run, const NoiseFloor& floor);
+void keep_floor(const Cell& cell, const Run& run, const NoiseFloor& floor);
 
 /// The latest run of the present cell and data; if there is none, fits and keeps one, and says so.
 /// With kNothing the new run is not kept and has number 0.

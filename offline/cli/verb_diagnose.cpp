@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "report/kept_diagnosis.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/units.hpp"
 
@@ -58,6 +59,19 @@ bool differs(const NoiseFloor& found, const NoiseFloor& kept) {
   return std::abs(found.sigma_m - kept.sigma_m) > kAnotherFloor * kept.sigma_m;
 }
 
+/// Beside the run, for compare and report. A folder that cannot be written is no reason not to
+/// diagnose: both then do without it.
+void keep_what_was_found(const DiagnoseArguments& options, const Cell& cell, const Run& run,
+                         const Diagnosis& found) {
+  if (!options.apply) report::keep_diagnosis(run, found);
+  // With additions the floor is that of the new model, whose run keeps it.
+  if (!found.added.empty() || !differs(found.floor, run.fit.floor)) return;
+  try {
+    keep_floor(cell, run, found.floor);
+  } catch (const Failure&) {
+  }
+}
+
 /// False if the effects were refused.
 bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
                   const MeasurementFiles& measured, const Diagnosis& found, double before_m,
@@ -80,7 +94,7 @@ bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
   // The cell file last: if the run cannot be written, nothing has changed.
   fitted.floor = found.floor;
   const Run run = keep(edited, measured, std::move(fitted));
-  keep_diagnosis(edited, run, found.floor);
+  keep_floor(edited, run, found.floor);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
   return true;
@@ -91,12 +105,11 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                                       : open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   double before_m = std::numeric_limits<double>::infinity();
-  std::optional<Run> before;
-  if (options.dry_run) {
-    if (const auto run = current_run(cell, measured)) stand_on_base_of(*run, cell, measured);
-  } else {
-    before = current_or_new_run(cell, measured, Keep::kRun, outcome);
-    if (before->fit.held.n > 0) before_m = before->fit.held.mean;
+  std::optional<Run> before = options.dry_run
+                                  ? current_run(cell, measured)
+                                  : current_or_new_run(cell, measured, Keep::kRun, outcome);
+  if (before) {
+    if (!options.dry_run && before->fit.held.n > 0) before_m = before->fit.held.mean;
     stand_on_base_of(*before, cell, measured);
   }
   const auto found = [&] {
@@ -106,9 +119,7 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                      }});
   }();
   outcome.remark(found.remarks);
-  // With additions the floor is that of the new model, whose run keeps it.
-  if (before && found.added.empty() && differs(found.floor, before->fit.floor))
-    keep_diagnosis(cell, *before, found.floor);
+  if (before && !options.dry_run) keep_what_was_found(options, cell, *before, found);
   outcome.result = show::diagnose_json(cell, found);
   outcome.text = show::diagnose_text(
       cell, found, options.all ? show::Candidates::kAll : show::Candidates::kFirst);

@@ -65,7 +65,7 @@ void keep_run(const FitArguments& options, const Cell& cell, const MeasurementFi
     outcome.text += "\ndry run: no run was kept\n";
   } else {
     const Run run = keep(cell, measured, std::move(fit));
-    if (diagnosed) keep_diagnosis(cell, run, *diagnosed);
+    if (diagnosed) keep_floor(cell, run, *diagnosed);
     outcome.result["run"] = run.number;
     outcome.result["run_directory"] = run.directory.string();
     outcome.text += fmt::format("\nkept as run {} in {}\n", run.number, run.directory.string());

@@ -6,6 +6,7 @@
 
 #include "bench/benchmark.hpp"
 #include "cli/cell_data.hpp"
+#include "cli/earlier_runs.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
@@ -17,6 +18,7 @@
 #include "figures/registry.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
+#include "report/kept_diagnosis.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -65,22 +67,6 @@ Run run_to_draw(const PlotArguments& options, const Cell& cell, const Measuremen
                  .help = "plumb fit; or an earlier run: plumb plot " + options.name + " --run 1"});
 }
 
-/// Runs before this one that are of the same data and can be read.
-std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured) {
-  std::vector<Run> out;
-  for (const int number : list_runs(cell)) {
-    if (number >= last.number) break;
-    try {
-      Run run = load_run(cell, number);
-      check_same_data(run, measured);
-      out.push_back(std::move(run));
-    } catch (const Failure&) {
-      continue;  // damaged, or of other data: no step of this model
-    }
-  }
-  return out;
-}
-
 std::string evidence_of(const PlotArguments& options, const Cell& cell,
                         const MeasurementFiles& measured) {
   if (!options.run.empty())
@@ -89,6 +75,9 @@ std::string evidence_of(const PlotArguments& options, const Cell& cell,
                    .message = "evidence is of the present cell, not of a run: it judges what would "
                               "be added to it",
                    .help = "leave --run out: plumb plot " + options.name});
+  if (const auto run = current_run(cell, measured))
+    if (const auto kept = report::kept_diagnosis(*run))
+      return figures::evidence(cell, *kept, options.width);
   Progress progress(fmt::format("diagnosing {} poses", measured.size()));
   const Diagnosis found =
       diagnose(cell, measured,

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "run/1";
-constexpr const char* kDiagnosisSchema = "run.diagnosis/1";
+constexpr const char* kFloorSchema = "run.noise_floor/1";
 
 Json to_json(const NoiseFloor& f) {
   return {{"sigma_m", f.sigma_m},
@@ -239,14 +239,14 @@ Run run_from_json(const Json& j) {
   return run;
 }
 
-Json diagnosis_to_json(const NoiseFloor& floor) {
-  return {{"schema", kDiagnosisSchema}, {"noise_floor", to_json(floor)}};
+Json floor_to_json(const NoiseFloor& floor) {
+  return {{"schema", kFloorSchema}, {"noise_floor", to_json(floor)}};
 }
 
-NoiseFloor diagnosis_from_json(const Json& j) {
-  if (j.at("schema") != kDiagnosisSchema)
+NoiseFloor floor_from_json(const Json& j) {
+  if (j.at("schema") != kFloorSchema)
     throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
-                                 .message = "diagnosis.json is of another schema",
+                                 .message = "noise_floor.json is of another schema",
                                  .help = "diagnose again: plumb diagnose"});
   return floor_from(j.at("noise_floor"));
 }

@@ -14,11 +14,11 @@ nlohmann::ordered_json run_to_json(const Run& run);
 /// The reverse. Throws nlohmann::json::exception on content that is not a run.
 Run run_from_json(const nlohmann::ordered_json& j);
 
-/// diagnosis.json: the noise floor as a diagnosis of the model found it. SI.
-nlohmann::ordered_json diagnosis_to_json(const NoiseFloor& floor);
+/// noise_floor.json: the noise floor as a diagnosis of the model found it. SI.
+nlohmann::ordered_json floor_to_json(const NoiseFloor& floor);
 
 /// The reverse. Throws as `run_from_json`, or Failure (kInput) on another schema.
-NoiseFloor diagnosis_from_json(const nlohmann::ordered_json& j);
+NoiseFloor floor_from_json(const nlohmann::ordered_json& j);
 
 /// predictions.csv: pose, set, fold, predicted point.
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit);

@@ -86,7 +86,7 @@ nlohmann::ordered_json parsed(const fs::path& file, const std::string& text) {
   }
 }
 
-constexpr const char* kDiagnosis = "diagnosis.json";
+constexpr const char* kNoiseFloor = "noise_floor.json";
 constexpr std::string_view kDraft = ".draft-";
 
 /// The process that makes a run in that folder; 0 if it is no draft.
@@ -189,14 +189,14 @@ Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   cannot_write(run.directory, error.message(), runs_folder(cell));
 }
 
-void save_diagnosis(const Run& run, const NoiseFloor& floor) {
-  write_file_atomically(run.directory / kDiagnosis, diagnosis_to_json(floor).dump(2) + "\n");
+void save_floor(const Run& run, const NoiseFloor& floor) {
+  write_file_atomically(run.directory / kNoiseFloor, floor_to_json(floor).dump(2) + "\n");
 }
 
 std::optional<NoiseFloor> diagnosed_floor(const Run& run) {
-  const fs::path file = run.directory / kDiagnosis;
+  const fs::path file = run.directory / kNoiseFloor;
   if (!fs::exists(file)) return std::nullopt;
-  return diagnosis_from_json(parsed(file, read_file(file)));
+  return floor_from_json(parsed(file, read_file(file)));
 }
 
 std::vector<int> list_runs(const Cell& cell) {
@@ -229,7 +229,7 @@ Run load_run(const Cell& cell, int number) {
     file = folder / "predictions.csv";
     if (!predictions_sum_holds(json, read_file(file))) damaged(file, kChanged);
     predictions_from_csv(file, run.fit);
-    file = folder / kDiagnosis;
+    file = folder / kNoiseFloor;
     if (const auto floor = diagnosed_floor(run)) run.fit.floor = *floor;
     return run;
   } catch (const nlohmann::json::exception& e) {

@@ -13,7 +13,7 @@
 namespace plumb::offline {
 
 /// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made; a
-/// diagnosis of its model adds diagnosis.json, and a later one replaces that.
+/// diagnosis of its model adds noise_floor.json and diagnosis.json, and a later one replaces them.
 struct Run {
   int number = 0;
   std::filesystem::path directory;
@@ -32,7 +32,7 @@ Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// Keeps the noise floor that a diagnosis of the model of a kept run found, with the scatter of the
 /// joints in it: from then on it is the floor of this run.
-void save_diagnosis(const Run& run, const NoiseFloor& floor);
+void save_floor(const Run& run, const NoiseFloor& floor);
 
 /// That floor; nothing if the model was never diagnosed.
 std::optional<NoiseFloor> diagnosed_floor(const Run& run);

@@ -32,14 +32,6 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   return table.text() + folds_text(d.folds, d.poses_fit);
 }
 
-std::string support_words(const Diagnosis& d, const Candidate& c) {
-  const bool either = is_either(d, c.entry);
-  if (!c.supported && !either) return "no";
-  if (!c.plausible) return "unlikely";
-  if (!falls(d.before.mean, c.alone.mean)) return "no gain";
-  return either ? fmt::format("one of {}", 1 + d.alternatives.size()) : "yes";
-}
-
 /// What most people need: which effect, and how far the error falls.
 std::string short_table(const Cell& cell, const Diagnosis& d) {
   TextTable table({" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect});
@@ -75,37 +67,13 @@ bool is_alternative(const Cell& cell, const Diagnosis& d, const std::string& key
                      [&](const Alternative& other) { return key_of(cell, other.entry) == key; });
 }
 
-/// How far the first candidate moves the measured point, and what it may be mistaken for.
-std::string first_text(const Cell& cell, const Diagnosis& d) {
-  const Candidate& first = d.candidates.front();
-  std::string out = fmt::format(
-      "\nThe first moves the measured point by up to {} mm in a way that geometry "
-      "cannot imitate.\n",
-      mm(first.largest_m));
-  std::vector<std::string> near, similar;
-  for (const auto& other : d.alternatives)
-    near.push_back(in_words(cell, other.entry, other.cycles));
-  for (const auto& key : first.confounded_with) {
-    if (is_alternative(cell, d, key)) continue;
-    (is_near_rival(cell, d, key) ? near : similar).push_back(key_in_words(key));
-  }
-  if (!near.empty())
-    out += fmt::format(
-        "Hard to tell from: {}.{}\n", fmt::join(near, ", "),
-        first.separate.empty() ? "" : " To tell them apart, measure " + first.separate + ".");
-  if (!similar.empty())
-    out += fmt::format("Similar, but explaining these poses clearly worse: {}.\n",
-                       fmt::join(similar, ", "));
-  return out;
-}
-
 std::string candidates_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
   if (d.candidates.empty()) return {};
   std::string out =
       std::string(d.added.empty() ? "\nCandidates" : "\nCandidates before any was added") +
       ": held-out error [mm] alone, and together with the first one\n" +
       (shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d));
-  return d.candidates.front().supported ? out + first_text(cell, d) : out;
+  return d.candidates.front().supported ? out + "\n" + first_candidate_text(cell, d) : out;
 }
 
 std::string not_testable_text(const Diagnosis& d) {
@@ -130,6 +98,37 @@ constexpr const char* kMeasure = "plan --n 30   # which poses to measure next";
 constexpr const char* kCompile = "compile   # the model file for the controller";
 
 }  // namespace
+
+std::string support_words(const Diagnosis& d, const Candidate& c) {
+  const bool either = is_either(d, c.entry);
+  if (!c.supported && !either) return "no";
+  if (!c.plausible) return "unlikely";
+  if (!falls(d.before.mean, c.alone.mean)) return "no gain";
+  return either ? fmt::format("one of {}", 1 + d.alternatives.size()) : "yes";
+}
+
+std::string first_candidate_text(const Cell& cell, const Diagnosis& d) {
+  const Candidate& first = d.candidates.front();
+  std::string out = fmt::format(
+      "The first moves the measured point by up to {} mm in a way that geometry "
+      "cannot imitate.\n",
+      mm(first.largest_m));
+  std::vector<std::string> near, similar;
+  for (const auto& other : d.alternatives)
+    near.push_back(in_words(cell, other.entry, other.cycles));
+  for (const auto& key : first.confounded_with) {
+    if (is_alternative(cell, d, key)) continue;
+    (is_near_rival(cell, d, key) ? near : similar).push_back(key_in_words(key));
+  }
+  if (!near.empty())
+    out += fmt::format(
+        "Hard to tell from: {}.{}\n", fmt::join(near, ", "),
+        first.separate.empty() ? "" : " To tell them apart, measure " + first.separate + ".");
+  if (!similar.empty())
+    out += fmt::format("Similar, but explaining these poses clearly worse: {}.\n",
+                       fmt::join(similar, ", "));
+  return out;
+}
 
 std::string diagnose_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
   std::string out = d.text + "\n";

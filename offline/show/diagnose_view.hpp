@@ -19,6 +19,13 @@ enum class Candidates { kFirst, kAll };
 /// cannot show.
 std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis, Candidates shown);
 
+/// Whether these poses support a candidate: "yes", "no", "no gain", "unlikely", "one of 2".
+std::string support_words(const Diagnosis& diagnosis, const Candidate& candidate);
+
+/// How far the first candidate moves the measured point, and what it may be mistaken for; one
+/// sentence a line. There must be a candidate.
+std::string first_candidate_text(const Cell& cell, const Diagnosis& diagnosis);
+
 /// The commands to type next, without `plumb`; the first helps most.
 std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& diagnosis);
 

@@ -108,20 +108,6 @@ std::string setups_text(const MeasurementSettings& m, const ArmState& state) {
          "  frame: base in the measurement frame; target: reflector in the tool frame\n";
 }
 
-std::string measurement_text(const Cell& cell, const ArmState& state) {
-  if (state.setups() > 1) return setups_text(cell.measurement, state);
-  const Setup rule = setup_rule(cell.measurement, 0);
-  const auto& f = state.X_MB;
-  const auto& t = state.X_TG.p;
-  const auto how = [](bool fitted) { return fitted ? "fitted" : "given"; };
-  return fmt::format(
-      "  frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
-      "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})\n"
-      "  target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm\n",
-      how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1], f.q[2],
-      f.q[3], how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
-}
-
 std::string tree_text(const Fit& fit) {
   if (!fit.tree) return "";
   return "  tree: " + fit.tree->reason + "\n";
@@ -155,6 +141,20 @@ std::string series_text(const Cell& cell, const ArmState& state) {
 }
 
 }  // namespace
+
+std::string measurement_text(const Cell& cell, const ArmState& state) {
+  if (state.setups() > 1) return setups_text(cell.measurement, state);
+  const Setup rule = setup_rule(cell.measurement, 0);
+  const auto& f = state.X_MB;
+  const auto& t = state.X_TG.p;
+  const auto how = [](bool fitted) { return fitted ? "fitted" : "given"; };
+  return fmt::format(
+      "  frame, {}: base in the measurement frame at ({:.3f}, {:.3f}, {:.3f}) mm, "
+      "quaternion wxyz ({:.6f}, {:.6f}, {:.6f}, {:.6f})\n"
+      "  target, {}: reflector in the tool frame at ({:.3f}, {:.3f}, {:.3f}) mm\n",
+      how(rule.fit_frame), to_mm(f.p[0]), to_mm(f.p[1]), to_mm(f.p[2]), f.q[0], f.q[1], f.q[2],
+      f.q[3], how(rule.fit_target), to_mm(t[0]), to_mm(t[1]), to_mm(t[2]));
+}
 
 Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;

@@ -16,4 +16,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit);
 /// Verdict, error table, parameters with 1 sigma, frame, target, tree.
 std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit);
 
+/// Where base and reflector stood, of each set-up, as indented lines.
+std::string measurement_text(const Cell& cell, const ArmState& state);
+
 }  // namespace plumb::offline::show

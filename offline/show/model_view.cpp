@@ -99,16 +99,6 @@ Json context_json(const format::Model& model) {
   return out;
 }
 
-std::string context_text(const format::Model& model) {
-  std::string out;
-  for (const auto& range : model.domain.context) {
-    const ShownRange r = shown_range(range);
-    out += fmt::format("{}{} {:.4g} .. {:.4g} {}", out.empty() ? "" : ", ", r.name, r.low, r.high,
-                       r.unit);
-  }
-  return out;
-}
-
 Json guard_json(const format::GuardLimits& g) {
   return {{"corrects", corrects(g)},
           {"max_correction_mm", to_mm(g.max_correction_m)},
@@ -201,6 +191,16 @@ std::string trees_text(const format::Model& model) {
 
 }  // namespace
 
+std::string context_text(const format::Model& model) {
+  std::string out;
+  for (const auto& range : model.domain.context) {
+    const ShownRange r = shown_range(range);
+    out += fmt::format("{}{} {:.4g} .. {:.4g} {}", out.empty() ? "" : ", ", r.name, r.low, r.high,
+                       r.unit);
+  }
+  return out;
+}
+
 Json model_json(const format::Model& model) {
   Json effects = Json::array();
   for (const auto& e : model.effects) {
@@ -223,7 +223,6 @@ Json model_json(const format::Model& model) {
           {"provenance", provenance_json(model.provenance)}};
 }
 
-/// What the guard lets through.
 std::string corrected_text(const format::GuardLimits& g) {
   const bool pose = g.corrects == format::Corrects::kPose;
   return fmt::format("{}, at most {} mm{}, changing by at most {:.1f} mm a second",

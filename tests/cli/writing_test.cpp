@@ -29,6 +29,7 @@ class Writing : public testing::Test {
         {"-C", "cell", "deploy", "-o", "cell"},
         {"-C", "cell", "dbc", "-o", "cell/cell.toml"},
         {"-C", "cell", "modbus-map", "-o", "cell/cell.toml"},
+        {"-C", "cell", "report", "-o", "cell/cell.toml"},
         {"predict", "cell/robot.plumb", "--data", "cell/measurements.csv", "-o", "cell/cell.toml"},
         {"-C", "cell", "predict", "--as-measured", "-o", "cell/cell.toml"},
         {"correct", "cell/robot.plumb", "--data", "cell/targets.csv", "-o", "cell/cell.toml"},

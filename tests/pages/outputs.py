@@ -87,6 +87,8 @@ def in_cell(plumb, cell):
     plumb.run(*at, "runs")
     plumb.run(*at, "plot", "error-hist", "-o", f"{cell}/hist.svg")
     plumb.run(*at, "plot", "joint-J1", "-o", f"{cell}/joint.svg", "--dry-run")
+    plumb.run(*at, "report", "-o", f"{cell}/report.html")
+    plumb.run(*at, "report", "-o", f"{cell}/first.html", "--run", "1", "--dry-run")
     plumb.run(*at, "diff", "1", "2")
     plumb.run(*at, "compare", "1", "2")
     plumb.run(*at, "compile", "--force")

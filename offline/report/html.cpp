@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "draw/paint.hpp"
+#include "draw/svg.hpp"
+
+namespace plumb::offline::report {
+namespace {
+
+/// What a page has once is taken out of its figures: their style, and the colours for programs that
+/// know no style, where a class says the colour.
+std::string compacted(std::string_view svg) {
+  const std::string style = "<style>\n" + draw::style_sheet() + "</style>\n";
+  std::string out;
+  out.reserve(svg.size());
+  const auto skip = [&svg](std::size_t at, std::string_view attribute) {
+    return svg.compare(at, attribute.size(), attribute) == 0
+               ? svg.find('"', at + attribute.size()) + 1
+               : at;
+  };
+  std::size_t from = 0;
+  if (const auto at = svg.find(style); at != std::string_view::npos) {
+    out += svg.substr(0, at);
+    from = at + style.size();
+  }
+  constexpr std::string_view kClass = " class=\"";
+  for (auto at = svg.find(kClass, from); at != std::string_view::npos;
+       at = svg.find(kClass, from)) {
+    const auto end = svg.find('"', at + kClass.size()) + 1;
+    const auto classes = svg.substr(at + kClass.size(), end - at - kClass.size());
+    out += svg.substr(from, end - from);
+    from = classes.starts_with('f') ? skip(end, " fill=\"#") : end;
+    if (classes.find('s') != std::string_view::npos) from = skip(from, " stroke=\"#");
+  }
+  return out += svg.substr(from);
+}
+
+/// Without the numbers and names of the marks, which no telephone shows.
+std::string without_titles(const std::string& svg) {
+  std::string out;
+  std::size_t from = 0;
+  constexpr std::string_view kPose = " data-pose=\"", kTitle = "><title>", kEnd = "</title></";
+  while (true) {
+    const auto pose = svg.find(kPose, from), title = svg.find(kTitle, from);
+    const auto at = std::min(pose, title);
+    if (at == std::string::npos) return out += svg.substr(from);
+    out += svg.substr(from, at - from);
+    if (at == pose) {
+      from = svg.find('"', at + kPose.size()) + 1;
+    } else {
+      out += "/>";
+      from = svg.find('>', svg.find(kEnd, at) + kEnd.size()) + 1;
+    }
+  }
+}
+
+/// The words with line breaks where the text has them; `escaped` would make them blanks.
+std::string escaped_lines(std::string_view text) {
+  std::string out;
+  for (std::size_t from = 0; from <= text.size();) {
+    const auto end = std::min(text.find('\n', from), text.size());
+    out += draw::escaped(text.substr(from, end - from)) + '\n';
+    from = end + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+void Html::heading(std::string_view words) {
+  text_ += fmt::format("<h3>{}</h3>\n", draw::escaped(words));
+}
+
+void Html::paragraph(std::string_view words) {
+  if (!words.empty()) text_ += fmt::format("<p>{}</p>\n", draw::escaped(words));
+}
+
+void Html::list(const std::vector<std::string>& items) {
+  if (items.empty()) return;
+  text_ += "<ul>\n";
+  for (const auto& item : items) text_ += fmt::format("<li>{}</li>\n", draw::escaped(item));
+  text_ += "</ul>\n";
+}
+
+void Html::table(const HtmlTable& table) {
+  if (table.rows.empty()) return;
+  // A region that scrolls must be reachable by keyboard, and so needs a name.
+  const std::string caption = draw::escaped(table.caption);
+  text_ += fmt::format(
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{0}\"><table>\n"
+      "<caption>{0}</caption>\n<thead><tr>",
+      caption);
+  const auto side = [&](std::size_t i) {
+    return i == 0 || i >= table.left_from ? " class=\"left\"" : "";
+  };
+  for (std::size_t i = 0; i < table.head.size(); ++i)
+    text_ += fmt::format("<th scope=\"col\"{}>{}</th>", side(i), draw::escaped(table.head[i]));
+  text_ += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    text_ += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", draw::escaped(row[i]))
+                      : fmt::format("<td{}>{}</td>", side(i), draw::escaped(row[i]));
+    text_ += "</tr>\n";
+  }
+  text_ += "</tbody></table></div>\n";
+}
+
+void Html::facts(const std::vector<std::pair<std::string, std::string>>& facts) {
+  text_ += "<dl>\n";
+  for (const auto& [name, value] : facts)
+    text_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", draw::escaped(name), draw::escaped(value));
+  text_ += "</dl>\n";
+}
+
+void Html::preformatted(std::string_view label, std::string_view text) {
+  text_ +=
+      fmt::format("<pre role=\"region\" tabindex=\"0\" aria-label=\"{}\"><code>{}</code></pre>\n",
+                  draw::escaped(label), escaped_lines(text));
+}
+
+void Html::figure(std::string_view wide_svg, std::string_view narrow_svg) {
+  text_ += "<figure><div class=\"wide\">" + compacted(wide_svg) + "</div>";
+  if (!narrow_svg.empty())
+    text_ += "<div class=\"narrow\">" + without_titles(compacted(narrow_svg)) + "</div>";
+  text_ += "</figure>\n";
+}
+
+}  // namespace plumb::offline::report

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb::offline::report {
+
+/// A table: the first column flush left, the others flush right up to `left_from`.
+struct HtmlTable {
+  std::string caption;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows = {};
+  std::size_t left_from = std::numeric_limits<std::size_t>::max();  // from here on flush left
+};
+
+/// The elements of one page, in their order. All words are escaped; only figures come as they are.
+class Html {
+ public:
+  void heading(std::string_view words);
+  void paragraph(std::string_view words);
+  void list(const std::vector<std::string>& items);  // nothing if there are none
+  void table(const HtmlTable& table);                // nothing without rows
+  void facts(const std::vector<std::pair<std::string, std::string>>& facts);
+  void preformatted(std::string_view label, std::string_view text);
+
+  /// A figure laid out for a wide page and for a telephone. `svg`: already escaped.
+  void figure(std::string_view wide_svg, std::string_view narrow_svg);
+
+  /// Elements that are already escaped.
+  void raw(std::string_view html) { text_ += html; }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace plumb::offline::report

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <future>
+#include <string_view>
+#include <thread>
+
+#include "figures/evidence_figure.hpp"
+#include "figures/registry.hpp"
+
+namespace plumb::offline::report {
+namespace {
+
+constexpr double kWide_px = 760.0, kNarrow_px = 368.0;
+constexpr std::size_t kMostJoints = 2;  // drawn large
+constexpr unsigned kMostThreads = 4;
+
+struct Place {
+  std::string_view begins;
+  Page page;
+};
+
+constexpr std::array kPlaces{
+    Place{"error-hist", Page::kVerdict},     Place{"error-", Page::kWhere},
+    Place{"regions", Page::kWhere},          Place{"joint", Page::kPatterns},
+    Place{"spectrum", Page::kPatterns},      Place{"load", Page::kPatterns},
+    Place{"context", Page::kPatterns},       Place{"order", Page::kPatterns},
+    Place{"coverage", Page::kData},          Place{"evidence", Page::kMissing},
+    Place{"observability", Page::kMissing},  Place{"waterfall", Page::kAdded},
+    Place{"leaf-map", Page::kAdded},         Place{"parameters", Page::kParameters},
+    Place{"correlation", Page::kParameters}, Place{"cost", Page::kController},
+    Place{"latency", Page::kController},     Place{"uncertainty", Page::kLimits},
+    Place{"refusals", Page::kLimits}};
+
+/// Joints whose own position explains something of the error, the one that explains most first.
+std::vector<std::string> joints_that_matter(const ReportData& data) {
+  std::vector<compare::JointShare> shares;
+  for (const auto& share : data.comparison.joints)
+    if (share.matters) shares.push_back(share);
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  std::vector<std::string> out;
+  for (const auto& share : shares)
+    if (out.size() < kMostJoints)
+      out.push_back(data.cell.nominal.joints[static_cast<std::size_t>(share.joint)].name);
+  return out;
+}
+
+/// Figures of one joint end with its name: "joint-J2", "spectrum-J2".
+bool is_of_unimportant_joint(const std::string& name, const ReportData& data,
+                             const std::vector<std::string>& important) {
+  for (const auto& row : data.cell.nominal.joints) {
+    if (std::find(important.begin(), important.end(), row.name) != important.end()) continue;
+    for (const std::string of : {"joint-", "spectrum-", "load-"})
+      if (name == of + row.name) return true;
+  }
+  return false;
+}
+
+std::string figure_of(const std::string& name, const ReportData& data, double width) {
+  if (figures::needs_of(name) == figures::FigureRow::Needs::kDiagnosis)
+    return data.diagnosis ? figures::evidence(data.cell, *data.diagnosis, width) : std::string();
+  return figures::drawn(name, data.results, width, data.earlier).value_or("");
+}
+
+}  // namespace
+
+Page page_of(const std::string& figure) {
+  const Place* best = nullptr;
+  for (const Place& place : kPlaces)
+    if (figure.starts_with(place.begins) &&
+        (best == nullptr || place.begins.size() > best->begins.size()))
+      best = &place;
+  return best == nullptr ? Page::kWhere : best->page;
+}
+
+ReportFigures::ReportFigures(const ReportData& data) {
+  const auto important = joints_that_matter(data);
+  for (const auto& name : figures::figure_names(data.cell))
+    if (!is_of_unimportant_joint(name, data, important))
+      all_.push_back({.name = name, .wide = {}, .narrow = {}});
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < all_.size(); i = next++) {
+      all_[i].wide = figure_of(all_[i].name, data, kWide_px);
+      all_[i].narrow = figure_of(all_[i].name, data, kNarrow_px);
+    }
+  };
+  std::vector<std::future<void>> helpers;
+  for (unsigned i = 1; i < std::min(kMostThreads, std::thread::hardware_concurrency()); ++i)
+    helpers.push_back(std::async(std::launch::async, work));
+  work();
+  for (auto& helper : helpers) helper.get();  // throws what it threw
+}
+
+void ReportFigures::put(Page page, Html& html) const {
+  for (const Drawn& one : all_)
+    if (page_of(one.name) == page && !one.wide.empty()) html.figure(one.wide, one.narrow);
+}
+
+}  // namespace plumb::offline::report

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "draw/svg.hpp"
+#include "fit/mean_interval.hpp"
+#include "fit/verdict.hpp"
+#include "plumb/format/version.hpp"
+#include "report/page_words.hpp"
+#include "report/pages.hpp"
+#include "report/report.hpp"
+#include "show/compare_words.hpp"
+#include "show/counted.hpp"
+#include "show/error_table.hpp"
+#include "show/heads.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::report {
+namespace {
+
+using show::mm;
+
+void put_verdict(const ReportData& data, Html& html) {
+  const auto good = is_good(data.run, data.cell.tolerance_m);
+  const char* kind = !good ? "open" : *good ? "good" : "bad";
+  const char* word = !good ? "? Cannot be judged" : *good ? "✓ Good" : "✗ Not good";
+  html.raw(
+      fmt::format("<div class=\"verdict {}\" role=\"note\"><strong>{}</strong><p>{}</p></div>\n",
+                  kind, word, draw::escaped(verdict(data.run.fit, data.cell.tolerance_m))));
+}
+
+/// Whether the file says the tolerance, outside comments.
+bool states_tolerance(const std::string& toml) {
+  for (std::size_t at = toml.find("tolerance_mm"); at != std::string::npos;
+       at = toml.find("tolerance_mm", at + 1)) {
+    const auto line = toml.rfind('\n', at);
+    const std::size_t begin = line == std::string::npos ? 0 : line + 1;
+    if (toml.substr(begin, at - begin).find('#') == std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string fall_words(const Fit& fit) {
+  if (fit.held.n == 0 || fit.nominal_held.n == 0)
+    return "No reading was held out, so nothing is known of readings that the model has not seen: "
+           "the row of the fitted readings is no accuracy.";
+  const double share = 1.0 - fit.held.mean / std::max(fit.nominal_held.mean, 1e-12);
+  return fmt::format(
+      "On {} that the model has not seen, calibration takes the mean error from {} mm to {} mm "
+      "({}{:.0f} %).",
+      counted_words(static_cast<std::size_t>(fit.held.n), "reading", "readings"),
+      mm(fit.nominal_held.mean), mm(fit.held.mean), share >= 0.0 ? "-" : "+",
+      std::abs(100.0 * share));
+}
+
+std::string tolerance_words(const ReportData& data) {
+  std::string out = states_tolerance(data.cell.text)
+                        ? fmt::format("The tolerance of {} mm", mm(data.cell.tolerance_m))
+                        : fmt::format("cell.toml states no tolerance, so {} mm is assumed; this",
+                                      mm(data.cell.tolerance_m));
+  if (data.run.fit.held.n == 0)
+    return out + fmt::format(" is kept at {} of the fitted readings, which is no accuracy.",
+                             percent_words(data.comparison.fit_within_tolerance));
+  return out +
+         fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm.",
+                     100.0 * data.comparison.within_tolerance, mm(data.run.fit.held.max));
+}
+
+std::string floor_source_words(const NoiseFloor& floor) {
+  switch (floor.source) {
+    case NoiseFloor::Source::kRepeats:
+      return fmt::format(
+          "The noise floor, {} mm, is what noise alone leaves of the error: {:.1f} um per axis, by "
+          "which repeats of the same poses differ.",
+          mm(floor.mean_m), floor.sigma_m * 1e6);
+    case NoiseFloor::Source::kSigma:
+      return fmt::format(
+          "The noise floor, {} mm, is what noise alone leaves of the error if the stated sigma of "
+          "{:.1f} um per axis is right; repeats of a few poses would measure it.",
+          mm(floor.mean_m), floor.sigma_m * 1e6);
+    default:
+      return "The noise floor is unknown: no pose was measured several times and no sigma_um is "
+             "stated, so nobody can say how much of the error is noise.";
+  }
+}
+
+std::vector<std::string> error_row(const std::string& name, const ErrorStats& s,
+                                   const MeanInterval& interval = {}) {
+  if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
+  return {
+      name,     fmt::format("{}", s.n), mm(s.mean), show::text_of(interval), mm(s.rms), mm(s.p95),
+      mm(s.max)};
+}
+
+HtmlTable errors(const ReportData& data) {
+  const Fit& fit = data.run.fit;
+  namespace head = show::head;
+  HtmlTable table{.caption = "Position errors, measured - predicted [mm]",
+                  .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
+                           head::kRms, head::kP95, head::kMax}};
+  table.rows.push_back(error_row(fit.base == Base::kArm
+                                     ? "before: held-out, nominal arm"
+                                     : "before: held-out, controller's own positions",
+                                 fit.nominal_held));
+  if (fit.tree) table.rows.push_back(error_row("held-out, without the tree", fit.geometry_held));
+  table.rows.push_back(
+      error_row("after: held-out, calibrated", fit.held, held_out_interval(data.measured, fit)));
+  if (!fit.held_outliers.empty())
+    table.rows.push_back(error_row("after, without its outliers", fit.held_without_outliers));
+  table.rows.push_back(error_row(show::fit_row_name(fit), fit.fit));
+  if (fit.floor.source != NoiseFloor::Source::kNone)
+    table.rows.push_back(
+        {"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m), "", ""});
+  table.rows.push_back({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
+  return table;
+}
+
+std::string files_words(const MeasurementFiles& measured) {
+  std::vector<std::string> names;
+  for (const auto& table : measured.tables)
+    names.push_back(std::filesystem::path(table.file).filename().string());
+  return listed_words(names);
+}
+
+std::string or_none(const std::string& text, const char* none) {
+  return text.find_first_not_of(" \t") == std::string::npos ? none : text;
+}
+
+void put_facts(const ReportData& data, Html& html) {
+  const auto& chain = data.cell.nominal;
+  html.facts(
+      {{"Cell", or_none(data.cell.name, "without a name")},
+       {"Robot",
+        fmt::format("{}, {} joints, {} DH", or_none(data.cell.robot_name, "without a name"),
+                    chain.joints.size(),
+                    chain.convention == format::Convention::kStandard ? "standard" : "modified")},
+       {"Serial number", or_none(data.cell.serial, "none stated in cell.toml")},
+       {"Run", fmt::format("{}, made {}",
+                           data.run.number > 0 ? fmt::format("{}", data.run.number) : "not kept",
+                           data.run.created)},
+       {"Model", show::counted(data.run.effects.empty() ? std::vector<std::string>{"nothing fitted"}
+                                                        : data.run.effects)},
+       {"Measured", fmt::format("{}: {}", files_words(data.measured),
+                                counted_words(static_cast<std::size_t>(data.measured.size()),
+                                              "reading", "readings"))},
+       {"Report", fmt::format("{} by plumb {}", data.created, format::kVersion)}});
+}
+
+}  // namespace
+
+std::optional<bool> is_good(const Run& run, double tolerance_m) {
+  switch (quality(run.fit, tolerance_m)) {
+    case Quality::kNotHeldOut:
+      return std::nullopt;
+    case Quality::kGood:
+    case Quality::kRepeatsDisagree:
+    case Quality::kSigmaTooLarge:
+    case Quality::kGoodNoiseUnknown:
+    case Quality::kGoodNotComplete:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Html verdict_page(const ReportData& data, const ReportFigures& figures) {
+  Html html;
+  put_verdict(data, html);
+  if (!data.run_is_current)
+    html.paragraph(fmt::format(
+        "Run {} was made from another cell.toml than the present one: what this report says of the "
+        "cell file is of the present one, what it says of errors and parameters is of the run.",
+        data.run.number));
+  html.paragraph(fall_words(data.run.fit) + " " + tolerance_words(data));
+  for (const auto& step : data.comparison.changes.steps)
+    html.paragraph("Something may have moved during the measurement: " +
+                   show::step_words(data.cell, data.measured, step) + ".");
+  html.table(errors(data));
+  html.paragraph(floor_source_words(data.run.fit.floor));
+  put_facts(data, html);
+  figures.put(Page::kVerdict, html);
+  return html;
+}
+
+}  // namespace plumb::offline::report
