@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Candidate } from "../types";
+
+export interface Group { first: Candidate; others: Candidate[] }
+
+/** "reversal:J2+J3", the beginning of the name under which others mention the candidate. */
+export const nameOf = ({ effect, joints }: Candidate): string =>
+  joints.length > 0 ? `${effect}:${joints.join("+")}` : effect;
+
+/** Each candidate that cannot be told from a better one is folded into the row of that one. */
+export function grouped(candidates: Candidate[]): Group[] {
+  const out: Group[] = [];
+  for (const candidate of candidates) {
+    const name = nameOf(candidate);
+    const home = out.find(({ first }) =>
+      first.confounded.some((other) => other === name || other.startsWith(`${name}@`)) ||
+      candidate.confounded.some((other) => other === nameOf(first) || other.startsWith(`${nameOf(first)}@`)));
+    if (home) home.others.push(candidate);
+    else out.push({ first: candidate, others: [] });
+  }
+  return out;
+}
+
+/** Evidence in words; the natural logarithm of a Bayes factor of 10 decides. */
+export function evidenceWord(nats: number | null): string {
+  if (nats === null) return "unknown";
+  if (nats >= 10) return "certain";
+  if (nats >= 5) return "strong";
+  if (nats >= 2) return "weak";
+  return "none";
+}
