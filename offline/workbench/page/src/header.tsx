@@ -6,8 +6,6 @@ import { cell, runDetail, runNumber, runRow } from "./store";
 import { connection } from "./connection";
 import { verdict } from "./verdict";
 
-const kMarks = { good: "✓", partly: "!", bad: "✕", none: "" } as const;
-
 function RunChoice() {
   const runs = cell.value?.runs ?? [];
   if (runs.length === 0) return <span>none</span>;
@@ -34,7 +32,7 @@ export function Header() {
         <div><dt>Noise floor</dt><dd>{detail ? withMm(detail.noise_floor_mm) : "–"}</dd></div>
         <div><dt>Tolerance</dt><dd>{withMm(cell.value?.cell?.tolerance_mm)}</dd></div>
       </dl>
-      <p class={`verdict ${kind}`} title={sentence}><span aria-hidden="true">{kMarks[kind]}</span> {word}</p>
+      <p id="verdict" class={`verdict ${kind}`} title={sentence}>{word}</p>
     </header>
   );
 }

@@ -46,7 +46,7 @@ function paint(canvas: HTMLCanvasElement, all: Poses, joint: number, plot: Plot,
   c.fillStyle = theme.muted;
   c.font = "11px system-ui, sans-serif";
   c.textAlign = "right";
-  c.fillText(plain(plot.top), kLeft - 3, kTop + 9);
+  c.fillText(plot.top.toPrecision(2), kLeft - 3, kTop + 9);
   c.fillText("0", kLeft - 3, kHeight - kBottom);
   c.textAlign = "left";
   c.fillText(plain(Math.round(plot.x.low)), kLeft, kHeight - 6);

@@ -2,7 +2,7 @@
 // The 3-D view, in metres, z up, without perspective: an arrow is as long wherever it stands. Drawn when
 // something changed, never in a loop.
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, GridHelper, Group, Mesh, MeshBasicMaterial,
+  AmbientLight, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, GridHelper, Group, Mesh, MeshBasicMaterial,
   OrthographicCamera, Points, PointsMaterial, Scene, TorusGeometry, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -55,6 +55,8 @@ export class View3d {
   private arrowCount = 0;
   private poses: Poses | null = null;
   private reach = 1;
+  private middle = new Vector3();
+  private extent = 1; // [m]: from the middle to the farthest point
   private asked = 0;
   private settle = 0;
   private moving = false;
@@ -90,7 +92,7 @@ export class View3d {
   /** Looks from one side at everything. */
   lookFrom(eye: Eye): void {
     const [x, y, z] = kEyes[eye];
-    const centre = this.centre();
+    const centre = this.middle;
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).add(new Vector3(x, y, z).setLength(4 * this.reach));
     this.camera.zoom = 1;
@@ -122,6 +124,7 @@ export class View3d {
     const first = this.poses === null || this.poses.reach_mm !== poses.reach_mm;
     this.poses = poses;
     this.reach = Math.max(1e-3, (poses.reach_mm ?? 1000) * kMm);
+    this.measure(poses);
     this.renderer.setClearColor(new Color(tones.paper));
     this.clear();
     const grid = new GridHelper(2 * this.reach, 10, tones.muted, tones.grid);
@@ -194,7 +197,7 @@ export class View3d {
     const isRegion = (i: number): boolean => region.has(poses.row[i]);
     shown((i) => !inside.has(i), tones.grid, 2);
     shown((i) => inside.has(i) && !isRegion(i), tones.muted, 3);
-    shown((i) => inside.has(i) && isRegion(i), tones.purple, 9);
+    shown((i) => inside.has(i) && isRegion(i), tones.purple, 6);
   }
 
   private addArrows(content: Content): void {
@@ -210,30 +213,26 @@ export class View3d {
         const from = at3(poses.point_mm, i), along = at3(errors, i)?.multiplyScalar(factor);
         if (from && along && along.length() > 0) list.push({ from, along, colour });
       }
-      const arrows = new Arrows(list, 0.0022 * this.reach);
+      const arrows = new Arrows(list, 0.0026 * this.reach);
       this.arrows.push(arrows);
       this.content.add(arrows.group);
       this.arrowCount = Math.max(this.arrowCount, list.length);
     }
   }
 
-  private centre(): Vector3 {
-    const sum = new Vector3();
-    let n = 0;
-    this.poses?.row.forEach((_, i) => {
-      const p = this.poses ? at3(this.poses.point_mm, i) : null;
-      if (p) {
-        sum.add(p);
-        ++n;
-      }
-    });
-    return n > 0 ? sum.divideScalar(n).multiplyScalar(0.6) : sum;
+  /** Finds the ball around the base and every measured point. */
+  private measure(poses: Poses): void {
+    const box = new Box3(new Vector3(), new Vector3());
+    const points = poses.row.map((_, i) => at3(poses.point_mm, i)).filter((p): p is Vector3 => p !== null);
+    for (const p of points) box.expandByPoint(p);
+    box.getCenter(this.middle);
+    this.extent = points.reduce((far, p) => Math.max(far, p.distanceTo(this.middle)), this.middle.length()) || this.reach;
   }
 
   private frame(): void {
     const { width, height } = this.canvas;
     const aspect = height > 0 ? width / height : 1;
-    const half = 1.05 * this.reach / Math.min(1, aspect);
+    const half = 1.08 * this.extent / Math.min(1, aspect);
     Object.assign(this.camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half, near: 0.001 * this.reach, far: 20 * this.reach });
     this.camera.updateProjectionMatrix();
   }

@@ -27,7 +27,7 @@ export function WorstPoses() {
     <>
       <Scroll label="Worst poses">
         <table>
-          <thead><tr><th scope="col">Pose</th><th scope="col">Set</th><th scope="col">Before [mm]</th><th scope="col">After [mm]</th><th scope="col">ex</th><th scope="col">ey</th><th scope="col">ez [mm]</th></tr></thead>
+          <thead><tr><th scope="col">Pose</th><th scope="col">Set</th><th scope="col">Before [mm]</th><th scope="col">After [mm]</th><th scope="col">ex [mm]</th><th scope="col">ey [mm]</th><th scope="col">ez [mm]</th></tr></thead>
           <tbody ref={body}>
             {order.slice(first, first + most).map((i) => (
               <tr key={all.row[i]} class={i === at ? "picked" : ""} onClick={() => pick(i)}>
