@@ -13,7 +13,7 @@ function RunChoice() {
     <select aria-label="Run" value={String(runNumber.value)}
       onChange={(event) => setParams({ run: event.currentTarget.value })}>
       {[...runs].reverse().map((run) => (
-        <option value={String(run.run)}>{run.run}{run.current ? " (present)" : ""}: {run.held_out ? `${mm(run.held_out.mean_mm)} mm` : "not held out"}</option>
+        <option value={String(run.run)}>{run.run}{run.current ? ", present" : ""}: {run.held_out ? mm(run.held_out.mean_mm) : "not held out"}</option>
       ))}
     </select>
   );

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { resultOf, task } from "../jobs";
 import { kNone, plain, withMm } from "../numbers";
-import { Action } from "../parts/action";
+import { Action, Progress } from "../parts/action";
 import { Card, Scroll } from "../parts/card";
 import { ProblemBox } from "../parts/problem";
 import type { Problem } from "../types";
@@ -35,7 +35,8 @@ export function CheckCard() {
   const found = resultOf<Check>("check"), { busy } = task("check").value;
   return (
     <Card title="What check says" class="wide" lead="Units, conventions, coverage, and which effects these data can show.">
-      <Action purpose="check" verb="check" main>Check</Action>
+      <Action purpose="check" verb="check" main quiet>Check</Action>
+      <Progress purpose="check" warnings={false} />
       {found && !busy && (
         <>
           <p class="sentence">{found.verdict}</p>

@@ -94,10 +94,12 @@ export function RawPreview({ name, line }: { name: string; line?: number }) {
     return () => loading.abort();
   }, [name, version]);
   if (problem) return <ProblemBox problem={problem} />;
-  const lines = text.split(/\r?\n/);
+  const all = text.split(/\r?\n/);
+  const lines = line === undefined && name.endsWith(".csv") ? all.filter((row) => !row.startsWith("#")) : all;
   if (line !== undefined) return <pre class="row-of-file">{`${line}: ${lines[line - 1] ?? ""}`.slice(0, 400)}</pre>;
   if (!name.endsWith(".csv")) return <Scroll label={`Text of ${name}`}><pre>{text.slice(0, 20000)}</pre></Scroll>;
   const separator = [";", "\t", ","].find((s) => lines[0]?.includes(s)) ?? ",";
+  const rows = lines.filter((row) => row !== "").length - 1;
   const cut = (row: string): string[] => row.split(separator).slice(0, kColumns);
   return (
     <Scroll label={`First rows of ${name}`}>
@@ -105,7 +107,7 @@ export function RawPreview({ name, line }: { name: string; line?: number }) {
         <thead><tr>{cut(lines[0] ?? "").map((head) => <th scope="col">{head}</th>)}</tr></thead>
         <tbody>{lines.slice(1, 1 + kRows).filter((row) => row !== "").map((row) => <tr>{cut(row).map((value) => <td>{value}</td>)}</tr>)}</tbody>
       </table>
-      <p class="muted">The first {Math.min(kRows, lines.length - 1)} of {lines.length - 1} lines.</p>
+      <p class="muted">The first {Math.min(kRows, rows)} of {rows} rows, as they stand in the file; units stand in the names of the columns.</p>
     </Scroll>
   );
 }

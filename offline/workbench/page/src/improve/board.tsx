@@ -19,7 +19,7 @@ export function Board() {
   const runs = [...(cell.value?.runs ?? [])].reverse();
   const against = Number(param("against"));
   return (
-    <Card title="Model board" lead="Held-out error only: poses that no fit saw. The error of fitted poses is never accuracy.">
+    <Card title="Model board" class="wide" lead="Held-out error only: poses that no fit saw. The error of fitted poses is never accuracy.">
       <Scroll label="Runs">
         <table>
           <thead><tr><th scope="col">Run</th><th scope="col">Effects</th><th scope="col">n</th><th scope="col">Mean [mm]</th><th scope="col">95 % [mm]</th><th scope="col">Largest [mm]</th><th scope="col">Compare with</th></tr></thead>

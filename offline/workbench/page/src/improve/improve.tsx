@@ -43,8 +43,8 @@ export function ImproveScreen() {
         <Command words={["plot", "waterfall", "--run", String(runNumber.value)]} />
       </Card>
       <Model />
-      <Board />
       <Worse />
+      <Board />
       <FormulaEditor />
       <PlanCard />
     </NeedsRun>

@@ -8,7 +8,7 @@ import { Scroll } from "../parts/card";
 import { Figure } from "../parts/figure";
 import { joints } from "../store";
 import type { Candidate } from "../types";
-import { evidenceWord, type Group } from "./groups";
+import { evidenceWord, titleOf, type Group } from "./groups";
 
 function Numbers({ of }: { of: Candidate }) {
   if (of.parameters.length === 0) return null;
@@ -42,7 +42,7 @@ function Folded({ others, separate }: { others: Candidate[]; separate?: string }
   return (
     <details>
       <summary>Cannot be told apart from {others.length === 1 ? "one other effect" : `${others.length} other effects`} in these poses</summary>
-      <ul>{others.map((other) => <li><strong>{other.title}</strong>: alone {mm(other.held_out_alone_mm)} mm <AddButton of={other} /></li>)}</ul>
+      <ul>{others.map((other) => <li><strong>{titleOf(other)}</strong>: alone {mm(other.held_out_alone_mm)} mm <AddButton of={other} /></li>)}</ul>
       {separate && <p>What would separate them: {separate}</p>}
     </details>
   );
@@ -52,7 +52,7 @@ export function AddButton({ of, first }: { of: Candidate; first?: boolean }) {
   const args = addArguments(of);
   return (
     <Action purpose="add" verb="add" args={args} main={first} quiet id={first ? "add-first" : undefined}
-      shortcut={first ? "a" : undefined} label={`Add ${of.title}`} onDone={() => remember(args)}>Add</Action>
+      shortcut={first ? "a" : undefined} label={`Add ${titleOf(of)}`} onDone={() => remember(args)}>Add</Action>
   );
 }
 
@@ -64,7 +64,7 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
   const more = first.confounded.length > 0 && others.length === 0;
   return (
     <section class={`card candidate ${first.supported ? "" : "unsupported"}`}>
-      <h3>{rank}. {first.title}</h3>
+      <h3>{rank}. {titleOf(first)}</h3>
       <Fall before={before} after={first.held_out_alone_mm} />
       <dl class="facts">
         <div><dt>Held-out error with it</dt><dd>{mm(before)} → <strong>{mm(first.held_out_alone_mm)}</strong> mm</dd></div>

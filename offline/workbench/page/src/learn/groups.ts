@@ -3,9 +3,13 @@ import type { Candidate } from "../types";
 
 export interface Group { first: Candidate; others: Candidate[] }
 
-/** "reversal:J2+J3", the beginning of the name under which others mention the candidate. */
+/** "reversal:J2,J3", the beginning of the name under which others mention the candidate. */
 export const nameOf = ({ effect, joints }: Candidate): string =>
-  joints.length > 0 ? `${effect}:${joints.join("+")}` : effect;
+  joints.length > 0 ? `${effect}:${joints.join(",")}` : effect;
+
+/** "cross compliance of J3, J2" */
+export const titleOf = ({ title, joints }: Candidate): string =>
+  joints.length > 0 && !joints.some((joint) => title.includes(joint)) ? `${title} of ${joints.join(", ")}` : title;
 
 /** Each candidate that cannot be told from a better one is folded into the row of that one. */
 export function grouped(candidates: Candidate[]): Group[] {

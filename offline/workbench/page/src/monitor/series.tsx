@@ -17,9 +17,9 @@ export function Series({ title, seconds, lines }: { title: string; seconds: numb
     if (!element) return;
     const axis = { stroke: theme.muted, grid: { stroke: theme.grid, width: 1 }, ticks: { stroke: theme.grid, width: 1 } };
     const made = new uPlot({
-      width: Math.max(200, element.clientWidth), height: kHeight, title: "", cursor: { drag: { x: false, y: false } },
+      width: Math.max(200, element.clientWidth), height: kHeight, legend: { live: false }, cursor: { drag: { x: false, y: false } },
       scales: { x: { time: false, range: (_, low, high) => [low ?? 0, (high ?? 0) > (low ?? 0) ? high : (low ?? 0) + 1] }, y: { range: (_, __, high) => [0, (high || 1) * 1.1] } },
-      axes: [{ ...axis, label: "s" }, { ...axis, size: 56 }],
+      axes: [{ ...axis, label: "time [s]", labelSize: 18, labelFont: "12px system-ui, sans-serif", size: 30 }, { ...axis, size: 56 }],
       series: [{ label: "s" }, ...lines.map(({ label, tone, dashed }) => ({ label, stroke: theme[tone], width: 2, dash: dashed ? [6, 4] : undefined, points: { show: false } }))],
     }, [seconds, ...lines.map(({ values }) => values)] as uPlot.AlignedData, element);
     plot.current = made;
@@ -31,5 +31,5 @@ export function Series({ title, seconds, lines }: { title: string; seconds: numb
     };
   }, [theme, labels]);
   useEffect(() => plot.current?.setData([seconds, ...lines.map(({ values }) => values)] as uPlot.AlignedData), [seconds, lines]);
-  return <figure class="series" role="group" aria-label={title}><figcaption>{title}</figcaption><div ref={host} /></figure>;
+  return <div class="series" role="group" aria-label={title}><p class="caption">{title}</p><div ref={host} /></div>;
 }

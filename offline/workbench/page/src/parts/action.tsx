@@ -12,7 +12,8 @@ const kStateWords = {
   waiting: "Waiting for another command to end", running: "Running", done: "Done", failed: "Failed", stopped: "Stopped",
 } as const;
 
-export function Progress({ purpose }: { purpose: string }) {
+/** With `warnings` false the caller shows them itself. */
+export function Progress({ purpose, warnings = true }: { purpose: string; warnings?: boolean }) {
   const { job, busy, problem } = task(purpose).value;
   return (
     <>
@@ -24,7 +25,7 @@ export function Progress({ purpose }: { purpose: string }) {
         </div>
       )}
       {problem && <ProblemBox problem={problem} />}
-      {(job?.output?.warnings ?? []).map((warning) => <ProblemBox problem={warning} />)}
+      {warnings && (job?.output?.warnings ?? []).map((warning) => <ProblemBox problem={warning} />)}
     </>
   );
 }

@@ -18,6 +18,7 @@ export type Shown = "both" | "before" | "after";
 export const kMovingArrows = 800, kStillArrows = 3000; // drawn at most: software GL needs 60 ms for 1000
 const kSettle = 250;                                   // [ms] after the last move until all are drawn
 const kMm = 1e-3;
+const kFill = 0.92; // of the half view: where the outermost point stands
 const kPickRadius = 14; // [px]
 
 const kEyes: Record<Eye, [number, number, number]> = {
@@ -99,6 +100,7 @@ export class View3d {
     this.controls.enableRotate = eye === "orbit";
     this.frame();
     this.controls.update();
+    this.fill();
     this.draw();
   }
 
@@ -227,6 +229,18 @@ export class View3d {
     for (const p of points) box.expandByPoint(p);
     box.getCenter(this.middle);
     this.extent = points.reduce((far, p) => Math.max(far, p.distanceTo(this.middle)), this.middle.length()) || this.reach;
+  }
+
+  /** Zooms until what was measured fills the view. */
+  private fill(): void {
+    this.camera.updateMatrixWorld();
+    let far = 1e-3;
+    for (const p of [new Vector3(), ...(this.poses?.row ?? []).map((_, i) => (this.poses ? at3(this.poses.point_mm, i) : null))]) {
+      const on = p?.project(this.camera);
+      if (on) far = Math.max(far, Math.abs(on.x), Math.abs(on.y));
+    }
+    this.camera.zoom = kFill / far;
+    this.camera.updateProjectionMatrix();
   }
 
   private frame(): void {

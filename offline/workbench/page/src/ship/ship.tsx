@@ -30,7 +30,7 @@ function CompileCard() {
     <Card title="1. Compile" lead="The model file for the controller, with its audit.">
       <Action purpose="compile" verb="compile" args={["--force"]} main id="compile">Compile</Action>
       {made && (
-        <dl class="facts" role="status">
+        <dl class="facts">
           <div><dt>Made of run</dt><dd>{made.run ?? "–"}</dd></div>
           <div><dt>Held-out error</dt><dd>{withMm(made.held_out?.mean_mm)}</dd></div>
           <div><dt>Largest correction</dt><dd>{mm(made.audit.worst_correction_mm)} of {mm(made.audit.max_correction_mm)} mm allowed</dd></div>
@@ -44,6 +44,7 @@ function CompileCard() {
 
 function InspectCard() {
   const found = fresh<Inspected>("inspect");
+  const leaves = (found?.trees ?? []).reduce((n, tree) => n + tree.leaves, 0);
   const compiled = new Set(found?.effects.map(({ effect }) => effect));
   const fitted = [...new Set((runDetail.value?.effects ?? []).map(({ effect }) => effect))].filter((effect) => effect !== "geometry");
   return (
@@ -53,7 +54,7 @@ function InspectCard() {
         <div role="status">
           <p><strong>{found.sound ? "The file is whole and can be used." : "The file cannot be used."}</strong> It is bound to {found.robot || "the arm"}{found.serial ? `, serial ${found.serial}` : ", no serial"}.</p>
           <ul>
-            <li>Compiled: calibrated geometry{found.effects.map(({ effect, formula }) => `, ${effect}${formula ? ` (${formula})` : ""}`).join("")}{found.trees.length > 0 ? `, a tree of ${found.trees.reduce((n, tree) => n + tree.leaves, 0)} leaves` : ""}</li>
+            <li>Compiled: calibrated geometry{found.effects.map(({ effect, formula }) => `, ${effect}${formula ? ` (${formula})` : ""}`).join("")}{leaves > 0 ? `, a tree of ${leaves} leaves` : ""}</li>
             {fitted.some((effect) => !compiled.has(effect)) && <li>Only cleaned, not compiled: {fitted.filter((effect) => !compiled.has(effect)).join(", ")}</li>}
           </ul>
         </div>
@@ -69,7 +70,7 @@ function BenchCard() {
       <Action purpose="bench" verb="bench" args={[kModel, "-o", kLatency, "--force"]}>Time it</Action>
       {found && (
         <>
-          <dl class="facts" role="status">
+          <dl class="facts">
             <div><dt>Median</dt><dd>{us(found.ns_median)}</dd></div>
             <div><dt>99 %</dt><dd>{us(found.ns_p99)}</dd></div>
             <div><dt>Longest</dt><dd>{us(found.ns_max)}</dd></div>
