@@ -21,14 +21,10 @@ export function formulaArguments(law: string, parameters: string, name: string, 
   return out;
 }
 
-/**
- * Where in the text a place lies. The place is of the law as it would stand in cell.toml or on the
- * command line; its column counts from the beginning of the words that are quoted.
- */
-function caretAt(problem: Problem, law: string): number | null {
-  const column = problem.place?.column ?? 0;
-  if (column < 1 || column > law.length + 1) return null;
-  return column - 1;
+/** Where in the law an error is: the place of the program counts characters of the option from 1. */
+function caretAt({ place }: Problem, law: string): number | null {
+  const column = place?.column ?? 0;
+  return place?.file.startsWith("--formula") && column >= 1 && column <= law.length + 1 ? column - 1 : null;
 }
 
 function Underlined({ problem, law }: { problem: Problem; law: string }) {
@@ -70,7 +66,7 @@ export function FormulaEditor() {
         </div>
         <Command words={["add", ...args, "--dry-run"]} />
       </form>
-      {same && problem && <Underlined problem={problem} law={law} />}
+      {same && problem && <Underlined problem={problem} law={law.trim()} />}
       {(same || busy) && <Progress purpose="formula" />}
       {good && result && (
         <>
