@@ -177,6 +177,7 @@ const server = createServer(async (request, answer) => {
   return refuse(404, "nothing here");
 });
 server.on("upgrade", (request, socket) => {
+  if (new URL(request.url, "http://x").searchParams.get("token") !== token) return socket.end("HTTP/1.1 403 Forbidden\r\n\r\n");
   const key = createHash("sha1").update(`${request.headers["sec-websocket-key"]}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`).digest("base64");
   socket.write(`HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: ${key}\r\n\r\n`);
   sockets.add(socket);

@@ -38,6 +38,8 @@ export function Header() {
 }
 
 export function ConnectionNote() {
+  if (connection.value === "other")
+    return <p class="lost" role="alert">The server was started again. This page shows what it sends, but may not change anything: open the address that it printed.</p>;
   if (connection.value !== "lost") return null;
   return (
     <p class="lost" role="alert">

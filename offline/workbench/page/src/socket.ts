@@ -18,7 +18,9 @@ export function listen(onNews: (news: News) => void, onConnected: () => void): v
     clearTimeout(silence);
     silence = window.setTimeout(() => socket.close(), kSilence);
   };
+  let opened = false;
   socket.onopen = () => {
+    opened = true;
     pause = kFirstPause;
     connection.value = "there";
     heard();
@@ -35,6 +37,13 @@ export function listen(onNews: (news: News) => void, onConnected: () => void): v
   socket.onclose = () => {
     clearTimeout(silence);
     connection.value = "lost";
+    // Refused although a server answers: it was started again, with another token.
+    if (!opened)
+      fetch("/api/runs", { cache: "no-store" }).then((answer) => {
+        if (!answer.ok) return;
+        connection.value = "other";
+        onConnected();
+      }, () => undefined);
     window.setTimeout(() => listen(onNews, onConnected), pause);
     pause = Math.min(2 * pause, kLongestPause);
   };

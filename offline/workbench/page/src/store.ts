@@ -92,7 +92,7 @@ export async function loadCell(): Promise<void> {
     if (mine !== asking) return;
     cell.value = answer;
     cellProblem.value = answer.problem;
-    connection.value = "there";
+    if (connection.value !== "other") connection.value = "there";
   } catch (error) {
     if (mine === asking) cellProblem.value = problemOf(error);
   }

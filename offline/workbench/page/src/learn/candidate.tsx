@@ -38,10 +38,11 @@ function Fall({ before, after }: { before: number | null; after: number | null }
   );
 }
 
-function Folded({ others, separate }: { others: Candidate[]; separate?: string }) {
+function Folded({ summary, others, separate }: { summary: string; others: Candidate[]; separate?: string }) {
+  if (others.length === 0) return null;
   return (
     <details>
-      <summary>Cannot be told apart from {others.length === 1 ? "one other effect" : `${others.length} other effects`} in these poses</summary>
+      <summary>{summary}</summary>
       <ul>{others.map((other) => <li><strong>{titleOf(other)}</strong>: alone {mm(other.held_out_alone_mm)} mm <AddButton of={other} /></li>)}</ul>
       {separate && <p>What would separate them: {separate}</p>}
     </details>
@@ -57,7 +58,7 @@ export function AddButton({ of, first }: { of: Candidate; first?: boolean }) {
 }
 
 export function CandidateCard({ group, rank, before, addFirst }: { group: Group; rank: number; before: number | null; addFirst: boolean }) {
-  const { first, others } = group;
+  const { first, others, variants } = group;
   const known = joints.value.map(({ name }) => name);
   const joint = first.joints.find((name) => known.includes(name));
   const [open, setOpen] = useState(rank === 1);
@@ -75,7 +76,9 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
       {!first.plausible && <p class="note">Its numbers are larger than usual for such arms: doubt it.</p>}
       {!first.supported && <p class="note">The evidence is not enough to add it.</p>}
       <AddButton of={first} first={addFirst} />
-      {others.length > 0 && <Folded others={others} separate={first.separate_by} />}
+      <Folded others={others} separate={first.separate_by}
+        summary={`Cannot be told apart from ${others.length === 1 ? "one other candidate" : `${others.length} other candidates`} in these poses`} />
+      <Folded others={variants} summary={`The same effect in ${variants.length === 1 ? "another form" : `${variants.length} other forms`}`} />
       {more && <p class="muted">Hard to tell from {first.confounded.join(", ")}.{first.separate_by && ` What would separate them: ${first.separate_by}`}</p>}
       {joint && (
         <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>

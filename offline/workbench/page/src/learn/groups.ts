@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Candidate } from "../types";
 
-export interface Group { first: Candidate; others: Candidate[] }
+/** A cause, what cannot be told from it, and the same effect at other joints or with other options. */
+export interface Group { first: Candidate; others: Candidate[]; variants: Candidate[] }
 
 /** "reversal:J2,J3", the beginning of the name under which others mention the candidate. */
 export const nameOf = ({ effect, joints }: Candidate): string =>
@@ -19,8 +20,10 @@ export function grouped(candidates: Candidate[]): Group[] {
     const home = out.find(({ first }) =>
       first.confounded.some((other) => other === name || other.startsWith(`${name}@`)) ||
       candidate.confounded.some((other) => other === nameOf(first) || other.startsWith(`${nameOf(first)}@`)));
+    const twin = out.find(({ first }) => first.effect === candidate.effect);
     if (home) home.others.push(candidate);
-    else out.push({ first: candidate, others: [] });
+    else if (twin) twin.variants.push(candidate);
+    else out.push({ first: candidate, others: [], variants: [] });
   }
   return out;
 }

@@ -29,14 +29,27 @@ const xAt = (p: Plot, q: number): number => kLeft + (q - p.x.low) / (p.x.high - 
 const qAt = (p: Plot, x: number): number => p.x.low + (x - kLeft) / (p.width - kLeft - kRight) * (p.x.high - p.x.low);
 const yAt = (p: Plot, e: number): number => kHeight - kBottom - e / p.top * (kHeight - kTop - kBottom);
 
-function paint(canvas: HTMLCanvasElement, all: Poses, joint: number, plot: Plot, theme: Tones, inside: Set<number> | null, at: number, band: Axis | null): void {
+function cleared(canvas: HTMLCanvasElement, plot: Plot): CanvasRenderingContext2D | null {
   const scale = devicePixelRatio;
   canvas.width = Math.round(plot.width * scale);
   canvas.height = Math.round(kHeight * scale);
   const c = canvas.getContext("2d");
+  c?.scale(scale, scale);
+  return c;
+}
+
+function dot(c: CanvasRenderingContext2D, all: Poses, joint: number, plot: Plot, i: number, r: number): void {
+  const q = all.q[joint][i], e = all.after_norm_mm[i];
+  if (q === null || q === undefined || e === null) return;
+  c.beginPath();
+  c.arc(xAt(plot, q), yAt(plot, e), r, 0, 2 * Math.PI);
+  if (all.set[i] === "held") c.fill();
+  else c.stroke();
+}
+
+function paint(canvas: HTMLCanvasElement, all: Poses, joint: number, plot: Plot, theme: Tones, inside: Set<number> | null, band: Axis | null): void {
+  const c = cleared(canvas, plot);
   if (!c) return;
-  c.scale(scale, scale);
-  c.clearRect(0, 0, plot.width, kHeight);
   if (band) {
     c.fillStyle = theme.band;
     c.fillRect(xAt(plot, band.low), kTop, xAt(plot, band.high) - xAt(plot, band.low), kHeight - kTop - kBottom);
@@ -52,27 +65,25 @@ function paint(canvas: HTMLCanvasElement, all: Poses, joint: number, plot: Plot,
   c.fillText(plain(Math.round(plot.x.low)), kLeft, kHeight - 6);
   c.textAlign = "right";
   c.fillText(plain(Math.round(plot.x.high)), plot.width - kRight, kHeight - 6);
-  const dot = (i: number, r: number): void => {
-    const q = all.q[joint][i], e = all.after_norm_mm[i];
-    if (q === null || e === null) return;
-    c.beginPath();
-    c.arc(xAt(plot, q), yAt(plot, e), r, 0, 2 * Math.PI);
-    if (all.set[i] === "held") c.fill();
-    else c.stroke();
-  };
   c.lineWidth = 1;
   all.row.forEach((_, i) => {
     const lit = inside === null || inside.has(i);
     c.fillStyle = c.strokeStyle = lit ? theme.blue : theme.grid;
-    dot(i, 2);
+    dot(c, all, joint, plot, i, 2);
   });
+}
+
+/** The picked pose, on a canvas of its own: walking through poses redraws nothing else. */
+function paintPicked(canvas: HTMLCanvasElement, all: Poses, joint: number, plot: Plot, theme: Tones, at: number): void {
+  const c = cleared(canvas, plot);
+  if (!c) return;
   c.fillStyle = c.strokeStyle = theme.vermilion;
   c.lineWidth = 2;
-  dot(at, 5);
+  dot(c, all, joint, plot, at, 5);
 }
 
 function JointPlot({ joint, all }: { joint: number; all: Poses }) {
-  const canvas = useRef<HTMLCanvasElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null), mark = useRef<HTMLCanvasElement>(null);
   const [width, setWidth] = useState(0);
   const [drag, setDrag] = useState<{ from: number; to: number } | null>(null);
   const theme = tones.value, inside = brushed.value, at = picked.value, chosen = brush.value;
@@ -89,8 +100,11 @@ function JointPlot({ joint, all }: { joint: number; all: Poses }) {
     return () => watch.disconnect();
   }, []);
   useEffect(() => {
-    if (canvas.current && width > 0) paint(canvas.current, all, joint, plot, theme, inside, at, band);
-  }, [all, width, theme, inside, at, band?.low, band?.high]);
+    if (canvas.current && width > 0) paint(canvas.current, all, joint, plot, theme, inside, band);
+  }, [all, width, theme, inside, band?.low, band?.high]);
+  useEffect(() => {
+    if (mark.current && width > 0) paintPicked(mark.current, all, joint, plot, theme, at);
+  }, [all, width, theme, at]);
 
   const place = (event: PointerEvent): number =>
     Math.min(plot.x.high, Math.max(plot.x.low, qAt(plot, event.offsetX)));
@@ -113,10 +127,13 @@ function JointPlot({ joint, all }: { joint: number; all: Poses }) {
   return (
     <figure class="joint-plot">
       <figcaption>{name} [{unit}], error [mm]</figcaption>
+      <div class="layers">
       <canvas ref={canvas} role="img" aria-label={`Error after calibration over ${name}; largest ${mm(plot.top)} mm`}
         onPointerDown={(event) => { event.currentTarget.setPointerCapture(event.pointerId); setDrag({ from: place(event), to: place(event) }); }}
         onPointerMove={(event) => { if (drag) setDrag({ ...drag, to: place(event) }); }}
         onPointerUp={onUp} onPointerCancel={() => setDrag(null)} />
+      <canvas ref={mark} class="mark" aria-hidden="true" />
+      </div>
     </figure>
   );
 }

@@ -61,6 +61,8 @@ export class View3d {
   private asked = 0;
   private settle = 0;
   private moving = false;
+  private eye: Eye = "orbit";
+  private touched = false; // turned or zoomed by hand since
 
   /** Throws if the browser has no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -70,6 +72,7 @@ export class View3d {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.moved());
+    this.controls.addEventListener("start", () => { this.touched = true; });
     const sun = new DirectionalLight(0xffffff, 2);
     sun.position.set(0.6, -1, 1.4);
     this.ring = new Mesh(new TorusGeometry(1, 0.16, 8, 40), new MeshBasicMaterial({ depthTest: false }));
@@ -87,12 +90,15 @@ export class View3d {
     if (width < 1 || height < 1) return;
     this.renderer.setSize(width, height, false);
     this.frame();
+    if (!this.touched) this.lookFrom(this.eye);
     this.draw();
   }
 
   /** Looks from one side at everything. */
   lookFrom(eye: Eye): void {
     const [x, y, z] = kEyes[eye];
+    this.eye = eye;
+    this.touched = false;
     const centre = this.middle;
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).add(new Vector3(x, y, z).setLength(4 * this.reach));
@@ -112,10 +118,12 @@ export class View3d {
     if (Math.abs(tilted.clone().normalize().z) < 0.995) arm.copy(tilted);
     this.camera.position.copy(this.controls.target).add(arm);
     this.controls.update();
+    this.touched = true;
     this.moved();
   }
 
   zoom(times: number): void {
+    this.touched = true;
     this.camera.zoom *= times;
     this.camera.updateProjectionMatrix();
     this.moved();
@@ -134,7 +142,7 @@ export class View3d {
     this.content.add(grid);
     this.addPoints(content);
     this.addArrows(content);
-    if (first) this.lookFrom("orbit");
+    if (first) this.lookFrom(this.eye);
     this.draw();
   }
 
@@ -231,15 +239,22 @@ export class View3d {
     this.extent = points.reduce((far, p) => Math.max(far, p.distanceTo(this.middle)), this.middle.length()) || this.reach;
   }
 
-  /** Zooms until what was measured fills the view. */
+  /** Shifts and zooms until base and measured points fill the view. */
   private fill(): void {
     this.camera.updateMatrixWorld();
-    let far = 1e-3;
-    for (const p of [new Vector3(), ...(this.poses?.row ?? []).map((_, i) => (this.poses ? at3(this.poses.point_mm, i) : null))]) {
-      const on = p?.project(this.camera);
-      if (on) far = Math.max(far, Math.abs(on.x), Math.abs(on.y));
-    }
-    this.camera.zoom = kFill / far;
+    const seen = new Box3();
+    seen.expandByPoint(new Vector3().project(this.camera));
+    this.poses?.row.forEach((_, i) => {
+      const p = this.poses ? at3(this.poses.point_mm, i) : null;
+      if (p) seen.expandByPoint(p.project(this.camera));
+    });
+    const middle = seen.getCenter(new Vector3()), size = seen.getSize(new Vector3());
+    const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0), up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
+    const shift = right.multiplyScalar(middle.x * this.camera.right).addScaledVector(up, middle.y * this.camera.top);
+    this.camera.position.add(shift);
+    this.controls.target.add(shift);
+    this.controls.update();
+    this.camera.zoom = 2 * kFill / Math.max(size.x, size.y, 1e-3);
     this.camera.updateProjectionMatrix();
   }
 
