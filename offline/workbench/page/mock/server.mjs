@@ -176,6 +176,7 @@ const server = createServer(async (request, answer) => {
   }
   return refuse(404, "nothing here");
 });
+process.on("uncaughtException", (error) => { if (!["EPIPE", "ECONNRESET"].includes(error.code)) throw error; });
 server.on("upgrade", (request, socket) => {
   if (new URL(request.url, "http://x").searchParams.get("token") !== token) return socket.end("HTTP/1.1 403 Forbidden\r\n\r\n");
   const key = createHash("sha1").update(`${request.headers["sec-websocket-key"]}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`).digest("base64");

@@ -15,7 +15,7 @@ import type { Tones } from "./theme";
 export type Eye = "orbit" | "top" | "side" | "front";
 export type Shown = "both" | "before" | "after";
 
-export const kMovingArrows = 800, kStillArrows = 3000; // drawn at most: software GL needs 60 ms for 1000
+export const kMovingArrows = 800, kStillArrows = 3200; // drawn at most: software GL needs 60 ms for 1000
 const kSettle = 250;                                   // [ms] after the last move until all are drawn
 const kMm = 1e-3;
 const kFill = 0.92; // of the half view: where the outermost point stands
@@ -39,6 +39,15 @@ const at3 = (columns: Columns3, i: number): Vector3 | null => {
   const [x, y, z] = [columns[0][i], columns[1][i], columns[2][i]];
   return x === null || y === null || z === null ? null : new Vector3(x, y, z).multiplyScalar(kMm);
 };
+
+/** Whether the processor draws: then smooth edges would double the time of a frame. */
+function isSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const name = gl?.getExtension("WEBGL_debug_renderer_info");
+  const software = name ? /swiftshader|llvmpipe|software/i.test(String(gl?.getParameter(name.UNMASKED_RENDERER_WEBGL))) : false;
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return software;
+}
 
 export class View3d {
   /** Says how many arrows are drawn, and of how many. */
@@ -66,7 +75,7 @@ export class View3d {
 
   /** Throws if the browser has no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !isSoftware(), preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
