@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes dist/{index.html,app.js,app.css}. The colours are those of the figures: they are stated once,
-// in offline/draw/paint.cpp, and read from there.
+// in offline/draw/paint.cpp (or PLUMB_PAINT of the environment), and read from there.
 import { build } from "esbuild";
-import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const paintFile = join(here, "../../draw/paint.cpp");
+const paintFile = process.env.PLUMB_PAINT ?? above(here);
 const largestGzip = 250_000; // bytes: what the page may weigh on the wire
+
+/** offline/draw/paint.cpp of the sources that this folder, or a build folder in them, is part of. */
+function above(folder) {
+  const file = join(folder, "offline/draw/paint.cpp");
+  if (existsSync(file)) return file;
+  if (dirname(folder) === folder) throw new Error("offline/draw/paint.cpp is not above this folder: name it in PLUMB_PAINT");
+  return above(dirname(folder));
+}
 
 function tones(name) {
   const found = new RegExp(`${name}\\{([^}]*)\\}`).exec(readFileSync(paintFile, "utf8"));
