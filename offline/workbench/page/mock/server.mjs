@@ -78,9 +78,9 @@ async function poses(run) {
   const norm = (e) => e[0].map((_, i) => Math.hypot(e[0][i], e[1][i], e[2][i]));
   const far = data.map((_, i) => i).filter((i) => point[2][i] > 1200);
   return {
-    run, e: "measured - predicted, base frame [mm]", row: data.map((_, i) => i + 1), pose: data.map((r) => r.pose), set: data.map((_, i) => (i % 5 === 0 ? "held" : "fit")),
+    run, e: "measured - predicted, base frame [mm]", row: data.map((_, i) => i), pose: data.map((r) => r.pose), set: data.map((_, i) => (i % 5 === 0 ? "held" : "fit")),
     q, q_units: joints.map((j) => j.unit), point_mm: point, before_mm: before, after_mm: after, before_norm_mm: norm(before), after_norm_mm: norm(after), context: {},
-    worst_region: far.length ? { sentence: verdict.where ?? "Worst above 1200 mm.", rows: far.map((i) => i + 1) } : null, reach_mm: 2300, verdict_sentence: verdict.verdict ?? "",
+    worst_region: far.length ? { sentence: verdict.where ?? "Worst above 1200 mm.", rows: far } : null, reach_mm: 2300, verdict_sentence: verdict.verdict ?? "",
   };
 }
 
@@ -136,7 +136,7 @@ const server = createServer(async (request, answer) => {
   if (path === "/api/runs") return json({ runs: await runs() });
   if ((found = /^\/api\/runs\/(\d+)\/poses$/.exec(path))) return json(await poses(Number(found[1])));
   if ((found = /^\/api\/runs\/(\d+)\/frames$/.exec(path))) {
-    const row = rows()[Number(url.searchParams.get("row")) - 1], toml = readFileSync(join(folder, "cell.toml"), "utf8");
+    const row = rows()[Number(url.searchParams.get("row"))], toml = readFileSync(join(folder, "cell.toml"), "utf8");
     return json({ row: 1, ...armAt(toml, jointsOf(toml).map((_, j) => Number(row[`q${j + 1}_deg`] ?? row[`q${j + 1}_mm`]))) });
   }
   if ((found = /^\/api\/runs\/(\d+)$/.exec(path))) {

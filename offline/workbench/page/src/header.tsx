@@ -12,7 +12,7 @@ function RunChoice() {
   return (
     <select aria-label="Run" value={String(runNumber.value)}
       onChange={(event) => setParams({ run: event.currentTarget.value })}>
-      {[...runs].reverse().map((run) => (
+      {[...runs].filter((run) => !run.damaged).reverse().map((run) => (
         <option value={String(run.run)}>{run.run}{run.current ? ", present" : ""}: {run.held_out ? mm(run.held_out.mean_mm) : "not held out"}</option>
       ))}
     </select>

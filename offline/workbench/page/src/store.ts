@@ -21,7 +21,7 @@ export const state = computed(() => cell.value?.state ?? 0);
 
 /** The run that is looked at: the one of the address if it exists, else the present one, else the last. */
 export const runNumber = computed<number | null>(() => {
-  const known = cell.value?.runs ?? [];
+  const known = (cell.value?.runs ?? []).filter((run) => !run.damaged);
   const asked = Number(param("run"));
   if (known.some((run) => run.run === asked)) return asked;
   return cell.value?.current_run ?? known[known.length - 1]?.run ?? null;

@@ -27,11 +27,12 @@ export interface Joint { name: string; type: "revolute" | "prismatic"; unit: "de
 export interface RunRow {
   run: number;
   created: string;
-  effects: string[];
-  base: string;
+  effects?: string[];
+  base?: string;
   current: boolean;
-  held_out: Statistics | null;
-  fit: Statistics | null;
+  held_out?: Statistics | null;
+  fit?: Statistics | null;
+  damaged?: Problem;   // instead of the rest, if it cannot be read
 }
 
 export interface Cell {
@@ -69,7 +70,7 @@ export type Columns3 = [(number | null)[], (number | null)[], (number | null)[]]
 
 export interface Poses {
   run: number;
-  row: number[];
+  row: number[];   // from 0
   pose: string[];
   set: PoseSet[];
   q: (number | null)[][];

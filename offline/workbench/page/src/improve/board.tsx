@@ -27,12 +27,12 @@ export function Board() {
             {runs.map((row) => (
               <tr key={row.run} class={row.run === runNumber.value ? "picked" : ""}>
                 <th scope="row"><button type="button" class="link" aria-pressed={row.run === runNumber.value} onClick={() => setParams({ run: row.run })}>{row.run}{row.current ? " (present)" : ""}</button></th>
-                <td class="text">{effectWords(row.effects)}</td>
+                <td class="text">{row.damaged ? `cannot be read: ${row.damaged.message}` : effectWords(row.effects ?? [])}</td>
                 <td class="n">{row.held_out?.n ?? 0}</td>
                 <td class="n">{mm(row.held_out?.mean_mm)}</td>
                 <td class="n">{mm(row.held_out?.p95_mm)}</td>
                 <td class="n">{mm(row.held_out?.max_mm)}</td>
-                <td>{row.run !== runNumber.value && <button type="button" class="small" aria-pressed={row.run === against} aria-label={`Compare with run ${row.run}`} onClick={() => setParams({ against: row.run === against ? null : row.run })}>compare</button>}</td>
+                <td>{row.run !== runNumber.value && !row.damaged && <button type="button" class="small" aria-pressed={row.run === against} aria-label={`Compare with run ${row.run}`} onClick={() => setParams({ against: row.run === against ? null : row.run })}>compare</button>}</td>
               </tr>
             ))}
           </tbody>
@@ -48,7 +48,7 @@ const kMost = 10;
 /** Held-out poses whose error grew from another run to the one that is looked at. */
 export function Worse() {
   const now = poses.value, run = runNumber.value;
-  const rows = cell.value?.runs ?? [];
+  const rows = (cell.value?.runs ?? []).filter((row) => !row.damaged);
   const asked = Number(param("against"));
   const earlier = rows.filter((row) => run !== null && row.run < run);
   const other = rows.some((row) => row.run === asked && row.run !== run) ? asked : earlier[earlier.length - 1]?.run;

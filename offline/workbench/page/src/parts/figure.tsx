@@ -33,7 +33,7 @@ function drawing(text: string): Element | null {
   return document.importNode(parsed, true);
 }
 
-const kStep = 20, kNarrowest = 300, kWidest = 1280; // [px]
+const kStep = 20, kNarrowest = 320, kWidest = 1280; // [px]
 
 function roundedWidth(room: number): number {
   return Math.max(kNarrowest, Math.min(kWidest, kStep * Math.floor(room / kStep)));

@@ -55,7 +55,7 @@ export function PickedPose({ all }: { all: Poses }) {
   if (i < 0) return null;
   return (
     <p id="picked" role="status">
-      <strong>Pose {all.pose[i]}</strong> (row {all.row[i]}, {kSetWords[all.set[i]]}): {mm(all.before_norm_mm[i])} mm before, {mm(all.after_norm_mm[i])} mm after.{" "}
+      <strong>Pose {all.pose[i]}</strong> (row {all.row[i] + 1}, {kSetWords[all.set[i]]}): {mm(all.before_norm_mm[i])} mm before, {mm(all.after_norm_mm[i])} mm after.{" "}
       <span class="muted">{all.q.map((column, j) => `${joints.value[j]?.name ?? `J${j + 1}`} ${plain(column[i])}`).join(", ")} {[...new Set(all.q_units)].join(", ")}</span>
     </p>
   );
