@@ -5,10 +5,11 @@ import { remember } from "../improve/undo";
 import { kNone, mm, plain } from "../numbers";
 import { Action } from "../parts/action";
 import { Scroll } from "../parts/card";
+import { Command } from "../parts/command";
 import { Figure } from "../parts/figure";
 import { joints } from "../store";
 import type { Candidate } from "../types";
-import { evidenceWord, titleOf, type Group } from "./groups";
+import { evidenceWord, planName, titleOf, type Group } from "./groups";
 
 function Numbers({ of }: { of: Candidate }) {
   if (of.parameters.length === 0) return null;
@@ -38,13 +39,14 @@ function Fall({ before, after }: { before: number | null; after: number | null }
   );
 }
 
-function Folded({ summary, others, separate }: { summary: string; others: Candidate[]; separate?: string }) {
+function Folded({ summary, others, of, separate }: { summary: string; others: Candidate[]; of?: Candidate; separate?: string }) {
   if (others.length === 0) return null;
   return (
     <details>
       <summary>{summary}</summary>
       <ul>{others.map((other) => <li><strong>{titleOf(other)}</strong>: alone {mm(other.held_out_alone_mm)} mm <AddButton of={other} /></li>)}</ul>
       {separate && <p>What would separate them: {separate}</p>}
+      {of && <div>Poses that separate the first two: <Command words={["plan", "--separate", `${planName(of)},${planName(others[0])}`]} /></div>}
     </details>
   );
 }
@@ -76,7 +78,7 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
       {!first.plausible && <p class="note">Its numbers are larger than usual for such arms: doubt it.</p>}
       {!first.supported && <p class="note">The evidence is not enough to add it.</p>}
       <AddButton of={first} first={addFirst} />
-      <Folded others={others} separate={first.separate_by}
+      <Folded others={others} of={first} separate={first.separate_by}
         summary={`Cannot be told apart from ${others.length === 1 ? "one other candidate" : `${others.length} other candidates`} in these poses`} />
       <Folded others={variants} summary={`The same effect in ${variants.length === 1 ? "another form" : `${variants.length} other forms`}`} />
       {more && <p class="muted">Hard to tell from {first.confounded.join(", ")}.{first.separate_by && ` What would separate them: ${first.separate_by}`}</p>}

@@ -8,6 +8,13 @@ export interface Group { first: Candidate; others: Candidate[]; variants: Candid
 export const nameOf = ({ effect, joints }: Candidate): string =>
   joints.length > 0 ? `${effect}:${joints.join(",")}` : effect;
 
+/** As plumb plan --separate takes it: "gear_ripple:J2@cycles_per_turn=20". */
+export function planName({ effect, joints, options, cycles_per_turn }: Candidate): string {
+  const numbers = Object.entries(options).filter(([key, value]) => typeof value === "number" && key !== "cycles_per_turn");
+  const cycles = cycles_per_turn.length > 0 ? [["cycles_per_turn", cycles_per_turn[0]]] : [];
+  return effect + (joints.length > 0 ? `:${joints.join("+")}` : "") + [...numbers, ...cycles].map(([key, value]) => `@${key}=${value}`).join("");
+}
+
 /** "cross compliance of J3, J2" */
 export const titleOf = ({ title, joints }: Candidate): string =>
   joints.length > 0 && !joints.some((joint) => title.includes(joint)) ? `${title} of ${joints.join(", ")}` : title;

@@ -134,7 +134,7 @@ export function MonitorScreen() {
           <label>Folder of deploy <input type="text" value={folder} list="folders" onChange={(event) => setParams({ folder: event.currentTarget.value })} /></label>
           <datalist id="folders">{(now?.folders ?? []).map((name) => <option value={name} />)}</datalist>
           <button type="button" class={running ? "" : "main"} disabled={running} onClick={() => act("start")}>Start the demonstration</button>
-          <button type="button" disabled={!running} onClick={() => act("stop")}>Stop</button>
+          <button type="button" disabled={!running && !now?.twin} onClick={() => act("stop")}>Stop</button>
         </div>
         <Command line={shellLine("plumb-rt", ["run", folder])} />
         <Command line={shellLine("plumb-rt", ["status", folder, "--json"])} />

@@ -232,7 +232,7 @@ export class View3d {
         const from = at3(poses.point_mm, i), along = at3(errors, i)?.multiplyScalar(factor);
         if (from && along && along.length() > 0) list.push({ from, along, colour });
       }
-      const arrows = new Arrows(list, 0.0026 * this.reach);
+      const arrows = new Arrows(list, 0.0026 * this.extent);
       this.arrows.push(arrows);
       this.content.add(arrows.group);
       this.arrowCount = Math.max(this.arrowCount, list.length);
