@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verbs that the server runs for us. Each purpose (diagnose, add, ...) remembers its last job.
 import { signal, type Signal } from "@preact/signals";
+import { setParams } from "./hash";
 import { ApiError, getJson, postJson, problemOf, remove } from "./api";
 import type { Envelope, Job, Problem } from "./types";
 
@@ -33,6 +34,7 @@ export function told(job: Job): void {
   }
 }
 
+const kMakeRuns = new Set(["add", "drop", "fit"]);
 const kPoll = 1000; // [ms] when the socket says nothing
 
 function ended(number: number): Promise<Job> {
@@ -69,6 +71,7 @@ export async function run(purpose: string, verb: string, args: string[]): Promis
     const problem = last.output?.error ??
       (last.state === "failed" ? { code: "", message: last.progress[last.progress.length - 1] ?? "The command failed." } : null);
     mine.value = { job: jobs.value[job], problem, args, busy: false };
+    if (!problem && kMakeRuns.has(verb) && !args.includes("--dry-run")) setParams({ run: null }); // the new run is the one to look at
     return last.output ?? null;
   } catch (error) {
     mine.value = { ...mine.value, problem: problemOf(error), busy: false };

@@ -19,11 +19,11 @@ function Model() {
     <Card title="The model">
       {words ? (
         <div class="action">
-          <button type="button" id="undo" aria-keyshortcuts="u" disabled={task("drop").value.busy || !present} onClick={undoLast}>Undo: drop {words[0]}</button>
+          <button type="button" id="undo" aria-keyshortcuts="u" disabled={task("drop").value.busy} onClick={undoLast}>Undo: drop {words[0]}</button>
           <Command words={["drop", ...words]} />
         </div>
-      ) : <p>It contains geometry alone. Learn says what to add.</p>}
-      {!present && <p class="note">This is an earlier run. Undo and add change the present cell.</p>}
+      ) : present && <p>It contains geometry alone. Learn says what to add.</p>}
+      {!present && <p class="note">This is not the run of the present cell: undo and add change the present one.</p>}
       <LastChange />
       {present && droppable.value.length > 1 && (
         <details>

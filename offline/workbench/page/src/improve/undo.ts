@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { run, task } from "../jobs";
 import { undoArguments } from "../effects";
-import { runDetail } from "../store";
+import { cell, runDetail, runNumber } from "../store";
 
 /** Arguments of the additions of this tab that were not taken back, the last one last. */
 const additions = signal<string[][]>([]);
@@ -19,6 +19,7 @@ export const droppable = computed<string[][]>(() =>
 
 /** What undo would drop: what was added last here, else the last effect of the run. */
 export const undoWords = computed<string[] | null>(() => {
+  if (runNumber.value !== cell.value?.current_run) return null; // an earlier run: nothing of the present cell
   const last = additions.value[additions.value.length - 1];
   if (last) return undoArguments(last);
   return droppable.value[droppable.value.length - 1] ?? null;
