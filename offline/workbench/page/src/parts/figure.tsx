@@ -95,6 +95,7 @@ export function Figure({ name, path, label }: FigureProps) {
   };
   return (
     <figure class="figure" data-figure={name} aria-busy={busy}>
+      {busy && !problem && <p class="muted">Drawing {name} …</p>}
       <div ref={host} onClick={onClick} />
       {problem && <ProblemBox problem={{ ...problem, severity: "note" }} />}
     </figure>
