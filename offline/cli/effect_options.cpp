@@ -10,6 +10,7 @@
 #include "cli/parts.hpp"
 #include "effects/registry.hpp"
 #include "program/shell_word.hpp"
+#include "program/utf8.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -161,6 +162,21 @@ std::string EffectOptions::option_at(const Place& place) const {
   if (line.starts_with("domain")) return "--domain " + shell_word(domain);
   if (is_formula(name)) return "--formula " + shell_word(formula);
   return set.empty() ? name : "--set " + shell_word(fmt::format("{}", fmt::join(set, " --set ")));
+}
+
+Place EffectOptions::place_at(const Place& place) const {
+  Place out{.file = option_at(place)};
+  const std::string line = trimmed(place.source);
+  const bool target = line.starts_with("target");
+  const std::size_t quote = place.source.find('"'), equals = formula.find('=');
+  if (quote == std::string::npos || equals == std::string::npos ||
+      !(target || line.starts_with("expression")))
+    return out;
+  const int in_text = place.column - 2 - count_characters(place.source.substr(0, quote));
+  const std::size_t from = formula.find_first_not_of(" \t", target ? 0 : equals + 1);
+  if (in_text < 0 || from == std::string::npos) return out;
+  out.column = 1 + count_characters(formula.substr(0, from)) + in_text;
+  return out;
 }
 
 }  // namespace plumb::offline::cli

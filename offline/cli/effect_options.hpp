@@ -36,6 +36,10 @@ struct EffectOptions {
   /// The option that a place in the text of a cell with these effects comes from:
   /// "--formula 'dq2 = tau9'".
   std::string option_at(const Place& place) const;
+
+  /// The same as a place. Inside --formula its column counts characters of the option's text, from
+  /// 1; its line is 0.
+  Place place_at(const Place& place) const;
 };
 
 }  // namespace plumb::offline::cli

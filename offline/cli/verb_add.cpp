@@ -82,7 +82,7 @@ void checked(const EffectOptions& options, const Cell& cell, const std::function
       if (!problem.place || problem.place->line <= 0 ||
           problem.place->file != display_name(cell.file))
         continue;
-      problem.place = Place{.file = options.option_at(*problem.place)};
+      problem.place = options.place_at(*problem.place);
       ours = true;
     }
     throw Failure(ours ? Exit::kUsage : failure.exit_code(), std::move(problems));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // diagnose, add and drop as a person and as a program see them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -240,6 +241,16 @@ TEST_F(DiagnoseVerb, AnErrorOfTheCommandLinePointsThereAndNotIntoTheCellFile) {
     std::vector<std::string> all{"add"};
     all.insert(all.end(), words.begin(), words.end());
     refused(all, 2, "--> " + option + "\n");
+  }
+}
+
+TEST_F(DiagnoseVerb, AnErrorInAFormulaOfTheCommandLineHasItsColumnThere) {
+  for (const auto& [law, column] : std::vector<std::pair<std::string, int>>{
+           {"dq2 = k * tau9", 11}, {"  dq2=k*tau9", 9}, {"dq9 = k * tau2", 1}}) {
+    const Ran wrong = plumb(
+        {"add", "formula", "--formula", law, "--parameter", "k [1] ~ 1", "--dry-run", "--json"});
+    EXPECT_NE(wrong.out.find(fmt::format("\"column\": {}", column)), std::string::npos)
+        << law << wrong.out;
   }
 }
 
