@@ -9,8 +9,7 @@ namespace {
 const char* policy_of(Response::Content content) {
   switch (content) {
     case Response::Content::kPage:
-      // Figures stand in the page as SVG, each with a style sheet and style attributes of its own.
-      return "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+      return "default-src 'none'; script-src 'self'; style-src 'self'; "
              "img-src 'self' data: blob:; connect-src 'self'; frame-src 'self'; "
              "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
     case Response::Content::kPicture:
