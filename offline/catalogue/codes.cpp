@@ -46,6 +46,49 @@ constexpr Explanation kCodes[] = {
      "plumb plot draws the figures that plumb plot --list names. Where a name ends with JN, a "
      "joint "
      "of the arm takes its place: joint-J2. Nothing was written."},
+    {"E-SERVE-PORT",
+     "plumb serve cannot listen on that port of this machine: another program has it, or it needs "
+     "rights. Without --port the system chooses a free one."},
+    {"E-SERVE-OFF",
+     "This plumb was built without the workbench, because node, npm or Boost.Beast were missing. "
+     "Every verb works without it; docs/workbench.md says how to build it."},
+    {"E-SERVE-HOST",
+     "The workbench answers only requests to this machine by its own name. A page of another "
+     "server that was made to lead here is refused."},
+    {"E-SERVE-ORIGIN", "The workbench answers its own page only, not the page of another server."},
+    {"E-SERVE-TOKEN",
+     "What changes a cell needs the token that plumb serve printed with its address. A new server "
+     "has a new token: open the new address."},
+    {"E-SERVE-REQUEST",
+     "The workbench could not make sense of a request. docs/workbench.md lists what it answers."},
+    {"E-SERVE-METHOD", "This path of the workbench does not take that HTTP method."},
+    {"E-SERVE-PATH", "The workbench has nothing at this path, or was built without its page."},
+    {"E-SERVE-MISSING",
+     "There is no such job or file any more: jobs are forgotten when the server is started again."},
+    {"E-SERVE-SIZE",
+     "Headers may have 16 kB, a file 16 MB and any other body 1 MB. Copy a larger file into the "
+     "folder of the cell."},
+    {"E-SERVE-BUSY", "The workbench serves 32 connections at a time. Close some of its pages."},
+    {"E-SERVE-QUEUE", "Up to 32 jobs of the workbench wait for the one that runs."},
+    {"E-SERVE-JOB",
+     "The page may give the verbs that work in its cell, on files in the folder of the cell. "
+     "Everything else is for a shell; the page shows what changed."},
+    {"E-SERVE-STATE",
+     "cell.toml, a measurement file or a run was changed, from a shell perhaps, after the page had "
+     "read it. Nothing was written."},
+    {"E-SERVE-OUTSIDE",
+     "The page cannot make a cell read files outside its folder. Copy the file, or edit cell.toml "
+     "in a shell."},
+    {"E-SERVE-CHILD",
+     "The workbench could not run a program, or it did not end in time. plumb-rt and plumb-twin "
+     "are looked for beside plumb."},
+    {"E-SERVE-RANDOM", "The system gave no random numbers for the token; nothing was served."},
+    {"E-SERVE-DEPLOYED",
+     "There is no folder with an rt.toml of that name. plumb deploy makes one."},
+    {"E-SERVE-RT", "The plumb-rt that the workbench started has ended; the message says why."},
+    {"E-SERVE-TWIN",
+     "The simulated robot cannot be driven: the cell has no twin.toml, its bus is none that "
+     "plumb-twin speaks, or plumb-twin has ended."},
     {"E-PLOT-RUN",
      "A figure shows a run, and there is none of the present cell file and data. plumb fit makes "
      "one; --run N draws an earlier one of the same data."},

@@ -26,18 +26,6 @@ void note_tables(const MeasurementFiles& measured, Outcome& outcome) {
   }
 }
 
-/// With -C only that folder is searched: a search in the folders above a mistyped one would find
-/// another cell.
-fs::path cell_file(const Globals& globals) {
-  if (globals.directory.empty()) return find_cell(fs::current_path());
-  fs::path file = fs::path(globals.directory) / "cell.toml";
-  if (fs::exists(file)) return file;
-  throw Failure(Exit::kInput,
-                {.code = "E-CELL-NONE",
-                 .message = fmt::format("-C: there is no cell.toml in {}", globals.directory),
-                 .help = "make one: plumb new DIR --dh F.csv --convention standard"});
-}
-
 bool same_data(const Run& run, const MeasurementFiles& measured) {
   if (run.inputs.size() != measured.tables.size()) return false;
   for (std::size_t i = 0; i < run.inputs.size(); ++i)
@@ -46,6 +34,18 @@ bool same_data(const Run& run, const MeasurementFiles& measured) {
 }
 
 }  // namespace
+
+fs::path cell_file(const Globals& globals) {
+  // With -C only that folder is searched: a search in the folders above a mistyped one would find
+  // another cell.
+  if (globals.directory.empty()) return find_cell(fs::current_path());
+  fs::path file = fs::path(globals.directory) / "cell.toml";
+  if (fs::exists(file)) return file;
+  throw Failure(Exit::kInput,
+                {.code = "E-CELL-NONE",
+                 .message = fmt::format("-C: there is no cell.toml in {}", globals.directory),
+                 .help = "make one: plumb new DIR --dh F.csv --convention standard"});
+}
 
 Cell open_cell(const Globals& globals, Outcome& outcome) {
   Cell cell = read_cell(cell_file(globals));

@@ -12,6 +12,9 @@
 /// From -C to a run: what most verbs begin with.
 namespace plumb::offline::cli {
 
+/// The cell.toml of -C, or the nearest one upward. Throws Failure (kInput, E-CELL-NONE).
+std::filesystem::path cell_file(const Globals& globals);
+
 /// The cell of -C, or the nearest one upward; its file and remarks go to `outcome`.
 Cell open_cell(const Globals& globals, Outcome& outcome);
 

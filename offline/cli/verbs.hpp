@@ -31,6 +31,7 @@ void add_simulate(Program& program);
 void add_study(Program& program);
 void add_plot(Program& program);
 void add_report(Program& program);
+void add_serve(Program& program);
 void add_explain(Program& program);
 
 }  // namespace plumb::offline::cli
