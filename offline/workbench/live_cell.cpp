@@ -95,10 +95,10 @@ Json joints_json(const Cell& cell) {
 
 }  // namespace
 
-LiveCell::LiveCell(fs::path cell_toml, Evidence evidence)
+LiveCell::LiveCell(fs::path cell_toml, SlowFigure slow_figure)
     : file_(std::move(cell_toml)),
       folder_(file_.parent_path()),
-      evidence_(std::move(evidence)),
+      slow_figure_(std::move(slow_figure)),
       state_(now_ms()) {}
 
 std::vector<fs::path> LiveCell::data_files() const {
@@ -373,20 +373,20 @@ Bytes LiveCell::figure(const std::string& name, int number, int width) {
                                  .message = fmt::format("this cell has no figure '{}'", name),
                                  .help = "list them: plumb plot --list"});
   const Needs needs = plumb::offline::figures::needs_of(name);
-  if (needs != Needs::kDiagnosis)
+  if (needs == Needs::kRun || needs == Needs::kEarlierRuns)
     return kept(key, [&] {
       const RunView& of = view(number);
       const auto earlier = needs == Needs::kEarlierRuns ? earlier_runs(of) : std::vector<Run>{};
       return plumb::offline::figures::drawn(name, *of.results, width, earlier).value();
     });
-  if (number > 0)
+  if (needs == Needs::kDiagnosis && number > 0)
     throw Failure(Exit::kUsage, {.code = "E-USAGE",
                                  .message = "evidence is of the present cell, not of a run",
                                  .help = "leave run out"});
   if (const auto found = answers_.find(key); found != answers_.end()) return found->second;
   const std::int64_t before = state_;
   lock.unlock();
-  std::string drawn = evidence_(width);
+  std::string drawn = slow_figure_(name, number, width);
   lock.lock();
   if (state_ != before) return bytes(std::move(drawn));
   return kept(key, [&] { return std::move(drawn); });

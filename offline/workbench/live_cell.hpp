@@ -26,9 +26,10 @@ namespace plumb::offline::workbench {
 /// Keeps the results of two runs and 32 MB of finished answers.
 class LiveCell {
  public:
-  /// `evidence`: the figure that needs a diagnosis, which takes long; called without the lock.
-  using Evidence = std::function<std::string(int width)>;
-  LiveCell(std::filesystem::path cell_toml, Evidence evidence);
+  /// `slow_figure`: draws what needs more than a run, a diagnosis for instance; called without the
+  /// lock. `run` is 0 for that of the present cell.
+  using SlowFigure = std::function<std::string(const std::string& name, int run, int width)>;
+  LiveCell(std::filesystem::path cell_toml, SlowFigure slow_figure);
 
   /// Grows whenever cell.toml, a measurement file, a run or a file of the folder changes, and from
   /// one server to the next. Begins with the time of the start [ms].
@@ -84,7 +85,7 @@ class LiveCell {
 
   const std::filesystem::path file_;
   const std::filesystem::path folder_;
-  const Evidence evidence_;
+  const SlowFigure slow_figure_;
 
   std::mutex mutex_;
   std::int64_t state_;

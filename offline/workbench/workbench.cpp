@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kLongestDiagnosis = 900s;
+constexpr auto kLongestFigure = 900s;
 constexpr auto kBetweenLooks = 500ms;
 
 /// A folder for one file that a child writes, removed at the end.
@@ -55,20 +55,22 @@ class ScratchFolder {
   fs::path path_;
 };
 
-/// The figure that needs a diagnosis, drawn by a child: that keeps its memory and its time apart.
-std::string drawn_evidence(const fs::path& folder, int width, const std::atomic<bool>& stop) {
+/// A figure that needs more than a run (a diagnosis, a plan, a benchmark), drawn by a child: that
+/// keeps its memory and its time apart. `number` is 0 for the run of the present cell.
+std::string drawn_by_child(const fs::path& folder, const std::string& name, int number, int width,
+                           const std::atomic<bool>& stop) {
   const ScratchFolder scratch;
-  const fs::path file = scratch.path() / "evidence.svg";
-  const ShortRun run =
-      run_to_end({{own_program().string(), "-C", folder.string(), "plot", "evidence", "--width",
-                   std::to_string(width), "-o", file.string(), "--json"},
-                  folder},
-                 kLongestDiagnosis, stop);
+  const fs::path file = scratch.path() / "figure.svg";
+  std::vector<std::string> command{
+      own_program().string(), "-C", folder.string(), "plot",  name, "--width",
+      std::to_string(width),  "-o", file.string(),   "--json"};
+  if (number > 0) command.insert(command.end(), {"--run", std::to_string(number)});
+  const ShortRun run = run_to_end({std::move(command), folder}, kLongestFigure, stop);
   if (run.exit_code == 0) return read_file_up_to(file, kMostCellBytes);
   const Json said = Json::parse(run.out, nullptr, false);
   Problem problem{.code = "E-SERVE-CHILD",
                   .message = "the figure could not be drawn",
-                  .help = "plumb plot evidence"};
+                  .help = "plumb plot " + name};
   if (said.is_object() && said.contains("error") && said["error"].is_object()) {
     problem.code = said["error"].value("code", problem.code);
     problem.message = said["error"].value("message", problem.message);
@@ -120,7 +122,10 @@ class CellServices final : public Services {
  public:
   CellServices(const fs::path& cell_toml, JobRunner::Changed tell)
       : folder_(cell_toml.parent_path()),
-        cell_(cell_toml, [this](int width) { return drawn_evidence(folder_, width, stop_); }),
+        cell_(cell_toml,
+              [this](const std::string& name, int number, int width) {
+                return drawn_by_child(folder_, name, number, width, stop_);
+              }),
         jobs_(folder_, tell),
         monitor_(folder_, stop_),
         watch_(cell_, [tell](std::int64_t now) { tell(state_message(now)); }) {}
