@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     if (kind >= 0)
       number = number * static_cast<int>(plumb::tests::inconvenient_kinds().size()) + kind;
     return inconvenient ? plumb::tests::draw_inconvenient_case(seed, number)
-                                     : plumb::tests::draw_case(seed, number);
+                        : plumb::tests::draw_case(seed, number);
   };
   std::vector<int> numbers;
   for (int i = 0; i < 100 * cases && static_cast<int>(numbers.size()) < cases; ++i)

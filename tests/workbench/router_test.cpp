@@ -138,7 +138,7 @@ TEST(Job, OnlyVerbsOfACellOnFilesOfItsFolder) {
   for (const char* verb : {"", "serve", "demo", "new", "-C", "fit; ls"})
     EXPECT_TRUE(refused(verb, {})) << verb;
   for (const char* word :
-       {"-C", "-C/tmp", "/etc/passwd", "../x", "a/../../x", "-o/tmp/x", "-o../x", "--output=/tmp/x",
+       {"-C", "-C/etc", "/etc/passwd", "../x", "a/../../x", "-o/etc/x", "-o../x", "--output=/etc/x",
         "file:/etc/passwd", "a=../b", "out/passwd", "a,/b", "a\nb\x01"})
     EXPECT_TRUE(refused("fit", {word})) << word;
   EXPECT_TRUE(refused("fit", std::vector<std::string>(65, "x")));
