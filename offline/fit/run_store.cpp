@@ -10,6 +10,7 @@
 
 #include "cell/formula_reader.hpp"
 #include "effects/registry.hpp"
+#include "fit/parameter.hpp"
 #include "fit/run_checksum.hpp"
 #include "fit/run_json.hpp"
 #include "program/file.hpp"
@@ -199,6 +200,26 @@ std::optional<NoiseFloor> diagnosed_floor(const Run& run) {
   return floor_from_json(parsed(file, read_file(file)));
 }
 
+namespace {
+
+/// What the estimates of a run that was read are numbers of, in their order; none if the cell does
+/// not have all of them any more.
+std::vector<Parameter> parameters_by_name(const Cell& cell, const Calibration& c) {
+  auto known = candidate_parameters(cell, Orientation::kUsed);
+  const auto of_effects = effect_parameters(c.state.arm);
+  known.insert(known.end(), of_effects.begin(), of_effects.end());
+  std::vector<Parameter> out;
+  for (const Estimate& estimate : c.estimates) {
+    const auto at = std::find_if(known.begin(), known.end(),
+                                 [&](const Parameter& p) { return p.name == estimate.name; });
+    if (at == known.end()) return {};
+    out.push_back(*at);
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<int> list_runs(const Cell& cell) {
   std::vector<int> out;
   std::error_code error;
@@ -229,6 +250,7 @@ Run load_run(const Cell& cell, int number) {
     file = folder / "predictions.csv";
     if (!predictions_sum_holds(json, read_file(file))) damaged(file, kChanged);
     predictions_from_csv(file, run.fit);
+    run.fit.calibration.parameters = parameters_by_name(cell, run.fit.calibration);
     file = folder / kNoiseFloor;
     if (const auto floor = diagnosed_floor(run)) run.fit.floor = *floor;
     return run;

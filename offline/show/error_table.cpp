@@ -76,7 +76,9 @@ std::string verdict_with_scatter(const Cell& cell, const Measurements& measured,
   const bool in_floor = scatter_in_floor(cell, measured, fit);
   const std::string out = verdict(fit, cell.tolerance_m, in_floor);
   const auto excess = held_out_excess_of(fit);
-  if (!excess || !excess->lack_of_fit() || in_floor) return out;
+  // A run of another cell file than the present one does not know its parameters.
+  const bool known = !fit.calibration.parameters.empty();
+  if (!excess || !excess->lack_of_fit() || in_floor || !known) return out;
   const auto rows = without_outliers(
       without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
   const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);
