@@ -6,7 +6,7 @@
 
 #include "plumb/format/writer.hpp"
 #include "sandbox.hpp"
-#include "tests/bench/well_formed.hpp"
+#include "tests/draw/well_formed.hpp"
 #include "tests/rt/cycle_model.hpp"
 
 namespace fs = std::filesystem;
