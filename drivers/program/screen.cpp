@@ -33,6 +33,7 @@ constexpr Judgement kJudgements[] = {
     {"Good", kGood},
     {"Not good enough", kError},
     {"Not good everywhere", kWarning},
+    {"Limited by the arm", kWarning},
     {"Limited by the measurement", kWarning},
     {"Something moved", kWarning},
     {"Complete", kGood},

@@ -145,6 +145,14 @@ void tell_step(const DiagnosisRequest& request, std::size_t step) {
     request.tell(fmt::format("step {} of {}, {}", step + 1, request.apply ? 4 : 3, kSteps[step]));
 }
 
+/// An arm whose joints all turn has no law of a rail, whatever is measured.
+bool arm_can_have(const Cell& cell, const std::string& effect) {
+  const EffectDescriptor* law = find_descriptor(effect);
+  return law == nullptr || law->joints != JointList::kSliding ||
+         std::any_of(cell.nominal.joints.begin(), cell.nominal.joints.end(),
+                     [](const auto& joint) { return joint.type == format::JointType::kPrismatic; });
+}
+
 bool judgeable(const WhitenedFit& whitened) {
   return static_cast<double>(whitened.fit_lines - whitened.rank) >= kFewestFreeLines;
 }
@@ -281,9 +289,10 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   Diagnosis out;
   for (const auto& answer : w.testable)
     if (answer.answer == Testable::Answer::kNo) {
+      w.not_testable.push_back(answer.effect);
+      if (!arm_can_have(w.cell, answer.effect)) continue;  // nothing to measure, then
       out.not_testable.push_back(answer);
       w.excluded.push_back(answer);
-      w.not_testable.push_back(answer.effect);
     }
   tell_step(request, 0);
   Calibration base = calibrate(w.cell, measured, w.fit);

@@ -121,7 +121,8 @@ std::string either_words(const Cell& cell, const std::string& first,
       out += fmt::format(", or a law that these poses cannot show, {} ({})",
                          in_words(cell, other.entry, other.cycles), other.not_shown);
   }
-  if (others.size() > shown)
+  if (others.size() == shown + 1) out += ", or another one (--json)";
+  if (others.size() > shown + 1)
     out += fmt::format(", or one of {} others (--json)", others.size() - shown);
   return out;
 }

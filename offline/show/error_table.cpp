@@ -84,7 +84,7 @@ std::string verdict_with_scatter(const Cell& cell, const Measurements& measured,
   const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);
   if (!scatter.supported() || depends_on_a_joint(measured, fit, rows)) return out;
   return fmt::format(
-      "{} That, or the joints do not come back to the same place ({}): plumb diagnose tells which.",
+      "{} That, or the joints do not come back to the same place ({}); plumb diagnose tells which.",
       out, in_words(cell, scatter));
 }
 

@@ -81,8 +81,8 @@ TEST_F(CompareVerb, EveryProfileCountsEveryPoseOnceAndKeepsTheMean) {
 }
 
 TEST_F(CompareVerb, ShowsRunsSideBySideAndWhatChanged) {
-  result({"fit"});
-  result({"fit", "--seed", "4"});
+  result({"fit", "--held-out", "20%"});
+  result({"fit", "--held-out", "20%", "--seed", "4"});
   const Json runs = result({"runs"}).at("runs");
   ASSERT_GE(runs.size(), 2U);
   const std::string a = std::to_string(runs[0].at("run").get<int>());
