@@ -27,6 +27,7 @@ ErrorStats held_out_error(const Scorer& scorer) {
     add_norms(s, s.held, s.y(lines_of(s, s.held)), norms);
     return summarise(std::move(norms));
   }
+  norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
     const auto at = lines_of(s, s.folds[f]);
     add_norms(s, s.folds[f], s.y(at) - s.U(at, Eigen::all) * scorer.without(f).model, norms);
@@ -45,6 +46,7 @@ ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
     add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - moved(at), norms);
     return summarise(std::move(norms));
   }
+  norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
     const auto at = lines_of(s, s.folds[f]);
     const auto fitted = scorer.without(f, scored);

@@ -251,6 +251,7 @@ WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,
   out.sigma_m = sum / static_cast<double>(std::max<std::size_t>(1, out.sigma.size()));
   look(calibration.state, out);
   clear_of_model(calibration, out, sigma_m);
+  for (const Outlier& outlier : calibration.outliers) out.contradicted_m.push_back(outlier.error_m);
   fill_carriers(out);
   fold_joints(out);
   out.noise = noise_scale(noise_floor(cell, measured, calibration.state), out.sigma_m);

@@ -37,6 +37,9 @@ struct WhitenedFit {
   std::vector<int> row;        // of the measurements
   std::vector<Segment> folds;  // of the fit poses
   Segment held;                // may be empty
+  /// Errors of the poses that the others contradict [m]: no model was fitted to them, so with folds
+  /// they count as held out. What a missing effect changes of them is little beside them.
+  std::vector<double> contradicted_m;
   int axes = 3;                // measured ones
   Eigen::Index fit_lines = 0;  // axes * fit poses
   Eigen::Index rank = 0;       // of the model's own columns
