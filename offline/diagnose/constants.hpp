@@ -172,9 +172,9 @@ inline constexpr int kLongestExplanation = 3, kRivalsFollowed = 5;
 /// Refinements of a constant; they end where neighbours are nearer than the factor. cost.
 inline constexpr int kRefinements = 12;
 inline constexpr double kFinestFactor = 1.05;
-/// So many poses tell what lowers a held-out error by 1 %: its evidence is then above 100 nats.
-/// Small waves add up, and each is looked for with more. cost.
-inline constexpr Eigen::Index kScanPoses = 4000, kWavePoses = 10000;
+/// So many poses tell what lowers a held-out error by 1 %: its evidence is then above 50 nats.
+/// cost.
+inline constexpr Eigen::Index kScanPoses = 2000;
 /// Poses are thinned out if there are more than so many times the number wanted. cost.
 inline constexpr double kWorthThinning = 1.5;
 /// The best are judged again on all poses. cost.

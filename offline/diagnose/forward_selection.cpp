@@ -13,6 +13,7 @@
 #include "diagnose/exchange.hpp"
 #include "diagnose/found_list.hpp"
 #include "diagnose/fresh_waves.hpp"
+#include "diagnose/narrow_series.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "diagnose/untrim_ends.hpp"
 #include "effects/effect_option.hpp"
@@ -56,7 +57,8 @@ void select(Selection& s, ForwardSelection& out) {
     out.undecided.reset();
     if (best != nullptr && may_be_added(s, *best, out))
       add_effect(s, as_many_as_fit(s, with_fresh_waves(s, *best)));
-    else if (!exchange(s) && !doubt_strongest(s) && !exchange_oversized(s) && !untrim_ends(s))
+    else if (!exchange(s) && !doubt_strongest(s) && !exchange_oversized(s) && !untrim_ends(s) &&
+             !narrow_series(s))
       return;
   }
 }

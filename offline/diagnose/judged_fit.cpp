@@ -2,10 +2,12 @@
 #include "diagnose/judged_fit.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "diagnose/constants.hpp"
 #include "diagnose/extension.hpp"
 #include "diagnose/scattered_fit.hpp"
+#include "diagnose/thinned_fit.hpp"
 #include "effects/registry.hpp"
 
 namespace plumb::offline {
@@ -79,14 +81,19 @@ double score_of(const Scan& look) {
   return best == nullptr ? kImpossible : best->score;
 }
 
+/// A judged fit, and the scatter that it was whitened by, if any.
+struct Judged : JudgedFit {
+  std::optional<JointScatter> scatter;
+};
+
 /// The fit whitened by the scatter that is left beside a candidate, and scanned again.
-JudgedFit scattered(const WhitenedFit& whitened, const ScatterLines& lines,
-                    const JointScatter& null, const Found& beside,
-                    const std::vector<std::string>& not_testable,
-                    const std::vector<std::string>& banned) {
+Judged scattered(const WhitenedFit& whitened, const ScatterLines& lines, const JointScatter& null,
+                 const Found& beside, const std::vector<std::string>& not_testable,
+                 const std::vector<std::string>& banned) {
   const ScatterLines with = lines_beside(whitened, beside);
   const JointScatter left = noise_and_scatter(with);
-  JudgedFit out;
+  Judged out;
+  out.scatter = left;
   out.repeatability = scatter_seen(whitened, with, left);
   out.whitened = with_scatter(whitened, left);
   out.whitened.scatter_nats = std::max(0.0, nats_over(lines, null, left));
@@ -94,11 +101,9 @@ JudgedFit scattered(const WhitenedFit& whitened, const ScatterLines& lines,
   return out;
 }
 
-}  // namespace
-
-JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testable,
-                 const std::vector<std::string>& banned) {
-  JudgedFit out;
+Judged judged_here(WhitenedFit whitened, const std::vector<std::string>& not_testable,
+                   const std::vector<std::string>& banned) {
+  Judged out;
   out.look = scan(whitened, not_testable, banned);
   const ScatterLines lines = scatter_lines(whitened);
   const JointScatter noise = noise_alone(lines), null = noise_and_scatter(lines);
@@ -118,7 +123,7 @@ JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testa
   out.whitened = std::move(whitened);
   std::string name;
   beside = best_of(first);
-  JudgedFit next;
+  Judged next;
   for (int round = 0; round < kScatterRounds && beside != nullptr; ++round) {
     if (name_of(white, *beside) == name) break;
     name = name_of(white, *beside);
@@ -130,6 +135,24 @@ JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testa
   // Where nothing holds its own, scatter explains it all.
   out = std::move(next);
   out.repeatability = alone;
+  return out;
+}
+
+}  // namespace
+
+JudgedFit judged(WhitenedFit whitened, const std::vector<std::string>& not_testable,
+                 const std::vector<std::string>& banned) {
+  if (!is_worth_thinning(static_cast<std::size_t>(whitened.fit_poses())))
+    return judged_here(std::move(whitened), not_testable, banned);
+  Judged some = judged_here(thinned(whitened, kScanPoses), not_testable, banned);
+  const double more = static_cast<double>(whitened.fit_poses()) /
+                      static_cast<double>(std::max<Eigen::Index>(1, some.whitened.fit_poses()));
+  JudgedFit out{some.scatter ? with_scatter(whitened, *some.scatter) : std::move(whitened),
+                {},
+                std::move(some.repeatability)};
+  out.whitened.scatter_nats = more * some.whitened.scatter_nats;
+  out.look = confirmed(out.whitened, std::move(some.look));
+  out.repeatability.nats *= more;
   return out;
 }
 

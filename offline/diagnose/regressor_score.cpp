@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kLeastVariance = 1e-12;  // noise-free data
 constexpr double kRidge = 1e-9;           // a fold may be all that says something about a parameter
+constexpr Eigen::Index kManyColumns = 64;  // of a series: worked on in blocks
 
 Products products_of_joint(const WhitenedFit& s, const Regressor& regressor, const Segment& at) {
   const auto S = regressor.columns.middleRows(at.begin, at.size());
@@ -189,7 +190,9 @@ Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) con
   const Eigen::MatrixXd AB = fold.without * B;
   const Eigen::MatrixXd S =
       all.XX - held.XX - B.transpose() * AB + ridge * Eigen::MatrixXd::Identity(b, b);
-  const Eigen::VectorXd theta = S.ldlt().solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
+  const Eigen::VectorXd v = all.Xy - held.Xy + AB.transpose() * fold.Uy;
+  const Eigen::VectorXd theta =
+      b > kManyColumns ? Eigen::VectorXd(S.llt().solve(v)) : Eigen::VectorXd(S.ldlt().solve(v));
   Without out{-(fold.without * fold.Uy) - AB * theta, Eigen::VectorXd::Zero(scored.theta.size())};
   out.regressor(scored.active) = theta;
   return out;

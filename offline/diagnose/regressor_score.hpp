@@ -69,10 +69,7 @@ class Scorer {
   Without without(std::size_t fold) const;
   Without without(std::size_t fold, const RegressorScore& scored) const;
 
-  const WhitenedFit& whitened() const { return whitened_; }
-  EvidenceScale scale() const { return scale_; }
-
- private:
+  /// One fold: products of the model's columns and the residual.
   struct Fold {
     Eigen::MatrixXd UU;  // (rank, rank) of the fold
     Eigen::VectorXd Uy;  // (rank,)
@@ -80,6 +77,12 @@ class Scorer {
     Eigen::MatrixXd without;  // (U^T U of the others)^-1
     double error = 0.0;       // held-out sum of squares of the model alone
   };
+  const Fold& fold(std::size_t f) const { return folds_[f]; }
+
+  const WhitenedFit& whitened() const { return whitened_; }
+  EvidenceScale scale() const { return scale_; }
+
+ private:
   double variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double width) const;
 
   const WhitenedFit& whitened_;

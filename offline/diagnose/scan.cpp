@@ -6,19 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "diagnose/change_points.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/few_digits.hpp"
+#include "diagnose/found_series.hpp"
 #include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
 #include "diagnose/series_scan.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/registry.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -38,15 +36,6 @@ bool has_with_other_constant(const WhitenedFit& whitened, const EffectEntry& ent
                        old.options.clear();
                        return has_effect({old}, any);
                      });
-}
-
-/// Whether the model has a series of waves at that joint.
-bool has_series_at(const WhitenedFit& whitened, int joint) {
-  return std::any_of(
-      whitened.cell->effects.begin(), whitened.cell->effects.end(), [&](const EffectEntry& e) {
-        return is_series(e.name) && (e.joints.empty() || std::find(e.joints.begin(), e.joints.end(),
-                                                                   joint) != e.joints.end());
-      });
 }
 
 /// Whether a series that the model has describes the same motion.
@@ -117,70 +106,6 @@ class Collector {
   const std::vector<std::string>& banned_;
 };
 
-/// At every joint with an uneven gear the law of this joint alone that says most.
-std::map<int, const Found*> best_at_joints(const std::vector<Found>& library) {
-  std::map<int, const Found*> best;
-  std::set<int> uneven;
-  for (const auto& found : library) {
-    if (found.entry.joints.size() != 1 || !(found.score > kSupported)) continue;
-    const int joint = found.entry.joints.front();
-    if (descriptor_of(found.entry.name).cause == Cause::kUnevenGear) uneven.insert(joint);
-    const Found*& at_joint = best[joint];
-    if (at_joint == nullptr || found.score > at_joint->score) at_joint = &found;
-  }
-  std::erase_if(best, [&](const auto& at) { return !uneven.contains(at.first); });
-  return best;
-}
-
-std::string peaks_of(const WhitenedFit& s, const Found& found) {
-  const Regressor series = series_regressor(s, found.entry);
-  format::Model model;
-  model.calibrated = s.cell->nominal;
-  model.effects = {bind_effect(*s.cell, *s.measured, found.entry)};
-  for (Eigen::Index c = 0; c < found.scored.theta.size(); ++c)
-    model.effects[0].parameters[static_cast<std::size_t>(c)] =
-        found.scored.theta(c) * series.typical(c);
-  return series_words(*s.cell, model);
-}
-
-/// One series at these joints. some: the poses on which waves are looked for.
-std::optional<Found> series_at(const Scorer& some, const Scorer& all,
-                               const std::vector<int>& joints, double paid) {
-  auto series = scan_series(some, joints);
-  if (!series) return std::nullopt;
-  Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
-  if (&some.whitened() != &all.whitened()) out.scored = score_series(all, out.entry);
-  out.score = out.ln_bayes() - paid;
-  return out;
-}
-
-/// Whether a series of waves takes the place of what says most about its joint. Several single
-/// waves make way for it as soon as it is ahead; a law that says it in fewer numbers keeps its name
-/// unless the series also explains clearly more.
-bool takes_the_place(const Found& series, const Found& best) {
-  if (series.score < best.score + kAhead_nats) return false;
-  return best.cycles.size() >= kFewestForSeries ||
-         series.scored.explained > best.scored.explained + kAhead_share;
-}
-
-/// One series of waves at every joint where, alone, it says more than any law of that joint does.
-std::optional<Found> found_series(const Scorer& some, const Scorer& all,
-                                  const std::vector<Found>& library, double paid) {
-  const WhitenedFit& s = some.whitened();
-  std::vector<int> joints;
-  std::optional<Found> out;
-  for (const auto& [joint, best] : best_at_joints(library)) {
-    if (!s.chain.revolute(joint) || has_series_at(s, joint)) continue;
-    auto alone = series_at(some, all, {joint}, paid);
-    if (!alone || !takes_the_place(*alone, *best)) continue;
-    joints.push_back(joint);
-    out = std::move(alone);
-  }
-  if (joints.size() > 1) out = series_at(some, all, joints, paid);
-  if (out) out->peaks = peaks_of(all.whitened(), *out);
-  return out;
-}
-
 /// Largest value of the refined option for which the entry is still the law that it is named after.
 double most_of(const WhitenedFit& whitened, const EffectEntry& entry,
                const Refinement& refinement) {
@@ -242,13 +167,12 @@ std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& 
 
 /// Fast waves, in place of the slow ones of the same joint where they explain more. They alone pay
 /// for their search: it is made only when all else has failed.
-void add_fast_waves(const Scorer& some, const Scorer& scorer,
-                    const std::vector<std::string>& banned, Scan& out) {
+void add_fast_waves(const Scorer& scorer, const std::vector<std::string>& banned, Scan& out) {
   const WhitenedFit& whitened = scorer.whitened();
   int tried = 0;
   std::vector<Ripples> fast;
   for (const int joint : joints_for_fast_waves(whitened, out))
-    fast.push_back(scan_fast_ripples(some, scorer, joint, tried));
+    fast.push_back(scan_fast_ripples(scorer, joint, tried));
   if (fast.empty()) return;
   const double paid = std::log(std::max(1.0, out.regressors + tried));
   for (const auto& waves : fast) {
@@ -268,44 +192,23 @@ void add_fast_waves(const Scorer& some, const Scorer& scorer,
   out.regressors += tried;
 }
 
+/// Scores again, on all poses, what was found on a part of them.
 void score_again(const Scorer& scorer, Found& found, const Regressor& regressor) {
   const double before = found.ln_bayes();
   found.scored = scorer.score(regressor);
   found.score += found.ln_bayes() - before;
 }
 
-/// Scores again on all poses what was found on a part of them: the best of the library, all that is
-/// supported, and the best pattern.
-void score_on_all(const Scorer& scorer, Scan& out) {
+void score_again(const Scorer& scorer, Found& found) {
   const WhitenedFit& whitened = scorer.whitened();
-  for (std::size_t i = 0; i < out.library.size(); ++i) {
-    Found& found = out.library[i];
-    if (i >= kScoredAgain && !(found.score > kSupported)) continue;
-    if (is_change_point(found.entry.name))
-      sharpen(whitened, 2 * whitened.fit_poses() / kScanPoses, found.entry);
+  if (!is_series(found.entry.name)) {
     score_again(scorer, found, regressor_of(whitened, found));
+    return;
   }
-  if (!out.pattern) return;
-  visit_patterns(whitened, [&](const Regressor& regressor) {
-    if (regressor.pattern.subject == out.pattern->pattern.subject &&
-        regressor.pattern.words == out.pattern->pattern.words)
-      score_again(scorer, *out.pattern, regressor);
-  });
+  const double before = found.ln_bayes();
+  found.scored = score_series(scorer, found.entry);
+  found.score += found.ln_bayes() - before;
 }
-
-/// The whitened fit on fewer poses, or itself if they are not many.
-class Some {
- public:
-  Some(const WhitenedFit& whitened, Eigen::Index poses) : all_(whitened) {
-    if (static_cast<double>(whitened.fit_poses()) > kWorthThinning * static_cast<double>(poses))
-      few_ = thinned(whitened, poses);
-  }
-  const WhitenedFit& whitened() const { return few_ ? *few_ : all_; }
-
- private:
-  const WhitenedFit& all_;
-  std::optional<WhitenedFit> few_;
-};
 
 void sort_by_evidence(Scan& out) {
   std::stable_sort(out.library.begin(), out.library.end(),
@@ -361,11 +264,36 @@ bool Scan::unknown() const {
          pattern->scored.explained > best.scored.explained + kAhead_share;
 }
 
-Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_testable,
+Scan confirmed(const WhitenedFit& whitened, Scan look) {
+  const Scorer scorer(whitened);
+  for (std::size_t i = 0; i < look.library.size(); ++i) {
+    Found& found = look.library[i];
+    if (i >= kScoredAgain && !(found.score > kSupported)) continue;
+    if (is_change_point(found.entry.name))
+      sharpen(whitened, 2 * whitened.fit_poses() / kScanPoses, found.entry);
+    score_again(scorer, found);
+    found.gain = found.score > kSupported ? scorer.gain(found.scored) : Gain{};
+  }
+  if (look.pattern) {
+    visit_patterns(whitened, [&](const Regressor& regressor) {
+      if (regressor.pattern.subject == look.pattern->pattern.subject &&
+          regressor.pattern.words == look.pattern->pattern.words)
+        score_again(scorer, *look.pattern, regressor);
+    });
+    look.pattern->gain = scorer.gain(look.pattern->scored);
+  }
+  sort_by_evidence(look);
+  return look;
+}
+
+bool is_worth_thinning(std::size_t poses) {
+  return static_cast<double>(poses) > kWorthThinning * static_cast<double>(kScanPoses);
+}
+
+Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,
           const std::vector<std::string>& banned) {
-  const Scorer scorer_of_all(all_poses);
-  const Some some(all_poses, kScanPoses), more(all_poses, kWavePoses);
-  const WhitenedFit& whitened = some.whitened();
+  if (is_worth_thinning(static_cast<std::size_t>(whitened.fit_poses())))
+    return confirmed(whitened, scan(thinned(whitened, kScanPoses), not_testable, banned));
   const Scorer scorer(whitened);
   Collector all(whitened, scorer, banned);
   visit_library(whitened, not_testable, [&](const Regressor& b) { all.take(b); });
@@ -378,12 +306,11 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
     all.count(cuts);
   }
   visit_patterns(whitened, [&](const Regressor& b) { all.take_pattern(b); });
-  const Scorer wave_scorer(more.whitened());
   std::vector<Ripples> ripples;
   for (int j = 0; j < whitened.joints(); ++j) {
     if (!whitened.chain.revolute(j) || contains(not_testable, wave_effect())) continue;
     int waves = 0;
-    ripples.push_back(scan_ripples(wave_scorer, j, all.regressors_, waves));
+    ripples.push_back(scan_ripples(scorer, j, all.regressors_, waves));
     all.count(waves);
   }
   Scan out;
@@ -401,7 +328,7 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
     out.library.push_back(std::move(*found));
   }
   for (const auto& waves : ripples)
-    if (auto found = found_ripples(wave_scorer, waves, paid);
+    if (auto found = found_ripples(scorer, waves, paid);
         found && !contains(banned, key_of(*whitened.cell, found->entry)))
       out.library.push_back(std::move(*found));
   sort_by_evidence(out);
@@ -411,20 +338,18 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
   out.pattern = std::move(all.pattern_);
   if (out.pattern) out.pattern->score = out.pattern->ln_bayes() - paid;
   sort_by_evidence(out);
-  if (&whitened != &all_poses) score_on_all(scorer_of_all, out);
-  sort_by_evidence(out);
   for (auto& found : out.library)
-    if (found.score > kSupported) found.gain = scorer_of_all.gain(found.scored);
-  if (out.pattern) out.pattern->gain = scorer_of_all.gain(out.pattern->scored);
+    if (found.score > kSupported) found.gain = scorer.gain(found.scored);
+  if (out.pattern) out.pattern->gain = scorer.gain(out.pattern->scored);
   if (!contains(not_testable, wave_effect())) {
-    add_fast_waves(scorer, scorer_of_all, banned, out);
+    add_fast_waves(scorer, banned, out);
     sort_by_evidence(out);
   }
   // Last, beside everything that may say it in fewer numbers.
   if (!contains(not_testable, series_effect()))
-    if (auto series = found_series(wave_scorer, scorer_of_all, out.library, paid);
+    if (auto series = find_series(scorer, out.library, paid);
         series && !contains(banned, key_of(*whitened.cell, series->entry))) {
-      if (series->score > kSupported) series->gain = scorer_of_all.gain(series->scored);
+      if (series->score > kSupported) series->gain = scorer.gain(series->scored);
       out.library.push_back(std::move(*series));
       sort_by_evidence(out);
     }

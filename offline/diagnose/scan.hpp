@@ -44,9 +44,16 @@ struct Scan {
   bool unknown() const;
 };
 
-/// `banned`: keys (see key_of) of what is not to be tried.
+/// `banned`: keys (see key_of) of what is not to be tried. Of many poses some are looked at, and
+/// what they say is confirmed on all.
 Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,
           const std::vector<std::string>& banned);
+
+/// Whether there are so many poses that some of them, kScanPoses, tell as much.
+bool is_worth_thinning(std::size_t poses);
+
+/// What was found on some of the poses, scored on all.
+Scan confirmed(const WhitenedFit& whitened, Scan look);
 
 /// "gear_ripple:J2": effect and joints.
 std::string key_of(const Cell& cell, const EffectEntry& entry);

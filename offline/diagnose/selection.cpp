@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/selection.hpp"
 
+#include "diagnose/change_points.hpp"
+#include "diagnose/constants.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/unless_refused.hpp"
+#include "effects/registry.hpp"
+#include "fit/parameter_subset.hpp"
 
 namespace plumb::offline {
 
@@ -41,14 +45,30 @@ FittedModel Selection::fitted_somehow(const std::vector<EffectEntry>& effects) c
 }
 
 WhitenedFit Selection::whitened_fit_of(const FittedModel& model) const {
-  return make_whitened_fit(*model.cell, start_.measured, model.calibration,
-                           without_outliers(start_.fit, model.calibration.outliers), {});
+  std::vector<int> rows = without_outliers(start_.fit, model.calibration.outliers);
+  if (is_worth_thinning(rows.size())) rows = thinned(rows, static_cast<int>(kScanPoses));
+  return make_whitened_fit(*model.cell, start_.measured, model.calibration, rows, {});
+}
+
+JudgedFit Selection::judged_fit(const FittedModel& model, WhitenedFit whitened,
+                                const std::vector<std::string>& banned) const {
+  JudgedFit out = judged(std::move(whitened), start_.not_testable, banned);
+  const auto rows = without_outliers(start_.fit, model.calibration.outliers);
+  const Found* best = out.look.supported();
+  if (best == nullptr || !is_change_point(best->entry.name) || !is_worth_thinning(rows.size()))
+    return out;
+  // Some of the poses tell a step only to the nearest of them.
+  const WhitenedFit all =
+      make_whitened_fit(*model.cell, start_.measured, model.calibration, rows, {});
+  for (Found& found : out.look.library)
+    if (&found == best) sharpen(all, 2 * all.fit_poses() / kScanPoses, found.entry);
+  return out;
 }
 
 JudgedModel Selection::without(const EffectEntry& entry,
                                const std::vector<std::string>& banned) const {
   FittedModel model = fitted(without_effect(cell().effects, entry));
-  JudgedFit found = judged(whitened_fit_of(model), start_.not_testable, banned);
+  JudgedFit found = judged_fit(model, whitened_fit_of(model), banned);
   return {std::move(model), std::move(found.whitened), std::move(found.look)};
 }
 
@@ -58,7 +78,7 @@ void Selection::go_to(JudgedModel there) {
 }
 
 void Selection::look_at(FittedModel model, WhitenedFit whitened) {
-  JudgedFit found = judged(std::move(whitened), start_.not_testable, banned_);
+  JudgedFit found = judged_fit(model, std::move(whitened), banned_);
   waiting_.clear();
   go_to({std::move(model), std::move(found.whitened), std::move(found.look)});
 }

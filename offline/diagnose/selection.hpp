@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnose/forward_selection.hpp"
+#include "diagnose/judged_fit.hpp"
 #include "diagnose/judged_model.hpp"
 #include "diagnose/refit.hpp"
 
@@ -38,6 +39,7 @@ class Selection {
   /// The same from another calibration, whose outliers stay out.
   FittedModel fitted_from(const Calibration& from, const std::vector<EffectEntry>& effects,
                           Refit how = Refit::kNearby) const;
+  /// Of many poses some: what is added is fitted to all of them.
   WhitenedFit whitened_fit_of(const FittedModel& model) const;
   /// The present model less an effect, and what is then missing.
   JudgedModel without(const EffectEntry& entry, const std::vector<std::string>& banned) const;
@@ -81,6 +83,9 @@ class Selection {
   const std::vector<FittedModel>& seen() const { return seen_; }  // the present one is the last
 
  private:
+  JudgedFit judged_fit(const FittedModel& model, WhitenedFit whitened,
+                       const std::vector<std::string>& banned) const;
+
   ForwardStart start_;
   JudgedModel now_;
   std::vector<FittedModel> seen_;

@@ -3,215 +3,77 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "diagnose/constants.hpp"
 #include "diagnose/few_digits.hpp"
+#include "diagnose/series_prior.hpp"
 #include "effects/registry.hpp"
-#include "fit/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr std::array kSlopes = {0.0, 0.5, 1.0, 1.5};
-/// Prior over scatter of one reading at 1 m: half a decade apart.
-constexpr std::array kSizes = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
-constexpr double kFirstStep = 1.7;
+constexpr int kMostTurns = 4;
+constexpr double kSettledShare = 1e-3;
 
 EffectEntry series_entry(std::vector<int> joints) {
   return {.name = series_effect(), .joints = std::move(joints), .options = {}, .place = {}};
 }
 
-/// Angles of a joint at all poses.
-Eigen::VectorXd angles(const WhitenedFit& s, int joint) {
-  Eigen::VectorXd out(s.poses());
-  for (Eigen::Index i = 0; i < s.poses(); ++i) out(i) = s.q(i)[joint];
-  return out;
-}
-
-/// Waves of several joints, per radian: shape (poses, joints * count).
-Eigen::MatrixXd waves_of(const WhitenedFit& s, const std::vector<int>& joints, int count) {
-  Eigen::MatrixXd out(s.poses(), static_cast<Eigen::Index>(joints.size()) * count);
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    out.middleCols(static_cast<Eigen::Index>(i) * count, count) =
-        series_waves(angles(s, joints[i]), count);
-  return out;
-}
-
-/// Sum over the lines of a pose of the motions of two joints.
-Eigen::VectorXd both_by_pose(const WhitenedFit& s, int a, int b) {
-  return s.joint[a].cwiseProduct(s.joint[b]).reshaped(s.axes, s.poses()).colwise().sum();
-}
-
-Products products_of_series(const WhitenedFit& s, const Regressor& series, const Segment& at) {
-  const Eigen::Index each = series.columns.cols() / static_cast<Eigen::Index>(series.joints.size());
-  Products out;
-  out.XX.resize(series.columns.cols(), series.columns.cols());
-  out.UX.resize(s.rank, series.columns.cols());
-  out.Xy.resize(series.columns.cols());
-  const auto block = [&](std::size_t i) {
-    return series.columns.block(at.begin, static_cast<Eigen::Index>(i) * each, at.size(), each);
-  };
-  for (std::size_t i = 0; i < series.joints.size(); ++i) {
-    const int joint = series.joints[i];
-    const auto first = static_cast<Eigen::Index>(i) * each;
-    out.UX.middleCols(first, each).noalias() =
-        s.joint_U[joint].middleRows(at.begin, at.size()).transpose() * block(i);
-    out.Xy.segment(first, each).noalias() =
-        block(i).transpose() * s.joint_y[joint].segment(at.begin, at.size());
-    for (std::size_t k = 0; k <= i; ++k) {
-      const Eigen::VectorXd both =
-          both_by_pose(s, joint, series.joints[k]).segment(at.begin, at.size());
-      const Eigen::MatrixXd weighed = both.asDiagonal() * block(i);
-      out.XX.block(static_cast<Eigen::Index>(k) * each, first, each, each).noalias() =
-          block(k).transpose() * weighed;
-    }
-  }
-  out.XX = Eigen::MatrixXd(out.XX.selfadjointView<Eigen::Upper>());
-  return out;
-}
-
-/// Sums of all folds, cleared of the model; columns per radian.
-struct SeriesSums {
-  Eigen::MatrixXd gram = {};
-  Eigen::VectorXd v = {};
-  double Q = 0.0;
-  EvidenceScale scale = {};
-  int waves = 0;
-  std::vector<int> joints = {};
-
-  SeriesSums of(const std::vector<int>& some) const {
-    SeriesSums out{.Q = Q, .scale = scale, .waves = waves, .joints = some};
-    std::vector<Eigen::Index> index;
-    for (std::size_t i = 0; i < joints.size(); ++i)
-      if (std::find(some.begin(), some.end(), joints[i]) != some.end())
-        for (Eigen::Index c = 0; c < 2 * waves; ++c)
-          index.push_back(static_cast<Eigen::Index>(i) * 2 * waves + c);
-    out.gram = gram(index, index);
-    out.v = v(index);
-    return out;
-  }
-};
-
-/// The prior of a series: wave k has a standard deviation of ratio k^-slope times the scatter of a
-/// whitened coordinate [rad].
-struct SeriesPrior {
-  double ratio = 1.0, slope = 1.0;
-};
-
-Eigen::VectorXd sigmas(const SeriesSums& sums, const SeriesPrior& prior) {
-  Eigen::VectorXd out(sums.v.size());
-  for (Eigen::Index c = 0; c < out.size(); ++c)
-    out(c) =
-        prior.ratio * std::pow(1.0 + static_cast<double>(c % (2 * sums.waves) / 2), -prior.slope);
-  return out;
-}
-
-struct SeriesEvidence {
-  SeriesPrior prior;
-  double ln_bayes = kImpossible;
-  double scatter = 0.0;  // of what is left, whitened
-};
-
-/// As `evidence`, with a prior of its own for every column, in units of the scatter that is left.
-SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
-  const Eigen::VectorXd sigma = sigmas(sums, prior);
-  Eigen::MatrixXd scaled = sigma.asDiagonal() * sums.gram * sigma.asDiagonal();
-  scaled.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(scaled);
-  if (llt.info() != Eigen::Success) return {prior};
-  const Eigen::VectorXd v = sigma.cwiseProduct(sums.v);
-  const double before = sums.scale.dof * sums.scale.variance + sums.Q;
-  const double after = std::max(1e-12 * before, before - v.dot(llt.solve(v)));
-  const double n = sums.scale.lines + sums.scale.dof;
-  const double paid = llt.matrixLLT().diagonal().array().log().sum();
-  return {prior, -paid - 0.5 * n * std::log(after / before), std::sqrt(after / n)};
-}
-
-/// Whether a gear may be expected to have such waves. Where poses leave a range of the joint out,
-/// nothing but the prior holds the series, so a wide one must not be chosen for what it explains
-/// elsewhere.
-bool is_expected(const SeriesEvidence& e) { return e.prior.ratio * e.scatter <= kLargestWave_rad; }
-
-/// ln of the mean of B over the grid, and the best prior of it.
-struct OverGrid {
-  SeriesEvidence best;
-  double ln_mean = kImpossible;
-};
-OverGrid over_grid(const SeriesSums& sums, double unit) {
-  std::vector<double> ln;
-  OverGrid out;
-  for (const double slope : kSlopes)
-    for (const double size : kSizes) {
-      const SeriesEvidence here = evidence_with(sums, {unit * size, slope});
-      if (!is_expected(here)) continue;
-      ln.push_back(here.ln_bayes);
-      if (here.ln_bayes > out.best.ln_bayes) out.best = here;
-    }
-  double sum = 0.0;
-  for (const double l : ln) sum += std::exp(l - out.best.ln_bayes);
-  out.ln_mean = out.best.ln_bayes + std::log(sum / static_cast<double>(ln.size()));
-  return out;
-}
-
-/// Climbs from a prior of the grid, by steps that shrink.
-SeriesEvidence refined_prior(const SeriesSums& sums, SeriesEvidence best) {
-  for (double step = kFirstStep; step > kFinestFactor;) {
-    bool better = false;
-    const SeriesPrior from = best.prior;
-    const double turn = 0.25 * (step - 1.0) / (kFirstStep - 1.0);
-    for (const SeriesPrior& next :
-         {SeriesPrior{from.ratio * step, from.slope}, SeriesPrior{from.ratio / step, from.slope},
-          SeriesPrior{from.ratio, from.slope + turn},
-          SeriesPrior{from.ratio, std::max(0.0, from.slope - turn)}}) {
-      const SeriesEvidence there = evidence_with(sums, next);
-      if (there.ln_bayes <= best.ln_bayes || !is_expected(there)) continue;
-      best = there;
-      better = true;
-    }
-    if (!better) step = std::sqrt(step);
-  }
-  return best;
-}
-
-/// RMS whitened motion of a joint per radian: what the size of a prior is measured by.
-double lever_of(const WhitenedFit& s, const std::vector<int>& joints) {
-  double sum = 0.0;
-  for (const int joint : joints)
-    sum += s.joint[joint].head(s.fit_lines).squaredNorm() / static_cast<double>(s.fit_lines);
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, joints.size())));
-}
-
 /// The joint that the series can best do without, and how much evidence it adds.
-std::pair<int, double> weakest(const SeriesSums& sums, const SeriesEvidence& all) {
+std::pair<int, double> weakest(const SeriesPriorSearch& search, const SeriesEvidence& all) {
   std::pair<int, double> out{-1, std::numeric_limits<double>::infinity()};
-  for (const int joint : sums.joints) {
-    std::vector<int> others = sums.joints;
+  const double with = search.evidence_with(all.prior).ln_bayes;
+  for (const int joint : search.joints()) {
+    std::vector<int> others = search.joints();
     std::erase(others, joint);
     const double without =
-        others.empty() ? 0.0 : evidence_with(sums.of(others), all.prior).ln_bayes;
-    if (all.ln_bayes - without < out.second) out = {joint, all.ln_bayes - without};
+        others.empty() ? 0.0 : search.of(others).evidence_with(all.prior).ln_bayes;
+    if (with - without < out.second) out = {joint, with - without};
   }
   return out;
+}
+
+/// The standard deviation of each wave of the entry's prior [rad], for one joint after the other.
+Eigen::VectorXd prior_sigma(const EffectEntry& entry) {
+  const double slope = number_option(entry, OptionKey::kSlope, 0.0);
+  const double size = number_option(entry, OptionKey::kSize_urad, 1.0) * 1e-6;
+  const auto count = 2 * static_cast<Eigen::Index>(number_option(entry, OptionKey::kWaves, 1.0));
+  Eigen::VectorXd out(count * static_cast<Eigen::Index>(entry.joints.size()));
+  for (Eigen::Index c = 0; c < out.size(); ++c)
+    out(c) = size * std::pow(1.0 + static_cast<double>(c % count / 2), -slope);
+  return out;
+}
+
+void set_prior(EffectEntry& entry, const SeriesEvidence& best) {
+  set_option(entry, OptionKey::kSize_urad, three_digits(1e6 * best.prior.ratio * best.scatter));
+  set_option(entry, OptionKey::kSlope, std::round(100.0 * best.prior.slope) / 100.0);
+}
+
+Products scaled(Products p, const Eigen::VectorXd& by) {
+  p.XX = (by.asDiagonal() * p.XX * by.asDiagonal()).eval();
+  p.UX = (p.UX * by.asDiagonal()).eval();
+  p.Xy = p.Xy.cwiseProduct(by);
+  return p;
 }
 
 }  // namespace
 
 Regressor series_regressor(const WhitenedFit& s, const EffectEntry& entry) {
-  const double slope = number_option(entry, OptionKey::kSlope, 0.0);
-  const double size = number_option(entry, OptionKey::kSize_urad, 1.0) * 1e-6;
-  const int count = 2 * static_cast<int>(number_option(entry, OptionKey::kWaves, 1.0));
   Regressor out;
   out.entry = entry;
   out.joints = entry.joints;
-  out.columns = waves_of(s, entry.joints, count);
-  out.typical.resize(out.columns.cols());
-  for (Eigen::Index c = 0; c < out.typical.size(); ++c) {
-    out.typical(c) = size * std::pow(1.0 + static_cast<double>(c % count / 2), -slope);
-    out.members.push_back(static_cast<int>(c));
-  }
+  out.typical = prior_sigma(entry);
+  out.columns.resize(s.poses(), out.typical.size());
+  const Eigen::Index count = out.typical.size() / static_cast<Eigen::Index>(entry.joints.size());
+  for (std::size_t i = 0; i < entry.joints.size(); ++i)
+    out.columns.middleCols(static_cast<Eigen::Index>(i) * count, count) =
+        waves_of_joint(s, entry.joints[i], static_cast<int>(count));
   out.columns *= out.typical.asDiagonal();
+  out.members.resize(static_cast<std::size_t>(out.typical.size()));
+  std::iota(out.members.begin(), out.members.end(), 0);
   return out;
 }
 
@@ -257,28 +119,19 @@ Regressor smooth_part(const WhitenedFit& s, const Regressor& series) {
   return out;
 }
 
-RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
+RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry,
+                            const SeriesProducts& products) {
   const WhitenedFit& s = scorer.whitened();
-  const Regressor series = series_regressor(s, entry);
+  const Eigen::VectorXd typical = prior_sigma(entry);
   RegressorScore out;
-  Products all;
-  for (const auto& at : s.folds) {
-    out.folds.push_back(products_of_series(s, series, at));
-    const Products& one = out.folds.back();
-    if (out.folds.size() == 1) {
-      all = one;
-      continue;
-    }
-    all.XX += one.XX;
-    all.UX += one.UX;
-    all.Xy += one.Xy;
-  }
+  for (const Products& fold : products.folds) out.folds.push_back(scaled(fold, typical));
+  const Products all = scaled(products.all, typical);
   const Eigen::MatrixXd gram = all.XX - all.UX.transpose() * all.UX;
   for (Eigen::Index c = 0; c < all.Xy.size(); ++c) out.active.push_back(c);
   const EvidenceScale scale = scorer.scale();
   // The scatter that is left decides how much the prior weighs, and that how much is left.
   double left = s.Q / scale.lines;
-  for (int turn = 0; turn < 4; ++turn) {
+  for (int turn = 0; turn < kMostTurns; ++turn) {
     Eigen::MatrixXd held = gram;
     held.diagonal().array() += left;
     const Eigen::LLT<Eigen::MatrixXd> llt(held);
@@ -289,7 +142,9 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
     const double paid = llt.matrixLLT().diagonal().array().log().sum() -
                         0.5 * static_cast<double>(all.Xy.size()) * std::log(left);
     out.evidence = {-paid - 0.5 * n * std::log(after / before), 1.0};
+    const bool settled = std::abs(after / n - left) < kSettledShare * left;
     left = after / n;
+    if (settled) break;
   }
   out.variance = left;
   out.evidence.ln_bayes -= s.scatter_nats;
@@ -299,34 +154,40 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   return out;
 }
 
-std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints) {
-  const WhitenedFit& s = scorer.whitened();
+RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
+  SeriesSums sums(scorer.whitened(),
+                  static_cast<int>(number_option(entry, OptionKey::kWaves, 1.0)));
+  return score_series(scorer, entry, sums.of(entry.joints));
+}
+
+std::optional<SeriesFound> scan_series(const Scorer& scorer, SeriesSums& sums,
+                                       const std::vector<int>& joints) {
   if (joints.empty()) return std::nullopt;
-  Regressor plain;
-  plain.joints = joints;
-  plain.columns = waves_of(s, joints, 2 * kSeriesWaves);
-  const Products all = products_of_series(s, plain, {0, s.fit_poses()});
-  SeriesSums sums{
-      all.XX - all.UX.transpose() * all.UX, all.Xy, s.Q, scorer.scale(), kSeriesWaves, joints};
-  const double unit = 1.0 / lever_of(s, joints);
-  OverGrid grid = over_grid(sums, unit);
+  SeriesPriorSearch search(scorer, sums.of(joints));
+  SeriesEvidence best = search.best_prior();
   for (;;) {
-    const auto [joint, adds] = weakest(sums, grid.best);
+    const auto [joint, adds] = weakest(search, best);
     if (adds > kSupported) break;
-    std::vector<int> others = sums.joints;
+    std::vector<int> others = search.joints();
     std::erase(others, joint);
     if (others.empty()) return std::nullopt;
-    sums = sums.of(others);
-    grid = over_grid(sums, unit);
+    search = search.of(others);
+    best = search.best_prior();
   }
-  const SeriesEvidence best = refined_prior(sums, grid.best);
-  SeriesFound out{series_entry(sums.joints), {}};
-  set_option(out.entry, OptionKey::kWaves, static_cast<double>(sums.waves));
-  set_option(out.entry, OptionKey::kSize_urad, three_digits(1e6 * best.prior.ratio * best.scatter));
-  set_option(out.entry, OptionKey::kSlope, std::round(100.0 * best.prior.slope) / 100.0);
-  out.scored = score_series(scorer, out.entry);
-  out.scored.evidence.ln_bayes = grid.ln_mean - s.scatter_nats;
+  SeriesFound out{series_entry(search.joints()), {}};
+  set_option(out.entry, OptionKey::kWaves, static_cast<double>(kSeriesWaves));
+  set_prior(out.entry, best);
+  out.scored = score_series(scorer, out.entry, search.products());
+  out.scored.evidence.ln_bayes = best.ln_bayes - scorer.whitened().scatter_nats;
   return out;
+}
+
+EffectEntry with_narrowest_prior(const Scorer& scorer, EffectEntry entry) {
+  SeriesSums sums(scorer.whitened(),
+                  static_cast<int>(number_option(entry, OptionKey::kWaves, 1.0)));
+  const SeriesPriorSearch search(scorer, sums.of(entry.joints));
+  set_prior(entry, search.narrowest_prior(search.best_prior()));
+  return entry;
 }
 
 }  // namespace plumb::offline

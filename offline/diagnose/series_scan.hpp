@@ -6,6 +6,7 @@
 
 #include "diagnose/regressor.hpp"
 #include "diagnose/regressor_score.hpp"
+#include "diagnose/series_sums.hpp"
 
 namespace plumb::offline {
 
@@ -17,13 +18,17 @@ struct SeriesFound {
 
 /// The series of these joints, in one solve. A joint stays in it if its own evidence beside the
 /// others is above kSupported, and the prior is that of the largest evidence: wave k of a standard
-/// deviation of size k^-slope. The evidence given is the mean over the grid of both that was tried,
-/// so that the choice costs what it should. [MacKay 1992] None if no joint is left. Cost: poses *
-/// (waves of all joints)^2, then (waves of all joints)^3 / 3 for each prior that is tried.
-std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints);
+/// deviation of size k^-slope. The evidence given is less what that choice costs. [MacKay 1992]
+/// None if no joint is left. sums: at the scorer's whitened fit, of kSeriesWaves. Cost: that of the
+/// sums, then (waves of all joints)^3 / 3 for each prior that is tried.
+std::optional<SeriesFound> scan_series(const Scorer& scorer, SeriesSums& sums,
+                                       const std::vector<int>& joints);
 
 /// The same candidate at other poses, with its prior as it is.
 RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);
+
+/// The entry with the narrowest prior that these poses support (see SeriesPriorSearch).
+EffectEntry with_narrowest_prior(const Scorer& scorer, EffectEntry entry);
 
 /// Its columns: 1 is one standard deviation of the prior.
 Regressor series_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
