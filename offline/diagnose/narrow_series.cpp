@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "diagnose/found_list.hpp"
+#include "cell/effects_edit.hpp"
+#include "diagnose/effect_list.hpp"
 #include "diagnose/series_scan.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
