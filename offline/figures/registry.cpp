@@ -130,15 +130,22 @@ const std::vector<FigureRow>& figure_list() {
   return rows;
 }
 
-std::vector<std::string> figure_names(const Cell& cell) {
-  std::vector<std::string> out;
+std::vector<CellFigure> figures_of(const Cell& cell) {
+  std::vector<CellFigure> out;
   for (const Entry& entry : entries()) {
     if (!for_each_joint(entry)) {
-      out.push_back(entry.row.name);
+      out.push_back({entry.row.name, entry.row.shows});
       continue;
     }
-    for (const auto& row : cell.nominal.joints) out.push_back(with_joint(entry.row.name, row.name));
+    for (const auto& row : cell.nominal.joints)
+      out.push_back({with_joint(entry.row.name, row.name), entry.row.shows});
   }
+  return out;
+}
+
+std::vector<std::string> figure_names(const Cell& cell) {
+  std::vector<std::string> out;
+  for (auto& figure : figures_of(cell)) out.push_back(std::move(figure.name));
   return out;
 }
 

@@ -23,6 +23,12 @@ struct FigureRow {
 /// Every figure, in the order of a report.
 const std::vector<FigureRow>& figure_list();
 
+/// Every figure that a cell has: its name and what it shows.
+struct CellFigure {
+  std::string name, shows;
+};
+std::vector<CellFigure> figures_of(const Cell& cell);
+
 /// The names that a cell has: JN is replaced by each of its joints.
 std::vector<std::string> figure_names(const Cell& cell);
 

@@ -77,7 +77,7 @@ std::string list_files(const fs::path& folder) {
     if (const auto found = regular_file(folder, name))
       out.push_back(
           {{"name", name}, {"bytes", found->st_size}, {"changed", utc(found->st_mtim.tv_sec)}});
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_line(out);
 }
 
 Response read_cell_file(const fs::path& folder, const std::string& name) {

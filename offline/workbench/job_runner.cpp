@@ -30,10 +30,6 @@ double seconds_between(std::chrono::steady_clock::time_point from,
                     std::chrono::duration_cast<std::chrono::milliseconds>(to - from).count());
 }
 
-std::string text_of_job(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 const char* JobRunner::name_of(State state) {
@@ -110,13 +106,13 @@ std::string JobRunner::start(const JobRequest& request) {
   jobs_.emplace(number, std::move(job));
   forget_old();
   wake();
-  return text_of_job(out);
+  return json_line(out);
 }
 
 std::string JobRunner::job(int number) {
   const std::lock_guard lock(mutex_);
   const Job& job = find(number);
-  std::string out = text_of_job(summary(job));
+  std::string out = json_line(summary(job));
   const bool ended = job.state != State::kWaiting && job.state != State::kRunning;
   out.pop_back();
   return out + ",\"output\":" + (ended && !job.output.empty() ? job.output : "null") + '}';
@@ -126,7 +122,7 @@ std::string JobRunner::jobs() {
   const std::lock_guard lock(mutex_);
   Json out = Json::array();
   for (const auto& [number, job] : jobs_) out.push_back(summary(job));
-  return text_of_job({{"jobs", std::move(out)}});
+  return json_line({{"jobs", std::move(out)}});
 }
 
 std::string JobRunner::stop(int number) {
@@ -141,13 +137,13 @@ std::string JobRunner::stop(int number) {
     job.killed_at = Clock::now() + kUntilKilled;
     job.child->signal(SIGINT);
   }
-  return text_of_job(summary(job));
+  return json_line(summary(job));
 }
 
 void JobRunner::tell(const Job& job) {
   Json message{{"type", "job"}};
   message.update(summary(job));
-  changed_(text_of_job(message));
+  changed_(json_line(message));
 }
 
 std::size_t JobRunner::running(bool reading) const {

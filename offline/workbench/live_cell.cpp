@@ -16,6 +16,7 @@
 #include "program/shell_word.hpp"
 #include "show/fit_view.hpp"
 #include "show/runs_view.hpp"
+#include "show/units.hpp"
 #include "workbench/folder_lock.hpp"
 #include "workbench/folder_watch.hpp"
 #include "workbench/names.hpp"
@@ -29,16 +30,11 @@ namespace {
 
 constexpr std::size_t kMostKept = std::size_t{32} << 20;  // [bytes]
 constexpr std::size_t kMostViews = 2;
-constexpr double kToMm = 1e3, kToDeg = 57.295779513082320877;
 
 std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
-}
-
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// What went wrong in `work`; nothing if it went well.
@@ -81,13 +77,12 @@ std::vector<fs::path> files_of(const Cell& cell) {
 Json joints_json(const Cell& cell) {
   Json out = Json::array();
   for (const auto& joint : cell.nominal.joints) {
-    const bool turns = joint.type == format::JointType::kRevolute;
-    const double scale = turns ? kToDeg : kToMm;
+    const bool slides = show::slides(joint);
     Json one{{"name", joint.name},
-             {"type", turns ? "revolute" : "prismatic"},
-             {"unit", turns ? "deg" : "mm"}};
-    put(one, "lower", scale * joint.q_min);
-    put(one, "upper", scale * joint.q_max);
+             {"type", slides ? "prismatic" : "revolute"},
+             {"unit", show::unit(slides)}};
+    put(one, "lower", show::shown(joint.q_min, slides));
+    put(one, "upper", show::shown(joint.q_max, slides));
     out.push_back(std::move(one));
   }
   return out;
@@ -221,7 +216,7 @@ Json LiveCell::cell_json() const {
           {"serial", cell_->serial},
           {"robot", cell_->robot_name},
           {"folder", folder_.string()},
-          {"tolerance_mm", kToMm * cell_->tolerance_m},
+          {"tolerance_mm", show::to_mm(cell_->tolerance_m)},
           {"joints", joints_json(*cell_)},
           {"contexts", data_ ? context_names(data_->context) : std::vector<std::string>{}}};
 }
@@ -259,22 +254,22 @@ Bytes LiveCell::cell() {
     Json runs = Json::array();
     if (cell_) runs = run_list();
     const int now = cell_ ? current() : 0;
-    return dumped({{"cell", cell_json()},
-                   {"folder", folder_.string()},
-                   {"toml", text_},
-                   {"state", state_},
-                   {"data", data_json()},
-                   {"runs", std::move(runs)},
-                   {"current_run", now > 0 ? Json(now) : Json(nullptr)},
-                   {"command", "plumb -C " + shell_word(folder_.string())},
-                   {"problem", page_problem(cell_problem_ ? cell_problem_ : data_problem_)}});
+    return json_line({{"cell", cell_json()},
+                      {"folder", folder_.string()},
+                      {"toml", text_},
+                      {"state", state_},
+                      {"data", data_json()},
+                      {"runs", std::move(runs)},
+                      {"current_run", now > 0 ? Json(now) : Json(nullptr)},
+                      {"command", "plumb -C " + shell_word(folder_.string())},
+                      {"problem", page_problem(cell_problem_ ? cell_problem_ : data_problem_)}});
   });
 }
 
 Bytes LiveCell::runs() {
   const std::lock_guard lock(mutex_);
   look();
-  return kept("runs", [&] { return dumped({{"runs", run_list()}}); });
+  return kept("runs", [&] { return json_line({{"runs", run_list()}}); });
 }
 
 /// A run of the present data with its results, on the base that it was fitted to.
@@ -315,7 +310,7 @@ Bytes LiveCell::run(int number) {
     out["run"] = of.run.number;
     out["created"] = of.run.created;
     out["current"] = is_current(rows_.at(of.run.number));
-    return dumped(out);
+    return json_line(out);
   });
 }
 
@@ -323,13 +318,13 @@ Bytes LiveCell::poses(int number) {
   const std::lock_guard lock(mutex_);
   look();
   return kept(fmt::format("poses {}", number),
-              [&] { return dumped(pose_columns(*view(number).results)); });
+              [&] { return json_line(pose_columns(*view(number).results)); });
 }
 
 Bytes LiveCell::frames(int number, int row) {
   const std::lock_guard lock(mutex_);
   look();
-  return bytes(dumped(arm_frames(*view(number).results, row)));
+  return bytes(json_line(arm_frames(*view(number).results, row)));
 }
 
 Bytes LiveCell::figures(int number) {
@@ -338,17 +333,9 @@ Bytes LiveCell::figures(int number) {
   return kept(fmt::format("figures {}", number), [&] {
     const Cell& cell = present_cell();
     Json list = Json::array();
-    for (const auto& name : plumb::offline::figures::figure_names(cell)) {
-      std::string shows;
-      for (const auto& row : plumb::offline::figures::figure_list()) {
-        const auto at = row.name.find("JN");
-        const bool is_it = row.name == name ||
-                           (at != std::string::npos && name.starts_with(row.name.substr(0, at)));
-        if (is_it && (shows.empty() || row.name == name)) shows = row.shows;
-      }
+    for (const auto& [name, shows] : plumb::offline::figures::figures_of(cell))
       list.push_back({{"name", name}, {"title", name}, {"shows", shows}});
-    }
-    return dumped({{"figures", std::move(list)}});
+    return json_line({{"figures", std::move(list)}});
   });
 }
 

@@ -110,7 +110,7 @@ std::string Monitor::look(const std::string& asked) {
   const bool ours = runs(rt_, rt_says_);
   const auto say = [&](const char* code, std::string message, const char* help) {
     out["problem"] = {{"code", code}, {"message", std::move(message)}, {"help", help}};
-    return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_line(out);
   };
   if (std::find(folders.begin(), folders.end(), folder) == folders.end())
     return say("E-SERVE-DEPLOYED", "there is no deployed folder of that name in the cell",
@@ -140,7 +140,7 @@ std::string Monitor::look(const std::string& asked) {
   if (twin_ && !out["twin"].get<bool>() && twin_->exit_code() > 0 && !twin_says_.empty())
     return say("E-SERVE-TWIN", "plumb-twin has ended: " + last_line(twin_says_),
                "plumb-twin run --help");
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_line(out);
 }
 
 std::string Monitor::drive(const std::string& folder, Services::Drive what) {

@@ -57,13 +57,15 @@ std::vector<std::pair<std::string, std::string>> headers_of(const Response& resp
   return out;
 }
 
+std::string json_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 Response json_response(Bytes json) { return {.body = std::move(json)}; }
 
 Response json_response(std::string json) { return {.body = bytes(std::move(json))}; }
 
-Response json_response(const Json& json) {
-  return json_response(json.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+Response json_response(const Json& json) { return json_response(json_line(json)); }
 
 Response error_response(int status, const Problem& problem) {
   Json error = problem_json(problem);

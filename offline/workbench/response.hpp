@@ -14,6 +14,9 @@ namespace plumb::offline::workbench {
 using Bytes = std::shared_ptr<const std::string>;
 Bytes bytes(std::string text);
 
+/// JSON in one line; what is no UTF-8 is replaced.
+std::string json_line(const Json& json);
+
 struct Response {
   int status = 200;
   std::string type = "application/json";
