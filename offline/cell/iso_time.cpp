@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/iso_time.hpp"
 
+#include <fmt/chrono.h>
+
 #include <charconv>
 #include <chrono>
 #include <string>
@@ -104,6 +106,10 @@ std::optional<double> iso_seconds(std::string_view text) {
   const auto zone = read_zone(in);
   if (!zone || !in.at_end()) return std::nullopt;
   return *date + *clock - *zone;
+}
+
+std::string iso_utc(std::time_t seconds) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds));
 }
 
 }  // namespace plumb::offline

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <optional>
 
+#include "cell/iso_time.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/earlier_runs.hpp"
 #include "cli/model_limits.hpp"
@@ -111,12 +110,6 @@ std::vector<std::string> commands_of(const ReportArguments& options, const Globa
   return out;
 }
 
-std::string report_time() {
-  return fmt::format(
-      "{:%Y-%m-%dT%H:%M:%SZ}",
-      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
-}
-
 void put_result(const ReportArguments& options, const report::ReportData& data,
                 const report::Report& made, const std::string& file, const std::string& pdf,
                 Outcome& outcome) {
@@ -160,7 +153,7 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
       .cell = cell, .measured = measured, .run = run, .results = results, .comparison = comparison};
   data.run_is_current = state_of(run, cell, measured) == show::ListedRun::State::kCurrent;
   data.earlier = earlier_runs(run, cell, measured);
-  data.created = report_time();
+  data.created = iso_utc(std::time(nullptr));
   diagnose_for(options, data, outcome);
   compile_for(data);
   data.commands = commands_of(options, globals, data, file);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/run_store.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 
 #include "cell/formula_reader.hpp"
+#include "cell/iso_time.hpp"
 #include "effects/registry.hpp"
 #include "fit/parameter.hpp"
 #include "fit/run_checksum.hpp"
@@ -24,12 +23,6 @@ namespace fs = std::filesystem;
 fs::path runs_folder(const Cell& cell) { return cell.directory / "runs"; }
 fs::path run_folder(const Cell& cell, int number) {
   return runs_folder(cell) / fmt::format("{:04}", number);
-}
-
-std::string now_utc() {
-  const auto now = std::chrono::system_clock::now();
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
 }
 
 std::vector<format::InputHash> inputs_of(const MeasurementFiles& measured) {
@@ -161,7 +154,7 @@ void write_part(const fs::path& draft, const fs::path& run, const char* name,
 
 Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   Run run;
-  run.created = now_utc();
+  run.created = iso_utc(std::time(nullptr));
   run.cell_sha256 = sha256(cell.text);
   run.inputs = inputs_of(measured);
   for (const auto& effect : cell.effects)

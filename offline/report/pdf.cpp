@@ -8,16 +8,17 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "program/file.hpp"
 #include "program/problem.hpp"
+#include "program/scratch_folder.hpp"
 
 namespace plumb::offline::report {
 namespace {
@@ -38,26 +39,13 @@ constexpr const char* kPrintYourself =
                                      .help = kPrintYourself});
 }
 
-/// A folder that is gone at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "plumb-report-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      no_pdf(fmt::format("no temporary folder: {}", std::strerror(errno)));
-    path_ = name;
+ScratchFolder temporary_folder() {
+  try {
+    return ScratchFolder("plumb-report-");
+  } catch (const std::system_error& error) {
+    no_pdf("no temporary folder: " + error.code().message());
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+}
 
 /// A program in a process group of its own, with its output thrown away; killed with all its
 /// children if it is still there at the end.
@@ -134,7 +122,7 @@ fs::path find_browser() {
 }
 
 std::string printed_pdf(const fs::path& browser, const std::string& html) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder = temporary_folder();
   const fs::path page = folder.path() / "report.html", pdf = folder.path() / "report.pdf";
   write_file_atomically(page, html);
   Child child({browser.string(), "--headless", "--no-sandbox", "--disable-gpu",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workbench/cell_files.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -12,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cell/iso_time.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "workbench/names.hpp"
@@ -57,10 +57,6 @@ std::optional<struct stat> regular_file(const fs::path& folder, const std::strin
   return found;
 }
 
-std::string utc(std::time_t time) {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(time));
-}
-
 }  // namespace
 
 std::string list_files(const fs::path& folder) {
@@ -76,7 +72,7 @@ std::string list_files(const fs::path& folder) {
   for (const auto& name : names)
     if (const auto found = regular_file(folder, name))
       out.push_back(
-          {{"name", name}, {"bytes", found->st_size}, {"changed", utc(found->st_mtim.tv_sec)}});
+          {{"name", name}, {"bytes", found->st_size}, {"changed", iso_utc(found->st_mtim.tv_sec)}});
   return json_line(out);
 }
 

@@ -2,7 +2,6 @@
 #include "workbench/workbench.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <atomic>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
+#include "program/scratch_folder.hpp"
 #include "workbench/cell_files.hpp"
 #include "workbench/child.hpp"
 #include "workbench/job_runner.hpp"
@@ -32,34 +32,21 @@ namespace {
 constexpr auto kLongestFigure = 900s;
 constexpr auto kBetweenLooks = 500ms;
 
-/// A folder for one file that a child writes, removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "plumb-serve-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Failure(Exit::kEnvironment, {.code = "E-WRITE",
-                                         .message = "no temporary folder can be made",
-                                         .help = "df -h " + fs::temp_directory_path().string()});
-    path_ = name;
+ScratchFolder temporary_folder() {
+  try {
+    return ScratchFolder("plumb-serve-");
+  } catch (const std::system_error&) {
+    throw Failure(Exit::kEnvironment, {.code = "E-WRITE",
+                                       .message = "no temporary folder can be made",
+                                       .help = "df -h " + fs::temp_directory_path().string()});
   }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+}
 
 /// A figure that needs more than a run (a diagnosis, a plan, a benchmark), drawn by a child: that
 /// keeps its memory and its time apart. `number` is 0 for the run of the present cell.
 std::string drawn_by_child(const fs::path& folder, const std::string& name, int number, int width,
                            const std::atomic<bool>& stop) {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch = temporary_folder();
   const fs::path file = scratch.path() / "figure.svg";
   std::vector<std::string> command{
       own_program().string(), "-C", folder.string(), "plot",  name, "--width",
