@@ -11,6 +11,7 @@
 #include "cli/model_limits.hpp"
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
+#include "compare/full_verdict.hpp"
 #include "compile/compiler.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
@@ -113,13 +114,16 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   Fit fitted;
   checked(options.effect, cell, [&] { fitted = fit_with_progress(edited, measured, outcome); });
   if (change.adds) check_parameter_count(compile(edited, draft_run(edited, measured, Fit(fitted))));
+  // What a diagnosis found of the joints' scatter holds for any model of these readings.
+  const auto floor = diagnosed_floor(before);
+  if (floor) fitted.floor = *floor;
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);
   outcome.result["run_before"] = before.number;
-  outcome.result["verdict"] = verdict(fitted, cell.tolerance_m);
+  const std::string verdict = compare::full_verdict(edited, measured, fitted);
+  outcome.result["verdict"] = verdict;
   outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
-                 before_and_after(measured, before.fit, fitted) + "\n" +
-                 verdict(fitted, cell.tolerance_m) + "\n";
+                 before_and_after(measured, before.fit, fitted) + "\n" + verdict + "\n";
   const std::string next = next_step(fitted, cell.tolerance_m);
   if (options.dry_run) {
     replace_cell(cell, edited, options.dry_run, outcome);
@@ -128,6 +132,7 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   }
   // The cell file last: if the run cannot be written, nothing has changed.
   const Run after = keep(edited, measured, std::move(fitted));
+  if (floor) keep_floor(edited, after, *floor);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = after.number;
   const bool rose = after.fit.held.mean > before.fit.held.mean;

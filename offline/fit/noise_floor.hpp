@@ -14,6 +14,7 @@ struct NoiseFloor {
   double rms_m = 0.0;    // sqrt(axes) sigma
   int dof = 0;           // repeated coordinates behind it; 0: sigma as stated
   enum class Source { kNone, kRepeats, kSigma } source = Source::kNone;
+  bool holds_scatter = false;  // of the joints, too: a diagnosis found it
 };
 
 /// Degrees of freedom with which the floor is believed: those of the repeats; a stated sigma is

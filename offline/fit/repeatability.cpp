@@ -117,6 +117,7 @@ NoiseFloor with_repeatability(NoiseFloor floor, const Repeatability& repeatabili
   floor.sigma_m *= times;
   floor.mean_m *= times;
   floor.rms_m *= times;
+  floor.holds_scatter = true;
   return floor;
 }
 

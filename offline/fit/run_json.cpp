@@ -18,13 +18,17 @@ Json to_json(const NoiseFloor& f) {
   return {{"sigma_m", f.sigma_m},
           {"mean_m", f.mean_m},
           {"rms_m", f.rms_m},
-          {"source", static_cast<int>(f.source)}};
+          {"dof", f.dof},
+          {"source", static_cast<int>(f.source)},
+          {"holds_scatter", f.holds_scatter}};
 }
 NoiseFloor floor_from(const Json& j) {
   return {.sigma_m = j.at("sigma_m"),
           .mean_m = j.at("mean_m"),
           .rms_m = j.at("rms_m"),
-          .source = static_cast<NoiseFloor::Source>(j.at("source").get<int>())};
+          .dof = j.value("dof", 0),
+          .source = static_cast<NoiseFloor::Source>(j.at("source").get<int>()),
+          .holds_scatter = j.value("holds_scatter", false)};
 }
 
 Json to_json(const ErrorStats& s) {

@@ -189,7 +189,7 @@ void save_floor(const Run& run, const NoiseFloor& floor) {
 
 std::optional<NoiseFloor> diagnosed_floor(const Run& run) {
   const fs::path file = run.directory / kNoiseFloor;
-  if (!fs::exists(file)) return std::nullopt;
+  if (run.directory.empty() || !fs::exists(file)) return std::nullopt;
   return floor_from_json(parsed(file, read_file(file)));
 }
 

@@ -114,7 +114,7 @@ Quality quality(const Fit& fit, double tolerance_m) {
   return within ? quality_within(fit) : quality_beyond(fit);
 }
 
-std::string verdict(const Fit& fit, double tolerance_m, bool scatter_in_floor) {
+std::string verdict(const Fit& fit, double tolerance_m) {
   const std::string size = size_words(fit.held), tolerance = mm(tolerance_m);
   switch (quality(fit, tolerance_m)) {
     case Quality::kNotHeldOut:
@@ -142,8 +142,8 @@ std::string verdict(const Fit& fit, double tolerance_m, bool scatter_in_floor) {
           "bad reading, or a place where the model fails.",
           size, tolerance, mm(fit.held.max));
     case Quality::kLimitedByNoise:
-      return scatter_in_floor ? limited_by_joints(fit, size, tolerance_m)
-                              : limited_words(fit, size, tolerance_m);
+      return fit.floor.holds_scatter ? limited_by_joints(fit, size, tolerance_m)
+                                     : limited_words(fit, size, tolerance_m);
     case Quality::kBeyondSigmaTooLarge:
       return fmt::format(
           "Not good enough: {}, over the tolerance of {}; but the noise as it is stated would give "

@@ -32,9 +32,9 @@ Quality quality(const Fit& fit, double tolerance_m);
 /// nothing about physics. Nothing without held-out poses or a noise floor.
 std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit);
 
-/// "Is my calibration good?" in one sentence. scatter_in_floor: whether the noise floor holds the
-/// scatter of the joints.
-std::string verdict(const Fit& fit, double tolerance_m, bool scatter_in_floor = false);
+/// "Is my calibration good?" in one sentence. Where the readings are at hand,
+/// compare/full_verdict.hpp says it with what else may be the cause.
+std::string verdict(const Fit& fit, double tolerance_m);
 
 /// What `plumb` should be told next, with a comment that says why: "compile   # ...".
 std::string next_step(const Fit& fit, double tolerance_m);

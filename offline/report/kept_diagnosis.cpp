@@ -99,6 +99,7 @@ Json found_to(const Diagnosis& d) {
            {"floor", {d.floor.sigma_m, d.floor.mean_m, d.floor.rms_m}},
            {"floor_dof", d.floor.dof},
            {"floor_source", static_cast<int>(d.floor.source)},
+           {"floor_holds_scatter", d.floor.holds_scatter},
            {"poses", {d.poses_fit, d.poses_held}},
            {"nested", d.nested},
            {"folds", d.folds},
@@ -128,7 +129,8 @@ Diagnosis found_of(const Json& j) {
              .mean_m = floor.at(1),
              .rms_m = floor.at(2),
              .dof = j.at("floor_dof"),
-             .source = static_cast<NoiseFloor::Source>(j.at("floor_source").get<int>())};
+             .source = static_cast<NoiseFloor::Source>(j.at("floor_source").get<int>()),
+             .holds_scatter = j.value("floor_holds_scatter", false)};
   d.poses_fit = j.at("poses").at(0);
   d.poses_held = j.at("poses").at(1);
   d.nested = j.at("nested");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "fit/verdict.hpp"
 #include "report/pages.hpp"
 #include "show/compare_words.hpp"
 
@@ -10,7 +9,7 @@ namespace plumb::offline::report {
 Html patterns_page(const ReportData& data, const ReportFigures& figures) {
   Html html;
   const auto& found = data.comparison;
-  html.paragraph(show::lack_of_fit_words(found.lack_of_fit, held_out_excess_of(data.run.fit)));
+  html.paragraph(show::lack_of_fit_words(found.lack_of_fit, data.run.fit));
   std::string changes = show::changes_words(found.changes);
   for (const auto& step : found.changes.steps)
     changes += " " + show::step_words(data.cell, data.measured, step) + ";";

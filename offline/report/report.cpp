@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "compare/full_verdict.hpp"
 #include "draw/svg.hpp"
-#include "fit/verdict.hpp"
 #include "plumb/format/version.hpp"
 #include "report/page_style.hpp"
 #include "report/pages.hpp"
@@ -80,7 +80,7 @@ Report make_report(const ReportData& data) {
   out.html = head_of(data) + "<body>\n<header><h1>" + heading_of(data) +
              "</h1></header>\n<main>\n" + body + "</main>\n</body>\n</html>\n";
   out.pages = static_cast<int>(pages.size());
-  out.verdict = verdict(data.run.fit, data.cell.tolerance_m);
+  out.verdict = compare::full_verdict(data.cell, data.measured, data.run.fit);
   out.good = is_good(data.run, data.cell.tolerance_m);
   return out;
 }

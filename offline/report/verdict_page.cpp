@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compare/full_verdict.hpp"
 #include "draw/svg.hpp"
 #include "fit/mean_interval.hpp"
 #include "fit/verdict.hpp"
@@ -25,9 +26,9 @@ void put_verdict(const ReportData& data, Html& html) {
   const auto good = is_good(data.run, data.cell.tolerance_m);
   const char* kind = !good ? "open" : *good ? "good" : "bad";
   const char* word = !good ? "? Cannot be judged" : *good ? "✓ Good" : "✗ Not good";
-  html.raw(
-      fmt::format("<div class=\"verdict {}\" role=\"note\"><strong>{}</strong><p>{}</p></div>\n",
-                  kind, word, draw::escaped(verdict(data.run.fit, data.cell.tolerance_m))));
+  html.raw(fmt::format(
+      "<div class=\"verdict {}\" role=\"note\"><strong>{}</strong><p>{}</p></div>\n", kind, word,
+      draw::escaped(compare::full_verdict(data.cell, data.measured, data.run.fit))));
 }
 
 /// Whether the file says the tolerance, outside comments.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/full_verdict.hpp"
 #include "fit/verdict.hpp"
 #include "show/compare_view.hpp"
 #include "show/compare_words.hpp"
@@ -107,9 +108,9 @@ Json joint_shares_json(const Cell& cell, const Comparison& comparison) {
   return out;
 }
 
-Json lack_of_fit_json(const compare::LackOfFit& found, const Fit& fit, bool scatter) {
+Json lack_of_fit_json(const compare::LackOfFit& found, const Fit& fit) {
   using Basis = compare::LackOfFit::Basis;
-  Json out{{"text", lack_of_fit_words(found, held_out_excess_of(fit), scatter)}};
+  Json out{{"text", lack_of_fit_words(found, fit)}};
   if (found.basis == Basis::kNone) {
     put_null(out, "ratio", "neither repeats of a pose nor sigma_um are given");
     return out;
@@ -201,15 +202,14 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   add_floor(fit.floor, out);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["within_tolerance_pct"] = 100.0 * comparison.within_tolerance;
-  out["verdict"] = verdict_with_scatter(cell, measured, fit);
+  out["verdict"] = compare::full_verdict(cell, measured, fit);
   out["worst"] = worst_json(comparison);
   out["where"] = where_words(comparison);
   out["by"] = profiles_json(comparison);
   out["matters"] = matters_json(comparison);
   out["joints"] = joint_shares_json(cell, comparison);
   out["joints_text"] = joint_words(cell, comparison);
-  out["lack_of_fit"] =
-      lack_of_fit_json(comparison.lack_of_fit, fit, scatter_in_floor(cell, measured, fit));
+  out["lack_of_fit"] = lack_of_fit_json(comparison.lack_of_fit, fit);
   out["autocorrelation"] = order_json(comparison.order);
   out["change_points"] = steps_json(cell, measured, comparison.changes);
   out["drifts"] = drifts_json(cell, measured, comparison.changes);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/full_verdict.hpp"
 #include "fit/main_jump.hpp"
 #include "fit/verdict.hpp"
 #include "show/compare_words.hpp"
@@ -131,11 +132,9 @@ std::string where_text(const Comparison& comparison) {
 
 std::string findings_text(const Cell& cell, const Measurements& measured,
                           const Comparison& comparison, const Fit& fit) {
-  std::string out = "\n" +
-                    lack_of_fit_words(comparison.lack_of_fit, held_out_excess_of(fit),
-                                      scatter_in_floor(cell, measured, fit)) +
-                    "\n" + joint_words(cell, comparison) + "\n" + order_words(comparison.order) +
-                    "\n" + changes_words(comparison.changes) + "\n";
+  std::string out = "\n" + lack_of_fit_words(comparison.lack_of_fit, fit) + "\n" +
+                    joint_words(cell, comparison) + "\n" + order_words(comparison.order) + "\n" +
+                    changes_words(comparison.changes) + "\n";
   for (const auto& step : comparison.changes.steps)
     out += "  " + step_words(cell, measured, step) + "\n";
   for (const auto& drift : comparison.changes.drifts)
@@ -158,7 +157,7 @@ std::string setups_text(const Comparison& comparison) {
 /// else is missing, and that may look like a jump where the poses change.
 std::string compare_verdict(const Cell& cell, const Measurements& measured,
                             const Comparison& comparison, const Run& run) {
-  std::string error = verdict_with_scatter(cell, measured, run.fit);
+  std::string error = compare::full_verdict(cell, measured, run.fit);
   const auto& steps = comparison.changes.steps;
   if (steps.empty() || !is_clear(steps.front())) return error;
   const double share = share_of_error(steps.front(), comparison.stats.rms,

@@ -98,8 +98,8 @@ std::string quantity_words(const ErrorProfile& profile) {
   }
 }
 
-std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOutExcess>& held,
-                              bool scatter_in_floor) {
+std::string lack_of_fit_words(const LackOfFit& found, const Fit& fit) {
+  const auto held = held_out_excess_of(fit);
   if (found.basis == LackOfFit::Basis::kNone)
     return "Lack of fit: unknown; repeats of a few poses, or sigma_um, would tell.";
   if (!found.significant() && held && held->lack_of_fit())
@@ -109,7 +109,7 @@ std::string lack_of_fit_words(const LackOfFit& found, const std::optional<HeldOu
   if (!found.significant())
     return "Lack of fit: none; what the model misses is no more than the noise of the readings.";
   const bool at_floor = held && held->level() == HeldOutExcess::Level::kAtTheFloor;
-  if (at_floor && scatter_in_floor)
+  if (at_floor && fit.floor.holds_scatter)
     return "Lack of fit: none but that the joints do not come back to exactly the same place, "
            "which "
            "no model removes.";

@@ -5,18 +5,15 @@
 #include <string>
 
 #include "compare/comparison.hpp"
-#include "fit/held_out_excess.hpp"
+#include "fit/fit.hpp"
 
 namespace plumb::offline::show {
 
 /// The findings of a comparison as sentences, the same on the screen and for programs.
 
 /// Whether the error of the fitted readings is more than noise, said so that it never contradicts
-/// what is left on the held-out poses (`held`; none without a noise floor or without such poses).
-/// scatter_in_floor: whether that floor holds the scatter of the joints.
-std::string lack_of_fit_words(const compare::LackOfFit& found,
-                              const std::optional<HeldOutExcess>& held,
-                              bool scatter_in_floor = false);
+/// what is left on the held-out poses of the same fit.
+std::string lack_of_fit_words(const compare::LackOfFit& found, const Fit& fit);
 
 std::string order_words(const compare::Autocorrelation& found);
 std::string joint_words(const Cell& cell, const compare::Comparison& found);

@@ -6,11 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/joint_shares.hpp"
-#include "fit/repeatability.hpp"
-#include "fit/series.hpp"
-#include "fit/step_motions.hpp"
-#include "fit/verdict.hpp"
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -35,8 +30,6 @@ std::string turn_table(const ErrorStats& s) {
   return "\n" + table.text();
 }
 
-constexpr double kClearShare = 0.15;  // of the squared error: scatter itself shows up to a tenth
-constexpr double kMore = 1.001;       // times the noise floor of the readings alone
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
 
 }  // namespace
@@ -51,41 +44,6 @@ void add_interval(const MeanInterval& interval, Json& out) {
   put(out, "mean_se_mm", to_mm(interval.se), kTooFew);
   put(out, "mean_low_mm", to_mm(interval.low), kTooFew);
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
-}
-
-namespace {
-
-/// Whether a function of one joint's angle explains a clear part of the error. Scatter hardly does.
-bool depends_on_a_joint(const Measurements& measured, const Fit& fit,
-                        const std::vector<int>& rows) {
-  const Rows3 error_M = residuals(measured, fit.predicted_M);
-  const StepMotions motions(fit.calibration.state, measured, series(measured, error_M, rows));
-  const auto shares = compare::joint_shares(motions, measured.q);
-  return std::any_of(shares.begin(), shares.end(),
-                     [](const auto& s) { return s.matters && s.share > kClearShare; });
-}
-
-}  // namespace
-
-bool scatter_in_floor(const Cell& cell, const Measurements& measured, const Fit& fit) {
-  if (fit.floor.source == NoiseFloor::Source::kNone) return false;
-  return fit.floor.sigma_m > kMore * noise_floor(cell, measured, fit.calibration.state).sigma_m;
-}
-
-std::string verdict_with_scatter(const Cell& cell, const Measurements& measured, const Fit& fit) {
-  const bool in_floor = scatter_in_floor(cell, measured, fit);
-  const std::string out = verdict(fit, cell.tolerance_m, in_floor);
-  const auto excess = held_out_excess_of(fit);
-  // A run of another cell file than the present one does not know its parameters.
-  const bool known = !fit.calibration.parameters.empty();
-  if (!excess || !excess->lack_of_fit() || in_floor || !known) return out;
-  const auto rows = without_outliers(
-      without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
-  const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);
-  if (!scatter.supported() || depends_on_a_joint(measured, fit, rows)) return out;
-  return fmt::format(
-      "{} That, or the joints do not come back to the same place ({}); plumb diagnose tells which.",
-      out, in_words(cell, scatter));
 }
 
 std::string folds_text(int folds, int readings) {

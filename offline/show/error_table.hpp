@@ -9,20 +9,12 @@
 
 namespace plumb::offline::show {
 
-/// Before and after on the held-out poses, the fit poses, and the noise floor [mm]; of orientations
-/// [deg], if they are fitted.
 /// How the held-out poses were chosen, a line for below the table: "  held-out: 5 folds; ...".
 /// Empty without folds.
 std::string folds_text(int folds, int readings);
 
-/// Whether the noise floor holds the scatter of the joints: a diagnosis of this model found it.
-bool scatter_in_floor(const Cell& cell, const Measurements& measured, const Fit& fit);
-
-/// The verdict; where it says that something is missing and no joint's own angle explains a clear
-/// part, also what the scatter of the joints would be if nothing were. Only a diagnosis tells the
-/// two apart.
-std::string verdict_with_scatter(const Cell& cell, const Measurements& measured, const Fit& fit);
-
+/// Before and after on the held-out poses, the fit poses, and the noise floor [mm]; of orientations
+/// [deg], if they are fitted.
 std::string error_table(const Measurements& measured, const Fit& fit);
 
 /// The name of the row of the fitted readings, which says so if it counts outliers.

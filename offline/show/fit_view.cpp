@@ -7,6 +7,7 @@
 
 #include "cell/formula_reader.hpp"
 #include "cell/setups.hpp"
+#include "compare/full_verdict.hpp"
 #include "fit/series_numbers.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
@@ -193,14 +194,14 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   put(out["convergence"], "sigma0", c.sigma0);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
-  out["verdict"] = verdict_with_scatter(cell, measured, fit);
+  out["verdict"] = compare::full_verdict(cell, measured, fit);
   return out;
 }
 
 std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;
   std::string out =
-      verdict_with_scatter(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
+      compare::full_verdict(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/full_verdict.hpp"
 #include "figures/worst_band.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
-#include "fit/verdict.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
 
@@ -99,6 +99,7 @@ std::vector<std::string> context_names(const ContextRows& rows) {
 Json pose_columns(const RunResults& results) {
   const ArmState& state = results.run.fit.calibration.state;
   const Measurements& measured = results.measured;
+  const std::string sentence = compare::full_verdict(results.cell, measured, results.run.fit);
   Json units = Json::array(), rows = Json::array(), context = Json::object();
   for (int i = 0; i < measured.size(); ++i) rows.push_back(i);
   Json q = joints_of(results, units);
@@ -119,7 +120,7 @@ Json pose_columns(const RunResults& results) {
           {"context", std::move(context)},
           {"worst_region", worst_region(results)},
           {"reach_mm", shown(kMm * reach(state.arm.calibrated))},
-          {"verdict_sentence", verdict(results.run.fit, results.cell.tolerance_m)}};
+          {"verdict_sentence", sentence}};
 }
 
 Json arm_frames(const RunResults& results, int row) {

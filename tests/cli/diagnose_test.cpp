@@ -127,7 +127,7 @@ TEST_F(DiagnoseVerb, ApplyAddsRefitsAndKeepsARun) {
   EXPECT_EQ(plumb({"compile"}).exit, 0);
 }
 
-TEST_F(DiagnoseVerb, FitAndCompareTakeOverTheFloorWithTheScatterOfTheJoints) {
+TEST_F(DiagnoseVerb, EveryScreenTakesOverTheFloorWithTheScatterOfTheJoints) {
   ASSERT_EQ(plumb({"simulate", "--force", "--poses", "120", "--repeats", "3",
                    "--joint-scatter-urad", "30"})
                 .exit,
@@ -149,6 +149,14 @@ TEST_F(DiagnoseVerb, FitAndCompareTakeOverTheFloorWithTheScatterOfTheJoints) {
   }
   const std::string lack = result("compare").at("lack_of_fit").at("text");
   EXPECT_EQ(lack.find("a better model"), std::string::npos) << lack;
+  // Every screen says the same sentence of one run; an effect more does not forget the scatter.
+  EXPECT_EQ(result("report").at("verdict"), result("compare").at("verdict"));
+  const Ran added = plumb({"add", "encoder_eccentricity", "--joints", "J3", "--json"});
+  ASSERT_EQ(added.exit, 0) << added.err;
+  const Json more = added.json().at("result");
+  const std::string verdict = more.at("verdict");
+  EXPECT_EQ(verdict.find("missing"), std::string::npos) << verdict;
+  EXPECT_EQ(result("compare").at("verdict"), more.at("verdict"));
 }
 
 TEST_F(DiagnoseVerb, AddMakesTheErrorFallAndDropTakesItBack) {

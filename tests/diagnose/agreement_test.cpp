@@ -76,7 +76,7 @@ TEST(Agreement, TheThreeVerbsNeverContradictEachOther) {
     const Fit fit = any_fit(random);
     const std::string fitted = verdict(fit, kTolerance_m);
     const std::string diagnosed = verdict_text(cell, complete(fit));
-    const std::string compared = show::lack_of_fit_words(any_test(random), held_out_excess_of(fit));
+    const std::string compared = show::lack_of_fit_words(any_test(random), fit);
     const std::string all = fitted + "\n" + compared + "\n" + diagnosed;
     const bool missing = says(diagnosed, "something that these poses do not name");
     ASSERT_FALSE(says(fitted, "physical") && !missing) << all;

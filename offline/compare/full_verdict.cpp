@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/full_verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare/joint_shares.hpp"
+#include "fit/repeatability.hpp"
+#include "fit/series.hpp"
+#include "fit/step_motions.hpp"
+#include "fit/verdict.hpp"
+
+namespace plumb::offline::compare {
+namespace {
+
+constexpr double kClearShare = 0.15;  // of the squared error: scatter itself shows up to a tenth
+
+/// Whether a function of one joint's angle explains a clear part of the error. Scatter hardly does.
+bool depends_on_a_joint(const Measurements& measured, const Fit& fit,
+                        const std::vector<int>& rows) {
+  const Rows3 error_M = residuals(measured, fit.predicted_M);
+  const StepMotions motions(fit.calibration.state, measured, series(measured, error_M, rows));
+  const auto shares = joint_shares(motions, measured.q);
+  return std::any_of(shares.begin(), shares.end(),
+                     [](const auto& s) { return s.matters && s.share > kClearShare; });
+}
+
+}  // namespace
+
+std::string full_verdict(const Cell& cell, const Measurements& measured, const Fit& fit) {
+  const std::string out = verdict(fit, cell.tolerance_m);
+  const auto excess = held_out_excess_of(fit);
+  // A run of another cell file than the present one does not know its parameters.
+  const bool known = !fit.calibration.parameters.empty();
+  if (!excess || !excess->lack_of_fit() || fit.floor.holds_scatter || !known) return out;
+  const auto rows = without_outliers(
+      without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
+  const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);
+  if (!scatter.supported() || depends_on_a_joint(measured, fit, rows)) return out;
+  return fmt::format(
+      "{} That, or the joints do not come back to the same place ({}); plumb diagnose tells which.",
+      out, in_words(cell, scatter));
+}
+
+}  // namespace plumb::offline::compare
