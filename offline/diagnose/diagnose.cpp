@@ -298,11 +298,11 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   Calibration base = calibrate(w.cell, measured, w.fit);
   tell_step(request, 1);
   const auto rows = without_outliers(w.fit, base.outliers);
-  JudgedFit at =
-      judged(make_whitened_fit(w.cell, measured, base, rows, w.held), w.not_testable, {});
+  const WhitenedFit plain = make_whitened_fit(w.cell, measured, base, rows, w.held);
+  JudgedFit at = judged(plain, w.not_testable, {});
   std::optional<UnderOtherGravity> turned;
   if (judgeable(at.whitened))
-    turned = under_other_gravity(w.cell, measured, base, w.fit, w.held, at, w.not_testable);
+    turned = under_other_gravity(w.cell, measured, base, w.fit, w.held, plain, at, w.not_testable);
   if (turned) {
     out.gravity = turned->gravity;
     if (turned->gravity.certain) {

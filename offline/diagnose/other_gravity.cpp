@@ -221,21 +221,20 @@ std::array<double, 3> to_hundredths(const Vector3& g) {
 
 }  // namespace
 
-std::optional<UnderOtherGravity> under_other_gravity(const Cell& cell, const Measurements& measured,
-                                                     const Calibration& calibration,
-                                                     const std::vector<int>& rows,
-                                                     const std::vector<int>& held,
-                                                     const JudgedFit& stated,
-                                                     const std::vector<std::string>& not_testable) {
-  const WhitenedFit& s = stated.whitened;
+std::optional<UnderOtherGravity> under_other_gravity(
+    const Cell& cell, const Measurements& measured, const Calibration& calibration,
+    const std::vector<int>& rows, const std::vector<int>& held, const WhitenedFit& plain,
+    const JudgedFit& stated, const std::vector<std::string>& not_testable) {
   const Vector3 g(cell.gravity[0], cell.gravity[1], cell.gravity[2]);
-  if (!s.noise.known || !(g.norm() > 0.0) || times_noise(s) < kAboveNoise) return std::nullopt;
+  if (!plain.noise.known || !(g.norm() > 0.0) || times_noise(plain) < kAboveNoise)
+    return std::nullopt;
   const Found* now = first_of(stated.look);
-  if (now != nullptr && leaves_noise(s, now->scored.explained)) return std::nullopt;
-  const bool many = s.fit_poses() > kDirectionPoses;
-  const WhitenedFit some = thinned(s, std::min(s.fit_poses(), kDirectionPoses));
+  if (now != nullptr && leaves_noise(plain, now->scored.explained)) return std::nullopt;
+  const bool many = plain.fit_poses() > kDirectionPoses;
+  const WhitenedFit some = thinned(plain, std::min(plain.fit_poses(), kDirectionPoses));
   const Direction found = best_direction(some, calibration.state, g.norm(), not_testable);
-  const double share = static_cast<double>(s.fit_poses()) / static_cast<double>(some.fit_poses());
+  const double share =
+      static_cast<double>(plain.fit_poses()) / static_cast<double>(some.fit_poses());
   const double to_beat = most_nats(stated.look);
   const double price = std::log(std::max(1.0, 2.0 * share * found.signal));
   if (found.ln_bayes * (many ? share : 1.0) - price < kWorthAScan * to_beat) return std::nullopt;
@@ -250,14 +249,15 @@ std::optional<UnderOtherGravity> under_other_gravity(const Cell& cell, const Mea
   out.cell = std::make_unique<const Cell>(std::move(turned));
   if (!unless_refused([&] { out.calibration = calibrate(*out.cell, measured, rows); }))
     return std::nullopt;
-  out.judged = judged(make_whitened_fit(*out.cell, measured, out.calibration,
-                                        without_outliers(rows, out.calibration.outliers), held),
-                      not_testable, {});
+  WhitenedFit other = make_whitened_fit(*out.cell, measured, out.calibration,
+                                        without_outliers(rows, out.calibration.outliers), held);
+  const double fits = fit_nats(plain, other);
+  out.judged = judged(std::move(other), not_testable, {});
   const Found* best = out.judged.look.supported();
   if (best == nullptr || out.judged.look.unknown() ||
       !grows_with_load(descriptor_of(best->entry.name)))
     return std::nullopt;
-  out.gravity.nats_ahead = best->ln_bayes() + fit_nats(s, out.judged.whitened) - price - to_beat;
+  out.gravity.nats_ahead = best->ln_bayes() + fits - price - to_beat;
   const bool clearly = leaves_noise(out.judged.whitened, best->scored.explained) ||
                        now == nullptr ||
                        best->scored.explained > now->scored.explained + kAhead_share;

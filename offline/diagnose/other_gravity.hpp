@@ -29,15 +29,20 @@ struct UnderOtherGravity {
 /// stated direction, the two angles being paid for, and explains clearly more or leaves nothing but
 /// noise. It is one of two explanations if it leads by kSupported.
 ///
+/// The direction is looked for before the scatter of the joints is estimated: what the loads do to
+/// an arm under a wrong direction looks like scatter, and whitened by it nothing would be left to
+/// find.
+///
 /// None where what was found under the stated direction reaches the noise, where no mass is known,
 /// and where the noise is not known.
+///
+/// @param plain   The fit under the stated direction, without scatter.
+/// @param stated  The same, judged.
 /// Cost: 40 regressors on some of the poses; a calibration and a scan more where they speak for it.
-std::optional<UnderOtherGravity> under_other_gravity(const Cell& cell, const Measurements& measured,
-                                                     const Calibration& calibration,
-                                                     const std::vector<int>& rows,
-                                                     const std::vector<int>& held,
-                                                     const JudgedFit& stated,
-                                                     const std::vector<std::string>& not_testable);
+std::optional<UnderOtherGravity> under_other_gravity(
+    const Cell& cell, const Measurements& measured, const Calibration& calibration,
+    const std::vector<int>& rows, const std::vector<int>& held, const WhitenedFit& plain,
+    const JudgedFit& stated, const std::vector<std::string>& not_testable);
 
 /// "the arm seems to hang on a wall": how an arm stands on which gravity acts along that direction
 /// of its base frame.

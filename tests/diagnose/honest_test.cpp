@@ -287,7 +287,7 @@ BlindRequest yielding_under(const std::array<double, 3>& gravity) {
 }
 
 TEST(DiagnoseHonest, GravityThatActsElsewhereIsNamedAndNothingIsAddedUnderTheWrongOne) {
-  for (const auto& gravity : {std::array{0.0, 0.0, 9.81}}) {
+  for (const auto& gravity : {std::array{0.0, 0.0, 9.81}, std::array{0.0, -9.81, 0.0}}) {
     const BlindCase blind = make_blind_case(yielding_under(gravity));
     const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
     ASSERT_TRUE(d.gravity.has_value()) << d.text;
