@@ -32,6 +32,13 @@ std::string joint_name(const Cell& cell, const EffectEntry& entry, std::size_t p
   return place < entry.joints.size() ? cell.nominal.joints[entry.joints[place]].name : "";
 }
 
+/// Why a law that knows no masses stands where the weights act.
+const char* masses_words(const Cell& cell) {
+  const bool given = std::any_of(cell.mechanics.begin(), cell.mechanics.end(),
+                                 [](const JointMechanics& joint) { return joint.has_mass(); });
+  return given ? "as if the masses were not those of cell.toml" : "masses not given";
+}
+
 std::string filled_in(const Cell& cell, const EffectEntry& entry, const std::vector<double>& cycles,
                       const char* sentence) {
   const std::string joints = joints_of(cell, entry);
@@ -39,7 +46,8 @@ std::string filled_in(const Cell& cell, const EffectEntry& entry, const std::vec
   return fmt::format(fmt::runtime(sentence), joints.empty() ? "the joints" : joints, one ? "s" : "",
                      waves_words(cycles), one ? "is" : "are", joint_name(cell, entry, 0),
                      joint_name(cell, entry, entry.joints.size() - 1),
-                     fmt::format("{:.4g}", number_option(entry, OptionKey::kPitch_mm, 0.0)));
+                     fmt::format("{:.4g}", number_option(entry, OptionKey::kPitch_mm, 0.0)),
+                     masses_words(cell));
 }
 
 /// Null if the law says nothing else where all its joints slide.

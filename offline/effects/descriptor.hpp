@@ -119,7 +119,7 @@ struct EffectDescriptor {
   // several; {2}: the waves of a ripple in words.
   const char* sentence = "";  // empty: the title says it
   /// The same where all its numbers are below zero, if that says something else. {3}: "is" or
-  /// "are". {4}, {5}: the first and the last of its joints. {6}: its pitch in mm.
+  /// "are". {4}, {5}: its first and last joint. {6}: its pitch in mm. {7}: are masses given?
   const char* negative_sentence = nullptr;
   /// The title of one entry, if it says more than the law's title. `joint` is the first one listed.
   std::string (*entry_title)(const EffectEntry& entry, const std::string& joint) = nullptr;

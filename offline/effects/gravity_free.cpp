@@ -34,7 +34,7 @@ constexpr EffectDescriptor kGravityFreeDescriptor{
     .joints = JointList::kSet,
     .testable = gravity_free_testable,
     .measure = "150 poses in many orientations",
-    .sentence = "{0} yield{1} under gravity (masses not given)",
+    .sentence = "{0} yield{1} under gravity ({7})",
     .search = Search::kGrid,
     .candidate_joints = CandidateJoints::kEach,
     .turns_listed_joint_only = true,

@@ -36,6 +36,11 @@ TEST(EffectSentence, SpeaksOfOneJointAndOfTwo) {
   EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 yields under gravity (masses not given)");
   entry.joints = {1, 2};
   EXPECT_EQ(effect_sentence(cell, entry, {}), "J2 and J3 yield under gravity (masses not given)");
+  Cell heavy = cell;
+  heavy.mechanics.resize(3);
+  heavy.mechanics[1].link_mass_kg = 20.0;
+  EXPECT_EQ(effect_sentence(heavy, entry, {}),
+            "J2 and J3 yield under gravity (as if the masses were not those of cell.toml)");
 }
 
 TEST(EffectSentence, APartThatMovedSeveralTimesIsOneFinding) {
