@@ -14,6 +14,7 @@
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/printable.hpp"
+#include "program/shell_word.hpp"
 #include "program/toml_table.hpp"
 #include "workbench/folder_watch.hpp"
 
@@ -147,6 +148,44 @@ Json stops_in(const fs::path& file) {
   return out;
 }
 
+/// The command that drives the twin of a cell on the bus of a deployed folder. Throws Failure
+/// (kUsage, E-SERVE-TWIN) if the twin does not speak what rt.toml names.
+std::vector<std::string> twin_words(const fs::path& cell_folder, const fs::path& deployed) {
+  const RtFile file = read_rt_file(deployed / "rt.toml");
+  std::vector<std::string> out{"plumb-twin",
+                               "run",
+                               cell_folder.string(),
+                               "--layout",
+                               (deployed / "rt.toml").string(),
+                               "--stations",
+                               kStations,
+                               "--stops",
+                               (deployed / kStops).string(),
+                               "--force",
+                               "--json"};
+  if (file.kind == "can")
+    out.insert(out.end(), {"--can", file.interface});
+  else if (file.kind == "modbus" && file.role == "client")
+    out.insert(out.end(), {"--modbus-serve", fmt::format("{}:{}", file.address, file.port)});
+  else if (file.kind == "modbus")
+    out.insert(out.end(), {"--modbus", fmt::format("{}:{}", file.address, file.port)});
+  else
+    throw Failure(Exit::kUsage, {.code = "E-SERVE-TWIN",
+                                 .message = "the twin speaks CAN and Modbus, and rt.toml names "
+                                            "neither",
+                                 .help = "[deploy] in cell.toml, then plumb deploy"});
+  // No correction comes in this mode: nothing to wait for, and the arm shows what it misses.
+  if (file.mode == "shadow") out.insert(out.end(), {"--wait-s", "0"});
+  return out;
+}
+
+/// As one types it.
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string out;
+  for (const auto& word : words) out += (out.empty() ? "" : " ") + shell_word(word);
+  return out;
+}
+
 void end_child(std::unique_ptr<Child>& child) {
   if (!child) return;
   child->signal(SIGTERM);
@@ -171,7 +210,8 @@ std::string Monitor::look(const std::string& asked) {
   Json out{{"running", false},  {"twin", runs(twin_, twin_says_)},
            {"folder", folder},  {"folders", folders},
            {"status", nullptr}, {"limits", nullptr},
-           {"stops", nullptr},  {"problem", nullptr}};
+           {"stops", nullptr},  {"twin_command", nullptr},
+           {"problem", nullptr}};
   const bool ours = runs(rt_, rt_says_);
   const auto say = [&](const char* code, std::string message, const char* help) {
     out["problem"] = {{"code", code}, {"message", std::move(message)}, {"help", help}};
@@ -182,6 +222,8 @@ std::string Monitor::look(const std::string& asked) {
                "plumb deploy -o deploy");
   try {
     out["limits"] = limits_of(cell_folder_ / folder);
+    if (std::error_code error; fs::is_regular_file(cell_folder_ / "twin.toml", error))
+      out["twin_command"] = shell_line(twin_words(cell_folder_, cell_folder_ / folder));
     if (stops_ == cell_folder_ / folder / kStops) out["stops"] = stops_in(stops_);
     const ShortRun asked_rt = run_to_end({{beside_own_program("plumb-rt").string(), "status",
                                            (cell_folder_ / folder).string(), "--json"},
@@ -243,19 +285,8 @@ void Monitor::start(const std::string& folder) {
                   {.code = "E-SERVE-TWIN",
                    .message = "the cell has no twin.toml: there is no simulated robot to drive",
                    .help = "plumb-twin new mytwin, or start plumb-rt beside your robot"});
-  const RtFile file = read_rt_file(deployed / "rt.toml");
-  std::vector<std::string> link;
-  if (file.kind == "can")
-    link = {"--can", file.interface};
-  else if (file.kind == "modbus" && file.role == "client")
-    link = {"--modbus-serve", fmt::format("{}:{}", file.address, file.port)};
-  else if (file.kind == "modbus")
-    link = {"--modbus", fmt::format("{}:{}", file.address, file.port)};
-  else
-    throw Failure(Exit::kUsage, {.code = "E-SERVE-TWIN",
-                                 .message = "the twin speaks CAN and Modbus, and rt.toml names "
-                                            "neither",
-                                 .help = "[deploy] in cell.toml, then plumb deploy"});
+  ChildCommand twin{twin_words(cell_folder_, deployed), cell_folder_};
+  twin.words.front() = beside_own_program("plumb-twin").string();
   rt_says_.clear();
   twin_says_.clear();
   stops_ = deployed / kStops;
@@ -263,13 +294,6 @@ void Monitor::start(const std::string& folder) {
   rt_ = std::make_unique<Child>(ChildCommand{
       {beside_own_program("plumb-rt").string(), "run", deployed.string(), "--priority", "0"},
       cell_folder_});
-  ChildCommand twin{{beside_own_program("plumb-twin").string(), "run", cell_folder_.string(),
-                     "--layout", (deployed / "rt.toml").string(), "--correction", "both",
-                     "--stations", kStations, "--stops", stops_.string(), "--force", "--json"},
-                    cell_folder_};
-  // No correction comes in this mode: nothing to wait for, and the arm shows what it misses.
-  if (file.mode == "shadow") twin.words.insert(twin.words.end(), {"--wait-s", "0"});
-  twin.words.insert(twin.words.end(), link.begin(), link.end());
   twin_ = std::make_unique<Child>(twin);
 }
 

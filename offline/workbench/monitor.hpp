@@ -21,9 +21,9 @@ class Monitor {
   Monitor(std::filesystem::path cell_folder, const std::atomic<bool>& stop);
   ~Monitor();
 
-  /// {running, twin, folder, folders, status, limits, stops, problem}; `folder` empty: the first
-  /// one. `stops`: what the twin of the last start has driven, with its true errors; null if none
-  /// was started here.
+  /// {running, twin, folder, folders, status, limits, stops, twin_command, problem}; `folder`
+  /// empty: the first one. `stops`: what the twin of the last start has driven, with its true
+  /// errors; null if none was started here.
   std::string look(const std::string& folder);
 
   /// Starts or stops plumb-rt, as an ordinary thread without real-time rights, and the twin whose

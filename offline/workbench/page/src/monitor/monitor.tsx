@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { getJson, postJson, problemOf } from "../api";
 import { param, setParams } from "../hash";
@@ -34,6 +35,7 @@ interface Monitor {
   status: Status | null;
   limits?: { max_correction_mm: number | null; cycle_us: number | null; mode: string; limited_mm: number; limited_scale: number } | null;
   stops?: Stops | null;
+  twin_command?: string | null;
   problem?: Problem | null;
 }
 
@@ -96,7 +98,7 @@ function allowedUm(limits: Monitor["limits"]): number | null {
   return 1000 * (limits.mode === "limited" ? Math.min(most, limits.limited_mm) : most);
 }
 
-function Live({ status, past, limits }: { status: Status; past: Moment[]; limits: Monitor["limits"] }) {
+function Live({ status, past, limits, children }: { status: Status; past: Moment[]; limits: Monitor["limits"]; children: ComponentChildren }) {
   const allowed = allowedUm(limits);
   const cycle = limits?.cycle_us ?? null;
   const seconds = past.map((m) => m.seconds);
@@ -119,11 +121,12 @@ function Live({ status, past, limits }: { status: Status; past: Moment[]; limits
         { label: "wanted", values: past.map((m) => m.status.correction.wanted_um), tone: "green", dashed: true },
         ...(allowed === null ? [] : [{ label: "limit", values: past.map(() => allowed), tone: "vermilion" as const, dashed: true }]),
       ]} /></Card>
+      {children}
       <Card title="Cycle"><Series title="Work and wake-up of a cycle, 99 % [us]" seconds={seconds} lines={[
         { label: "work", values: past.map((m) => m.status.work.p99_us), tone: "blue" },
         { label: "wake-up", values: past.map((m) => m.status.wake.p99_us), tone: "green", dashed: true },
       ]} /></Card>
-      <Card title="Numbers" class="wide"><div class="columns"><Rows title="Counters" of={status.counters} /><Rows title="Ages of the inputs" of={status.ages} /><Rows title="Bus" of={status.link} /><Rows title="Clock" of={status.clock} /></div></Card>
+      <Card title="Numbers" class="wide whole"><div class="columns"><Rows title="Counters" of={status.counters} /><Rows title="Ages of the inputs" of={status.ages} /><Rows title="Bus" of={status.link} /><Rows title="Clock" of={status.clock} /></div></Card>
     </>
   );
 }
@@ -137,6 +140,7 @@ export function MonitorScreen() {
     postJson("/api/monitor", { action, folder }).then(ask, (error: unknown) => setRefused(problemOf(error)));
   };
   const running = now?.running === true;
+  const twin = now?.stops && <TwinCard stops={now.stops} driving={now.twin === true} />;
   return (
     <>
       <Card title="plumb-rt" lead="A running correction, or a demonstration in which plumb-twin is the robot and no hardware is needed.">
@@ -146,14 +150,14 @@ export function MonitorScreen() {
           <button type="button" class={running ? "" : "main"} disabled={running} id="start-demonstration" onClick={() => act("start")}>Start the demonstration</button>
           <button type="button" disabled={!running && !now?.twin} id="stop-demonstration" onClick={() => act("stop")}>Stop</button>
         </div>
-        <Command line={shellLine("plumb-rt", ["run", folder])} />
+        <Command line={shellLine("plumb-rt", ["run", folder, "--priority", "0"])} />
+        {now?.twin_command && <Command line={now.twin_command} />}
         <Command line={shellLine("plumb-rt", ["status", folder, "--json"])} />
         {now?.limits && !running && <p>The folder is deployed in mode {modeWords(now.limits.mode)}.</p>}
         {(refused ?? problem) && <ProblemBox problem={{ severity: "note", ...(refused ?? problem as Problem) }} />}
         {now && !running && <Empty to={now.folders?.length === 0 ? "ship" : undefined}>Nothing runs in {folder}. Ship writes the folder; then start the demonstration, or plumb-rt in a shell.</Empty>}
       </Card>
-      {running && now?.status && <Live status={now.status} past={past} limits={now.limits} />}
-      {now?.stops && <TwinCard stops={now.stops} driving={now.twin === true} />}
+      {running && now?.status ? <Live status={now.status} past={past} limits={now.limits}>{twin}</Live> : twin}
       <Replay />
     </>
   );

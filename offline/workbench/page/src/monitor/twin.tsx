@@ -22,8 +22,8 @@ export function TwinCard({ stops, driving }: { stops: Stops; driving: boolean })
       {n === 0 ? <p role="status">{driving ? "The twin has not stopped at a station yet." : "The twin stopped at no station."}</p> : (
         <>
           <dl class="facts" id="true-error">
-            <div><dt>Without correction</dt><dd>{mm(off)} mm</dd></div>
-            <div><dt>With it</dt><dd><strong>{mm(on)} mm</strong></dd></div>
+            <div><dt>Without correction</dt><dd>{mm(off, 4)} mm</dd></div>
+            <div><dt>With it</dt><dd><strong>{mm(on, 4)} mm</strong></dd></div>
             {off !== null && on !== null && on > 0 && <div><dt>Times smaller</dt><dd>{plain(off / on)}</dd></div>}
             <div><dt>Mean of</dt><dd>{count(n, "station")}{driving ? "" : ", the drive has ended"}</dd></div>
           </dl>

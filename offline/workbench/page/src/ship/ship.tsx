@@ -88,8 +88,8 @@ function BenchCard() {
 }
 
 function DeployCard() {
-  const [mode, setMode] = useState<Mode>("shadow");
   const made = fresh<Deployed>("deploy");
+  const [mode, setMode] = useState<Mode>((made?.mode as Mode | undefined) ?? "shadow");
   return (
     <Card title="4. Deploy" lead="A folder with everything that plumb-rt needs.">
       <label>Mode of plumb-rt{" "}
