@@ -230,9 +230,9 @@ export class View3d {
       const list: Arrow[] = [];
       for (const i of order) {
         const from = at3(poses.point_mm, i), along = at3(errors, i)?.multiplyScalar(factor);
-        if (from && along && along.length() > 0) list.push({ from, along, colour });
+        if (from && along && along.length() > 0) list.push({ from, along });
       }
-      const arrows = new Arrows(list, 0.0026 * this.extent);
+      const arrows = new Arrows(list, 0.0026 * this.extent, colour);
       this.arrows.push(arrows);
       this.content.add(arrows.group);
       this.arrowCount = Math.max(this.arrowCount, list.length);
