@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Error arrows, all of one kind in one draw call: flat, three triangles each, turned about their own axis so that they
-// face the eye. Software GL draws these several times faster than solid ones.
-import { BufferAttribute, Color, DoubleSide, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector3 } from "three";
+// face the eye. One mesh without instances: software GL draws each instance by itself, which takes several times as long.
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, ShaderMaterial, Vector3 } from "three";
 
 export interface Arrow { from: Vector3; along: Vector3 }
 
@@ -32,20 +32,25 @@ void main() {
 
 export class Arrows {
   readonly group = new Group();
-  private readonly geometry = new InstancedBufferGeometry();
+  private readonly geometry = new BufferGeometry();
   private readonly material: ShaderMaterial;
 
   constructor(arrows: Arrow[], radius: number, colour: Color) {
-    const from = new Float32Array(3 * arrows.length), along = new Float32Array(3 * arrows.length);
+    const corners = kCorners.length / 3;
+    const place = new Float32Array(kCorners.length * arrows.length), index = new Uint32Array(kTriangles.length * arrows.length);
+    const from = new Float32Array(place.length), along = new Float32Array(place.length);
     arrows.forEach((arrow, i) => {
-      arrow.from.toArray(from, 3 * i);
-      arrow.along.toArray(along, 3 * i);
+      place.set(kCorners, kCorners.length * i);
+      kTriangles.forEach((corner, k) => { index[kTriangles.length * i + k] = corners * i + corner; });
+      for (let c = corners * i; c < corners * (i + 1); ++c) {
+        arrow.from.toArray(from, 3 * c);
+        arrow.along.toArray(along, 3 * c);
+      }
     });
-    this.geometry.setAttribute("position", new BufferAttribute(new Float32Array(kCorners), 3));
-    this.geometry.setAttribute("from", new InstancedBufferAttribute(from, 3));
-    this.geometry.setAttribute("along", new InstancedBufferAttribute(along, 3));
-    this.geometry.setIndex(kTriangles);
-    this.geometry.instanceCount = arrows.length;
+    this.geometry.setAttribute("position", new BufferAttribute(place, 3));
+    this.geometry.setAttribute("from", new BufferAttribute(from, 3));
+    this.geometry.setAttribute("along", new BufferAttribute(along, 3));
+    this.geometry.setIndex(new BufferAttribute(index, 1));
     this.material = new ShaderMaterial({
       vertexShader: kVertex, fragmentShader: kFragment, side: DoubleSide, uniforms: { radius: { value: radius }, colour: { value: colour } },
     });
@@ -56,7 +61,7 @@ export class Arrows {
 
   /** Draws the first n only. */
   show(n: number): void {
-    this.geometry.instanceCount = n;
+    this.geometry.setDrawRange(0, kTriangles.length * n);
   }
 
   dispose(): void {
