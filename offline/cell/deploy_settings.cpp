@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+
 #include "bus_text/layout_toml.hpp"
 #include "bus_text/reach.hpp"
 #include "cell/cell_sections.hpp"
+#include "cell/host_and_port.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -18,12 +21,23 @@ void read_limits(TomlTable& t, DeploySettings& deploy) {
   }
 }
 
+/// No port, or one that a controller can listen on.
+bool is_port_or_none(const std::string& port, const std::string& address) {
+  if (port.empty()) return !address.ends_with(':');
+  int number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  return error == std::errc() && end == port.data() + port.size() && number >= 1 && number <= 65535;
+}
+
 void read_link(TomlTable& t, DeploySettings& deploy) {
   if (t.choice("link", {"can", "modbus"}) == "modbus") deploy.link = drivers::BusUse::kModbus;
   deploy.interface = t.text_or("interface", deploy.interface);
   if (deploy.interface.empty() || deploy.interface.size() > 15)
     t.out_of_range("interface", "the name of a CAN interface, 1 to 15 characters");
   deploy.address = t.text_or("address", deploy.address);
+  const auto [host, port] = host_and_port(deploy.address);
+  if (host.empty() || !is_port_or_none(port, deploy.address))
+    t.out_of_range("address", "a host, or a host and a port from 1 to 65535: \"10.0.0.7:1502\"");
 }
 
 /// Only if the file has one: a cell that is not to be deployed need not think of a bus.

@@ -16,6 +16,8 @@
 #include "deploy/rt_toml.hpp"
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/sensor_places.hpp"
+#include "plumb/drivers/session.hpp"
+#include "plumb/drivers/session_transition.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
@@ -28,6 +30,7 @@ namespace fs = std::filesystem;
 
 struct DeployArguments {
   std::string folder;
+  std::string mode = "shadow";
   CompileOptions compile;
   WriteOptions write;
 };
@@ -61,16 +64,41 @@ void warn_of_temperatures(const format::Model& model, const drivers::BusLayout& 
        .help = fmt::format("[deploy.bus] temperatures = [\"{}\"]", fmt::join(needed, "\", \""))});
 }
 
+drivers::CorrectionMode mode_of(const DeployArguments& options) {
+  for (const auto mode : {drivers::CorrectionMode::kLimited, drivers::CorrectionMode::kFull})
+    if (options.mode == drivers::to_string(mode)) return mode;
+  return drivers::CorrectionMode::kShadow;
+}
+
+/// What plumb-rt will send in this mode, and how it is changed.
+std::string mode_text(const DeployArguments& options) {
+  const drivers::ShareSettings share;
+  const std::string file = (fs::path(options.folder) / "rt.toml").string();
+  const std::string change = fmt::format(
+      "to change it: deploy again with --mode and --force, or [limits] mode in {}", file);
+  switch (mode_of(options)) {
+    case drivers::CorrectionMode::kFull:
+      return "Mode full: the whole correction is sent; " + change;
+    case drivers::CorrectionMode::kLimited:
+      return fmt::format("Mode limited: {:g} of the correction is sent, at most {:g} mm; {}",
+                         share.limited_scale, 1e3 * share.limited_m, change);
+    case drivers::CorrectionMode::kShadow:
+      break;
+  }
+  return "Mode shadow: computes and reports, sends no correction; " + change;
+}
+
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
-                                 const std::string& model) {
+                                 const std::string& model, drivers::CorrectionMode mode) {
   return {{"robot.plumb", model},
           {"bus.dbc", drivers::write_dbc(layout, about(cell))},
           {"modbus-map.md", drivers::modbus_map_markdown(layout, about(cell))},
-          {"rt.toml", write_rt_toml(cell, layout), DeployFile::Summed::kNo}};
+          {"rt.toml", write_rt_toml(cell, layout, mode), DeployFile::Summed::kNo}};
 }
 
 void put_result(const DeployArguments& options, const Cell& cell, const drivers::BusLayout& layout,
-                const std::vector<DeployFile>& files, const std::string& model, Outcome& outcome) {
+                const std::vector<DeployFile>& files, const std::string& bytes,
+                const format::Model& model, Outcome& outcome) {
   Json names = Json::array();
   for (const auto& file : files) names.push_back((fs::path(options.folder) / file.name).string());
   names.push_back((fs::path(options.folder) / "SHA256SUMS").string());
@@ -78,16 +106,18 @@ void put_result(const DeployArguments& options, const Cell& cell, const drivers:
   outcome.result["files"] = names;
   outcome.result["dry_run"] = options.write.dry_run;
   outcome.result["robot_number"] = drivers::fingerprint(cell.serial);
-  outcome.result["model_number"] = drivers::fingerprint(sha256(model));
+  outcome.result["model_number"] = drivers::fingerprint(sha256(bytes));
+  outcome.result["mode"] = options.mode;
+  outcome.result["max_correction_mm"] = 1e3 * model.guard.max_correction_m;
   put(outcome.result, "worst_bus_load_pct", 100.0 * drivers::worst_bus_load(layout));
 }
 
 std::string next_steps(const DeployArguments& options, const Cell& cell) {
   return fmt::format(
-      "The controller sends {} in message robot: it stands for serial {}.\n\n{}\n\n"
+      "The controller sends {} in message robot: it stands for serial {}.\n{}.\n\n{}\n\n"
       "Then, on the controller-side PC:\n  plumb-rt run {}\n",
       drivers::fingerprint(cell.serial), cell.serial.empty() ? "\"\"" : cell.serial,
-      wrote(options.folder, options.write), shell_word(options.folder));
+      mode_text(options), wrote(options.folder, options.write), shell_word(options.folder));
 }
 
 void deploy(const DeployArguments& options, const Globals& globals, Outcome& outcome) {
@@ -105,8 +135,8 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
-  const auto files = files_of(cell, layout, bytes);
-  put_result(options, cell, layout, files, bytes, outcome);
+  const auto files = files_of(cell, layout, bytes, mode_of(options));
+  put_result(options, cell, layout, files, bytes, model, outcome);
   const auto note = folder_note(options.folder, options.write);
   if (!options.write.dry_run) write_deploy_folder(options.folder, files);
   if (note) outcome.remark({*note});
@@ -120,9 +150,13 @@ void add_deploy(Program& program) {
   VerbOptions verb = program.verb(
       {.name = "deploy",
        .summary = "Everything plumb-rt needs in one folder: model, rt.toml, DBC, Modbus map, sums",
-       .examples = "  plumb deploy -o deploy\n  plumb -C mycell deploy -o deploy --gate --force"},
+       .examples =
+           "  plumb deploy -o deploy\n  plumb -C mycell deploy -o deploy --mode limited --force"},
       [options](const Globals& g, Outcome& o) { deploy(*options, g, o); });
   verb.add_option("-o,--output", options->folder, "Folder to write").type_name("DIR").required();
+  verb.add_option("--mode", options->mode, "What plumb-rt sends: nothing, a capped part, or all")
+      .check(one_of({"shadow", "limited", "full"}))
+      .shows_default();
   options->compile.add_to(verb);
   options->write.add_to(verb);
 }

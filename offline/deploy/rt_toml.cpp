@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "bus_text/layout_toml.hpp"
+#include "cell/host_and_port.hpp"
 #include "cell/toml_text.hpp"
 #include "plumb/drivers/session.hpp"
+#include "plumb/drivers/session_transition.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -30,10 +32,11 @@ std::string source(const DeploySettings& deploy) {
   const bool can = deploy.link == drivers::BusUse::kCan;
   const std::string on_can =
       fmt::format("kind = \"can\"\ninterface = {}\n", toml_string(deploy.interface));
+  const auto [host, port] = host_and_port(deploy.address);
   const std::string on_modbus = fmt::format(
       "kind = \"modbus\"\nrole = \"client\"   # or \"server\": the controller polls us\n"
-      "address = {}   # of the controller; role server: to listen on\nport = 502\nunit = 1\n",
-      toml_string(deploy.address));
+      "address = {}   # of the controller; role server: to listen on\nport = {}\nunit = 1\n",
+      toml_string(host), port.empty() ? "502" : port);
   return "[source]   # of desired targets: kind = \"can\", \"modbus\" or \"csv\"\n" +
          (can ? on_can : on_modbus) +
          "# CSV: kind = \"csv\", file = \"targets.csv\"; Modbus RTU: device = \"/dev/ttyUSB0\", "
@@ -42,10 +45,10 @@ std::string source(const DeploySettings& deploy) {
          "\"corrected.csv\"\n\n";
 }
 
-std::string limits() {
+std::string limits(drivers::CorrectionMode mode) {
   const drivers::SessionSettings s;
   return fmt::format(
-      "[limits]\nmode = \"shadow\"   # computes and reports, sends no correction; then "
+      "[limits]\nmode = \"{}\"   # \"shadow\": computes and reports, sends no correction; then "
       "\"limited\", "
       "then \"full\"\n"
       "target_speed_mm_s = {:.10g}   # of desired targets; faster ones are refused\n"
@@ -53,8 +56,9 @@ std::string limits() {
       "target_step_mm = {:.10g}   # from one target to the next\ntarget_step_deg = {:.10g}\n"
       "limited_mm = {:.10g}   # largest correction of mode limited\n"
       "limited_scale = {:.10g}   # and its share of the whole\n\n",
-      s.target.speed_m_s / kMilli, s.target.speed_rad_s / kDegree, s.target.step_m / kMilli,
-      s.target.step_rad / kDegree, s.share.limited_m / kMilli, s.share.limited_scale);
+      drivers::to_string(mode), s.target.speed_m_s / kMilli, s.target.speed_rad_s / kDegree,
+      s.target.step_m / kMilli, s.target.step_rad / kDegree, s.share.limited_m / kMilli,
+      s.share.limited_scale);
 }
 
 std::string checks() {
@@ -72,8 +76,10 @@ std::string checks() {
 
 }  // namespace
 
-std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout) {
-  return head(cell) + source(cell.deploy) + limits() + checks() + drivers::write_bus(layout, "bus");
+std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout,
+                          drivers::CorrectionMode mode) {
+  return head(cell) + source(cell.deploy) + limits(mode) + checks() +
+         drivers::write_bus(layout, "bus");
 }
 
 }  // namespace plumb::offline

@@ -4,12 +4,15 @@
 #include <string>
 
 #include "cell/cell.hpp"
+#include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/bus_layout.hpp"
 
 namespace plumb::offline {
 
 /// rt.toml for a cell: every table and key with what it is for, so that nothing need be looked up
-/// on the machine. plumb-rt reads it.
-std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout);
+/// on the machine. plumb-rt reads it. `[deploy] address` of the cell may end with a port, as in
+/// "127.0.0.1:1502"; without one it is that of Modbus, 502.
+std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout,
+                          drivers::CorrectionMode mode = drivers::CorrectionMode::kShadow);
 
 }  // namespace plumb::offline

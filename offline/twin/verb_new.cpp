@@ -75,7 +75,7 @@ std::string next_steps(const std::string& folder) {
       "  plumb-twin measure {0}\n"
       "  plumb -C {0} diagnose --apply\n"
       "  plumb -C {0} compile\n"
-      "  plumb -C {0} deploy -o {0}/deploy\n"
+      "  plumb -C {0} deploy -o {0}/deploy --mode full\n"
       "  plumb-rt run {0}/deploy &\n"
       "  plumb-twin run {0} --can vcan0\n",
       folder);

@@ -3,9 +3,12 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
+#include "program/file.hpp"
 #include "twin/drive.hpp"
 #include "twin/run_report.hpp"
+#include "twin/stop_log.hpp"
 #include "twin/tracker.hpp"
 #include "twin/verbs.hpp"
 
@@ -27,6 +30,8 @@ struct RunArguments {
   double fastest_deg_s = 120.0, fastest_mm_s = 1500.0, dwell_s = 0.15, wait_s = 30.0,
          duration_s = 0.0;
   bool gate = false;
+  std::string stops;  // file to write each stop to; empty: none
+  bool force = false;
 };
 
 void list(Outcome& outcome) {
@@ -70,7 +75,8 @@ Twin open(const RunArguments& options, Outcome& outcome) {
 }
 
 /// Drives the path in real time with corrections from plumb-rt.
-std::vector<Stop> drive_corrected(const RunArguments& options, const Twin& twin, Outcome& outcome) {
+std::vector<Stop> drive_corrected(const RunArguments& options, const Twin& twin,
+                                  const std::vector<double>& off_m, Outcome& outcome) {
   const fs::path layout_file =
       options.layout.empty() ? fs::path(options.directory) / "cell.toml" : fs::path(options.layout);
   const auto use = options.link.is_can() ? drivers::BusUse::kCan : drivers::BusUse::kModbus;
@@ -83,8 +89,22 @@ std::vector<Stop> drive_corrected(const RunArguments& options, const Twin& twin,
                         faults, time);
   controller.knows(true_chain(twin.cell, twin.truth));
   controller.feels(readings_along(twin.cell, twin.hidden, twin.truth, twin.path));
-  const auto missed = drive_in_real_time(controller, *link, settings.cycle_s, options.duration_s,
-                                         [] { return false; });
+  std::optional<StopLog> log;
+  if (!options.stops.empty())
+    log.emplace(options.stops, StopLog::Arm{.cell = twin.cell,
+                                            .hidden = twin.hidden,
+                                            .truth = twin.truth,
+                                            .stations = twin.path.stations(),
+                                            .off_m = off_m});
+  const auto missed =
+      drive_in_real_time(controller, *link, settings.cycle_s, options.duration_s, [&] {
+        if (log) log->look(controller.stops());
+        return false;
+      });
+  if (log) {
+    log->look(controller.stops());
+    log->finish();
+  }
   add_loop(controller, link->port().counters(), missed, outcome);
   return controller.stops();
 }
@@ -103,9 +123,17 @@ void check(const RunArguments& options) {
                                .help = "for example: plumb-twin run mytwin --can vcan0"});
 }
 
+void refuse_existing(const RunArguments& options) {
+  if (options.stops.empty() || options.force || !would_replace(options.stops)) return;
+  throw Failure(Exit::kUsage, {.code = "E-EXISTS",
+                               .message = options.stops + " is already there",
+                               .help = "to replace it, add --force"});
+}
+
 void run(const RunArguments& options, Outcome& outcome) {
   if (options.list_faults) return list(outcome);
   check(options);
+  refuse_existing(options);
   (void)faults_of(options);
   const Twin twin = open(options, outcome);
   Comparison found;
@@ -117,7 +145,7 @@ void run(const RunArguments& options, Outcome& outcome) {
   if (options.correction != "on")
     found.off = errors(drive_uncorrected(twin.cell, twin.path, settings_of(options, twin.cell)));
   if (options.correction != "off" && options.link.any()) {
-    const auto stops = drive_corrected(options, twin, outcome);
+    const auto stops = drive_corrected(options, twin, found.off.each_m, outcome);
     found.unsettled = unsettled(stops);
     found.on = errors(stops);
     add_stops(stops, found.on, outcome);
@@ -175,6 +203,10 @@ void add_options(RunArguments& o, VerbOptions& verb) {
   verb.add_option("--duration-s", o.duration_s, "End after so long, wherever the arm is; 0: never")
       .check(number_between(0.0, 1e9))
       .shows_default();
+  verb.add_option("--stops", o.stops,
+                  "Write every stop with its true error to this CSV file as it is driven")
+      .type_name("FILE");
+  verb.add_flag("--force", o.force, "Replace that file if it is already there");
   verb.add_option("--fault", o.faults,
                   "What is wrong, and when; may be repeated; see --list-faults")
       .type_name("FAULT");

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 
+#include "program/json.hpp"
 #include "workbench/child.hpp"
 #include "workbench/services.hpp"
 
@@ -20,7 +21,9 @@ class Monitor {
   Monitor(std::filesystem::path cell_folder, const std::atomic<bool>& stop);
   ~Monitor();
 
-  /// {running, twin, folder, folders, status, limits, problem}; `folder` empty: the first one.
+  /// {running, twin, folder, folders, status, limits, stops, twin_command, problem}; `folder`
+  /// empty: the first one. `stops`: what the twin of the last start has driven, with its true
+  /// errors; null if none was started here.
   std::string look(const std::string& folder);
 
   /// Starts or stops plumb-rt, as an ordinary thread without real-time rights, and the twin whose
@@ -29,12 +32,16 @@ class Monitor {
 
  private:
   void start(const std::string& folder);
+  Json limits_of(const std::filesystem::path& deployed);
 
   const std::filesystem::path cell_folder_;
   const std::atomic<bool>& stop_;
   std::mutex mutex_;
   std::unique_ptr<Child> rt_, twin_;
   std::string rt_says_, twin_says_;
+  std::filesystem::path stops_;  // where the twin writes them; empty before the first start
+  std::string model_stamp_;      // of the model file whose limits these are
+  Json model_limits_;
 };
 
 }  // namespace plumb::offline::workbench

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/comparison.hpp"
 #include "compare/full_verdict.hpp"
 #include "figures/worst_band.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
+#include "show/compare_words.hpp"
 
 namespace plumb::offline::workbench {
 namespace {
@@ -19,6 +21,7 @@ namespace {
 using figures::RunResults;
 
 constexpr double kMm = 1e3, kDeg = 180.0 / std::numbers::pi;
+constexpr int kFewest = 4;  // poses of a range of which a mean is stated
 
 /// To a millionth, which keeps the text short; null if there is no number.
 Json shown(double value) {
@@ -63,10 +66,42 @@ std::vector<std::pair<std::string, Eigen::VectorXd>> contexts_of(const ContextRo
   return out;
 }
 
+/// The quantity with which the error changes most, as `plumb compare` says, and the range of it in
+/// which the judged poses miss most; null if none matters.
+Json worst_of_profiles(const RunResults& results) {
+  const auto found = compare::comparison(results.cell, results.measured, results.run.fit);
+  const compare::ErrorProfile* most = nullptr;
+  for (const auto& profile : found.profiles)
+    if (profile.matters && (most == nullptr || profile.ln_p < most->ln_p)) most = &profile;
+  if (most == nullptr) return nullptr;
+  const compare::ErrorBin* worst = nullptr;
+  for (const auto& bin : most->bins)
+    if (bin.n >= kFewest && (worst == nullptr || bin.mean_m > worst->mean_m)) worst = &bin;
+  std::string sentence = fmt::format("The error changes most with {}", show::quantity_words(*most));
+  Json rows = Json::array();
+  if (worst != nullptr && most->unit != compare::ErrorProfile::Unit::kName)
+    sentence +=
+        fmt::format(": {:.3f} mm on average between {:.0f} and {:.0f} {} ({} poses)",
+                    kMm * worst->mean_m, std::round(show::in_unit(worst->from, most->unit)) + 0.0,
+                    std::round(show::in_unit(worst->to, most->unit)) + 0.0,
+                    show::unit_name(most->unit), worst->n);
+  const auto& joints = results.cell.nominal.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (worst == nullptr || most->kind != compare::ErrorProfile::Kind::kJoint ||
+        joints[j].name != most->name)
+      continue;
+    for (const int row : results.judged()) {
+      const double q = results.measured.q(row, static_cast<Eigen::Index>(j));
+      if (q >= worst->from && q <= worst->to) rows.push_back(row);
+    }
+  }
+  return {{"sentence", sentence + "."}, {"rows", std::move(rows)}};
+}
+
 /// Null if no region is worse than chance makes it.
 Json worst_region(const RunResults& results) {
   const auto band = figures::worst_band(results);
-  if (!band) return nullptr;
+  if (!band) return worst_of_profiles(results);
   return {{"sentence", figures::where_sentence(results)}, {"rows", band->rows}};
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "figures/registry.hpp"
+#include "draw/sheet.hpp"
 #include "program/guarded.hpp"
 #include "workbench/names.hpp"
 #include "workbench/target.hpp"
@@ -94,9 +94,9 @@ Response figure(const Call& call) {
   constexpr std::string_view kEnd = ".svg";
   if (!file.ends_with(kEnd)) malformed("a figure is NAME.svg", "GET /api/figures lists them");
   const auto text = asked(call, "width");
-  const int width = text ? number(*text, "width", static_cast<int>(figures::kNarrowest),
-                                  static_cast<int>(figures::kWidest))
-                         : static_cast<int>(figures::kUsualWidth);
+  const int width = text ? number(*text, "width", static_cast<int>(draw::kNarrowest),
+                                  static_cast<int>(draw::kWidest))
+                         : static_cast<int>(draw::kUsualWidth);
   const int run = run_of_query(call);
   const std::string state = std::to_string(call.services.state());
   Response out{.type = "image/svg+xml",

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cstdio>
 
 #include "cell/cell.hpp"
@@ -136,6 +138,13 @@ TEST(CellMessage, OfSettingsOutOfRange) {
   EXPECT_EQ(with("[deploy]\nmax_correction_mm = 0"), Summary{"E-CELL-RANGE 6:21"});
   EXPECT_EQ(with("[deploy]\nlink = \"cam\""), Summary{"E-CELL-RANGE 6:8"});
   EXPECT_EQ(with("[deploy]\ninterface = \"\""), Summary{"E-CELL-RANGE 6:13"});
+  for (const char* address :
+       {"", "10.0.0.7:", ":1502", "10.0.0.7:0", "10.0.0.7:x", "10.0.0.7:65536"})
+    EXPECT_EQ(with(fmt::format("[deploy]\naddress = \"{}\"", address)),
+              Summary{"E-CELL-RANGE 6:11"})
+        << address;
+  for (const char* address : {"10.0.0.7", "10.0.0.7:1502", "fe80::1"})
+    EXPECT_EQ(with(fmt::format("[deploy]\naddress = \"{}\"", address)), Summary{}) << address;
   EXPECT_EQ(with("[deploy.bus]\nbit_rate = 0"), Summary{"E-CELL-BUS 6:12"});
   EXPECT_EQ(with("[deploy.bus.target]\ncan_id = 0x800"), Summary{"E-CELL-BUS 6:10"});
   EXPECT_EQ(with("[deploy.bus]\nbitrate = 1"), Summary{"E-CELL-KEY 6:1"});

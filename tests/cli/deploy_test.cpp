@@ -66,6 +66,21 @@ TEST_F(Deploy, TheConfigurationSaysEverythingAndStartsInShadow) {
     EXPECT_NE(("\n" + toml).find("\n" + std::string(line)), std::string::npos) << line;
 }
 
+TEST_F(Deploy, TheModeIsThatOfTheOptionAndIsSaid) {
+  for (const std::string mode : {"limited", "full"}) {
+    const Ran ran = box->plumb({"-C", "cell", "deploy", "-o", "out", "--mode", mode, "--force"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_NE(box->read("out/rt.toml").find("\nmode = \"" + mode + "\""), std::string::npos);
+    EXPECT_NE(ran.out.find("Mode " + mode + ":"), std::string::npos) << ran.out;
+  }
+  const auto result =
+      box->plumb({"-C", "cell", "deploy", "-o", "out", "--force", "--json"}).json().at("result");
+  EXPECT_EQ(result.at("mode"), "shadow");
+  EXPECT_GT(result.at("max_correction_mm"), 0.0);
+  EXPECT_NE(box->read("out/rt.toml").find("\nmode = \"shadow\""), std::string::npos);
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out", "--mode", "off", "--force"}).exit, 2);
+}
+
 TEST_F(Deploy, NothingIsReplacedWithoutForceAndOtherFilesStay) {
   ASSERT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out"}).exit, 0);
   box->write("out/rt.toml", "edited");

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "bus_text/layout_toml.hpp"
 #include "rt/modbus_source.hpp"
 #include "rt/rt_config.hpp"
@@ -59,6 +61,20 @@ TEST(RtToml, IsReadWithoutAWordOfComplaintForAnyArmAndLink) {
         EXPECT_EQ(modbus.address, "192.168.0.7");
       }
     }
+}
+
+TEST(RtToml, AnAddressMayNameItsPort) {
+  Cell cell = cell_of(6);
+  cell.deploy.link = BusUse::kModbus;
+  for (const auto& [address, host, port] :
+       {std::tuple("10.0.0.7:1502", "10.0.0.7", 1502), std::tuple("fe80::1", "fe80::1", 502)}) {
+    cell.deploy.address = address;
+    const Read got = read(write_rt_toml(cell, drivers::default_layout(6, 0.004)), cell);
+    EXPECT_EQ(got.errors, "");
+    const auto& modbus = dynamic_cast<const drivers::rt::ModbusSource&>(*got.config.source);
+    EXPECT_EQ(modbus.address, host);
+    EXPECT_EQ(modbus.port, port);
+  }
 }
 
 TEST(RtToml, SaysWhatAnEmptyFileWouldMean) {

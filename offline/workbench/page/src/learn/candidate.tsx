@@ -51,6 +51,16 @@ function Folded({ summary, others, of, separate }: { summary: string; others: Ca
   );
 }
 
+/** The figure that shows a cause at work: over the angle of its joint, the order of measuring, the temperature, ... */
+function curveOf({ effect, joints: named }: Candidate, known: string[]): { name: string; words: string } {
+  const joint = named.find((name) => known.includes(name));
+  if (joint) return { name: `joint-${joint}`, words: `what is left as a deviation of ${joint}` };
+  if (/^(drift|step|two_steps)/.test(effect)) return { name: "order", words: "what is left in the order of measuring" };
+  if (/therm|temp|warm|room/.test(effect)) return { name: "context-temperature", words: "what is left over the temperature" };
+  if (/payload/.test(effect)) return { name: "context-payload", words: "what is left over the payload" };
+  return { name: "error-map", words: "what is left over the workspace" };
+}
+
 export function AddButton({ of, first }: { of: Candidate; first?: boolean }) {
   const args = addArguments(of);
   return (
@@ -62,7 +72,7 @@ export function AddButton({ of, first }: { of: Candidate; first?: boolean }) {
 export function CandidateCard({ group, rank, before, addFirst }: { group: Group; rank: number; before: number | null; addFirst: boolean }) {
   const { first, others, variants } = group;
   const known = joints.value.map(({ name }) => name);
-  const joint = first.joints.find((name) => known.includes(name));
+  const curve = curveOf(first, known);
   const [open, setOpen] = useState(rank === 1);
   const more = first.confounded.length > 0 && others.length === 0;
   return (
@@ -82,12 +92,10 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
         summary={`Cannot be told apart from ${others.length === 1 ? "one other candidate" : `${others.length} other candidates`} in these poses`} />
       <Folded others={variants} summary={`The same effect in ${variants.length === 1 ? "another form" : `${variants.length} other forms`}`} />
       {more && <p class="muted">Hard to tell from {first.confounded.join(", ")}.{first.separate_by && ` What would separate them: ${first.separate_by}`}</p>}
-      {joint && (
-        <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-          <summary>The curve: what is left as a deviation of {joint}</summary>
-          {open && <Figure name={`joint-${joint}`} />}
-        </details>
-      )}
+      <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+        <summary>The curve: {curve.words}</summary>
+        {open && <Figure name={curve.name} />}
+      </details>
       <Numbers of={first} />
     </section>
   );

@@ -30,7 +30,7 @@ export function LastChange() {
 function NotTestable({ rows }: { rows: Diagnosis["not_testable"] }) {
   if (rows.length === 0) return null;
   return (
-    <Card title="Not testable with these data" lead="What could not be tried, and what to measure so that it can.">
+    <Card title="Not testable with these data" class="wide" lead="What could not be tried, and what to measure so that it can.">
       <Scroll label="Effects that are not testable">
         <table>
           <thead><tr><th scope="col">Effect</th><th scope="col">Why</th><th scope="col">Measure</th></tr></thead>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { getJson, postJson, problemOf } from "../api";
 import { param, setParams } from "../hash";
@@ -9,8 +10,10 @@ import { Empty } from "../parts/empty";
 import { ProblemBox } from "../parts/problem";
 import { shellLine } from "../shell";
 import type { Problem } from "../types";
+import { modeWords } from "../modes";
 import { Replay } from "./replay";
 import { Series } from "./series";
+import { TwinCard, type Stops } from "./twin";
 
 interface Status {
   state: string; mode: string; fault: string; status: string; lost: string[]; has_output: boolean;
@@ -30,7 +33,9 @@ interface Monitor {
   folder?: string;
   folders?: string[];
   status: Status | null;
-  limits?: { max_correction_mm: number | null; cycle_us: number | null } | null;
+  limits?: { max_correction_mm: number | null; cycle_us: number | null; mode: string; limited_mm: number; limited_scale: number } | null;
+  stops?: Stops | null;
+  twin_command?: string | null;
   problem?: Problem | null;
 }
 
@@ -86,8 +91,15 @@ function Rows({ title, of }: { title: string; of: Record<string, string | number
   );
 }
 
-function Live({ status, past, limits }: { status: Status; past: Moment[]; limits: Monitor["limits"] }) {
-  const allowed = limits?.max_correction_mm === null || limits?.max_correction_mm === undefined ? null : 1000 * limits.max_correction_mm;
+/** The largest correction that may be sent [um]; null if it is not known. */
+function allowedUm(limits: Monitor["limits"]): number | null {
+  const most = limits?.max_correction_mm ?? null;
+  if (most === null || !limits) return null;
+  return 1000 * (limits.mode === "limited" ? Math.min(most, limits.limited_mm) : most);
+}
+
+function Live({ status, past, limits, children }: { status: Status; past: Moment[]; limits: Monitor["limits"]; children: ComponentChildren }) {
+  const allowed = allowedUm(limits);
   const cycle = limits?.cycle_us ?? null;
   const seconds = past.map((m) => m.seconds);
   return (
@@ -95,11 +107,11 @@ function Live({ status, past, limits }: { status: Status; past: Moment[]; limits
       <Card title="State">
         <p class={`verdict ${status.state === "active" ? "good" : status.state === "fault" ? "bad" : "partly"}`} id="rt-state">{status.state}: {kStateWords[status.state] ?? ""}</p>
         <dl class="facts">
-          <div><dt>Mode</dt><dd>{status.mode}</dd></div>
+          <div><dt>Mode</dt><dd>{modeWords(status.mode)}</dd></div>
           <div><dt>Status of the last correction</dt><dd>{status.status}</dd></div>
           <div><dt>Last fault</dt><dd>{status.fault}</dd></div>
           {status.lost.length > 0 && <div><dt>Held by</dt><dd>{status.lost.join(", ")}</dd></div>}
-          <div><dt>Correction now</dt><dd><strong>{plain(status.correction.applied_um)} um</strong>{allowed === null ? "" : ` of ${plain(allowed)} um allowed`}</dd></div>
+          <div><dt>Correction now</dt><dd id="correction"><strong>{plain(status.correction.applied_um)} um</strong>{allowed === null ? "" : ` of ${plain(allowed)} um allowed`}</dd></div>
           <div><dt>Cycle works</dt><dd>{plain(status.work.median_us)} us median, {plain(status.work.worst_us)} us longest{cycle === null ? "" : ` of ${cycle} us`}</dd></div>
           <div><dt>Model</dt><dd>{String(status.model?.fingerprint ?? status.model?.number ?? kNone)}</dd></div>
         </dl>
@@ -109,11 +121,12 @@ function Live({ status, past, limits }: { status: Status; past: Moment[]; limits
         { label: "wanted", values: past.map((m) => m.status.correction.wanted_um), tone: "green", dashed: true },
         ...(allowed === null ? [] : [{ label: "limit", values: past.map(() => allowed), tone: "vermilion" as const, dashed: true }]),
       ]} /></Card>
+      {children}
       <Card title="Cycle"><Series title="Work and wake-up of a cycle, 99 % [us]" seconds={seconds} lines={[
         { label: "work", values: past.map((m) => m.status.work.p99_us), tone: "blue" },
         { label: "wake-up", values: past.map((m) => m.status.wake.p99_us), tone: "green", dashed: true },
       ]} /></Card>
-      <Card title="Numbers" class="wide"><div class="columns"><Rows title="Counters" of={status.counters} /><Rows title="Ages of the inputs" of={status.ages} /><Rows title="Bus" of={status.link} /><Rows title="Clock" of={status.clock} /></div></Card>
+      <Card title="Numbers" class="wide whole"><div class="columns"><Rows title="Counters" of={status.counters} /><Rows title="Ages of the inputs" of={status.ages} /><Rows title="Bus" of={status.link} /><Rows title="Clock" of={status.clock} /></div></Card>
     </>
   );
 }
@@ -127,21 +140,24 @@ export function MonitorScreen() {
     postJson("/api/monitor", { action, folder }).then(ask, (error: unknown) => setRefused(problemOf(error)));
   };
   const running = now?.running === true;
+  const twin = now?.stops && <TwinCard stops={now.stops} driving={now.twin === true} />;
   return (
     <>
       <Card title="plumb-rt" lead="A running correction, or a demonstration in which plumb-twin is the robot and no hardware is needed.">
         <div class="tools">
           <label>Folder of deploy <input type="text" value={folder} list="folders" onChange={(event) => setParams({ folder: event.currentTarget.value })} /></label>
           <datalist id="folders">{(now?.folders ?? []).map((name) => <option value={name} />)}</datalist>
-          <button type="button" class={running ? "" : "main"} disabled={running} onClick={() => act("start")}>Start the demonstration</button>
-          <button type="button" disabled={!running && !now?.twin} onClick={() => act("stop")}>Stop</button>
+          <button type="button" class={running ? "" : "main"} disabled={running} id="start-demonstration" onClick={() => act("start")}>Start the demonstration</button>
+          <button type="button" disabled={!running && !now?.twin} id="stop-demonstration" onClick={() => act("stop")}>Stop</button>
         </div>
-        <Command line={shellLine("plumb-rt", ["run", folder])} />
+        <Command line={shellLine("plumb-rt", ["run", folder, "--priority", "0"])} />
+        {now?.twin_command && <Command line={now.twin_command} />}
         <Command line={shellLine("plumb-rt", ["status", folder, "--json"])} />
+        {now?.limits && !running && <p>The folder is deployed in mode {modeWords(now.limits.mode)}.</p>}
         {(refused ?? problem) && <ProblemBox problem={{ severity: "note", ...(refused ?? problem as Problem) }} />}
         {now && !running && <Empty to={now.folders?.length === 0 ? "ship" : undefined}>Nothing runs in {folder}. Ship writes the folder; then start the demonstration, or plumb-rt in a shell.</Empty>}
       </Card>
-      {running && now?.status && <Live status={now.status} past={past} limits={now.limits} />}
+      {running && now?.status ? <Live status={now.status} past={past} limits={now.limits}>{twin}</Live> : twin}
       <Replay />
     </>
   );

@@ -15,7 +15,7 @@ import type { Tones } from "./theme";
 export type Eye = "orbit" | "top" | "side" | "front";
 export type Shown = "both" | "before" | "after";
 
-export const kMovingArrows = 800, kStillArrows = 3200; // drawn at most: software GL needs 60 ms for 1000
+export const kMovingArrows = 1600, kStillArrows = 3200; // drawn at most: software GL needs 60 ms for 3000
 const kSettle = 250;                                   // [ms] after the last move until all are drawn
 const kMm = 1e-3;
 const kFill = 0.92; // of the half view: where the outermost point stands
@@ -230,9 +230,9 @@ export class View3d {
       const list: Arrow[] = [];
       for (const i of order) {
         const from = at3(poses.point_mm, i), along = at3(errors, i)?.multiplyScalar(factor);
-        if (from && along && along.length() > 0) list.push({ from, along, colour });
+        if (from && along && along.length() > 0) list.push({ from, along });
       }
-      const arrows = new Arrows(list, 0.0026 * this.extent);
+      const arrows = new Arrows(list, 0.0026 * this.extent, colour);
       this.arrows.push(arrows);
       this.content.add(arrows.group);
       this.arrowCount = Math.max(this.arrowCount, list.length);

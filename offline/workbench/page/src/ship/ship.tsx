@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+import { useState } from "preact/hooks";
 import { resultOf, task } from "../jobs";
+import { kModes, modeWords, type Mode } from "../modes";
 import { bytes as size, count, mm, plain, withMm } from "../numbers";
 import { Action } from "../parts/action";
 import { Card, Scroll } from "../parts/card";
@@ -14,7 +16,7 @@ interface Audit { worst_correction_mm: number | null; worst_rotation_deg: number
 interface Compiled { run: number | null; held_out: Statistics; audit: Audit }
 interface Inspected { sound: boolean; robot: string; serial: string; effects: { effect: string; version: number; formula?: string }[]; trees: { axis: string; leaves: number }[]; domain: Record<string, string | number>[]; guard: Record<string, unknown> }
 interface Bench { ns_median: number | null; ns_p99: number | null; ns_max: number | null; allocations: number; representative: boolean; cycle_us: number; share_of_cycle_pct: number; conditions: { why_not_representative: string[] } }
-interface Deployed { folder: string; files: string[]; robot_number: number; model_number: number; worst_bus_load_pct: number | null }
+interface Deployed { folder: string; files: string[]; robot_number: number; model_number: number; mode?: string; max_correction_mm?: number; worst_bus_load_pct: number | null }
 
 const us = (ns: number | null): string => (ns === null ? "–" : `${plain(ns / 1000)} us`);
 
@@ -87,11 +89,19 @@ function BenchCard() {
 
 function DeployCard() {
   const made = fresh<Deployed>("deploy");
+  const [mode, setMode] = useState<Mode>((made?.mode as Mode | undefined) ?? "shadow");
   return (
     <Card title="4. Deploy" lead="A folder with everything that plumb-rt needs.">
-      <Action purpose="deploy" verb="deploy" args={["-o", kFolder, "--force"]}>Write the folder</Action>
+      <label>Mode of plumb-rt{" "}
+        <select id="mode" value={mode} onChange={(event) => setMode(event.currentTarget.value as Mode)}>
+          {Object.entries(kModes).map(([name, words]) => <option value={name}>{words}</option>)}
+        </select>
+      </label>
+      {mode !== "shadow" && <p class="note">Taught points shift when the correction starts, and it is not a safety function. First watch a shift in shadow, then limited, then full: docs/safety.md.</p>}
+      <Action purpose="deploy" verb="deploy" args={["-o", kFolder, "--mode", mode, "--force"]} id="deploy">Write the folder</Action>
       {made && (
         <div role="status">
+          <p id="deployed-mode"><strong>Mode {modeWords(made.mode)}.</strong>{made.max_correction_mm !== undefined && ` Never more than ${mm(made.max_correction_mm)} mm, which the model allows.`} To change it, choose another mode and write the folder again, or edit [limits] mode in {made.folder}/rt.toml; plumb-rt reads it when it starts.</p>
           <p>Written: {made.files.join(", ")}.</p>
           <p>Robot number {made.robot_number}, model number {made.model_number} on the bus{made.worst_bus_load_pct === null ? "" : `; worst load of the bus ${plain(made.worst_bus_load_pct)} %`}. Monitor runs it.</p>
         </div>
