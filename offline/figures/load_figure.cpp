@@ -253,9 +253,7 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
           "numbers of the model, such as the zero of the joint.");
       break;
     }
-  std::vector<draw::LegendEntry> legend{
-      {.words = "held out", .mark = Mark{}},
-      {.words = "fitted", .mark = Mark{.fill = Mark::Fill::kHollow}}};
+  auto legend = pose_legend(results);
   if (shown) {
     legend.push_back({.words = fitted ? "fitted law" : "straight line through what is left",
                       .line = draw::LineStyle{Tone::kInk, 2.0}});
