@@ -18,7 +18,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostPoints = 1000, kMostSmallPoints = 200;
+constexpr std::size_t kMostPoints = 500, kMostSmallPoints = 200;
 constexpr double kOverMedian = 1.5;  // of the ranges of the joints: the locked scale
 constexpr int kLawPoints = 181;
 constexpr double kLaw95 = 1.96;

@@ -20,7 +20,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostLoadPoints = 1000;
+constexpr std::size_t kMostLoadPoints = 500;
 constexpr int kLoadSteps = 60;  // of the curve of a fitted law
 constexpr std::size_t kMostSigmas = 100;
 constexpr int kFewLoadSteps = 9;

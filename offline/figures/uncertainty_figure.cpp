@@ -62,7 +62,8 @@ class Predictor {
     if (axes_.size() == 3) return "three axes together";
     std::string out;
     for (const int k : axes_) out += (out.empty() ? "" : " and ") + std::string(kNames.at(k));
-    return out + (axes_.size() > 1 ? " together, the axes" : ", the axis") + " that was measured";
+    return out + (axes_.size() > 1 ? " together, the axes that were measured"
+                                    : ", the axis that was measured");
   }
   std::size_t numbers() const { return parameters_.size(); }
   const std::vector<std::string>& sensors() const { return geometry_->sensors(); }
