@@ -57,7 +57,6 @@ h2{border:0;margin-top:0;padding-top:0}
 h2,h3,caption{break-after:avoid}
 figure,tr,.verdict,li,dt,dd{break-inside:avoid}
 figure svg{max-height:245mm;max-width:100%;width:86%;margin:0 auto}
-section:first-of-type figure svg{max-height:105mm}
 figure{margin:.5rem 0}
 tbody tr:first-child{break-before:avoid}
 thead{display:table-header-group}
