@@ -11,6 +11,7 @@
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "figures/words.hpp"
+#include "fit/noise_floor.hpp"
 #include "plan/design_space.hpp"
 #include "plan/information.hpp"
 #include "plan/plan_steps.hpp"
@@ -96,9 +97,10 @@ std::vector<PoseGain> gains_of(Gains poses, Gains judged, Eigen::MatrixXd covari
   return out;
 }
 
-double reading_sigma(const RunResults& results) {
-  if (const double sigma = results.run.fit.floor.sigma_m; sigma > 0.0) return sigma;
-  return results.cell.measurement.sigma_m.value_or(kUsualReading_m);
+/// As a plan takes it: by the repeats, or as stated; not what the model misses.
+double reading_sigma(const Cell& cell, const Measurements& used) {
+  const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
+  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUsualReading_m);
 }
 
 std::string growth_sentence(const InformationGrowth& growth) {
@@ -124,18 +126,19 @@ std::string growth_sentence(const InformationGrowth& growth) {
 InformationGrowth information_growth(const RunResults& results, int n) {
   const Cell& cell = results.cell;
   const ArmState& state = results.run.fit.calibration.state;
-  const double sigma_m = reading_sigma(results);
+  std::vector<int> used = results.held;
+  used.insert(used.end(), results.fit.begin(), results.fit.end());
+  std::sort(used.begin(), used.end());
+  const Measurements measured = pick(results.measured, used);
+  const double sigma_m = reading_sigma(cell, measured);
   const auto some = [&](int count, std::uint64_t seed) {
     return imagined(cell, results.measured, pose_pool(cell, state, {.pool = count, .seed = seed}),
                     seed);
   };
   const Measurements judged = some(kJudged, kJudgedSeed);
   const DesignSpace space = design_space(cell, state, judged, sigma_m, 0.0);
-  std::vector<int> used = results.held;
-  used.insert(used.end(), results.fit.begin(), results.fit.end());
-  std::sort(used.begin(), used.end());
   Information known(space.prior());
-  if (!used.empty()) known.add(space.lines(pick(results.measured, used)));
+  if (!used.empty()) known.add(space.lines(measured));
   const auto gains = [&](const Measurements& at) {
     return Gains(blocks(space.lines(at), space.per_pose()), known.covariance());
   };

@@ -63,7 +63,7 @@ class Predictor {
     std::string out;
     for (const int k : axes_) out += (out.empty() ? "" : " and ") + std::string(kNames.at(k));
     return out + (axes_.size() > 1 ? " together, the axes that were measured"
-                                    : ", the axis that was measured");
+                                   : ", the axis that was measured");
   }
   std::size_t numbers() const { return parameters_.size(); }
   const std::vector<std::string>& sensors() const { return geometry_->sensors(); }
