@@ -86,7 +86,6 @@ std::string evidence_of(const PlotArguments& options, const Cell& cell,
 }
 
 std::string planned(const figures::RunResults& results, int width) {
-  const Progress progress("planning the next poses");
   return figures::observability_figure(figures::information_growth(results, kNextPoses),
                                        results.run.number, width);
 }

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct ReportArguments {
   std::string output, run;
-  bool pdf = false;
+  bool pdf = false, no_diagnosis = false;
   WriteOptions write;
 };
 
@@ -60,6 +60,12 @@ Run run_to_report(const ReportArguments& options, const Cell& cell,
 void diagnose_for(const ReportArguments& options, report::ReportData& data, Outcome& outcome) {
   if ((data.diagnosis = report::kept_diagnosis(data.run))) {
     data.diagnosis_is_kept = true;
+    return;
+  }
+  if (options.no_diagnosis) {
+    data.why_no_diagnosis =
+        "Not diagnosed: what is missing was not searched for. plumb diagnose searches, and plumb "
+        "report then shows what it found.";
     return;
   }
   if (!data.run_is_current) {
@@ -106,7 +112,8 @@ std::vector<std::string> commands_of(const ReportArguments& options, const Globa
     out.push_back(
         to_type(globals, data.run.fit.base == Base::kController ? "fit --base controller" : "fit"));
   out.push_back(to_type(globals, "report -o " + shell_word(file) +
-                                     (options.run.empty() ? "" : " --run " + options.run)));
+                                     (options.run.empty() ? "" : " --run " + options.run) +
+                                     (options.no_diagnosis ? " --no-diagnosis" : "")));
   return out;
 }
 
@@ -186,7 +193,8 @@ void add_report(Program& program) {
        .summary =
            "One self-contained HTML file: verdict, figures, evidence, model, how to reproduce",
        .examples = "  plumb report -o report.html          # of the present cell and data\n"
-                   "  plumb report --run 2 --pdf           # an earlier run, and printed to A4"},
+                   "  plumb report --run 2 --pdf           # an earlier run, and printed to A4\n"
+                   "  plumb report --no-diagnosis          # at once, without a search for causes"},
       [options](const Globals& g, Outcome& o) { write_report(*options, g, o); });
   verb.add_option("-o,--output", options->output, "HTML file to write (report.html)")
       .type_name("FILE");
@@ -195,6 +203,8 @@ void add_report(Program& program) {
       .type_name("N");
   verb.add_flag("--pdf", options->pdf,
                 "Also print it to a PDF file of the same name, with Chromium or Chrome");
+  verb.add_flag("--no-diagnosis", options->no_diagnosis,
+                "Do not search for missing effects; what an earlier search found is shown");
   options->write.add_to(verb);
 }
 

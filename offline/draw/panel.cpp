@@ -13,6 +13,9 @@ constexpr double kTickSize = 11.0, kTitleSize = 11.5, kNameSize = 12.5;
 constexpr double kTickRoom = 24.0, kLogTickRoom = 18.0;  // [px] of a y axis for each tick
 constexpr double kTickGap = 12.0;                        // [px] between the labels of an x axis
 constexpr double kLine = 16.0, kHalo = 3.0;
+constexpr double kInkStep = 5.0;     // [px] of a line that count as one mark
+constexpr double kAreaWeight = 8.0;  // marks: what a bar under a label counts
+constexpr std::size_t kMostInk = 20000;
 
 double share_of(const Axis& axis, double value) {
   if (axis.scale == Axis::Scale::kLinear) return (value - axis.low) / (axis.high - axis.low);
@@ -51,6 +54,27 @@ void make_sound(Axis& axis) {
   const auto ticks = log ? log_ticks(axis.low, axis.high, 3) : round_ticks(axis.low, axis.high, 3);
   axis.low = ticks.front().value;
   axis.high = ticks.back().value;
+}
+
+/// What of a line from one point to the other lies inside the box [Liang and Barsky 1984]; false if
+/// nothing does, or if a coordinate is no number.
+bool clipped(const Box& box, Point& from, Point& to) {
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  if (!std::isfinite(dx + dy + from.x + from.y)) return false;
+  double enters = 0.0, leaves = 1.0;
+  const auto cut = [&](double slope, double room) {
+    if (slope == 0.0) return room >= 0.0;
+    (slope < 0.0 ? enters = std::max(enters, room / slope)
+                 : leaves = std::min(leaves, room / slope));
+    return true;
+  };
+  if (!cut(-dx, from.x - box.left) || !cut(dx, box.right - from.x) || !cut(-dy, from.y - box.top) ||
+      !cut(dy, box.bottom - from.y) || enters > leaves)
+    return false;
+  const Point start = from;
+  if (leaves < 1.0) to = {start.x + leaves * dx, start.y + leaves * dy};
+  if (enters > 0.0) from = {start.x + enters * dx, start.y + enters * dy};
+  return true;
 }
 
 std::string title_of(const Axis& axis) {
@@ -127,13 +151,41 @@ double Panel::y_at(double value) const {
   return plot_.bottom - plot_.height() * share_of(y_, value);
 }
 
-void Panel::mark(double x, double y, const Mark& mark) { svg_.mark(at(x, y), mark); }
+void Panel::mark(double x, double y, const Mark& mark) {
+  const Point p = at(x, y);
+  svg_.mark(p, mark);
+  if (ink_.size() < kMostInk)
+    ink_.push_back({p.x - mark.size, p.y - mark.size, p.x + mark.size, p.y + mark.size});
+}
+
+void Panel::ink_line(Point from, Point to) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const int pieces = std::max(1, static_cast<int>(std::min(length / kInkStep, 1e4)));
+  for (int i = 0; i < pieces && ink_.size() < kMostInk; ++i) {
+    const double share = (i + 0.5) / pieces;
+    const Point p{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+    ink_.push_back({p.x - 0.5, p.y - 0.5, p.x + 0.5, p.y + 0.5});
+  }
+}
 
 void Panel::line(const std::vector<Point>& values, const LineStyle& style) {
-  std::vector<Point> points;
-  points.reserve(values.size());
-  for (const Point& v : values) points.push_back(at(v.x, v.y));
-  svg_.polyline(points, style);
+  std::vector<Point> pieces;  // those inside the frame, with a gap where the line is outside
+  const auto gap = [&] {
+    if (!pieces.empty() && std::isfinite(pieces.back().x)) pieces.push_back({NAN, NAN});
+  };
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    Point from = at(values[i - 1].x, values[i - 1].y), to = at(values[i].x, values[i].y);
+    const Point begin = from;
+    if (!clipped(plot_, from, to)) {
+      gap();
+      continue;
+    }
+    if (from.x != begin.x || from.y != begin.y) gap();
+    if (pieces.empty() || !std::isfinite(pieces.back().x)) pieces.push_back(from);
+    pieces.push_back(to);
+    ink_line(from, to);
+  }
+  svg_.polyline(pieces, style);
 }
 
 void Panel::band(const std::vector<Point>& low, const std::vector<Point>& high,
@@ -148,37 +200,80 @@ void Panel::band(const std::vector<Point>& low, const std::vector<Point>& high,
 void Panel::bar(double x0, double y0, double x1, double y1, const Paint& paint,
                 const LineStyle& edge, const std::string& words) {
   const Point a = at(x0, y0), b = at(x1, y1);
-  svg_.box({std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)}, paint,
-           edge, {}, words);
+  const Box box{std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
+  svg_.box(box, paint, edge, {}, words);
+  if (paint.value() != "none")
+    areas_.push_back(box);
+  else
+    ink_line({box.left, box.top}, {box.right, box.top});
 }
 
-bool Panel::inside(double left, double top, double right, double bottom) const {
-  return left >= plot_.left && right <= plot_.right && top >= plot_.top && bottom <= plot_.bottom;
+void Panel::add_place(Point at, Anchor anchor, double words_width, double size,
+                      std::vector<Place>& places) const {
+  const double left = anchor == Anchor::kStart ? at.x : at.x - words_width;
+  const Box box{left, at.y - size, left + words_width, at.y + 3.0};
+  if (box.left < plot_.left || box.right > plot_.right || box.top < plot_.top ||
+      box.bottom > plot_.bottom)
+    return;
+  Place place{at, anchor, 0.0};
+  for (const Box& one : ink_) place.covered += box.overlaps(one);
+  for (const Box& one : areas_) place.covered += kAreaWeight * box.overlaps(one);
+  places.push_back(place);
 }
 
-void Panel::level_x(double x, const std::string& words, const LineStyle& style) {
-  const double px = x_at(x);
-  if (!(px >= plot_.left - 0.5 && px <= plot_.right + 0.5)) return;
-  svg_.line({px, plot_.top}, {px, plot_.bottom}, style);
-  const TextStyle text{.size = kTickSize, .paint = style.paint, .halo = kHalo};
-  const double w = text_width(words, kTickSize);
-  for (double y = plot_.top + 14.0; y < plot_.bottom - 4.0; y += kLine) {
-    if (px + 4.0 + w < plot_.right && svg_.text({px + 4.0, y}, Anchor::kStart, words, text)) return;
-    if (px - 4.0 - w > plot_.left && svg_.text({px - 4.0, y}, Anchor::kEnd, words, text)) return;
+bool Panel::put(std::vector<Place> places, const std::string& words, const TextStyle& style) {
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.covered < b.covered; });
+  return std::any_of(places.begin(), places.end(), [&](const Place& place) {
+    return svg_.text(place.at, place.anchor, words, style);
+  });
+}
+
+void Panel::levels_x(const std::vector<Level>& levels) {
+  const auto is_inside = [&](const Level& level) {
+    const double px = x_at(level.at);
+    return px >= plot_.left - 0.5 && px <= plot_.right + 0.5;
+  };
+  for (const Level& level : levels) {
+    if (!is_inside(level)) continue;
+    const Point top{x_at(level.at), plot_.top}, bottom{x_at(level.at), plot_.bottom};
+    svg_.line(top, bottom, level.style);
+    ink_line(top, bottom);
+  }
+  for (const Level& level : levels) {
+    if (!is_inside(level)) continue;
+    const double px = x_at(level.at), w = text_width(level.words, kTickSize);
+    std::vector<Place> places;
+    for (double y = plot_.top + 14.0; y < plot_.bottom - 4.0; y += kLine) {
+      add_place({px + 4.0, y}, Anchor::kStart, w, kTickSize, places);
+      add_place({px - 4.0, y}, Anchor::kEnd, w, kTickSize, places);
+    }
+    put(std::move(places), level.words,
+        {.size = kTickSize, .paint = level.style.paint, .halo = kHalo});
   }
 }
 
-void Panel::level_y(double y, const std::string& words, const LineStyle& style) {
-  const double py = y_at(y);
-  if (!(py >= plot_.top - 0.5 && py <= plot_.bottom + 0.5)) return;
-  svg_.line({plot_.left, py}, {plot_.right, py}, style);
-  const TextStyle text{.size = kTickSize, .paint = style.paint, .halo = kHalo};
-  const double w = text_width(words, kTickSize);
-  if (w + 8.0 > plot_.width()) return;
-  for (const double offset : {-4.0, 13.0}) {
-    if (!inside(plot_.right - w - 4.0, py + offset - 9.0, plot_.right, py + offset + 3.0)) continue;
-    if (svg_.text({plot_.right - 4.0, py + offset}, Anchor::kEnd, words, text)) return;
-    if (svg_.text({plot_.left + 4.0, py + offset}, Anchor::kStart, words, text)) return;
+void Panel::levels_y(const std::vector<Level>& levels) {
+  const auto is_inside = [&](const Level& level) {
+    const double py = y_at(level.at);
+    return py >= plot_.top - 0.5 && py <= plot_.bottom + 0.5;
+  };
+  for (const Level& level : levels) {
+    if (!is_inside(level)) continue;
+    const Point left{plot_.left, y_at(level.at)}, right{plot_.right, y_at(level.at)};
+    svg_.line(left, right, level.style);
+    ink_line(left, right);
+  }
+  for (const Level& level : levels) {
+    if (!is_inside(level)) continue;
+    const double py = y_at(level.at), w = text_width(level.words, kTickSize);
+    std::vector<Place> places;
+    for (const double share : {1.0, 0.0, 0.75, 0.5, 0.25})
+      for (const double offset : {-4.0, 13.0})
+        add_place({plot_.left + 4.0 + share * (plot_.width() - w - 8.0), py + offset},
+                  Anchor::kStart, w, kTickSize, places);
+    put(std::move(places), level.words,
+        {.size = kTickSize, .paint = level.style.paint, .halo = kHalo});
   }
 }
 
@@ -190,16 +285,13 @@ void Panel::label_at(double x, double y, const std::string& words) {
 
 bool Panel::label(double x, double y, const std::string& words, const TextStyle& style) {
   const Point p = at(x, y);
-  const double w = text_width(words, style.size), h = style.size;
-  for (const double dy : {-7.0, 4.0, -20.0, 14.0, 27.0})
-    for (const bool right : {true, false}) {
-      const double left = right ? p.x + 7.0 : p.x - 7.0 - w;
-      if (!inside(left, p.y + dy - h, left + w, p.y + dy + 3.0)) continue;
-      if (svg_.text({right ? left : p.x - 7.0, p.y + dy}, right ? Anchor::kStart : Anchor::kEnd,
-                    words, style))
-        return true;
-    }
-  return false;
+  const double w = text_width(words, style.size);
+  std::vector<Place> places;
+  for (const double dy : {-7.0, 4.0, -20.0, 14.0, 27.0}) {
+    add_place({p.x + 7.0, p.y + dy}, Anchor::kStart, w, style.size, places);
+    add_place({p.x - 7.0, p.y + dy}, Anchor::kEnd, w, style.size, places);
+  }
+  return put(std::move(places), words, style);
 }
 
 }  // namespace plumb::offline::draw

@@ -35,6 +35,8 @@ class Panel {
   double y_high() const { return y_.high; }
 
   void mark(double x, double y, const Mark& mark);
+
+  /// What of the line lies inside the frame.
   void line(const std::vector<Point>& values, const LineStyle& style);
 
   /// Between two curves over the same x; points are (x, low) and (x, high).
@@ -44,12 +46,18 @@ class Panel {
   void bar(double x0, double y0, double x1, double y1, const Paint& paint,
            const LineStyle& edge = {.paint = {}}, const std::string& words = {});
 
-  /// A line across the panel at this x or y, with its name if there is room for it.
-  void level_x(double x, const std::string& words, const LineStyle& style);
-  void level_y(double y, const std::string& words, const LineStyle& style);
+  /// Lines across the panel at these x or y, each with its name if there is room for it: beside its
+  /// line, where it covers the fewest marks and lines of those that were drawn before.
+  struct Level {
+    double at = 0.0;
+    std::string words;
+    LineStyle style;
+  };
+  void levels_x(const std::vector<Level>& levels);
+  void levels_y(const std::vector<Level>& levels);
 
-  /// A label beside the point (x, y), in the first free place around it inside the frame. Returns
-  /// whether there was one.
+  /// A label beside the point (x, y), inside the frame, where it covers the fewest marks and lines.
+  /// Returns whether there was room.
   bool label(double x, double y, const std::string& words,
              const TextStyle& style = {.size = 11.0, .halo = 3.0});
 
@@ -59,11 +67,23 @@ class Panel {
  private:
   void draw_x_ticks(const std::vector<Tick>& ticks);
   void draw_y_ticks(const std::vector<Tick>& ticks);
-  bool inside(double left, double top, double right, double bottom) const;
+
+  /// A place of a label and how much of the drawing it would cover there.
+  struct Place {
+    Point at;
+    Anchor anchor = Anchor::kStart;
+    double covered = 0.0;
+  };
+  void add_place(Point at, Anchor anchor, double words_width, double size,
+                 std::vector<Place>& places) const;
+  bool put(std::vector<Place> places, const std::string& words, const TextStyle& style);
+  void ink_line(Point from, Point to);
 
   Svg& svg_;
   Axis x_, y_;
   Box plot_;
+  std::vector<Box> ink_;    // of marks, and pieces of lines [px]
+  std::vector<Box> areas_;  // of bars [px]
 };
 
 }  // namespace plumb::offline::draw

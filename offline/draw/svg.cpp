@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "draw/text_width.hpp"
 #include "program/utf8.hpp"
@@ -34,23 +33,46 @@ constexpr const char* name_of(Anchor anchor) {
   return anchor == Anchor::kStart ? "start" : anchor == Anchor::kMiddle ? "middle" : "end";
 }
 
+/// With one decimal, and none if that is 0: "12.5", "12", "-3".
+std::string number(double value) {
+  std::string out = fmt::format("{:.1f}", value);
+  if (out.ends_with(".0")) out.resize(out.size() - 2);
+  return out == "-0" ? "0" : out;
+}
+
+/// Two numbers of a path; a minus sign parts them as well as a blank does.
+std::string pair_of(double x, double y) {
+  const std::string second = number(y);
+  return number(x) + (second.front() == '-' ? "" : " ") + second;
+}
+
 std::string path_of(Point at, Shape shape, double r) {
   switch (shape) {
     case Shape::kSquare:
       r *= 0.9;
-      return fmt::format("M{:.1f} {:.1f}h{:.1f}v{:.1f}h{:.1f}z", at.x - r, at.y - r, 2 * r, 2 * r,
-                         -2 * r);
+      return fmt::format("M{}h{}v{}h{}z", pair_of(at.x - r, at.y - r), number(2 * r), number(2 * r),
+                         number(-2 * r));
     case Shape::kTriangle:
-      return fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}h{:.1f}z", at.x, at.y - 1.2 * r, 1.15 * r,
-                         2.0 * r, -2.3 * r);
+      return fmt::format("M{}l{}h{}z", pair_of(at.x, at.y - 1.2 * r), pair_of(1.15 * r, 2.0 * r),
+                         number(-2.3 * r));
     case Shape::kDiamond:
       r *= 1.25;
-      return fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}l{3:.1f} {2:.1f}l{3:.1f} {3:.1f}z", at.x,
-                         at.y - r, r, -r);
+      return fmt::format("M{}l{}l{}l{}z", pair_of(at.x, at.y - r), pair_of(r, r), pair_of(-r, r),
+                         pair_of(-r, -r));
     default:
-      return fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}m0 {3:.1f}l{3:.1f} {2:.1f}", at.x - r,
-                         at.y - r, 2 * r, -2 * r);
+      return fmt::format("M{}l{}m0 {}l{}", pair_of(at.x - r, at.y - r), pair_of(2 * r, 2 * r),
+                         number(-2 * r), pair_of(-2 * r, 2 * r));
   }
+}
+
+Paint fill_of(const Mark& mark) {
+  if (mark.shape == Shape::kCross) return {};
+  return mark.fill == Mark::Fill::kHollow ? Paint(Tone::kPaper) : mark.paint;
+}
+
+LineStyle edge_of(const Mark& mark) {
+  const bool lined = mark.fill == Mark::Fill::kHollow || mark.shape == Shape::kCross;
+  return {.paint = lined ? mark.paint : Paint(Tone::kPaper), .width = lined ? 1.3 : 0.6};
 }
 
 }  // namespace
@@ -94,6 +116,7 @@ bool Svg::text(Point at, Anchor anchor, const std::string& words, const TextStyl
   for (const Box& other : texts_)
     if (wide.overlaps(other)) return false;
   texts_.push_back(box);
+  end_group();
   body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{:g}\"",
                        at.x, at.y, name_of(anchor), style.size);
   if (style.weight == TextStyle::Weight::kBold) body_ += " font-weight=\"600\"";
@@ -117,6 +140,22 @@ void Svg::attributes(const Paint& fill, const LineStyle& edge) {
   if (!edge.dashes.empty()) body_ += fmt::format(" stroke-dasharray=\"{}\"", edge.dashes);
 }
 
+void Svg::group(const Paint& fill, const LineStyle& edge) {
+  const std::size_t end = body_.size();
+  attributes(fill, edge);
+  std::string wanted = body_.substr(end);
+  body_.resize(end);
+  if (wanted == group_) return;
+  end_group();
+  body_ += "<g" + wanted + ">\n";
+  group_ = std::move(wanted);
+}
+
+void Svg::end_group() {
+  if (!group_.empty()) body_ += "</g>\n";
+  group_.clear();
+}
+
 void Svg::close(const char* element, const std::string& pose, const std::string& words) {
   if (!pose.empty()) body_ += fmt::format(" data-pose=\"{}\"", escaped(pose));
   if (words.empty())
@@ -129,6 +168,7 @@ void Svg::line(Point from, Point to, const LineStyle& style) { polyline({from, t
 
 void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
   if (points.empty()) return;
+  end_group();
   body_ += "<path d=\"";
   bool begun = false;
   for (const Point& p : points) {
@@ -136,7 +176,7 @@ void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
       begun = false;
       continue;
     }
-    fmt::format_to(std::back_inserter(body_), "{}{:.1f} {:.1f}", begun ? 'L' : 'M', p.x, p.y);
+    (body_ += begun ? 'L' : 'M') += pair_of(p.x, p.y);
     begun = true;
   }
   body_ += "\"";
@@ -146,11 +186,12 @@ void Svg::polyline(const std::vector<Point>& points, const LineStyle& style) {
 
 void Svg::area(const std::vector<Point>& outline, const Paint& fill, double opacity) {
   if (outline.size() < 3) return;  // a path must begin somewhere
+  end_group();
   body_ += "<path d=\"";
   char move = 'M';
   for (const Point& p : outline) {
     if (!std::isfinite(p.x + p.y)) continue;
-    fmt::format_to(std::back_inserter(body_), "{}{:.1f} {:.1f}", move, p.x, p.y);
+    (body_ += move) += pair_of(p.x, p.y);
     move = 'L';
   }
   body_ += "z\"";
@@ -162,52 +203,85 @@ void Svg::area(const std::vector<Point>& outline, const Paint& fill, double opac
 void Svg::box(const Box& box, const Paint& fill, const LineStyle& edge, const std::string& pose,
               const std::string& words) {
   if (!std::isfinite(box.left + box.top + box.right + box.bottom)) return;
-  body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"",
-                       box.left, box.top, std::max(0.0, box.width()), std::max(0.0, box.height()));
-  attributes(fill, edge);
+  group(fill, edge);
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", number(box.left),
+                       number(box.top), number(std::max(0.0, box.width())),
+                       number(std::max(0.0, box.height())));
   close("rect", pose, words);
+}
+
+void Svg::boxes(const std::vector<Box>& boxes, const Paint& fill) {
+  std::string path;
+  for (const Box& box : boxes)
+    if (std::isfinite(box.left + box.top + box.right + box.bottom))
+      path += fmt::format("M{}h{}v{}h{}z", pair_of(box.left, box.top), number(box.width()),
+                          number(box.height()), number(-box.width()));
+  if (path.empty()) return;
+  end_group();
+  body_ += "<path d=\"" + path + "\"";
+  attributes(fill, {.paint = {}});
+  close("path", {}, {});
 }
 
 void Svg::mark(Point at, const Mark& mark) {
   if (!std::isfinite(at.x + at.y)) return;
-  const bool hollow = mark.fill == Mark::Fill::kHollow;
-  const bool cross = mark.shape == Shape::kCross;
-  const Paint fill = cross ? Paint() : hollow ? Paint(Tone::kPaper) : mark.paint;
-  const LineStyle edge{.paint = hollow || cross ? mark.paint : Paint(Tone::kPaper),
-                       .width = hollow || cross ? 1.3 : 0.6};
-  if (mark.shape == Shape::kCircle)
-    body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\"", at.x, at.y, mark.size);
+  group(fill_of(mark), edge_of(mark));
+  const bool circle = mark.shape == Shape::kCircle;
+  if (circle)
+    body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{:g}\"", number(at.x), number(at.y),
+                         mark.size);
   else
     body_ += fmt::format("<path d=\"{}\"", path_of(at, mark.shape, mark.size));
-  attributes(fill, edge);
-  close(mark.shape == Shape::kCircle ? "circle" : "path", mark.pose, mark.words);
+  close(circle ? "circle" : "path", mark.pose, mark.words);
+}
+
+void Svg::marks(const std::vector<Point>& at, const Mark& mark) {
+  const bool circle = mark.shape == Shape::kCircle;
+  std::string path;
+  for (const Point& p : at)
+    if (std::isfinite(p.x + p.y))
+      path += circle ? "M" + pair_of(p.x, p.y) + "h0" : path_of(p, mark.shape, mark.size);
+  if (path.empty()) return;
+  end_group();
+  body_ += "<path d=\"" + path + "\"";
+  if (circle) {
+    body_ += " stroke-linecap=\"round\"";
+    attributes({}, {.paint = mark.paint, .width = 2.0 * mark.size});
+  } else {
+    attributes(fill_of(mark), edge_of(mark));
+  }
+  close("path", {}, mark.words);
 }
 
 void Svg::arrow(Point from, Point to, const LineStyle& style, const std::string& pose,
                 const std::string& words) {
   if (!std::isfinite(from.x + from.y + to.x + to.y)) return;
-  body_ += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}", from.x, from.y, to.x, to.y);
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  group({}, style);
+  const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
+  body_ += "<path d=\"M" + pair_of(from.x, from.y) + "l" + pair_of(dx, dy);
   if (length > kShortest) {
-    const double ux = kHead * (to.x - from.x) / length, uy = kHead * (to.y - from.y) / length;
-    for (const double side : {-0.5, 0.5})
-      body_ += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", to.x, to.y, to.x - ux + side * uy,
-                           to.y - uy - side * ux);
+    // From one barb over the tip to the other.
+    const double ux = kHead * dx / length, uy = kHead * dy / length;
+    body_ += "m" + pair_of(-ux - 0.5 * uy, -uy + 0.5 * ux) + "l" +
+             pair_of(ux + 0.5 * uy, uy - 0.5 * ux) + "l" + pair_of(-ux + 0.5 * uy, -uy - 0.5 * ux);
   }
   body_ += "\"";
-  attributes({}, style);
   close("path", pose, words);
 }
 
 void Svg::clip(const Box& box) {
   // A nested drawing clips by itself; an identifier could occur twice in a page.
+  end_group();
   body_ += fmt::format(
       "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" "
       "viewBox=\"{0:.1f} {1:.1f} {2:.1f} {3:.1f}\">\n",
       box.left, box.top, box.width(), box.height());
 }
 
-void Svg::end_clip() { body_ += "</svg>\n"; }
+void Svg::end_clip() {
+  end_group();
+  body_ += "</svg>\n";
+}
 
 std::string Svg::file(double height, const std::string& label) const {
   return fmt::format(
@@ -221,7 +295,7 @@ std::string Svg::file(double height, const std::string& label) const {
              "</style>\n<rect class=\"f0\" width=\"{:.0f}\" height=\"{:.0f}\" "
              "fill=\"#ffffff\"/>\n",
              width_, std::ceil(height)) +
-         body_ + "</svg>\n";
+         body_ + (group_.empty() ? "" : "</g>\n") + "</svg>\n";
 }
 
 }  // namespace plumb::offline::draw

@@ -73,6 +73,11 @@ class Svg {
   void box(const Box& box, const Paint& fill, const LineStyle& edge = {.paint = {}},
            const std::string& pose = {}, const std::string& words = {});
   void mark(Point at, const Mark& mark);
+
+  /// Equal marks, or boxes of one paint, in one element: without names of poses, and with words
+  /// that hold for all of them. A circle is drawn without an edge.
+  void marks(const std::vector<Point>& at, const Mark& mark);
+  void boxes(const std::vector<Box>& boxes, const Paint& fill);
   void arrow(Point from, Point to, const LineStyle& style, const std::string& pose = {},
              const std::string& words = {});
 
@@ -87,9 +92,14 @@ class Svg {
   void attributes(const Paint& fill, const LineStyle& edge);
   void close(const char* element, const std::string& pose, const std::string& words);
 
+  /// Elements in a row that are painted alike stand in one group, which says once how.
+  void group(const Paint& fill, const LineStyle& edge);
+  void end_group();
+
   double width_;
   std::vector<Box> texts_;
   std::string body_;
+  std::string group_;  // how the open group is painted; empty: none is open
 };
 
 }  // namespace plumb::offline::draw

@@ -167,14 +167,19 @@ std::string latency_figure(const Benchmark& found, double width) {
   panel.band(floor, filled, Tone::kBand);
   panel.line(filled, warm_line);
   panel.line(outline_of(cold), cold_line);
-  panel.level_x(budget_ns, fmt::format("cycle {}", duration(budget_ns)),
-                {.paint = Tone::kPurple, .width = 1.4, .dashes = "6 3"});
+  std::vector<draw::Panel::Level> levels{
+      {.at = budget_ns,
+       .words = fmt::format("cycle {}", duration(budget_ns)),
+       .style = {.paint = Tone::kPurple, .width = 1.4, .dashes = "6 3"}}};
   if (!warm.ns.empty())
-    panel.level_x(shown_ns(warm.most()), "worst, in the caches: " + duration(warm.most()),
-                  {.paint = Tone::kBlue, .width = 1.2});
+    levels.push_back({.at = shown_ns(warm.most()),
+                      .words = "worst, in the caches: " + duration(warm.most()),
+                      .style = {.paint = Tone::kBlue, .width = 1.2}});
   if (!cold.ns.empty())
-    panel.level_x(shown_ns(cold.most()), "worst, swept: " + duration(cold.most()),
-                  {.paint = Tone::kVermilion, .width = 1.2, .dashes = "6 3"});
+    levels.push_back({.at = shown_ns(cold.most()),
+                      .words = "worst, swept: " + duration(cold.most()),
+                      .style = {.paint = Tone::kVermilion, .width = 1.2, .dashes = "6 3"}});
+  panel.levels_x(levels);
   return sheet.file();
 }
 
@@ -204,11 +209,16 @@ std::string cost_figure(const Benchmark& found, double width) {
       "frames and loads, so the bars do not add up. The inverse correction evaluates effects and "
       "trees three times in a step, six joints or others alike.");
   if (left_out > 0) notes.push_back(fmt::format("{} cheaper effects are left out.", left_out));
+  std::vector<draw::LegendEntry> legend;
+  for (const auto& [tone, words] :
+       {std::pair{Tone::kMuted, "always"}, std::pair{Tone::kBlue, "added by an effect"},
+        std::pair{Tone::kOrange, "added by the trees"}})
+    if (std::any_of(parts.begin(), parts.end(),
+                    [of = tone](const CostPart& part) { return part.tone == of; }))
+      legend.push_back({.words = words, .area = tone});
   draw::Sheet sheet(width, {.title = "What the parts of the model cost in a cycle",
                             .sentence = sentence,
-                            .legend = {{.words = "always", .area = Tone::kMuted},
-                                       {.words = "added by an effect", .area = Tone::kBlue},
-                                       {.words = "added by the trees", .area = Tone::kOrange}},
+                            .legend = std::move(legend),
                             .notes = std::move(notes)});
   double most = 1.0;
   for (const CostPart& part : parts) most = std::max(most, part.ns);

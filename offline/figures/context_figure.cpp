@@ -17,7 +17,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostContextPoints = 600;  // in each panel
+constexpr std::size_t kMostContextPoints = 300;  // in each panel
 constexpr int kContextSteps = 10;                // of the local means
 constexpr double kFewestInStep = 4.0;
 constexpr double kContext95 = 1.96;
@@ -179,6 +179,11 @@ ContextMeans means_of(const RunResults& results, const Known& known, int axis, d
 
 }  // namespace
 
+bool context_varies(const RunResults& results, Quantity quantity) {
+  const auto all = known_of(results, quantity);
+  return std::any_of(all.begin(), all.end(), [](const Known& known) { return varies(known); });
+}
+
 std::string context_figure(const RunResults& results, Quantity quantity, double width) {
   const auto all = known_of(results, quantity);
   auto notes = error_notes(results);
@@ -202,11 +207,12 @@ std::string context_figure(const RunResults& results, Quantity quantity, double 
                     "all.",
                     kMostContextPoints, longest));
   std::vector<draw::LegendEntry> legend;
-  if (!all.empty())
-    legend = {{.words = "held out", .mark = Mark{}},
-              {.words = "fitted", .mark = Mark{.fill = Mark::Fill::kHollow}},
-              {.words = "mean of equally many poses", .line = draw::LineStyle{Tone::kInk, 2.0}},
-              {.words = "its 95 % interval", .area = Tone::kBand}};
+  if (!all.empty()) {
+    legend = pose_legend(results);
+    legend.push_back(
+        {.words = "mean of equally many poses", .line = draw::LineStyle{Tone::kInk, 2.0}});
+    legend.push_back({.words = "its 95 % interval", .area = Tone::kBand});
+  }
   draw::Sheet sheet(width,
                     {.title = fmt::format("What the model leaves, over {}", name_of(quantity)),
                      .sentence = context_sentence(results, quantity, all),
@@ -232,17 +238,19 @@ std::string context_figure(const RunResults& results, Quantity quantity, double 
       panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
       const double stride =
           std::max(1.0, static_cast<double>(known.rows.size()) / kMostContextPoints);
-      for (double at = 0.0; at < static_cast<double>(known.rows.size()); at += stride) {
-        const auto i = static_cast<std::size_t>(at);
-        const int row = known.rows[i];
-        const bool held = std::binary_search(results.held.begin(), results.held.end(), row);
-        const double e = unit.per_m * results.after_M(row, axes[k]);
-        panel.mark(known.value[i], std::clamp(e, panel.y_low(), panel.y_high()),
-                   {.fill = held ? Mark::Fill::kFilled : Mark::Fill::kHollow,
-                    .size = 2.4,
-                    .pose = results.pose(row),
-                    .words = pose_numbers(results, row)});
-      }
+      for (const bool is_held : {false, true})  // these on top
+        for (double at = 0.0; at < static_cast<double>(known.rows.size()); at += stride) {
+          const auto i = static_cast<std::size_t>(at);
+          const int row = known.rows[i];
+          if (std::binary_search(results.held.begin(), results.held.end(), row) != is_held)
+            continue;
+          const double e = unit.per_m * results.after_M(row, axes[k]);
+          panel.mark(known.value[i], std::clamp(e, panel.y_low(), panel.y_high()),
+                     {.fill = is_held ? Mark::Fill::kFilled : Mark::Fill::kHollow,
+                      .size = 2.4,
+                      .pose = results.pose(row),
+                      .words = pose_numbers(results, row)});
+        }
       panel.line(means.middle, {.paint = Tone::kPaper, .width = 4.0});
       panel.line(means.middle, {.paint = Tone::kInk, .width = 2.0});
       for (const auto& mean : means.middle)

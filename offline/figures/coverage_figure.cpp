@@ -16,6 +16,7 @@ namespace {
 using draw::Tone;
 
 constexpr int kCoverageBins = 24;
+constexpr double kAlmostAll = 0.9;  // of the range of a joint
 
 /// Where the poses lie between the limits of one joint, in [deg] or [mm].
 struct JointCoverage {
@@ -26,6 +27,8 @@ struct JointCoverage {
   double used_low = INFINITY, used_high = -INFINITY;
   double gap_from = 0.0, gap_to = 0.0;  // the widest one, limits included
 
+  /// The widest part without a pose, as a share of the range.
+  double gap() const { return high > low ? (gap_to - gap_from) / (high - low) : 0.0; }
   double used() const {
     return high > low && used_high >= used_low ? (used_high - used_low) / (high - low) : 0.0;
   }
@@ -67,6 +70,16 @@ std::string coverage_sentence(const std::vector<JointCoverage>& joints) {
   for (const auto& joint : joints)
     if (least == nullptr || joint.used() < least->used()) least = &joint;
   if (least == nullptr || least->used_high < least->used_low) return "No pose is in use.";
+  if (least->used() >= kAlmostAll) {
+    const JointCoverage* widest = least;
+    for (const auto& joint : joints)
+      if (joint.gap() > widest->gap()) widest = &joint;
+    return fmt::format(
+        "Every joint used at least {:.0f} % of its range; the widest part without a pose is that "
+        "of {} between {:.0f} and {:.0f} {}.",
+        std::floor(100.0 * least->used()), widest->name, widest->gap_from, widest->gap_to,
+        widest->unit);
+  }
   return fmt::format(
       "{} used the least of its range: {:.0f} to {:.0f} {}, {:.0f} % of it; nothing "
       "was measured between {:.0f} and {:.0f} {}.",

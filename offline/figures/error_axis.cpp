@@ -40,18 +40,19 @@ ErrorAxis error_axis(const RunResults& results) {
 
 void draw_limits(const RunResults& results, const ErrorAxis& axis, Along along,
                  draw::Panel& panel) {
+  std::vector<draw::Panel::Level> levels;
   const auto level = [&](double value_m, const char* name, draw::Tone tone, const char* dashes) {
-    const double at = value_m * axis.unit.per_m;
-    const draw::LineStyle style{.paint = tone, .width = 1.4, .dashes = dashes};
-    const std::string words = std::string(name) + " " + length_text(value_m);
-    if (along == Along::kX)
-      panel.level_x(at, words, style);
-    else
-      panel.level_y(at, words, style);
+    levels.push_back({.at = value_m * axis.unit.per_m,
+                      .words = std::string(name) + " " + length_text(value_m),
+                      .style = {.paint = tone, .width = 1.4, .dashes = dashes}});
   };
   level(results.cell.tolerance_m, "tolerance", draw::Tone::kPurple, "6 3");
   if (results.run.fit.floor.mean_m > 0.0)
     level(results.run.fit.floor.mean_m, "noise floor", draw::Tone::kGreen, "2 2");
+  if (along == Along::kX)
+    panel.levels_x(levels);
+  else
+    panel.levels_y(levels);
 }
 
 }  // namespace plumb::offline::figures

@@ -15,7 +15,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostPoses = 1200, kNamedPoses = 6;
+constexpr std::size_t kMostPoses = 1200, kNamedPoses = 3;
 
 }  // namespace
 

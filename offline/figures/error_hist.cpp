@@ -91,10 +91,13 @@ std::string hist_sentence(const RunResults& results) {
 }  // namespace
 
 std::string error_hist(const RunResults& results, double width) {
-  std::vector<draw::LegendEntry> legend{
-      {.words = "before, held out", .area = Tone::kVermilion},
-      {.words = "after, held out", .area = Tone::kBlue},
-      {.words = "fitted poses (outline)", .line = draw::LineStyle{Tone::kBlue, 1.4}}};
+  std::vector<draw::LegendEntry> legend;
+  if (!results.held.empty())
+    legend = {{.words = "before, held out", .area = Tone::kVermilion},
+              {.words = "after, held out", .area = Tone::kBlue}};
+  if (!results.fit.empty())
+    legend.push_back(
+        {.words = "fitted poses (outline)", .line = draw::LineStyle{Tone::kBlue, 1.4}});
   draw::Sheet sheet(width, {.title = "Distribution of the error, before and after calibration",
                             .sentence = hist_sentence(results),
                             .legend = std::move(legend),

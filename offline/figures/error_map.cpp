@@ -111,8 +111,8 @@ std::string error_map(const RunResults& results, double width) {
                          {.words = "after", .line = draw::LineStyle{Tone::kBlue, 1.8}}},
               .notes = std::move(notes)});
   auto panels = views.panels(sheet);
-  for (std::size_t k = 0; k < kViews.size(); ++k)
-    draw_view(results, map, kViews[k], rows, factor, sheet.svg(), panels[k]);
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    draw_view(results, map, views.views()[k], rows, factor, sheet.svg(), panels[k]);
   return sheet.file();
 }
 

@@ -8,6 +8,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
+#include "effects/registry.hpp"
 #include "figures/words.hpp"
 
 namespace plumb::offline::figures {
@@ -30,9 +31,9 @@ std::string joint_names(const Cell& cell, const std::vector<int>& joints,
 }
 
 std::string candidate_name(const Cell& cell, const Candidate& c) {
-  return c.entry.joints.empty()
-             ? c.title
-             : c.title + " of " + joint_names(cell, c.entry.joints, ", ", " and ");
+  if (c.entry.joints.empty()) return c.title;
+  return c.title + (is_change_point(c.entry.name) ? " at " : " of ") +
+         joint_names(cell, c.entry.joints, ", ", " and ");
 }
 
 /// "gear_harmonics:J2", as other candidates name it.
@@ -58,9 +59,10 @@ std::string evidence_sentence(const Cell& cell, const Diagnosis& d) {
   const std::string name = candidate_name(cell, first);
   if (!first.supported)
     return fmt::format(
-        "No further effect is supported: the best one, {}, would change the error by "
-        "{:.1f} ± {:.1f} %.",
-        name, -100.0 * first.gain, 100.0 * first.gain_se);
+        "No further effect is supported: the first one, {}, would {} the error by {:.1f} ± "
+        "{:.1f} %.",
+        name, first.gain < 0.0 ? "raise" : "lower", 100.0 * std::abs(first.gain),
+        100.0 * first.gain_se);
   std::string out = fmt::format("Adding {} takes the mean error of held-out poses from {} to {}",
                                 name, length_text(d.before.mean), length_text(first.alone.mean));
   if (d.before.n == 0)
@@ -79,6 +81,31 @@ std::string figures_text(const Candidate& c, bool is_first) {
   std::string out = "ln Bayes " + ln_text(c.ln_bayes);
   if (c.alone.n > 0) out += "; alone " + length_text(c.alone.mean);
   if (!is_first && c.after.n > 0) out += "; with the first " + length_text(c.after.mean);
+  return out;
+}
+
+Tone tone_of(const Candidate& c) {
+  return !c.supported ? Tone::kGrid : c.plausible ? Tone::kBlue : Tone::kOrange;
+}
+
+/// Of what occurs among the first `n` candidates.
+std::vector<draw::LegendEntry> evidence_legend(const Cell& cell, const Diagnosis& d,
+                                               std::size_t n) {
+  std::vector<draw::LegendEntry> out;
+  const auto any = [&](const auto& is) {
+    return std::any_of(d.candidates.begin(), d.candidates.begin() + static_cast<std::ptrdiff_t>(n),
+                       is);
+  };
+  for (const auto& [tone, words] : {std::pair{Tone::kBlue, "supported"},
+                                    std::pair{Tone::kOrange, "supported, of an unusual size"},
+                                    std::pair{Tone::kGrid, "not supported"}})
+    if (any([of = tone](const Candidate& c) { return tone_of(c) == of; }))
+      out.push_back({.words = words, .area = tone});
+  if (any([&](const Candidate& c) {
+        return &c != &d.candidates.front() && is_like_first(cell, d.candidates.front(), c);
+      }))
+    out.push_back({.words = "hard to tell from the first",
+                   .mark = draw::Mark{draw::Shape::kDiamond, Tone::kPurple}});
   return out;
 }
 
@@ -102,15 +129,10 @@ std::string evidence(const Cell& cell, const Diagnosis& d, double width) {
           "effects cannot be tested with these data.",
           poses_text(d), length_text(d.before.mean), n, d.candidates.size(),
           d.not_testable.size())};
-  draw::Sheet sheet(width,
-                    {.title = "Which effect is missing",
-                     .sentence = evidence_sentence(cell, d),
-                     .legend = {{.words = "supported", .area = Tone::kBlue},
-                                {.words = "supported, of an unusual size", .area = Tone::kOrange},
-                                {.words = "not supported", .area = Tone::kGrid},
-                                {.words = "hard to tell from the first",
-                                 .mark = draw::Mark{draw::Shape::kDiamond, Tone::kPurple}}},
-                     .notes = std::move(notes)});
+  draw::Sheet sheet(width, {.title = "Which effect is missing",
+                            .sentence = evidence_sentence(cell, d),
+                            .legend = evidence_legend(cell, d, n),
+                            .notes = std::move(notes)});
   double low = 0.0, high = 1.0;
   for (std::size_t i = 0; i < n; ++i) {
     const Candidate& c = d.candidates[i];
@@ -125,14 +147,13 @@ std::string evidence(const Cell& cell, const Diagnosis& d, double width) {
   for (std::size_t i = 0; i < n; ++i) {
     const Candidate& c = d.candidates[i];
     const double top = rows - static_cast<double>(i), gain = 100.0 * c.gain, se = 100.0 * c.gain_se;
-    const Tone tone = !c.supported ? Tone::kGrid : c.plausible ? Tone::kBlue : Tone::kOrange;
+    const Tone tone = tone_of(c);
     panel.bar(0.0, top - 0.95, std::max(gain, panel.x_low()), top - 0.72, tone,
               {.paint = Tone::kMuted, .width = 0.6},
               fmt::format("{}: {:.1f} ± {:.1f} %", candidate_name(cell, c), gain, se));
     panel.line({{std::max(gain - se, panel.x_low()), top - 0.835}, {gain + se, top - 0.835}},
                {.paint = Tone::kInk, .width = 1.6});
-    const bool like = i > 0 && is_like_first(cell, d.candidates.front(), c);
-    if (like)
+    if (i > 0 && is_like_first(cell, d.candidates.front(), c))
       panel.mark(std::max(panel.x_low(), std::max(gain + se, 0.0)) +
                      0.02 * (panel.x_high() - panel.x_low()),
                  top - 0.835,

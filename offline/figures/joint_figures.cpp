@@ -18,7 +18,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostPoints = 1000, kMostSmallPoints = 200;
+constexpr std::size_t kMostPoints = 500, kMostSmallPoints = 200;
 constexpr double kOverMedian = 1.5;  // of the ranges of the joints: the locked scale
 constexpr int kLawPoints = 181;
 constexpr double kLaw95 = 1.96;
@@ -78,6 +78,35 @@ std::string joint_sentence(const JointResidual& joint) {
       100.0 * removed_share(joint));
 }
 
+bool stands_out(const JointResidual& joint) { return extremes_of(joint).most_times >= kStandOut; }
+
+/// The joint whose local mean stands out and explains most; if none stands out, the one that is
+/// nearest to it. Null without joints.
+const JointResidual* joint_to_name(const std::vector<JointResidual>& joints) {
+  const JointResidual* out = nullptr;
+  for (const auto& joint : joints) {
+    const auto is_more = [&] {
+      if (stands_out(joint) != stands_out(*out)) return stands_out(joint);
+      if (stands_out(joint)) return removed_share(joint) > removed_share(*out);
+      return extremes_of(joint).most_times > extremes_of(*out).most_times;
+    };
+    if (out == nullptr || is_more()) out = &joint;
+  }
+  return out;
+}
+
+std::string joints_sentence(const std::vector<JointResidual>& joints) {
+  const JointResidual* joint = joint_to_name(joints);
+  if (joint == nullptr) return "No joint moves in these poses.";
+  const Extremes at = extremes_of(*joint);
+  if (at.low == nullptr || stands_out(*joint)) return joint_sentence(*joint);
+  return fmt::format(
+      "Nothing that depends on the position of a joint stands out: chance explains the local mean "
+      "of each. The nearest to a finding is {}, with a mean within {} {} of zero.",
+      joint->name, draw::digits(1e6 * std::max(at.high->value, -at.low->value), 2),
+      deviation_unit(*joint));
+}
+
 bool knows_sides(const JointResidual& joint) {
   return std::any_of(joint.poses.begin(), joint.poses.end(),
                      [](const auto& pose) { return pose.side != 0; });
@@ -113,8 +142,15 @@ void draw_joint(const RunResults& results, const JointResidual& joint,
   panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
   const double stride =
       std::max(1.0, static_cast<double>(joint.poses.size()) / static_cast<double>(most));
-  for (double at = 0.0; at < static_cast<double>(joint.poses.size()); at += stride) {
-    const auto& pose = joint.poses[static_cast<std::size_t>(at)];
+  std::vector<const JointResidual::Pose*> drawn;
+  for (double at = 0.0; at < static_cast<double>(joint.poses.size()); at += stride)
+    drawn.push_back(&joint.poses[static_cast<std::size_t>(at)]);
+  // One kind after the other, the held-out ones on top.
+  std::stable_sort(drawn.begin(), drawn.end(), [](const auto* a, const auto* b) {
+    return std::pair(a->held, a->side) < std::pair(b->held, b->side);
+  });
+  for (const auto* one : drawn) {
+    const auto& pose = *one;
     Mark mark = joint_mark(pose, size);
     mark.pose = results.pose(pose.row);
     mark.words = fmt::format("{}: {} at {:.1f} {}, {} {}, error {}", mark.pose, joint.name,
@@ -270,12 +306,9 @@ std::string joint_figure(const RunResults& results, const JointResidual& residua
 std::string joints_figure(const RunResults& results, double width) {
   const auto joints = joint_residuals(results);
   double half = 0.0;
-  const JointResidual* first = nullptr;
   bool sides = false, thinned_out = false;
   for (const auto& joint : joints) {
     half = std::max(half, half_range(joint));
-    const bool clear = extremes_of(joint).most_times >= kStandOut;
-    if (first == nullptr || (clear && removed_share(joint) > removed_share(*first))) first = &joint;
     sides = sides || knows_sides(joint);
     thinned_out = thinned_out || joint.poses.size() > kMostSmallPoints;
   }
@@ -294,8 +327,7 @@ std::string joints_figure(const RunResults& results, double width) {
   auto legend = joint_legend(results, sides);
   add_mean_legend(legend);
   draw::Sheet sheet(width, {.title = "What the model leaves, as a deviation of each joint",
-                            .sentence = first == nullptr ? "No joint moves in these poses."
-                                                         : joint_sentence(*first),
+                            .sentence = joints_sentence(joints),
                             .legend = std::move(legend),
                             .notes = std::move(notes)});
   const auto rooms = sheet.grid(static_cast<int>(joints.size()), 240.0, 210.0);

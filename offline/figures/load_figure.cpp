@@ -20,7 +20,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr std::size_t kMostLoadPoints = 1000;
+constexpr std::size_t kMostLoadPoints = 500;
 constexpr int kLoadSteps = 60;  // of the curve of a fitted law
 constexpr std::size_t kMostSigmas = 100;
 constexpr int kFewLoadSteps = 9;
@@ -253,9 +253,7 @@ std::string load_figure(const RunResults& results, const JointResidual& joint, d
           "numbers of the model, such as the zero of the joint.");
       break;
     }
-  std::vector<draw::LegendEntry> legend{
-      {.words = "held out", .mark = Mark{}},
-      {.words = "fitted", .mark = Mark{.fill = Mark::Fill::kHollow}}};
+  auto legend = pose_legend(results);
   if (shown) {
     legend.push_back({.words = fitted ? "fitted law" : "straight line through what is left",
                       .line = draw::LineStyle{Tone::kInk, 2.0}});

@@ -9,8 +9,8 @@
 /// 4000), whatever the data.
 namespace plumb::offline::figures {
 
-/// Predicted 1 sigma of the corrected point, three axes together, at poses spread over the joint
-/// limits, by the covariance of the run. Cost: poses * numbers^2.
+/// Predicted 1 sigma of the corrected point, the measured axes together, at poses spread over the
+/// joint limits, by the covariance of the run. Cost: poses * numbers^2.
 std::string uncertainty_figure(const RunResults& results, double width);
 
 /// What the trees correct, and where their leaves end, over their two most used inputs; the other
@@ -26,5 +26,8 @@ std::string refusals_figure(const RunResults& results, double width);
 /// sensor.
 enum class Quantity { kTemperature, kPayload, kTime };
 std::string context_figure(const RunResults& results, Quantity quantity, double width);
+
+/// Whether the measurements know that quantity and it was not the same at all poses.
+bool context_varies(const RunResults& results, Quantity quantity);
 
 }  // namespace plumb::offline::figures

@@ -3,43 +3,104 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "figures/words.hpp"
+#include "fit/noise_floor.hpp"
+#include "plan/design_space.hpp"
 #include "plan/information.hpp"
 #include "plan/plan_steps.hpp"
+#include "plan/pose_pool.hpp"
 
 namespace plumb::offline::figures {
 namespace {
 
 using draw::Tone;
 
+constexpr double kLogFall = 10.0;  // from the first to the last sigma: a logarithmic axis
 constexpr int kPool = 800, kJudged = 200;
-constexpr std::uint64_t kPlanSeed = 1, kRandomSeed = 77, kJudgedSeed = 78;
+constexpr double kUsualReading_m = 10e-6;  // 1 sigma per axis if nothing is known of it
+constexpr std::uint64_t kPoolSeed = 1, kRandomSeed = 77, kJudgedSeed = 78;
 
-/// The readings of these poses one after the other, the most telling first or as they come.
+/// G = A M^-1 A^T of some poses, A the whitened derivatives of one. Kept up to date while readings
+/// are added: those costs do not grow with the number of parameters squared.
+class Gains {
+ public:
+  Gains(std::vector<Eigen::MatrixXd> lines, const Eigen::MatrixXd& covariance)
+      : lines_(std::move(lines)) {
+    for (const auto& A : lines_) known_.emplace_back(A * covariance * A.transpose());
+  }
+
+  std::size_t size() const { return lines_.size(); }
+  const Eigen::MatrixXd& lines(std::size_t pose) const { return lines_[pose]; }
+
+  /// ln det(I + G).
+  double nats(std::size_t pose) const {
+    Eigen::MatrixXd grown = known_[pose];
+    grown.diagonal().array() += 1.0;
+    return std::log(grown.determinant());
+  }
+
+  /// Mean 1 sigma of the points, in those of one axis of a reading.
+  double mean_sigma() const {
+    double out = 0.0;
+    for (const auto& G : known_)
+      out += std::sqrt(std::max(0.0, G.trace())) / static_cast<double>(known_.size());
+    return out;
+  }
+
+  /// M^-1 fell by half^T half.
+  void add(const Eigen::MatrixXd& half) {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const Eigen::MatrixXd fallen = lines_[i] * half.transpose();
+      known_[i] -= fallen * fallen.transpose();
+    }
+  }
+
+ private:
+  std::vector<Eigen::MatrixXd> lines_, known_;
+};
+
+/// `n` readings one after the other, the most telling first or as they come; after each, how sure
+/// the judged points are.
 enum class Order { kByWorth, kAsTheyCome };
-std::vector<PoseGain> gains_of(const DesignSpace& space, Information information,
-                               const Measurements& check, const Measurements& poses,
-                               const std::vector<std::string>& names, Order order) {
-  auto left = blocks(space.lines(poses), space.per_pose());
-  auto left_names = names;
+std::vector<PoseGain> gains_of(Gains poses, Gains judged, Eigen::MatrixXd covariance, int n,
+                               double sigma_m, Order order) {
   std::vector<PoseGain> out;
-  while (!left.empty()) {
-    std::size_t best = 0;
-    double most = information.gain(left[0]);
-    for (std::size_t k = 1; order == Order::kByWorth && k < left.size(); ++k)
-      if (const double gain = information.gain(left[k]); gain > most) most = gain, best = k;
-    information.add(left[best]);
-    out.push_back(
-        {left_names[best], most, prediction_sigma(space, check, information.covariance()).mean});
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
-    left_names.erase(left_names.begin() + static_cast<std::ptrdiff_t>(best));
+  std::vector<bool> taken(poses.size(), false);
+  const std::size_t most = std::min(static_cast<std::size_t>(n), poses.size());
+  while (out.size() < most) {
+    std::size_t best = out.size();
+    if (order == Order::kByWorth) {
+      double nats = -INFINITY;
+      for (std::size_t k = 0; k < poses.size(); ++k)
+        if (const double gain = taken[k] ? -INFINITY : poses.nats(k); gain > nats)
+          nats = gain, best = k;
+    }
+    taken[best] = true;
+    const Eigen::MatrixXd& A = poses.lines(best);
+    Eigen::MatrixXd grown = A * covariance * A.transpose();
+    grown.diagonal().array() += 1.0;
+    const Eigen::MatrixXd half = Eigen::LLT<Eigen::MatrixXd>(grown).matrixL().solve(A * covariance);
+    const double nats = poses.nats(best);
+    covariance.noalias() -= half.transpose() * half;
+    poses.add(half);
+    judged.add(half);
+    out.push_back({fmt::format("pose {} of {}", best + 1, poses.size()), nats,
+                   sigma_m * judged.mean_sigma()});
   }
   return out;
+}
+
+/// As a plan takes it: by the repeats, or as stated; not what the model misses.
+double reading_sigma(const Cell& cell, const Measurements& used) {
+  const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
+  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUsualReading_m);
 }
 
 std::string growth_sentence(const InformationGrowth& growth) {
@@ -51,8 +112,9 @@ std::string growth_sentence(const InformationGrowth& growth) {
     ++half;
   std::string out = fmt::format(
       "{} planned poses would take the predicted 1 sigma of the point from "
-      "{} to {}; the first {} bring half of that",
-      growth.planned.size(), length_text(growth.sigma_now_m), length_text(last), half + 1);
+      "{} to {}; {} half of that",
+      growth.planned.size(), length_text(growth.sigma_now_m), length_text(last),
+      half == 0 ? "the first one brings" : fmt::format("the first {} bring", half + 1));
   if (!growth.random.empty())
     out += fmt::format(", and as many random poses would reach {}",
                        length_text(growth.random.back().sigma_m));
@@ -63,45 +125,43 @@ std::string growth_sentence(const InformationGrowth& growth) {
 
 InformationGrowth information_growth(const RunResults& results, int n) {
   const Cell& cell = results.cell;
-  PlanRequest request{.n = n, .rules = {.pool = kPool, .seed = kPlanSeed}};
-  const PosePlan plan = plan_poses(cell, results.measured, request);
-  InformationGrowth out;
-  out.measured = plan.measured, out.numbers = plan.parameters, out.remarks = plan.remarks;
   const ArmState& state = results.run.fit.calibration.state;
+  std::vector<int> used = results.held;
+  used.insert(used.end(), results.fit.begin(), results.fit.end());
+  std::sort(used.begin(), used.end());
+  const Measurements measured = pick(results.measured, used);
+  const double sigma_m = reading_sigma(cell, measured);
   const auto some = [&](int count, std::uint64_t seed) {
     return imagined(cell, results.measured, pose_pool(cell, state, {.pool = count, .seed = seed}),
                     seed);
   };
-  const Measurements check = some(kJudged, kJudgedSeed), random = some(n, kRandomSeed);
-  const DesignSpace space = design_space(cell, state, check, plan.sigma_m, 0.0);
-  std::vector<int> used = results.held;
-  used.insert(used.end(), results.fit.begin(), results.fit.end());
-  std::sort(used.begin(), used.end());
+  const Measurements judged = some(kJudged, kJudgedSeed);
+  const DesignSpace space = design_space(cell, state, judged, sigma_m, 0.0);
   Information known(space.prior());
-  if (!used.empty()) known.add(space.lines(pick(results.measured, used)));
-  out.sigma_now_m = prediction_sigma(space, check, known.covariance()).mean;
-  RowsN q(static_cast<Eigen::Index>(plan.poses.size()), cell.joints());
-  std::vector<std::string> names, numbers;
-  for (const PlannedPose& pose : plan.poses) {
-    q.row(static_cast<Eigen::Index>(names.size())) = pose.q.transpose();
-    names.push_back(pose.name);
-  }
-  for (int k = 0; k < random.size(); ++k) numbers.push_back(fmt::format("random {}", k + 1));
-  out.planned = gains_of(space, known, check, imagined(cell, results.measured, q, kPlanSeed), names,
+  if (!used.empty()) known.add(space.lines(measured));
+  const auto gains = [&](const Measurements& at) {
+    return Gains(blocks(space.lines(at), space.per_pose()), known.covariance());
+  };
+  const Gains points = gains(judged);
+  InformationGrowth out{.sigma_now_m = sigma_m * points.mean_sigma(),
+                        .numbers = static_cast<int>(space.size()),
+                        .measured = static_cast<int>(used.size())};
+  out.planned = gains_of(gains(some(kPool, kPoolSeed)), points, known.covariance(), n, sigma_m,
                          Order::kByWorth);
-  out.random = gains_of(space, known, check, random, numbers, Order::kAsTheyCome);
+  out.random = gains_of(gains(some(n, kRandomSeed)), points, known.covariance(), n, sigma_m,
+                        Order::kAsTheyCome);
   return out;
 }
 
 std::string observability_figure(const InformationGrowth& growth, int run, double width) {
   std::vector<std::string> notes{fmt::format(
-      "Run {}: {} numbers, {} poses measured. 1 sigma of the reflector, three axes together, is "
-      "the "
-      "mean over {} other random poses, if the model is right. Gain: rise of ln det of the "
+      "Run {}: {} numbers, {} poses measured. 1 sigma of the reflector, all measured axes "
+      "together, "
+      "is the mean over {} other random poses, if the model is right. Gain: rise of ln det of the "
       "information by one pose, given those before; 2 nats narrow one combination of the numbers "
-      "to "
-      "about a seventh in variance. plumb plan writes such a plan.",
-      run, growth.numbers, growth.measured, kJudged)};
+      "to about a seventh in variance. Each pose is the most telling of {} random ones; plumb plan "
+      "chooses from more, improves the choice and writes it.",
+      run, growth.numbers, growth.measured, kJudged, kPool)};
   const draw::Mark mark{.shape = draw::Shape::kCircle, .paint = Tone::kBlue};
   draw::Sheet sheet(
       width,
@@ -110,15 +170,19 @@ std::string observability_figure(const InformationGrowth& growth, int run, doubl
        .legend = {{.words = "planned, the most telling first", .mark = mark},
                   {.words = "random poses", .line = draw::LineStyle{Tone::kMuted, 1.6, "6 3"}}},
        .notes = std::move(notes)});
-  double most_m = growth.sigma_now_m, most_nats = 1e-3;
+  double most_m = growth.sigma_now_m, least_m = most_m, most_nats = 1e-3;
+  for (const auto* gains : {&growth.planned, &growth.random})
+    for (const PoseGain& gain : *gains) least_m = std::min(least_m, gain.sigma_m);
+  const bool log = least_m > 0.0 && most_m > kLogFall * least_m;
   for (const PoseGain& gain : growth.planned) most_nats = std::max(most_nats, gain.nats);
   const LengthUnit unit = unit_for(most_m);
   const double n = static_cast<double>(growth.planned.size() + 1);
   draw::Panel above(sheet.svg(), sheet.room(250.0),
                     {.title = "", .low = 0.0, .high = n, .ends = draw::Axis::Ends::kExact},
                     {.title = fmt::format("mean 1 sigma of the predicted point [{}]", unit.name),
-                     .low = 0.0,
-                     .high = unit.per_m * most_m});
+                     .low = log ? unit.per_m * least_m : 0.0,
+                     .high = unit.per_m * most_m,
+                     .scale = log ? draw::Axis::Scale::kLog : draw::Axis::Scale::kLinear});
   std::vector<draw::Point> random{{0.0, unit.per_m * growth.sigma_now_m}}, planned = random;
   for (std::size_t k = 0; k < growth.random.size(); ++k)
     random.push_back({static_cast<double>(k + 1), unit.per_m * growth.random[k].sigma_m});

@@ -20,7 +20,7 @@ namespace {
 using draw::Mark;
 using draw::Tone;
 
-constexpr int kMostVisits = 800;
+constexpr int kMostVisits = 400;
 constexpr int kWindows = 20;  // moving means along the series
 
 struct InOrder {
@@ -103,21 +103,25 @@ void draw_axis(const RunResults& results, const InOrder& all, int axis, const Le
   const Series& series = all.series;
   panel.line({{panel.x_low(), 0.0}, {panel.x_high(), 0.0}}, {.paint = Tone::kMuted});
   const double stride = std::max(1.0, static_cast<double>(series.size()) / kMostVisits);
-  for (double at = 0.0; at < series.size(); at += stride) {
-    const int i = static_cast<int>(at), row = series.first_row[static_cast<std::size_t>(i)];
-    panel.mark(i + 1.0, unit.per_m * series.error_M(i, axis),
-               {.fill = held.contains(row) ? Mark::Fill::kFilled : Mark::Fill::kHollow,
-                .size = 2.2,
-                .pose = results.pose(row),
-                .words = pose_numbers(results, row)});
-  }
+  for (const bool is_held : {false, true})  // these on top
+    for (double at = 0.0; at < series.size(); at += stride) {
+      const int i = static_cast<int>(at), row = series.first_row[static_cast<std::size_t>(i)];
+      if (held.contains(row) != is_held) continue;
+      panel.mark(i + 1.0, unit.per_m * series.error_M(i, axis),
+                 {.fill = is_held ? Mark::Fill::kFilled : Mark::Fill::kHollow,
+                  .size = 2.2,
+                  .pose = results.pose(row),
+                  .words = pose_numbers(results, row)});
+    }
   const auto mean = moving_mean(series, axis, unit.per_m);
   panel.line(mean, {.paint = Tone::kPaper, .width = 4.0});
   panel.line(mean, {.paint = Tone::kInk, .width = 2.0});
+  std::vector<draw::Panel::Level> jumps;
   for (const auto& step : all.changes.steps)
-    panel.level_x(visit_of(series, step.after) + 0.5,
-                  "jump: " + draw::shortened(results.pose(step.after), 11.0, 90.0),
-                  {.paint = Tone::kVermilion, .width = 1.5, .dashes = "6 3"});
+    jumps.push_back({.at = visit_of(series, step.after) + 0.5,
+                     .words = "jump: " + draw::shortened(results.pose(step.after), 11.0, 90.0),
+                     .style = {.paint = Tone::kVermilion, .width = 1.5, .dashes = "6 3"}});
+  panel.levels_x(jumps);
 }
 
 }  // namespace
@@ -131,17 +135,13 @@ std::string order_figure(const RunResults& results, double width) {
   if (all.series.size() > kMostVisits)
     notes.push_back(fmt::format("An even choice of {} of {} visits is drawn; the mean uses all.",
                                 kMostVisits, all.series.size()));
-  const auto entry = [](const char* words, Mark::Fill fill) {
-    return draw::LegendEntry{.words = words, .mark = Mark{.fill = fill}};
-  };
-  draw::Sheet sheet(
-      width, {.title = "What the model leaves, in the order of measuring",
-              .sentence = order_sentence(results, all),
-              .legend = {entry("held out", Mark::Fill::kFilled),
-                         entry("fitted", Mark::Fill::kHollow),
-                         {.words = fmt::format("moving mean over 1/{} of the visits", kWindows),
-                          .line = draw::LineStyle{Tone::kInk, 2.0}}},
-              .notes = std::move(notes)});
+  auto legend = pose_legend(results);
+  legend.push_back({.words = fmt::format("moving mean over 1/{} of the visits", kWindows),
+                    .line = draw::LineStyle{Tone::kInk, 2.0}});
+  draw::Sheet sheet(width, {.title = "What the model leaves, in the order of measuring",
+                            .sentence = order_sentence(results, all),
+                            .legend = std::move(legend),
+                            .notes = std::move(notes)});
   std::vector<double> sizes;
   for (Eigen::Index i = 0; i < all.series.error_M.size(); ++i)
     sizes.push_back(std::abs(all.series.error_M.data()[i]));

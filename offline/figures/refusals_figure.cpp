@@ -143,7 +143,8 @@ std::string refusal_sentence(const std::array<int, kFates>& n, const std::string
   if (n[kGuard] > 0)
     more.push_back(fmt::format("{:.1f} % are cut by the guard", percent(n[kGuard])));
   if (n[kOutside] > 0)
-    more.push_back(fmt::format("{:.0f} % lie outside what was measured", percent(n[kOutside])));
+    more.push_back(fmt::format("{:.{}f} % lie outside what was measured", percent(n[kOutside]),
+                               percent(n[kOutside]) < 10.0 ? 1 : 0));
   for (std::size_t i = 0; i < more.size(); ++i)
     out += (i == 0 ? "; " : i + 1 == more.size() ? " and " : ", ") + more[i];
   return out + ".";
@@ -203,22 +204,25 @@ std::string refusals_figure(const RunResults& results, double width) {
            results.run.number, kPoses, kMostDrawn, length_text(model.guard.max_correction_m),
            1e3 * model.guard.max_rotation_rad)}});
   auto panels = views.panels(sheet);
-  for (std::size_t k = 0; k < kViews.size(); ++k) {
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const View& view = views.views()[k];
     sheet.svg().clip(panels[k].plot());
     // What matters most is drawn last, over the rest.
-    for (int fate = kFates - 1; fate >= 0; --fate)
+    for (int fate = kFates - 1; fate >= 0; --fate) {
+      std::vector<draw::Point> at;
       for (int i = 0; i < kMostDrawn; ++i) {
         const Tried& one = all[static_cast<std::size_t>(i)];
-        if (one.fate != fate) continue;
-        const FateSign& sign = kSigns[static_cast<std::size_t>(fate)];
-        panels[k].mark(1e3 * one.p_B(kViews[k].across), 1e3 * one.p_B(kViews[k].up),
-                       {.shape = sign.shape,
-                        .paint = sign.tone,
-                        .size = fate == kCorrected ? 1.0
-                                : fate == kOutside ? 1.6
-                                                   : 3.0,
-                        .words = fate == kCorrected ? "" : sign.words});
+        if (one.fate == fate)
+          at.push_back(panels[k].at(1e3 * one.p_B(view.across), 1e3 * one.p_B(view.up)));
       }
+      const FateSign& sign = kSigns[static_cast<std::size_t>(fate)];
+      sheet.svg().marks(at, {.shape = sign.shape,
+                             .paint = sign.tone,
+                             .size = fate == kCorrected ? 1.0
+                                     : fate == kOutside ? 1.6
+                                                        : 3.0,
+                             .words = sign.words});
+    }
     sheet.svg().end_clip();
   }
   const auto rooms = sheet.grid(static_cast<int>(model.nominal.joints.size()), 200.0, 150.0);

@@ -24,12 +24,19 @@ using draw::Tone;
 constexpr double kRegionRow = 46.0;  // [px]
 constexpr int kFewInRegion = 3;      // poses: a mean of fewer is no finding
 
-std::vector<ErrorProfile> regions_of(const RunResults& results) {
-  if (results.judged().empty()) return {};
+/// The judged poses without those that stand out: one of them would colour its whole region.
+std::vector<int> region_rows(const RunResults& results) {
+  const Fit& fit = results.run.fit;
+  return without_outliers(results.judged(),
+                          results.held.empty() ? fit.calibration.outliers : fit.held_outliers);
+}
+
+std::vector<ErrorProfile> regions_of(const RunResults& results, const std::vector<int>& rows) {
+  if (rows.empty()) return {};
   const auto samples = [&](const std::function<double(int)>& value) {
     std::vector<compare::Sample> all;
     std::set<int> seen;
-    for (const int row : results.judged()) {
+    for (const int row : rows) {
       const int group = results.measured.replicate_group[static_cast<std::size_t>(row)];
       all.push_back({.value = value(row),
                      .error_m = results.after(row),
@@ -77,7 +84,8 @@ void draw_profile(const ErrorProfile& p, double y, double most_m, draw::Svg& svg
     const ErrorBin& bin = p.bins[k];
     const double left = step * static_cast<double>(k),
                  share = most_m > 0.0 ? bin.mean_m / most_m : 0.0;
-    const draw::Paint paint = bin.n > 0 ? draw::magnitude_colour(share) : draw::Paint(Tone::kPaper);
+    const bool few = bin.n < kFewInRegion;
+    const draw::Paint paint = few ? draw::Paint(Tone::kPaper) : draw::magnitude_colour(share);
     const std::string range = fmt::format("{} {} to {} {}", p.name, border_text(p, bin.from),
                                           border_text(p, bin.to), is_angle(p) ? "deg" : "mm");
     panel.bar(left, y + 0.36, left + step, y + 0.96, paint, {.paint = Tone::kMuted, .width = 0.5},
@@ -85,7 +93,9 @@ void draw_profile(const ErrorProfile& p, double y, double most_m, draw::Svg& svg
                   ? fmt::format("{}: {} poses, mean {}", range, bin.n, length_text(bin.mean_m))
                   : range + ": no pose");
     const double room = panel.x_at(left + step) - panel.x_at(left) - 6.0;
-    const draw::Paint ink(draw::is_bright(share) || bin.n == 0 ? "#000000" : "#ffffff");
+    const draw::Paint ink =
+        few ? draw::Paint(Tone::kMuted)
+            : draw::Paint(std::string(draw::is_bright(share) ? "#000000" : "#ffffff"));
     std::string words = bin.n > 0 ? fmt::format("{} ({})", length_text(bin.mean_m), bin.n) : "";
     if (draw::text_width(words, 11.0) > room) words = std::to_string(bin.n);
     if (bin.n > 0)
@@ -102,17 +112,24 @@ void draw_profile(const ErrorProfile& p, double y, double most_m, draw::Svg& svg
 }  // namespace
 
 std::string regions_figure(const RunResults& results, double width) {
-  const auto profiles = regions_of(results);
+  const auto rows = region_rows(results);
+  const auto profiles = regions_of(results, rows);
   double most_m = 0.0;
   for (const auto& p : profiles)
     for (const auto& bin : p.bins)
-      if (bin.n > 0) most_m = std::max(most_m, bin.mean_m);
+      if (bin.n >= kFewInRegion) most_m = std::max(most_m, bin.mean_m);
   auto notes = error_notes(results);
   notes.push_back(
       fmt::format("Colours: mean error of the judged poses, from 0 (dark) to {} (bright); "
                   "in brackets, or alone, the number of poses. A star marks what matters "
                   "beyond chance, all rows counted. Regions are seen from the base.",
                   length_text(most_m)));
+  if (const auto left_out = results.judged().size() - rows.size(); left_out > 0)
+    notes.push_back(
+        fmt::format("{} left out: {} from where the others put {}.",
+                    left_out == 1 ? "One pose is" : fmt::format("{} poses are", left_out),
+                    left_out == 1 ? "it is far" : "they are far", left_out == 1 ? "it" : "them"));
+  notes.push_back(fmt::format("Parts of fewer than {} poses have no colour.", kFewInRegion));
   std::vector<draw::LegendEntry> legend;
   for (const double share : {0.0, 0.5, 1.0})
     legend.push_back({.words = length_text(share * most_m), .area = draw::magnitude_colour(share)});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figures/registry.hpp"
 
+#include <algorithm>
 #include <functional>
 
 #include "figures/data_figures.hpp"
@@ -95,7 +96,7 @@ const std::vector<Entry>& entries() {
        of_run(correlation_figure)},
       {{"uncertainty", "How sure the corrected point is over the workspace, 1 sigma"},
        of_run(uncertainty_figure)},
-      {{"observability", "What the next poses would tell, planned and at random (runs plumb plan)",
+      {{"observability", "What the next poses would tell, well chosen and at random",
         FigureRow::Needs::kPlan},
        {}},
       {{"leaf-map", "What the trees correct, and where their leaves end"}, of_run(leaf_map_figure)},
@@ -147,6 +148,15 @@ std::vector<std::string> figure_names(const Cell& cell) {
   std::vector<std::string> out;
   for (auto& figure : figures_of(cell)) out.push_back(std::move(figure.name));
   return out;
+}
+
+bool is_empty(const std::string& name, const RunResults& results) {
+  if (name == "context-temperature") return !context_varies(results, Quantity::kTemperature);
+  if (name == "context-payload") return !context_varies(results, Quantity::kPayload);
+  if (name == "context-time") return !context_varies(results, Quantity::kTime);
+  const auto& trees = results.run.fit.calibration.state.arm.trees;
+  return name == "leaf-map" && std::all_of(trees.begin(), trees.end(),
+                                           [](const auto& tree) { return tree.leaves() == 0; });
 }
 
 FigureRow::Needs needs_of(const std::string& name) {

@@ -28,18 +28,10 @@ RunResults results_of(const Cell& cell, const Measurements& measured, const Run&
 
 std::vector<std::optional<Parameter>> fitted_parameters(const Run& run) {
   const Calibration& c = run.fit.calibration;
-  const auto of_effects = effect_parameters(c.state.arm);
-  const auto known = std::min(c.estimates.size(), static_cast<std::size_t>(c.covariance.rows()));
+  const auto known = std::min(c.parameters.size(), static_cast<std::size_t>(c.covariance.rows()));
   std::vector<std::optional<Parameter>> out(known);
-  for (std::size_t k = 0; k < known; ++k) {
-    const std::string& name = c.estimates[k].name;
-    const auto same = [&](const Parameter& parameter) { return parameter.name == name; };
-    if (const auto at = std::find_if(of_effects.begin(), of_effects.end(), same);
-        at != of_effects.end())
-      out[k] = *at;
-    else
-      out[k] = robot_parameter(c.state.arm.calibrated, name);
-  }
+  for (std::size_t k = 0; k < known; ++k)
+    if (c.parameters[k].of_robot()) out[k] = c.parameters[k];
   return out;
 }
 

@@ -35,9 +35,8 @@ struct RunResults {
 /// stand on the base of the run.
 RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run);
 
-/// What each row of the covariance of the run is a number of, by the names that the run keeps;
-/// nothing for a number that this arm does not have (any more). Frame and target are nothing too:
-/// they are not of the arm.
+/// What each row of the covariance of the run is a number of; nothing for frame and target, which
+/// are not of the arm. Empty for a run of another arm than the present cell.
 std::vector<std::optional<Parameter>> fitted_parameters(const Run& run);
 
 }  // namespace plumb::offline::figures

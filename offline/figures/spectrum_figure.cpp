@@ -268,12 +268,13 @@ std::string spectrum_figure(const RunResults& results, const JointResidual& join
   draw_line(all.left, {.paint = Tone::kBlue, .width = 1.6}, panel);
   name_peaks(all.before, Tone::kVermilion, panel);
   name_peaks(all.left, Tone::kBlue, panel);
-  panel.level_y(100.0 * all.left.chance, "chance, once in 100 spectra",
-                {.paint = Tone::kGreen, .width = 1.2, .dashes = "2 2"});
+  panel.levels_y({{.at = 100.0 * all.left.chance,
+                   .words = "chance, once in 100 spectra",
+                   .style = {.paint = Tone::kGreen, .width = 1.2, .dashes = "2 2"}}});
+  const draw::LineStyle motor{.paint = Tone::kPurple, .width = 1.2, .dashes = "6 3"};
   if (ratio > 0.0)
-    for (const int times : {1, 2})
-      panel.level_x(times * ratio, times == 1 ? "motor" : "2 x motor",
-                    {.paint = Tone::kPurple, .width = 1.2, .dashes = "6 3"});
+    panel.levels_x({{.at = ratio, .words = "motor", .style = motor},
+                    {.at = 2.0 * ratio, .words = "2 x motor", .style = motor}});
   return sheet.file();
 }
 

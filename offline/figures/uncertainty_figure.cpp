@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "cell/random.hpp"
+#include "compile/compiler.hpp"
 #include "figures/model_figures.hpp"
 #include "figures/words.hpp"
 #include "figures/workspace_views.hpp"
@@ -20,6 +22,7 @@ using draw::Tone;
 constexpr int kSpread = 1200;               // random poses within the joint limits
 constexpr std::size_t kMostMeasured = 300;  // of the measured ones
 constexpr double kCell_px = 11.0, kCellMargin_px = 12.0;
+constexpr int kShades = 48;    // of the colour scale
 constexpr double kTop = 0.98;  // quantile of the cells that is the end of the colour scale
 
 struct Point {
@@ -35,8 +38,13 @@ class Predictor {
   explicit Predictor(const RunResults& results) : state_(results.run.fit.calibration.state) {
     const Calibration& c = results.run.fit.calibration;
     const auto fitted = fitted_parameters(results.run);
+    const auto& effects = state_.arm.effects;
     for (std::size_t i = 0; i < fitted.size(); ++i) {
       if (!fitted[i]) continue;
+      // What moved while the poses were measured is cleaned out of the model, and is no part of it.
+      if (fitted[i]->of_effect() &&
+          !runs_online(effects[static_cast<std::size_t>(fitted[i]->joint)]))
+        continue;
       columns_.push_back(static_cast<Eigen::Index>(i));
       parameters_.push_back(*fitted[i]);
     }
@@ -44,15 +52,25 @@ class Predictor {
     const auto count = static_cast<Eigen::Index>(parameters_.size());
     geometry_.emplace(state_, parameters_, Eigen::VectorXd::Zero(count));
     X_BM_ = from_pose(state_.X_MB).inverse();
+    for (int k = 0; k < 3; ++k)
+      if (results.measured.has_axis[static_cast<std::size_t>(k)]) axes_.push_back(k);
   }
 
   bool empty() const { return parameters_.empty(); }
+  std::string axes_words() const {
+    static constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+    if (axes_.size() == 3) return "three axes together";
+    std::string out;
+    for (const int k : axes_) out += (out.empty() ? "" : " and ") + std::string(kNames.at(k));
+    return out + (axes_.size() > 1 ? " together, the axes that were measured"
+                                   : ", the axis that was measured");
+  }
   std::size_t numbers() const { return parameters_.size(); }
   const std::vector<std::string>& sensors() const { return geometry_->sensors(); }
 
   Point at(std::span<const double> q, const MeasuredContext& context) {
     geometry_->evaluate(q, context, point_);
-    const auto J = point_.columns.topRows<3>();
+    const Eigen::MatrixXd J = point_.columns(axes_, Eigen::all);
     return {X_BM_ * point_.p_M, std::sqrt(std::max(0.0, (J * covariance_).cwiseProduct(J).sum())),
             -1};
   }
@@ -65,6 +83,8 @@ class Predictor {
   std::optional<GeometryDerivative> geometry_;
   GeometryDerivative::Point point_;
   Transformd X_BM_;
+  std::vector<int>
+      axes_;  // of the measurement frame that were measured: nothing is known of others
 };
 
 std::vector<Point> measured_points(const RunResults& results, Predictor& predict) {
@@ -158,7 +178,7 @@ std::string uncertainty_figure(const RunResults& results, double width) {
   const WorkspaceViews views(width, extent, kCellMargin_px);
   const double size_m = kCell_px / views.px_per_m();
   std::vector<double> means;
-  for (const View& view : kViews)
+  for (const View& view : views.views())
     for (const auto& [place, cell] : cells_of(spread, view, size_m))
       means.push_back(cell.sum / cell.n);
   std::sort(means.begin(), means.end());
@@ -171,10 +191,12 @@ std::string uncertainty_figure(const RunResults& results, double width) {
   const draw::Mark dot{.paint = Tone::kVermilion, .size = 1.8};
   if (!measured.empty()) legend.push_back({.words = "measured pose", .mark = dot});
   std::vector<std::string> notes{
-      fmt::format("Run {}: 1 sigma of the position, three axes together, by the covariance of {} "
-                  "numbers of the arm; where tracker and reflector stand is not part of it, and "
-                  "neither is what the model does not describe.",
-                  results.run.number, predict.numbers()),
+      fmt::format(
+          "Run {}: 1 sigma of the position, {}, by the covariance of {} numbers of the arm. "
+          "Where tracker and reflector stand is not part of it: fitted together with the "
+          "arm, the two make up for each other, so that a measured error can be smaller. "
+          "Neither is what the model does not describe.",
+          results.run.number, predict.axes_words(), predict.numbers()),
       fmt::format("Colours: mean over the poses seen in a cell, {} random poses within the joint "
                   "limits in all; {} of {} measured poses are drawn.",
                   spread.size(), measured.size(), results.held.size() + results.fit.size())};
@@ -184,16 +206,20 @@ std::string uncertainty_figure(const RunResults& results, double width) {
                             .notes = std::move(notes)});
   if (spread.empty()) return sheet.file();
   auto panels = views.panels(sheet);
-  for (std::size_t k = 0; k < kViews.size(); ++k) {
-    const View& view = kViews[k];
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const View& view = views.views()[k];
     sheet.svg().clip(panels[k].plot());
+    std::map<int, std::vector<draw::Box>> colours;  // cells of one shade are one element
     for (const auto& [place, cell] : cells_of(spread, view, size_m)) {
       const double x = 1e3 * size_m * place.first, y = 1e3 * size_m * place.second;
-      const double sigma = cell.sum / cell.n;
-      panels[k].bar(x, y, x + 1e3 * size_m, y + 1e3 * size_m,
-                    draw::magnitude_colour(most > 0.0 ? sigma / most : 0.0), {.paint = {}},
-                    fmt::format("{}, mean of {} poses", length_text(sigma), cell.n));
+      const double share = most > 0.0 ? std::min(1.0, cell.sum / cell.n / most) : 0.0;
+      const draw::Point low = panels[k].at(x, y),
+                        high = panels[k].at(x + 1e3 * size_m, y + 1e3 * size_m);
+      colours[static_cast<int>(std::lround(share * kShades))].push_back(
+          {low.x, high.y, high.x, low.y});
     }
+    for (const auto& [shade, boxes] : colours)
+      sheet.svg().boxes(boxes, draw::magnitude_colour(static_cast<double>(shade) / kShades));
     for (const Point& point : measured) {
       draw::Mark mark = dot;
       mark.pose = results.pose(point.row);

@@ -6,6 +6,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
+#include "draw/text_width.hpp"
 #include "figures/error_axis.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
@@ -17,8 +18,10 @@ namespace {
 using draw::Tone;
 
 constexpr double kWorseBeyond = 2.0;  // times the noise floor: more than noise moves an error
-constexpr double kStepRow = 40.0;     // [px]
-constexpr double kLogSteps = 15.0;    // times the smallest error: a logarithmic axis
+constexpr double kStepBar = 30.0, kStepLine = 15.0, kStepSize = 11.0;  // [px]
+constexpr double kStepMargin = 52.0, kTopRoom = 38.0;                  // [px]
+constexpr double kFrameRoom = 43.0;  // [px] of a panel above and below its frame
+constexpr double kLogSteps = 15.0;   // times the smallest error: a logarithmic axis
 
 using Names = std::vector<std::string>;
 
@@ -61,6 +64,21 @@ std::string waterfall_sentence(const std::vector<WaterfallStep>& steps, const Ru
     out += fmt::format(", and what is left is {} times the noise floor",
                        draw::digits(last / floor, 2));
   return out + ".";
+}
+
+/// The numbers first, then what was added.
+std::string step_words(const WaterfallStep& step, bool first) {
+  std::string out = length_text(step.mean_m);
+  if (step.worse > 0)
+    out += fmt::format(", {} {} worse", step.worse, step.worse == 1 ? "pose" : "poses");
+  return out + (first ? ": " : ": + ") + step.added;
+}
+
+/// On a ground of their own, so that the lines across the panel do not cross them.
+void put_words(const std::string& words, draw::Point at, draw::Svg& svg) {
+  const double w = draw::text_width(words, kStepSize);
+  svg.box({at.x + 2.0, at.y - kStepSize, at.x + 8.0 + w, at.y + 4.0}, Tone::kPaper);
+  svg.text({at.x + 5.0, at.y}, draw::Anchor::kStart, words, {.size = kStepSize});
 }
 
 }  // namespace
@@ -118,31 +136,38 @@ std::string waterfall(const RunResults& results, const std::vector<WaterfallStep
     axis.axis.low = 0.8 * least * axis.unit.per_m;
     axis.axis.ends = draw::Axis::Ends::kExact;
   }
-  const auto n = static_cast<double>(steps.size());
-  // One row more at the top, for the names of the lines.
-  draw::Panel panel(sheet.svg(), sheet.room(80.0 + kStepRow * (n + 1.0)), axis.axis,
-                    {.low = 0.0, .high = n + 1.0, .ticks = {{-1.0, ""}}});
-  draw_limits(results, axis, Along::kX, panel);
+  // The words of each step in as many lines as they need, and its bar below them.
+  std::vector<Names> words;
+  double height = kTopRoom;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double top = n - static_cast<double>(i), y = top - 0.72;
+    words.push_back(
+        draw::wrapped(step_words(steps[i], i == 0), kStepSize, sheet.svg().width() - kStepMargin));
+    height += kStepLine * static_cast<double>(words.back().size()) + kStepBar;
+  }
+  draw::Panel panel(sheet.svg(), sheet.room(height + kFrameRoom), axis.axis,
+                    {.low = 0.0, .high = height, .ticks = {{-1.0, ""}}});
+  draw_limits(results, axis, Along::kX, panel);
+  double top = height - kTopRoom, last_bar = top;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double bar = top - kStepLine * static_cast<double>(words[i].size()) - 0.5 * kStepBar;
     const double at = axis.of(steps[i].mean_m);
     if (i > 0) {
       const double from = axis.of(steps[i - 1].mean_m);
-      panel.line({{from, y + 1.0}, {from, y}}, {.paint = Tone::kMuted, .dashes = "2 2"});
-      panel.line({{from, y}, {at, y}},
-                 {.paint = at > from ? Tone::kVermilion : Tone::kBlue, .width = 4.0});
+      panel.line({{from, last_bar}, {from, bar}}, {.paint = Tone::kMuted, .dashes = "2 2"});
+      panel.line({{from, bar}, {at, bar}},
+                 {.paint = at > from ? Tone::kVermilion : Tone::kBlue, .width = 5.0});
     }
-    // The numbers first: a long list of names is cut.
-    std::string words = length_text(steps[i].mean_m);
-    if (steps[i].worse > 0)
-      words += fmt::format(", {} {} worse", steps[i].worse, steps[i].worse == 1 ? "pose" : "poses");
-    words += (i == 0 ? ": " : ": + ") + steps[i].added;
-    panel.mark(at, y,
+    panel.mark(at, bar,
                {.shape = i == 0 ? draw::Shape::kSquare : draw::Shape::kCircle,
                 .paint = i == 0 ? Tone::kVermilion : Tone::kBlue,
                 .size = 5.0,
-                .words = words});
-    panel.label_at(panel.x_low(), top - 0.30, words);
+                .words = step_words(steps[i], i == 0)});
+    for (const auto& line : words[i]) {
+      top -= kStepLine;
+      put_words(line, panel.at(panel.x_low(), top + 4.0), sheet.svg());
+    }
+    last_bar = bar;
+    top -= kStepBar;
   }
   return sheet.file();
 }

@@ -96,6 +96,14 @@ std::vector<std::string> error_notes(const RunResults& results) {
   return out;
 }
 
+std::vector<draw::LegendEntry> pose_legend(const RunResults& results) {
+  std::vector<draw::LegendEntry> out;
+  if (!results.held.empty()) out.push_back({.words = "held out", .mark = draw::Mark{}});
+  if (!results.fit.empty())
+    out.push_back({.words = "fitted", .mark = draw::Mark{.fill = draw::Mark::Fill::kHollow}});
+  return out;
+}
+
 std::vector<double> sorted_errors(const RunResults& results, const std::vector<int>& rows,
                                   Which which) {
   std::vector<double> out;

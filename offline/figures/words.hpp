@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/sheet.hpp"
 #include "figures/run_results.hpp"
 
 /// Words and numbers that several figures use.
@@ -35,6 +36,9 @@ std::string effect_names(const std::vector<std::string>& effects, const std::str
 /// The notes that every figure of errors carries: the sign, the counts, and that an in-sample error
 /// is no accuracy.
 std::vector<std::string> error_notes(const RunResults& results);
+
+/// "held out" filled and "fitted" hollow, of those that the run has.
+std::vector<draw::LegendEntry> pose_legend(const RunResults& results);
 
 /// Errors of these rows [m], ascending.
 enum class Which { kBefore, kAfter };

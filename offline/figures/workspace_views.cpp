@@ -9,6 +9,7 @@ namespace {
 constexpr double kMapHeight = 330.0, kWideMapHeight = 430.0, kWidePage = 1100.0,
                  kNarrowestMap = 250.0;
 constexpr double kLeastSize_m = 0.1;
+constexpr double kFlat = 0.06;  // of the largest size: a view along a plane shows a line
 constexpr std::array<const char*, 3> kAxisNames{"x [mm]", "y [mm]", "z [mm]"};
 
 }  // namespace
@@ -32,18 +33,24 @@ double Extent::size(int axis) const {
 
 WorkspaceViews::WorkspaceViews(double page_width, const Extent& extent, double margin_px)
     : width_(page_width), extent_(extent) {
+  const double largest = std::max({extent.size(0), extent.size(1), extent.size(2)});
+  for (const View& view : kViews)
+    if (std::min(extent.size(view.across), extent.size(view.up)) > kFlat * largest)
+      views_.push_back(view);
+  if (views_.empty()) views_.assign(kViews.begin(), kViews.end());
   draw::Sheet trial(width_, {.title = "", .sentence = ""});
   const draw::Axis widest{.title = "x", .low = -8888.0, .high = 8888.0};
   plot_ = draw::Panel(trial.svg(), rooms(trial).front(), widest, widest, "view").plot();
   px_ = INFINITY;
-  for (const View& view : kViews) {
+  for (const View& view : views_) {
     px_ = std::min(px_, (plot_.width() - 2.0 * margin_px) / extent.size(view.across));
     px_ = std::min(px_, (plot_.height() - 2.0 * margin_px) / extent.size(view.up));
   }
 }
 
 std::vector<draw::Box> WorkspaceViews::rooms(draw::Sheet& sheet) const {
-  return sheet.grid(3, kNarrowestMap, width_ >= kWidePage ? kWideMapHeight : kMapHeight);
+  return sheet.grid(static_cast<int>(views_.size()), kNarrowestMap,
+                    width_ >= kWidePage ? kWideMapHeight : kMapHeight);
 }
 
 std::array<draw::Axis, 2> WorkspaceViews::axes(const View& view, const draw::Box& plot) const {
@@ -63,16 +70,16 @@ std::array<draw::Axis, 2> WorkspaceViews::axes(const View& view, const draw::Box
 std::vector<draw::Panel> WorkspaceViews::panels(draw::Sheet& sheet) const {
   std::vector<draw::Panel> out;
   const auto boxes = rooms(sheet);
-  for (std::size_t k = 0; k < kViews.size(); ++k) {
+  for (std::size_t k = 0; k < views_.size(); ++k) {
     // The labels of the ticks decide how much room a frame has; the second time they are known.
     draw::Box inner = plot_;
     for (int again = 0; again < 2; ++again) {
       draw::Svg unused(width_);
-      const auto trial = axes(kViews[k], inner);
-      inner = draw::Panel(unused, boxes[k], trial[0], trial[1], kViews[k].name).plot();
+      const auto trial = axes(views_[k], inner);
+      inner = draw::Panel(unused, boxes[k], trial[0], trial[1], views_[k].name).plot();
     }
-    const auto final = axes(kViews[k], inner);
-    out.emplace_back(sheet.svg(), boxes[k], final[0], final[1], kViews[k].name);
+    const auto final = axes(views_[k], inner);
+    out.emplace_back(sheet.svg(), boxes[k], final[0], final[1], views_[k].name);
   }
   return out;
 }

@@ -28,8 +28,8 @@ struct Extent {
   double size(int axis) const;  // > 0
 };
 
-/// Room for the three views side by side or below each other, in which a metre has the same number
-/// of pixels in all directions.
+/// Room for the views side by side or below each other, in which a metre has the same number of
+/// pixels in all directions. All three of kViews, or that of the plane in which the points lie.
 class WorkspaceViews {
  public:
   /// `margin_px`: left free around the points, for arrows and signs.
@@ -37,7 +37,9 @@ class WorkspaceViews {
 
   double px_per_m() const { return px_; }
 
-  /// The panels, in the order of kViews; axes in [mm].
+  const std::vector<View>& views() const { return views_; }
+
+  /// The panels, in the order of `views`; axes in [mm].
   std::vector<draw::Panel> panels(draw::Sheet& sheet) const;
 
  private:
@@ -46,6 +48,7 @@ class WorkspaceViews {
 
   double width_;
   Extent extent_;
+  std::vector<View> views_;
   draw::Box plot_;  // of a frame with the widest labels
   double px_ = 1.0;
 };

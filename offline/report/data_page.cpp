@@ -71,16 +71,25 @@ HtmlTable excluded_table(const ReportData& data) {
   HtmlTable table{.caption = "Readings that stand out or are not used",
                   .head = {"pose", "row", "error [mm]", "what became of it"},
                   .left_from = 3};
-  const auto add = [&](const std::vector<Outlier>& outliers, const char* fate) {
-    for (const auto& o : outliers)
-      table.rows.push_back({data.results.pose(o.row), fmt::format("{}", o.row + 1),
-                            show::mm(o.error_m),
-                            fmt::format("{:.1f} times the usual scatter away from where the others "
-                                        "put it: {}",
-                                        o.times, fate)});
+  const auto add = [&](const Outlier& o, const char* fate) {
+    table.rows.push_back(
+        {data.results.pose(o.row), fmt::format("{}", o.row + 1), show::mm(o.error_m),
+         fmt::format("{:.1f} times the usual scatter away from where the others put it: {}",
+                     o.times, fate)});
   };
-  add(fit.calibration.outliers, "left out of the fit");
-  add(fit.held_outliers, "held out; it counts in the figures");
+  // With folds a reading is fitted and held out, and may stand out as both.
+  const auto& left_out = fit.calibration.outliers;
+  const auto is_left_out = [&](const Outlier& held) {
+    return std::any_of(left_out.begin(), left_out.end(),
+                       [&](const Outlier& other) { return other.row == held.row; });
+  };
+  for (const auto& o : fit.held_outliers)
+    add(o, is_left_out(o) ? "left out of the fit; where it is held out, it counts in the figures"
+                          : "held out; it counts in the figures");
+  for (const auto& o : left_out)
+    if (std::none_of(fit.held_outliers.begin(), fit.held_outliers.end(),
+                     [&](const Outlier& held) { return held.row == o.row; }))
+      add(o, "left out of the fit");
   for (int row = 0; row < data.measured.size(); ++row) {
     const auto i = static_cast<std::size_t>(row);
     if (fit.split.used[i]) continue;

@@ -39,23 +39,28 @@ std::string compacted(std::string_view svg) {
   return out += svg.substr(from);
 }
 
-/// Without the numbers and names of the marks, which no telephone shows.
-std::string without_titles(const std::string& svg) {
+/// Without the names of poses by which a program would find the marks: no program runs here.
+std::string without_poses(const std::string& svg) {
+  constexpr std::string_view kPose = " data-pose=\"";
   std::string out;
   std::size_t from = 0;
-  constexpr std::string_view kPose = " data-pose=\"", kTitle = "><title>", kEnd = "</title></";
-  while (true) {
-    const auto pose = svg.find(kPose, from), title = svg.find(kTitle, from);
-    const auto at = std::min(pose, title);
-    if (at == std::string::npos) return out += svg.substr(from);
+  for (auto at = svg.find(kPose); at != std::string::npos; at = svg.find(kPose, from)) {
     out += svg.substr(from, at - from);
-    if (at == pose) {
-      from = svg.find('"', at + kPose.size()) + 1;
-    } else {
-      out += "/>";
-      from = svg.find('>', svg.find(kEnd, at) + kEnd.size()) + 1;
-    }
+    from = svg.find('"', at + kPose.size()) + 1;
   }
+  return out += svg.substr(from);
+}
+
+/// Without the numbers of the marks, which no telephone shows.
+std::string without_titles(const std::string& svg) {
+  constexpr std::string_view kTitle = "><title>", kEnd = "</title></";
+  std::string out;
+  std::size_t from = 0;
+  for (auto at = svg.find(kTitle); at != std::string::npos; at = svg.find(kTitle, from)) {
+    out += svg.substr(from, at - from) + "/>";
+    from = svg.find('>', svg.find(kEnd, at) + kEnd.size()) + 1;
+  }
+  return out += svg.substr(from);
 }
 
 /// The words with line breaks where the text has them; `escaped` would make them blanks.
@@ -124,9 +129,10 @@ void Html::preformatted(std::string_view label, std::string_view text) {
 }
 
 void Html::figure(std::string_view wide_svg, std::string_view narrow_svg) {
-  text_ += "<figure><div class=\"wide\">" + compacted(wide_svg) + "</div>";
+  text_ += "<figure><div class=\"wide\">" + without_poses(compacted(wide_svg)) + "</div>";
   if (!narrow_svg.empty())
-    text_ += "<div class=\"narrow\">" + without_titles(compacted(narrow_svg)) + "</div>";
+    text_ +=
+        "<div class=\"narrow\">" + without_titles(without_poses(compacted(narrow_svg))) + "</div>";
   text_ += "</figure>\n";
 }
 

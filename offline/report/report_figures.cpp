@@ -60,6 +60,11 @@ bool is_of_unimportant_joint(const std::string& name, const ReportData& data,
   return false;
 }
 
+/// Time stands in the figure of the order of measuring already.
+bool is_left_out(const std::string& name, const ReportData& data) {
+  return name == "context-time" || figures::is_empty(name, data.results);
+}
+
 std::string figure_of(const std::string& name, const ReportData& data, double width) {
   if (figures::needs_of(name) == figures::FigureRow::Needs::kDiagnosis)
     return data.diagnosis ? figures::evidence(data.cell, *data.diagnosis, width) : std::string();
@@ -80,7 +85,7 @@ Page page_of(const std::string& figure) {
 ReportFigures::ReportFigures(const ReportData& data) {
   const auto important = joints_that_matter(data);
   for (const auto& name : figures::figure_names(data.cell))
-    if (!is_of_unimportant_joint(name, data, important))
+    if (!is_left_out(name, data) && !is_of_unimportant_joint(name, data, important))
       all_.push_back({.name = name, .wide = {}, .narrow = {}});
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {

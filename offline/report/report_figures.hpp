@@ -29,8 +29,9 @@ Page page_of(const std::string& figure);
 /// The figures of a report, each laid out for a wide page and for a narrow one.
 class ReportFigures {
  public:
-  /// Draws all that this cell has. Of the figures of single joints only those of joints whose own
-  /// position explains something of the error, at most two; the small ones show them all.
+  /// Draws all that this cell has and that show something. Of the figures of single joints only
+  /// those of joints whose own position explains something of the error, at most two; the small
+  /// ones show them all.
   explicit ReportFigures(const ReportData& data);
 
   /// Appends those of a page, in the order of the registry.

@@ -78,4 +78,24 @@ TEST_F(PlotVerb, SaysWhatIsMissingAndWritesNothing) {
   for (const auto& file : fresh.listing()) EXPECT_EQ(file.find(".svg"), std::string::npos) << file;
 }
 
+TEST(Plot, OfACellWithoutMeasurementsOrRunGivesOneMessageForEveryFigure) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "scara", "cell"}).exit, 0);
+  const std::string rows = box.read("cell/measurements.csv");
+  const std::string head = rows.substr(0, rows.find("\nP") + 1);
+  const auto listed = box.plumb({"plot", "--list", "--json"}).json().at("result").at("figures");
+  for (const std::string& data : {head, rows}) {
+    box.write("cell/measurements.csv", data);
+    for (const auto& row : listed) {
+      auto name = row.at("name").get<std::string>();
+      if (name == "evidence" && data == rows) continue;  // needs no run
+      if (const auto at = name.find("JN"); at != std::string::npos) name.replace(at, 2, "J2");
+      const Ran ran = box.plumb({"-C", "cell", "plot", name, "--json"});
+      EXPECT_EQ(ran.exit, 3) << name << ran.err;
+      EXPECT_EQ(ran.json().at("error").at("code").get<std::string>().rfind("E-", 0), 0U) << name;
+    }
+  }
+  for (const auto& file : box.listing()) EXPECT_EQ(file.find(".svg"), std::string::npos) << file;
+}
+
 }  // namespace

@@ -184,6 +184,29 @@ TEST(Report, SaysOnItsFirstPageThatACellIsNotGood) {
   EXPECT_NE(first.find("Not good"), std::string::npos);
 }
 
+TEST(Report, IsWrittenAtOnceWithoutADiagnosisAndSaysSo) {
+  const Sandbox box;
+  ASSERT_NO_FATAL_FAILURE(make_cell(box, 2, "30"));
+  const Ran ran = box.plumb({"-C", "cell", "report", "--no-diagnosis", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(ran.json().at("result").at("diagnosis").is_null());
+  const std::string html = box.read("report.html");
+  EXPECT_NE(section(html, "missing").find("Not diagnosed"), std::string::npos);
+  EXPECT_NE(section(html, "reproduce").find("--no-diagnosis"), std::string::npos);
+  EXPECT_EQ(html.find("do not say the"), std::string::npos) << "a figure with nothing in it";
+  EXPECT_EQ(html.find("data-pose"), std::string::npos);
+}
+
+TEST(Report, ListsAReadingOnceThatStandsOutAsFittedAndAsHeldOut) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "mixed", "cell"}).exit, 0);
+  const Ran ran = box.plumb({"-C", "cell", "report", "--no-diagnosis"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const std::string data = section(box.read("report.html"), "data");
+  EXPECT_EQ(count(data, "<th scope=\"row\">P109</th>"), 1U) << "in folds it is both";
+  EXPECT_NE(data.find("left out of the fit; where it is held out, it counts"), std::string::npos);
+}
+
 TEST(Report, TellsWhatIsAssumedAndWhatIsUnknown) {
   const Sandbox box;
   ASSERT_NO_FATAL_FAILURE(make_cell(box, 9, "60"));

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "draw/sheet.hpp"
 #include "tests/draw/text_boxes.hpp"
@@ -42,15 +44,50 @@ TEST(Panel, NoLabelTouchesAnotherAtAnyWidthAndRange) {
         Panel panel(sheet.svg(), room, {.title = "position [deg]", .low = low, .high = high},
                     {.title = "deviation [µrad]", .low = low, .high = high}, "J1");
         for (int i = 0; i < 20; ++i) panel.label(0.5 * (low + high), 0.5 * (low + high), "a label");
-        panel.level_y(high, "tolerance 0.1 mm", {});
-        panel.level_y(high, "noise floor 0.1 mm", {});
-        panel.level_x(low, "limit", {});
+        panel.levels_y({{high, "tolerance 0.1 mm", {}}, {high, "noise floor 0.1 mm", {}}});
+        panel.levels_x({{low, "limit", {}}});
       }
       const std::string file = sheet.file();
       EXPECT_EQ(collisions(file, width), "") << width << " " << low << " " << high;
       EXPECT_EQ(file.find("nan"), std::string::npos);
       EXPECT_EQ(count(file, ">J1<"), 5);
     }
+}
+
+TEST(Panel, ALineStaysInsideItsFrameAndNothingOfItIsLost) {
+  Svg svg(500.0);
+  Panel panel(svg, {0.0, 0.0, 500.0, 300.0}, {.title = "x"}, {.title = "y"});
+  const std::string before = svg.file(300.0, "");
+  panel.line({{0.0, 0.5}, {0.25, 40.0}, {0.5, 0.5}, {0.75, -40.0}, {kNan, 0.0}, {1.0, 0.5}}, {});
+  const std::string file = svg.file(300.0, "");
+  const std::string path = file.substr(file.rfind("<path d=\""));
+  const Box frame = panel.plot();
+  const std::regex place("[ML](-?[0-9.]+) ?(-?[0-9.]+)");
+  int places = 0;
+  for (auto it = std::sregex_iterator(path.begin(), path.end(), place);
+       it != std::sregex_iterator(); ++it, ++places) {
+    EXPECT_GE(std::stod((*it)[1]), frame.left - 0.1);
+    EXPECT_LE(std::stod((*it)[1]), frame.right + 0.1);
+    EXPECT_GE(std::stod((*it)[2]), frame.top - 0.1) << path;
+    EXPECT_LE(std::stod((*it)[2]), frame.bottom + 0.1) << path;
+  }
+  EXPECT_EQ(places, 5) << "up and out; in, through and out below";
+}
+
+TEST(Panel, TheNameOfALevelAvoidsMarksAndOtherLevels) {
+  Svg svg(500.0);
+  Panel panel(svg, {0.0, 0.0, 500.0, 300.0}, {.title = "x"}, {.title = "y"});
+  for (int i = 50; i < 100; ++i) panel.mark(0.01 * i, 0.52, {});
+  panel.levels_y({{0.5, "floor", {}}});
+  panel.levels_x({{0.4, "first", {}}, {0.42, "second", {}}});
+  const auto boxes = text_boxes(svg.file(300.0, ""));
+  const auto of = [&](const std::string& words) {
+    return *std::find_if(boxes.begin(), boxes.end(),
+                         [&](const TextBox& box) { return box.words == words; });
+  };
+  const TextBox floor = of("floor"), first = of("first");
+  EXPECT_TRUE(floor.top > panel.y_at(0.5) || floor.right < panel.x_at(0.5));
+  EXPECT_LT(first.right, panel.x_at(0.42)) << "on the side where the other line is not";
 }
 
 TEST(Panel, ALogarithmicAxisSaysSo) {
