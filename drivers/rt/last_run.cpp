@@ -27,6 +27,17 @@ std::filesystem::path last_run_file(const std::filesystem::path& folder) {
   return std::filesystem::path(first) / (name_of_run(folder) + ".state");
 }
 
+/// Writing to a pipe would wait for its reader.
+void need_regular(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) || std::filesystem::is_regular_file(file, ignored))
+    return;
+  throw Failure(Exit::kEnvironment,
+                {.code = "E-WRITE",
+                 .message = fmt::format("{} is no regular file", display_name(file)),
+                 .help = "ls -l " + file.string()});
+}
+
 FaultCause fault_of(const std::string& word) {
   for (int i = 0; i < kFaultCauses; ++i)
     if (word == to_string(static_cast<FaultCause>(i))) return static_cast<FaultCause>(i);
@@ -45,8 +56,8 @@ LastRun::LastRun(const std::filesystem::path& folder, const std::string& model)
   try {
     read(model);
   } catch (const Failure& failure) {
-    need(fmt::format("what the last run left is not known: {}",
-                     failure.problems().front().message));
+    need(
+        fmt::format("what the last run left is not known: {}", failure.problems().front().message));
   } catch (const std::exception& error) {
     need(fmt::format("{} is damaged: {}", display_name(file_), error.what()));
   }
@@ -64,22 +75,25 @@ void LastRun::read(const std::string& model) {
               .fault = fault_of(json.at("fault").get<std::string>()),
               .acknowledged = json.at("acknowledged").get<std::string>()};
   start_.fault = content_.fault;
-  if (!content_.ended)
-    need("the last run did not end well");
-  else if (content_.acknowledged != model)
-    need(content_.acknowledged.empty() ? "the last run was not acknowledged"
-                                       : "it is the first run with this model");
-  else if (content_.fault != FaultCause::kNone)
+  if (content_.fault != FaultCause::kNone)
     need(fmt::format("the fault of the last run was not acknowledged: {}",
                      to_string(content_.fault)));
+  else if (!content_.ended)
+    need("the last run did not end well");
+  else if (content_.acknowledged.empty())
+    need("the last run was not acknowledged");
+  else if (content_.acknowledged != model)
+    need("it is the first run with this model");
 }
 
 bool LastRun::write(const Content& content) {
+  if (failed_) return false;
   const Json json{{"schema", kLastRunSchema},
                   {"ended", content.ended},
                   {"fault", to_string(content.fault)},
                   {"acknowledged", content.acknowledged}};
   try {
+    need_regular(file_);
     write_file_atomically(file_, json.dump(2) + "\n");
   } catch (const Failure& failure) {
     std::cerr << render(Problem{.severity = Severity::kWarning,
@@ -87,6 +101,7 @@ bool LastRun::write(const Content& content) {
                                 .message = failure.problems().front().message,
                                 .help = "without it every start needs an acknowledgement"})
               << '\n';
+    failed_ = true;
     return false;
   }
   content_ = content;
@@ -107,7 +122,7 @@ void LastRun::note(const SessionReport& report, const std::string& model) {
   Content next = content_;
   next.fault = report.state == SessionState::kFault ? report.cause : FaultCause::kNone;
   next.acknowledged = has(report.lost, Lost::kAcknowledge) ? "" : model;
-  if (next == content_ || !write(next)) return;
+  if (next != content_) write(next);
 }
 
 void LastRun::end() {

@@ -52,7 +52,8 @@ class LastRun {
   std::filesystem::path file_;
   SessionStart start_;
   std::string why_;
-  Content content_;  // as the file holds it
+  Content content_;      // as the file holds it
+  bool failed_ = false;  // it cannot be written, and is left as it is: the run has not ended well
 };
 
 }  // namespace plumb::drivers::rt

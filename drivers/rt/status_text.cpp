@@ -51,7 +51,7 @@ std::string reasons(const Json& status) {
 
 /// What an operator is asked to do, and why; empty: nothing.
 std::string request_to_operator(const Json& status) {
-  const auto why = status["acknowledge"].get<std::string>();
+  const std::string why = status.value("acknowledge", "");
   if (why.empty()) return "";
   const bool fault = status["state"] == "fault";
   return fmt::format("acknowledge {}: {}\n",

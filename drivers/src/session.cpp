@@ -110,8 +110,10 @@ void Session::hear_target(const BusMessage& message) noexcept {
   Transformd X_BD;
   const TargetVerdict verdict = gate_.judge(message, X_BD);
   count(verdict, report_.counters);
-  if (verdict == TargetVerdict::kTooFar || verdict == TargetVerdict::kTooFast)
+  if (verdict == TargetVerdict::kTooFar || verdict == TargetVerdict::kTooFast) {
     target_misbehaved_ = true;
+    arm_.jump();
+  }
   if (verdict != TargetVerdict::kAccepted) return;
   target_ = message;
   arm_.aim(X_BD);

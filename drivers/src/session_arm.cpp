@@ -54,6 +54,12 @@ void ArmWatch::aim(const Transformd& X_BD) noexcept {
   if (reached) reached_s_ = now_s_;
 }
 
+/// The path begins anew behind a jump, which is no motion that the joints should show.
+void ArmWatch::jump() noexcept {
+  size_ = 0;
+  aimed_ = false;
+}
+
 bool ArmWatch::near(const Aim& from, const Aim& to, const Transformd& X_BA) const noexcept {
   return distance(X_BA.p, from.X_BD.p, to.X_BD.p) <= limits_.distance_m &&
          std::max(cos_between(from.X_BD, X_BA), cos_between(to.X_BD, X_BA)) >= cos_angle_;

@@ -124,7 +124,8 @@ TEST(RunLoop, ASnapshotIsOfTheWholeRun) {
   for (int i = 0; i < 100; ++i) run.cycle();
   RunSnapshot snapshot;
   ASSERT_TRUE(run.shared->snapshots.take(snapshot));
-  EXPECT_EQ(snapshot.session.state, SessionState::kShadow);
+  EXPECT_EQ(snapshot.session.state, SessionState::kSync);
+  EXPECT_GT(snapshot.session.sync.compared, 80U);
   EXPECT_GT(snapshot.wake.count(), 80U);
   EXPECT_FALSE(run.shared->snapshots.take(snapshot));
 }

@@ -254,7 +254,7 @@ TEST(SessionFaults, TargetsInAnotherFrameHold) {
     rig.swings = false;
     rig.run(500);
     EXPECT_EQ(rig.session->state(), kHold);
-    EXPECT_EQ(rig.session->report().lost, Lost::kArmAway);
+    EXPECT_TRUE(has(rig.session->report().lost, Lost::kArmAway));
     EXPECT_LT(rig.session->report().applied_m, 1e-9);
     rig.jump = Vector3::Zero();
     EXPECT_TRUE(rig.run_to(kActive));
@@ -267,7 +267,7 @@ TEST(SessionFaults, AnArmInAnotherFrameFromTheBeginningIsNeverCorrected) {
   rig.swings = false;
   rig.jump = Vector3(0.03, 0, 0);
   EXPECT_FALSE(rig.run_to(kActive));
-  EXPECT_EQ(rig.session->report().lost, Lost::kArmAway);
+  EXPECT_TRUE(has(rig.session->report().lost, Lost::kArmAway));
 }
 
 /// The controller repeats its joints and its pose under new counters while the targets go on.

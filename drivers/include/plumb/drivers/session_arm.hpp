@@ -44,6 +44,7 @@ class ArmWatch {
   void step(double ageing_s) noexcept { now_s_ += ageing_s; }
 
   void aim(const Transformd& X_BD) noexcept;               // an accepted target
+  void jump() noexcept;                                    // one beyond its limits of motion
   void show(const Transformd& X_BA) noexcept;              // the controller's pose of the arm
   void show_joints(std::span<const double> q) noexcept;    // joints that are numbers
 
