@@ -8,9 +8,9 @@
 
 namespace plumb::drivers::rt {
 
-/// What the last run of a folder left, and what this one leaves for the next: whether it ended well,
-/// the fault that nobody acknowledged, and the model that an operator has acknowledged. It stands in
-/// a small file in $STATE_DIRECTORY, which systemd sets, else in the folder.
+/// What the last run of a folder left, and what this one leaves for the next: whether it ended
+/// well, the fault that nobody acknowledged, and the model that an operator has acknowledged. It
+/// stands in a small file in $STATE_DIRECTORY, which systemd sets, else in the folder.
 ///
 /// Whatever is not known counts as the worse: without the file, or if it cannot be read or written,
 /// an acknowledgement is needed.

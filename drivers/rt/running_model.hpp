@@ -19,8 +19,8 @@ struct RunningModel {
 /// The most that is read of a model file; the largest that the format can hold is smaller.
 inline constexpr std::uintmax_t kMostModelBytes = 16u << 20;
 
-/// Reads and verifies a model file, which must be a regular one. Throws Failure (kInput): E-RT-MODEL, or E-RT-SERIAL if
-/// `serial` is not empty and not the model's. Slow.
+/// Reads and verifies a model file, which must be a regular one. Throws Failure (kInput):
+/// E-RT-MODEL, or E-RT-SERIAL if `serial` is not empty and not the model's. Slow.
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial);
 
 /// If the folder contains SHA256SUMS: throws Failure (kInput, E-RT-SUMS) unless every file listed

@@ -107,8 +107,8 @@ void Service::start() {
 bool Service::stop(Ended ended) {
   ended_ = true;
   if (!thread_.joinable()) return true;
-  const std::int64_t end_ns =
-      MonotonicTime::now_ns() + static_cast<std::int64_t>(kStop_s * static_cast<double>(kSecond_ns));
+  const std::int64_t end_ns = MonotonicTime::now_ns() +
+                              static_cast<std::int64_t>(kStop_s * static_cast<double>(kSecond_ns));
   while (!over_ && MonotonicTime::now_ns() < end_ns)
     std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kSecond_ns / 1000);
   if (!over_) return false;

@@ -87,8 +87,7 @@ bool ArmWatch::away() const noexcept {
 }
 
 bool ArmWatch::still() const noexcept {
-  return aimed_ && now_s_ - newest_.time_s <= limits_.gap_s &&
-         now_s_ - reached_s_ > limits_.lag_s;
+  return aimed_ && now_s_ - newest_.time_s <= limits_.gap_s && now_s_ - reached_s_ > limits_.lag_s;
 }
 
 }  // namespace plumb::drivers

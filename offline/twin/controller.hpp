@@ -57,8 +57,8 @@ struct ControllerCounters {
 /// A robot controller that knows the nominal arm only. In every cycle it sends its actual pose and
 /// its target, receives corrections, and moves to the corrected target with its own inverse
 /// kinematics. Before the path begins it moves to and fro between the first two stations until
-/// corrections arrive. Its operator acknowledges a plumb-rt that stays in SHADOW, which may wait for
-/// that, but no FAULT.
+/// corrections arrive. Its operator acknowledges a plumb-rt that stays in SHADOW, which may wait
+/// for that, but no FAULT.
 ///
 /// To be used by one thread.
 class Controller {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one run leaves for the next, with a controller made of sockets; and what cannot hold a run up.
+// What one run leaves for the next, with a controller made of sockets; and what cannot hold a run
+// up.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -19,8 +20,7 @@ class ARunAfterAnother : public testing::Test {
   static std::string toml(int port) {
     return "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
            "role = \"server\"\nport = " +
-           std::to_string(port) +
-           "\n[limits]\nmode = \"full\"\n[log]\nrecord = \"record.log\"\n";
+           std::to_string(port) + "\n[limits]\nmode = \"full\"\n[log]\nrecord = \"record.log\"\n";
   }
 
   void start() {
@@ -106,9 +106,9 @@ TEST_F(ARunAfterAnother, BeginsInTheFaultThatNobodyAcknowledged) {
   EXPECT_TRUE(comes(kActive));
   end(SIGTERM);
   for (const char* const record : {"record.log", "record.log.1", "record.log.2"}) {
-    const RtRan replayed = plumb_rt({"replay", (folder.folder / record).string(), "--dir",
-                                     folder.folder.string(), "--json"},
-                                    folder.folder);
+    const RtRan replayed = plumb_rt(
+        {"replay", (folder.folder / record).string(), "--dir", folder.folder.string(), "--json"},
+        folder.folder);
     EXPECT_EQ(replayed.exit, 0) << record << ": " << replayed.err;
     EXPECT_GT(replayed.json()["result"]["frames"], 20) << record;
   }
@@ -150,8 +150,8 @@ TEST_F(ARunAfterAnother, AStoppedRunGoesOnWithoutCorrectionAndIsNoSecondSenderTo
 TEST(RunModel, WhatIsNoRegularFileIsRefusedAndHoldsNothingUp) {
   const Deployed folder;
   const std::string first = folder.text("targets.csv");
-  const std::string row = first.substr(first.find('\n') + 1, first.find('\n', first.find('\n') + 1) -
-                                                                 first.find('\n'));
+  const std::string row =
+      first.substr(first.find('\n') + 1, first.find('\n', first.find('\n') + 1) - first.find('\n'));
   std::string rows;
   for (int i = 0; i < 20'000; ++i) rows += row;
   folder.write("targets.csv", first + rows);

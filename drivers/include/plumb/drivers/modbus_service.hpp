@@ -11,8 +11,8 @@
 
 namespace plumb::drivers {
 
-/// A connection to a server. Connections are numbered from 1, in the order in which they came; those
-/// with the same `host` come from one machine.
+/// A connection to a server. Connections are numbered from 1, in the order in which they came;
+/// those with the same `host` come from one machine.
 struct ModbusPeer {
   constexpr ModbusPeer(std::uint64_t of_its_own) noexcept : number(of_its_own), host(of_its_own) {}
   constexpr ModbusPeer(std::uint64_t its_number, std::uint64_t its_host) noexcept

@@ -102,8 +102,8 @@ class RunLoop {
     }
   }
 
-  /// Whether the machine was suspended since the last cycle. The two clocks are not read at once, so
-  /// a thread that loses the processor between them for so long seems suspended, which it is.
+  /// Whether the machine was suspended since the last cycle. The two clocks are not read at once,
+  /// so a thread that loses the processor between them for so long seems suspended, which it is.
   SessionTick::Host host() noexcept {
     using Host = SessionTick::Host;
     if constexpr (requires { time_.suspended_ns(); }) {

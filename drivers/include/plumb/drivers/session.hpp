@@ -83,7 +83,7 @@ struct SessionCounters {
   std::uint64_t too_old = 0;    // targets that had waited too long to be answered
   std::uint64_t no_joints = 0;  // joint states with a value that is no joint position
   std::uint64_t stalls = 0;     // times that cycles were missed for longer than an input's limit
-  std::uint64_t holds = 0;    // transitions from ACTIVE to HOLD
+  std::uint64_t holds = 0;      // transitions from ACTIVE to HOLD
   std::uint64_t faults = 0;
 };
 
@@ -178,20 +178,20 @@ class Session {
   CorrectionShare share_;
   CycleTime time_;
   SessionState state_ = SessionState::kInit;
-  BusMessage target_;               // the newest accepted target
-  Transformd X_BD_;                 // pose of the target
-  Transformd X_BC_;                 // corrected pose of the target
-  bool target_came_ = false;        // a target arrived in this cycle and is not too old
-  bool target_misbehaved_ = false;  // a target of this cycle exceeded its limits
-  bool acknowledged_ = false;       // an acknowledgement began in this cycle
-  bool acknowledge_was_on_ = true;  // true until the signal was seen off
+  BusMessage target_;                   // the newest accepted target
+  Transformd X_BD_;                     // pose of the target
+  Transformd X_BC_;                     // corrected pose of the target
+  bool target_came_ = false;            // a target arrived in this cycle and is not too old
+  bool target_misbehaved_ = false;      // a target of this cycle exceeded its limits
+  bool acknowledged_ = false;           // an acknowledgement began in this cycle
+  bool acknowledge_was_on_ = true;      // true until the signal was seen off
   bool needs_acknowledgement_ = false;  // before the first correction
   bool has_output_ = false;             // the guard has an output
-  bool owes_zero_ = false;          // the last answer contained a correction
-  bool stalled_ = false;            // the cycles before this one were missed for too long
-  bool after_stall_ = false;        // true from a stall until the correction begins anew
-  double overdue_s_ = 0.0;          // time in this cycle for which the inputs had been lost
-  double permitted_s_ = 0.0;        // how long the inputs have been good
+  bool owes_zero_ = false;              // the last answer contained a correction
+  bool stalled_ = false;                // the cycles before this one were missed for too long
+  bool after_stall_ = false;            // true from a stall until the correction begins anew
+  double overdue_s_ = 0.0;              // time in this cycle for which the inputs had been lost
+  double permitted_s_ = 0.0;            // how long the inputs have been good
   double foreign_age_s_ = std::numeric_limits<double>::infinity();  // time since another sender
   std::uint64_t foreign_senders_ = 0;
   double status_due_s_ = 0.0;

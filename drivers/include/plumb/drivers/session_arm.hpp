@@ -43,10 +43,10 @@ class ArmWatch {
   /// To be called once a cycle.
   void step(double ageing_s) noexcept { now_s_ += ageing_s; }
 
-  void aim(const Transformd& X_BD) noexcept;               // an accepted target
-  void jump() noexcept;                                    // one beyond its limits of motion
-  void show(const Transformd& X_BA) noexcept;              // the controller's pose of the arm
-  void show_joints(std::span<const double> q) noexcept;    // joints that are numbers
+  void aim(const Transformd& X_BD) noexcept;             // an accepted target
+  void jump() noexcept;                                  // one beyond its limits of motion
+  void show(const Transformd& X_BA) noexcept;            // the controller's pose of the arm
+  void show_joints(std::span<const double> q) noexcept;  // joints that are numbers
 
   bool away() const noexcept;
   bool still() const noexcept;

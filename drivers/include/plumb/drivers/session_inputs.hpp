@@ -13,18 +13,18 @@ namespace plumb::drivers {
 /// The reasons that prevent a correction, as bits; several may be set at once.
 enum class Lost : std::uint32_t {
   kNothing = 0,
-  kTarget = 1 << 0,      // no valid target for too long
-  kJoints = 1 << 1,      // no joint state for too long
-  kController = 1 << 2,  // no message of the controller's state for too long
-  kDrives = 1 << 3,      // the drives are off
-  kManual = 1 << 4,      // the operating mode is not automatic
-  kStop = 1 << 5,        // a protective stop is active
-  kDisabled = 1 << 6,    // the enable signal of the cell is off
-  kTool = 1 << 7,        // another tool than the expected one is active
-  kFrame = 1 << 8,       // another frame than the expected one is active
-  kPayload = 1 << 9,     // another payload than the expected one is active
-  kMotion = 1 << 10,     // a target exceeded its limits of step or speed
-  kRobot = 1 << 11,      // no message of the robot's identity for too long
+  kTarget = 1 << 0,        // no valid target for too long
+  kJoints = 1 << 1,        // no joint state for too long
+  kController = 1 << 2,    // no message of the controller's state for too long
+  kDrives = 1 << 3,        // the drives are off
+  kManual = 1 << 4,        // the operating mode is not automatic
+  kStop = 1 << 5,          // a protective stop is active
+  kDisabled = 1 << 6,      // the enable signal of the cell is off
+  kTool = 1 << 7,          // another tool than the expected one is active
+  kFrame = 1 << 8,         // another frame than the expected one is active
+  kPayload = 1 << 9,       // another payload than the expected one is active
+  kMotion = 1 << 10,       // a target exceeded its limits of step or speed
+  kRobot = 1 << 11,        // no message of the robot's identity for too long
   kComparison = 1 << 12,   // no pose of the controller was compared for too long
   kArmAway = 1 << 13,      // the arm is not where the targets are
   kArmStill = 1 << 14,     // the targets move, and the joints do not

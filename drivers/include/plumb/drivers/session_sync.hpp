@@ -85,7 +85,7 @@ class SyncCheck {
   SyncSettings settings_;
   std::array<BusMessage, kKept> joints_;  // a ring; size 0: none
   std::size_t next_ = 0;
-  BusMessage actual_;  // an actual pose not compared yet; size 0: none
+  BusMessage actual_;                             // an actual pose not compared yet; size 0: none
   std::array<Values, kMostDistinct> distinct_{};  // as many as counters_.distinct
   Age compared_;
   SyncCounters counters_;
