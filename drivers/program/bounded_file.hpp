@@ -18,4 +18,8 @@ inline constexpr std::uintmax_t kMostFileBytes = 2048ull << 20;
 /// `most` bytes; a pipe or a device is read up to the smaller of `most` and kMostStreamBytes.
 std::string read_file_up_to(const std::filesystem::path& file, std::uintmax_t most);
 
+/// The same of a regular file only: anything else, such as a pipe or a device, is refused before a
+/// byte of it is read or waited for.
+std::string read_regular_file(const std::filesystem::path& file, std::uintmax_t most);
+
 }  // namespace plumb

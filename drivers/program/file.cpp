@@ -195,6 +195,26 @@ std::string read_file_up_to(const fs::path& file, std::uintmax_t most) {
   }
 }
 
+/// It is opened without waiting and judged by what was opened: a name may change in between.
+std::string read_regular_file(const fs::path& file, std::uintmax_t most) {
+  const Descriptor in(file.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK);
+  if (in.get() < 0) cannot_read(file, errno == ENOENT ? "no such file" : std::strerror(errno));
+  struct stat found {};
+  if (::fstat(in.get(), &found) != 0) cannot_read(file, std::strerror(errno));
+  if (S_ISDIR(found.st_mode)) cannot_read(file, "it is a directory");
+  if (!S_ISREG(found.st_mode)) cannot_read(file, "it is no regular file");
+  std::string out;
+  std::array<char, 1 << 16> chunk;
+  for (;;) {
+    const ssize_t n = ::read(in.get(), chunk.data(), chunk.size());
+    if (n == 0) return out;
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) cannot_read(file, std::strerror(errno));
+    if (out.size() + static_cast<std::size_t>(n) > most) too_large(file, most);
+    out.append(chunk.data(), static_cast<std::size_t>(n));
+  }
+}
+
 void write_file_atomically(const fs::path& file, std::string_view bytes) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) cannot_write(file, EISDIR);

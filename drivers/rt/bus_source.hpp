@@ -40,6 +40,9 @@ class BusSource {
   /// Its name in the record: "can0", "modbus", "csv".
   virtual std::string name() const = 0;
 
+  /// True if a robot and an operator are at the other end; false if targets come from a file.
+  virtual bool has_robot() const noexcept { return true; }
+
   /// Opens the bus without sending anything. Throws Failure: E-RT-LINK (kEnvironment) with the
   /// system's reason, E-RT-CSV (kInput). Slow.
   virtual std::unique_ptr<OpenBus> open(const Deployment& deployment) const = 0;

@@ -24,11 +24,13 @@ constexpr int kAlive_ms = 2000;
 
 }  // namespace
 
-std::vector<std::filesystem::path> control_paths(const std::filesystem::path& dir) {
+std::string name_of_run(const std::filesystem::path& dir) {
   constexpr std::size_t kDigits = 12;
-  const std::string name =
-      "plumb-rt-" + sha256(std::filesystem::weakly_canonical(dir).string()).substr(0, kDigits) +
-      ".sock";
+  return "plumb-rt-" + sha256(std::filesystem::weakly_canonical(dir).string()).substr(0, kDigits);
+}
+
+std::vector<std::filesystem::path> control_paths(const std::filesystem::path& dir) {
+  const std::string name = name_of_run(dir) + ".sock";
   std::vector<std::filesystem::path> out{std::filesystem::path("/run/plumb") / name};
   if (const char* const own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own != '\0')
     out.push_back(std::filesystem::path(own) / name);

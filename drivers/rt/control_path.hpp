@@ -3,11 +3,15 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "rt/listener.hpp"
 
 namespace plumb::drivers::rt {
+
+/// A name for what belongs to the runs of DIR: "plumb-rt-" and 12 hexadecimal digits of its path.
+std::string name_of_run(const std::filesystem::path& dir);
 
 /// The possible paths of the control socket of the plumb-rt that runs DIR, best first: in
 /// /run/plumb, which the systemd unit creates, in $XDG_RUNTIME_DIR, and in DIR itself. The name

@@ -13,6 +13,7 @@ class CsvSource final : public BusSource {
   static std::shared_ptr<const BusSource> read(TomlTable& source,
                                                const std::filesystem::path& folder);
   BusUse use() const noexcept override { return BusUse::kModbus; }
+  bool has_robot() const noexcept override { return false; }
   std::string name() const override { return "csv"; }
   std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
 };

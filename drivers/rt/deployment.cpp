@@ -2,6 +2,7 @@
 #include "rt/deployment.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "bus_text/layout_toml.hpp"
 #include "bus_text/reach.hpp"
@@ -22,6 +23,10 @@ void complete(Deployment& out) {
   if (const auto* target = out.layout.find(MessageKind::kTarget))
     session.target.period_s = target->period_s;
   session.cycle_s = cycle_s;
+  if (!out.config.source->has_robot()) {  // a row of the file stands for the arm until it is synced
+    session.sync.distinct = 1;
+    session.arm.lag_s = std::numeric_limits<double>::infinity();
+  }
   session.answer_s = std::max(session.answer_s, 3.0 * cycle_s);
   if (const auto* status = out.layout.find(MessageKind::kStatus))
     session.status_s = status->period_s;

@@ -85,13 +85,24 @@ std::optional<Descriptor> listening(Descriptor fd, const sockaddr* address, sock
 
 }  // namespace
 
+std::optional<Asked> take_request(int listening, const std::string& end_of_request,
+                                  const Patience& patience) {
+  Descriptor peer(::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (!peer.open()) return std::nullopt;
+  auto request =
+      read_until(peer.get(), end_of_request, patience.most_bytes, Deadline(patience.within_ms));
+  if (!request) return std::nullopt;
+  return Asked{std::move(peer), std::move(*request)};
+}
+
+void reply_to(const Descriptor& peer, const std::string& answer, const Patience& patience) {
+  write_all(peer.get(), answer, Deadline(patience.within_ms));
+}
+
 void serve_one(int listening, const std::string& end_of_request, const Patience& patience,
                const std::function<std::string(const std::string&)>& answer) {
-  const Descriptor peer(::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!peer.open()) return;
-  const auto request =
-      read_until(peer.get(), end_of_request, patience.most_bytes, Deadline(patience.within_ms));
-  if (request) write_all(peer.get(), answer(*request), Deadline(patience.within_ms));
+  const auto asked = take_request(listening, end_of_request, patience);
+  if (asked) reply_to(asked->peer, answer(asked->request), patience);
 }
 
 std::optional<Descriptor> listen_unix(const std::filesystem::path& path) {

@@ -18,6 +18,20 @@ struct Patience {
   int within_ms = 100;
 };
 
+/// A request, and the connection that waits for its answer.
+struct Asked {
+  Descriptor peer;
+  std::string request;
+};
+
+/// If a connection waits at `listening`: accepts it and reads a request up to `end_of_request`.
+/// Nothing if there is none, or if the peer exceeds the limits.
+std::optional<Asked> take_request(int listening, const std::string& end_of_request,
+                                  const Patience& patience);
+
+/// Writes the answer, as far as the peer reads it in time.
+void reply_to(const Descriptor& peer, const std::string& answer, const Patience& patience);
+
 /// If a connection waits at `listening`: accepts it, reads a request up to `end_of_request`, writes
 /// the result of `answer`, and closes. A peer that exceeds the limits gets no answer.
 void serve_one(int listening, const std::string& end_of_request, const Patience& patience,

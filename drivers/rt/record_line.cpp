@@ -9,7 +9,7 @@ namespace plumb::drivers::rt {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000, kMicro_ns = 1'000;
-constexpr std::uint8_t kStopFlag = 1;
+constexpr std::uint8_t kStopFlag = 1, kSleptFlag = 2, kAcknowledgeFlag = 1;
 
 template <class T>
 bool read(std::string_view text, T& out, int base = 10) {
@@ -85,7 +85,8 @@ std::optional<RecordLine> parse_line(std::string_view text) {
 
 CanFrame tick_frame(const RecordedTick& tick) {
   CanFrame out{.length = 8, .time_ns = tick.told.now_ns};
-  out.data[0] = tick.told.run == SessionTick::Run::kStop ? kStopFlag : 0;
+  if (tick.told.run == SessionTick::Run::kStop) out.data[0] |= kStopFlag;
+  if (tick.told.host == SessionTick::Host::kSlept) out.data[0] |= kSleptFlag;
   for (unsigned i = 0; i < 3; ++i)
     out.data[1 + i] = static_cast<std::uint8_t>(tick.model >> (8 * i));
   for (unsigned i = 0; i < 4; ++i)
@@ -99,7 +100,24 @@ RecordedTick tick_in(const CanFrame& frame) {
     out.model |= static_cast<std::uint32_t>(frame.data[1 + i]) << (8 * i);
   for (unsigned i = 0; i < 4; ++i)
     out.told.foreign_senders |= static_cast<std::uint64_t>(frame.data[4 + i]) << (8 * i);
-  if (frame.data[0] == kStopFlag) out.told.run = SessionTick::Run::kStop;
+  if ((frame.data[0] & kStopFlag) != 0) out.told.run = SessionTick::Run::kStop;
+  if ((frame.data[0] & kSleptFlag) != 0) out.told.host = SessionTick::Host::kSlept;
+  return out;
+}
+
+CanFrame start_frame(const SessionStart& start, std::int64_t now_ns) {
+  CanFrame out{.length = 8, .time_ns = now_ns};
+  if (start.acknowledgement == SessionStart::Acknowledgement::kNeeded)
+    out.data[0] = kAcknowledgeFlag;
+  out.data[1] = static_cast<std::uint8_t>(start.fault);
+  return out;
+}
+
+SessionStart start_in(const CanFrame& frame) {
+  SessionStart out;
+  if ((frame.data[0] & kAcknowledgeFlag) != 0)
+    out.acknowledgement = SessionStart::Acknowledgement::kNeeded;
+  if (frame.data[1] < kFaultCauses) out.fault = static_cast<FaultCause>(frame.data[1]);
   return out;
 }
 

@@ -18,6 +18,7 @@ struct RecordLine {
 };
 
 /// Names that stand in place of the interface on lines that are not frames of the bus.
+inline constexpr char kStartName[] = "start";    // what the runs before left for the session
 inline constexpr char kTickName[] = "tick";      // one step of the session
 inline constexpr char kUnsentName[] = "unsent";  // an answer that could not be sent
 inline constexpr char kGapName[] = "gap";        // the record lacks entries
@@ -32,5 +33,9 @@ struct RecordedTick {
 };
 CanFrame tick_frame(const RecordedTick& tick);
 RecordedTick tick_in(const CanFrame& frame);
+
+/// The beginning of a session, encoded likewise. A record without it began with nothing left.
+CanFrame start_frame(const SessionStart& start, std::int64_t now_ns);
+SessionStart start_in(const CanFrame& frame);
 
 }  // namespace plumb::drivers::rt

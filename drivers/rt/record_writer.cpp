@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "rt/creatable.hpp"
@@ -78,6 +79,10 @@ void RecordWriter::add(const RecordEntry& entry) {
     frame.time_ns = entry.message.time_ns;
     add_line(entry.what == What::kNotSent ? kUnsentName : bus_, frame);
   }
+}
+
+void RecordWriter::begin(const SessionStart& start) {
+  add_line(kStartName, start_frame(start, MonotonicTime::now_ns()));
 }
 
 void RecordWriter::note_lost(std::uint64_t lost) {

@@ -25,6 +25,7 @@ class RecordWriter {
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
+  void begin(const SessionStart& start);  // the first line; not needed if nothing was left
   void add(const RecordEntry& entry);
   void note_lost(std::uint64_t lost);  // entries lost so far because the ring was full
   void flush();

@@ -30,29 +30,39 @@ const LoadedModel* find(const Models& models, std::uint32_t number) {
   return found == models.end() ? nullptr : *found;
 }
 
-/// The first model of the record, if it is known; else that of the deployment.
-const LoadedModel& first_of(const Models& models, const std::filesystem::path& record) {
+/// What a record begins with.
+struct Beginning {
+  const LoadedModel* model;  // the first of the record, if it is known; else that of the deployment
+  SessionStart start;
+};
+
+Beginning beginning_of(const Models& models, const std::filesystem::path& record) {
+  Beginning out{.model = models.front(), .start = {}};
   std::ifstream in(record);
-  for (std::string text; std::getline(in, text);)
-    if (const auto line = parse_line(text); line && line->interface == kTickName) {
-      const LoadedModel* const found = find(models, tick_in(line->frame).model);
-      return found != nullptr ? *found : *models.front();
-    }
-  return *models.front();
+  for (std::string text; std::getline(in, text);) {
+    const auto line = parse_line(text);
+    if (line && line->interface == kStartName) out.start = start_in(line->frame);
+    if (!line || line->interface != kTickName) continue;
+    const LoadedModel* const found = find(models, tick_in(line->frame).model);
+    if (found != nullptr) out.model = found;
+    break;
+  }
+  return out;
 }
 
-/// The settings of a run that began with this model.
-SessionSettings settings_with(const Deployment& deployment, const LoadedModel& first) {
+/// The settings of a run that began so.
+SessionSettings settings_with(const Deployment& deployment, const Beginning& first) {
   SessionSettings out = deployment.session;
-  out.sensors = sensor_places(deployment.layout, first.model());
+  out.sensors = sensor_places(deployment.layout, first.model->model());
+  out.start = first.start;
   return out;
 }
 
 class Player {
  public:
-  Player(const Deployment& deployment, Models models, const LoadedModel& first)
+  Player(const Deployment& deployment, Models models, const Beginning& first)
       : models_(std::move(models)),
-        slot_(first),
+        slot_(*first.model),
         session_(std::make_unique<Session>(slot_, settings_with(deployment, first))),
         heard_(record_layout(deployment)),
         sent_(record_layout(deployment)),
@@ -65,6 +75,8 @@ class Player {
       ++out_.unreadable;
     } else if (line->interface == kTickName) {
       step(tick_in(line->frame));
+    } else if (line->interface == kStartName) {
+      return;
     } else if (line->interface == kGapName) {
       ++out_.gaps;
     } else if (is_ours(line->frame)) {
@@ -156,7 +168,7 @@ Replayed replay(const std::filesystem::path& record, const Deployment& deploymen
                 const std::vector<RunningModel>& others) {
   Models models{deployment.model.loaded.get()};
   for (const RunningModel& other : others) models.push_back(other.loaded.get());
-  Player player(deployment, models, first_of(models, record));
+  Player player(deployment, models, beginning_of(models, record));
   std::ifstream in(record);
   for (std::string line; player.goes_on() && std::getline(in, line);) player.take(line);
   Replayed out = std::move(player).result();

@@ -73,6 +73,9 @@ void read_limits(TomlTable table, SessionSettings& out) {
   read_positive(table, "target_step_deg", kDegree, out.target.step_rad);
   read_positive(table, "limited_mm", kMilli, out.share.limited_m);
   read_positive(table, "limited_scale", 1.0, out.share.limited_scale);
+  read_positive(table, "arm_distance_mm", kMilli, out.arm.distance_m);
+  read_positive(table, "arm_distance_deg", kDegree, out.arm.angle_rad);
+  read_positive(table, "arm_lag_s", 1.0, out.arm.lag_s);
   if (out.share.limited_scale > 1.0)
     table.out_of_range("limited_scale", "greater than 0, 1 at most");
   table.done();
@@ -89,6 +92,8 @@ void read_sync(TomlTable table, SyncSettings& out) {
   read_whole(table, "poses", {1, 100'000}, out.poses);
   read_positive(table, "position_um", kMicro, out.position_m);
   read_positive(table, "rotation_urad", kMicro, out.rotation_rad);
+  read_whole(table, "distinct", {1, kMostDistinct}, out.distinct);
+  read_positive(table, "silence_s", 1.0, out.silence_s);
   table.done();
 }
 

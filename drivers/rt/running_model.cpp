@@ -7,6 +7,7 @@
 
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/format/reader.hpp"
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "program/shell_word.hpp"
@@ -45,7 +46,7 @@ void check_sum(const std::filesystem::path& folder, const std::string& line) {
 }  // namespace
 
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial) {
-  const std::string bytes = read_file(file);
+  const std::string bytes = read_regular_file(file, kMostModelBytes);
   const std::string sum = sha256(bytes);
   RunningModel out{.loaded = make(file, bytes, sum), .sha256 = sum};
   const std::string& own = out.loaded->model().serial;

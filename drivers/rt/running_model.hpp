@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,8 +16,11 @@ struct RunningModel {
   std::string sha256;
 };
 
-/// Reads and verifies a model file. Throws Failure (kInput): E-RT-MODEL, or E-RT-SERIAL if
-/// `serial` is not empty and not the model's. Slow.
+/// The most that is read of a model file; the largest that the format can hold is smaller.
+inline constexpr std::uintmax_t kMostModelBytes = 16u << 20;
+
+/// Reads and verifies a model file, which must be a regular one. Throws Failure (kInput):
+/// E-RT-MODEL, or E-RT-SERIAL if `serial` is not empty and not the model's. Slow.
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial);
 
 /// If the folder contains SHA256SUMS: throws Failure (kInput, E-RT-SUMS) unless every file listed

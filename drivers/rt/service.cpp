@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kPass_ms = 10;
 constexpr std::int64_t kSwap_ns = 2'000'000'000, kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kLoad_ns = 5'000'000'000;  // the one who asks waits ten seconds
 
 std::string reply(const Json& json) { return json.dump() + "\n"; }
 
@@ -66,10 +67,17 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
 
 void Service::make_files() {
   const RtConfig& config = deployment_.config;
+  if (config.source->has_robot()) {
+    last_run_.emplace(deployment_.folder, deployment_.model.sha256);
+    last_run_->begin();
+    deployment_.session.start = last_run_->start();
+    facts_.acknowledge = last_run_->why();
+  }
   if (!config.record.empty()) {
     record_ = std::make_unique<RecordWriter>(config.record, record_layout(deployment_), facts_.bus,
                                              config.record_max_mb);
     facts_.record = record_->file().string();
+    if (last_run_) record_->begin(last_run_->start());
   }
   if (config.sink.kind == SinkConfig::Kind::kCsv)
     answers_ = std::make_unique<AnswerFile>(config.sink.file);
@@ -82,7 +90,7 @@ void Service::check_files() const {
 }
 
 Service::~Service() {
-  stop();
+  std::ignore = stop(Ended::kBadly);
   std::error_code ignored;
   std::filesystem::remove(control_.path, ignored);
 }
@@ -96,20 +104,32 @@ void Service::start() {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-void Service::stop() {
+bool Service::stop(Ended ended) {
   ended_ = true;
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return true;
+  const std::int64_t end_ns = MonotonicTime::now_ns() +
+                              static_cast<std::int64_t>(kStop_s * static_cast<double>(kSecond_ns));
+  while (!over_ && MonotonicTime::now_ns() < end_ns)
+    std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kSecond_ns / 1000);
+  if (!over_) return false;
+  thread_.join();
+  if (last_run_ && ended == Ended::kWell) last_run_->end();
+  return true;
 }
 
 void Service::run() {
   while (!ended_) pass();
   manager_.tell("STOPPING=1");
   write_down();
+  remember();
+  over_ = true;
 }
 
 void Service::pass() {
   serve();
+  go_on_with_swap();
   write_down();
+  remember();
   bus_.tend();
   if (bus_.finished()) shared_.stop = true;
   tell_manager();
@@ -128,6 +148,14 @@ void Service::write_down() {
   record_->note_lost(facts_.record_lost);
   record_->flush();
   facts_.record_failure = record_->failure();
+}
+
+void Service::remember() {
+  if (!last_run_) return;
+  last_run_->note(snapshot_.session, facts_.model_sha256);
+  const bool asks = has(snapshot_.session.lost, Lost::kAcknowledge) ||
+                    snapshot_.session.state == SessionState::kFault;
+  if (snapshot_.session.counters.cycles > 0 && !asks) facts_.acknowledge.clear();
 }
 
 /// Sends the watchdog's keep-alive message only if the cycle has run since the last one.
@@ -150,31 +178,70 @@ void Service::serve() {
   pollfd at[] = {{.fd = control_.listening.get(), .events = POLLIN, .revents = 0},
                  {.fd = metrics_ ? metrics_->get() : -1, .events = POLLIN, .revents = 0}};
   if (::poll(at, 2, kPass_ms) <= 0) return;
-  if (at[0].revents != 0)
-    serve_one(at[0].fd, "\n", {}, [this](const std::string& request) { return control(request); });
+  if (at[0].revents != 0) serve_control();
   if (at[1].revents != 0)
     serve_one(at[1].fd, "\r\n\r\n", {},
               [this](const std::string& request) { return page(request); });
 }
 
-std::string Service::control(const std::string& request) {
+void Service::serve_control() {
+  auto asked = take_request(control_.listening.get(), "\n", {});
+  if (!asked) return;
   shared_.snapshots.take(snapshot_);
+  if (asked->request.starts_with("swap "))
+    begin_swap(std::move(asked->peer), asked->request.substr(5));
+  else
+    reply_to(asked->peer, control(asked->request), {});
+}
+
+std::string Service::control(const std::string& request) const {
   if (request == "status") return reply({{"ok", true}, {"result", status_json(snapshot_, facts_)}});
-  if (request.starts_with("swap ")) return swap(request.substr(5));
   return refusal("E-RT-CONTROL", "not a request that this plumb-rt knows");
 }
 
-/// Swaps in the model of a file. If it fails any check the running model stays in use.
-std::string Service::swap(const std::string& file) {
-  RunningModel next;
+/// Loads the model of a file on another thread; the answer follows when that is done.
+void Service::begin_swap(Descriptor peer, const std::string& file) {
+  if (swap_)
+    return reply_to(peer, refusal("E-RT-SWAP", "another model is being loaded: " + swap_->file),
+                    {});
   try {
-    next = load_model(file, deployment_.model.loaded->model().serial);
+    ModelLoading loading(file, deployment_.model.loaded->model().serial);
+    swap_.emplace(Swap{.peer = std::move(peer),
+                       .file = file,
+                       .loading = std::move(loading),
+                       .end_ns = MonotonicTime::now_ns() + kLoad_ns});
+  } catch (const std::exception& error) {
+    reply_to(peer, refusal("E-RT-SWAP", error.what()), {});
+  }
+}
+
+/// A model that comes too late is not swapped in: who asked for it was told so.
+void Service::go_on_with_swap() {
+  if (!swap_) return;
+  const bool late = MonotonicTime::now_ns() >= swap_->end_ns;
+  if (swap_->loading.done()) {
+    if (swap_->peer.open()) reply_to(swap_->peer, loaded_swap(), {});
+    swap_.reset();
+  } else if (late && swap_->peer.open()) {
+    reply_to(swap_->peer, refusal("E-RT-SWAP", "the file cannot be read in time: " + swap_->file),
+             {});
+    swap_->peer = Descriptor();
+  }
+}
+
+std::string Service::loaded_swap() {
+  try {
+    return swap(swap_->file, swap_->loading.result());
   } catch (const Failure& failure) {
     const Problem& first = failure.problems().front();
     return refusal(first.code.c_str(), first.message);
   } catch (const std::exception& error) {
     return refusal("E-RT-MODEL", error.what());
   }
+}
+
+/// Swaps in a model. If it fails any check the running model stays in use.
+std::string Service::swap(const std::string& file, RunningModel next) {
   if (const auto short_of = find_short_reach(deployment_, *next.loaded); !short_of.empty())
     return refusal("E-RT-SWAP", short_of.front().what);
   if (!sensors_come(deployment_, *next.loaded))

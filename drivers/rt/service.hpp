@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -10,6 +11,8 @@
 #include "rt/bus_source.hpp"
 #include "rt/control_path.hpp"
 #include "rt/deployment.hpp"
+#include "rt/last_run.hpp"
+#include "rt/model_loading.hpp"
 #include "rt/notify.hpp"
 #include "rt/record_writer.hpp"
 #include "rt/status_text.hpp"
@@ -17,7 +20,8 @@
 namespace plumb::drivers::rt {
 
 /// All slow tasks of a run, on a thread of its own without real-time priority: control socket,
-/// metrics, model swap, record, file of answers, service manager, recovery of links.
+/// metrics, model swap, record, file of answers, service manager, recovery of links, what the next
+/// run must know. A model is loaded on yet another thread, so that a slow disk holds up nothing.
 ///
 /// It shares RunShared and the model slot with the cycle's thread, which never waits for them.
 class Service {
@@ -33,7 +37,16 @@ class Service {
   Service& operator=(const Service&) = delete;
 
   void start();
-  void stop();  // after the end of the cycle's thread; writes what is left
+
+  /// After the end of the cycle's thread; writes what is left. `ended`: whether the next run may
+  /// take this one for one that ended well. False if the thread has not ended within kStop_s, held
+  /// up by a disk that does not answer; then only the end of the program is left.
+  enum class Ended : std::uint8_t { kWell, kBadly };
+  [[nodiscard]] bool stop(Ended ended);
+  static constexpr double kStop_s = 3.0;
+
+  /// Why an operator must acknowledge before the first correction; empty: that is not needed.
+  const std::string& acknowledgement() const noexcept { return facts_.acknowledge; }
 
   const RunSnapshot& snapshot() const noexcept { return snapshot_; }  // after stop()
   const RunFacts& facts() const noexcept { return facts_; }
@@ -46,8 +59,13 @@ class Service {
   void write_down();
   void tell_manager();
   void serve();
-  std::string control(const std::string& request);
-  std::string swap(const std::string& file);
+  void serve_control();
+  std::string control(const std::string& request) const;
+  void begin_swap(Descriptor peer, const std::string& file);
+  void go_on_with_swap();
+  std::string loaded_swap();
+  std::string swap(const std::string& file, RunningModel next);
+  void remember();
   std::string page(const std::string& request);
 
   Deployment& deployment_;
@@ -62,10 +80,19 @@ class Service {
   RunFacts facts_;
   RunSnapshot snapshot_;
   RunningModel next_;  // the model before, kept while the cycle may still use it
+  struct Swap {
+    Descriptor peer;  // who asked; closed once answered
+    std::string file;
+    ModelLoading loading;
+    std::int64_t end_ns;  // when the peer is answered that it takes too long
+  };
+  std::optional<Swap> swap_;
+  std::optional<LastRun> last_run_;  // none for targets from a file
   std::int64_t told_ns_ = 0;
   std::uint64_t told_beats_ = 0;
   bool ready_ = false;
   std::atomic<bool> ended_{false};
+  std::atomic<bool> over_{false};  // the thread has ended
   std::thread thread_;
 };
 

@@ -49,6 +49,17 @@ std::string reasons(const Json& status) {
   return out + (fault == "none" ? "" : ", fault: " + fault);
 }
 
+/// What an operator is asked to do, and why; empty: nothing.
+std::string request_to_operator(const Json& status) {
+  const std::string why = status.value("acknowledge", "");
+  if (why.empty()) return "";
+  const bool fault = status["state"] == "fault";
+  return fmt::format("acknowledge {}: {}\n",
+                     fault ? "at the controller, once the cause is gone"
+                           : "at the controller in state shadow, before the first correction",
+                     why);
+}
+
 }  // namespace
 
 std::string status_text(const Json& status) {
@@ -56,6 +67,7 @@ std::string status_text(const Json& status) {
   std::string out = fmt::format("{}, mode {}, {}{}\n", status["state"].get<std::string>(),
                                 status["mode"].get<std::string>(),
                                 status["status"].get<std::string>(), reasons(status));
+  out += request_to_operator(status);
   out += fmt::format(
       "correction  {:.1f} um, {:.1f} urad on the target; the model asks for {:.1f} um\n",
       number(correction, "applied_um"), number(correction, "applied_urad"),

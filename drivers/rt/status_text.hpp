@@ -16,6 +16,7 @@ struct RunFacts {
   std::string record;          // file; empty: none
   std::string record_failure;  // empty: none
   std::uint64_t record_lost = 0;
+  std::string acknowledge;  // why an operator must acknowledge first; empty: that is not needed
 };
 
 /// {state, mode, cause, status, lost[], has_output, correction{}, ages{}, sync{}, counters{},

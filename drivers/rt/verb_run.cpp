@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <iostream>
 #include <memory>
 
 #include "plumb/drivers/rt_process.hpp"
 #include "plumb/drivers/run_loop.hpp"
+#include "program/file.hpp"
+#include "program/shell_word.hpp"
 #include "rt/rt_probe.hpp"
 #include "rt/service.hpp"
 #include "rt/stop_signal.hpp"
@@ -104,6 +107,27 @@ Loop::Next cycle_until_told(Deployment& deployment, OpenBus& bus, ModelSlot& slo
   return go(*loop);
 }
 
+void ask_operator(const Service& service, const Deployment& deployment) {
+  if (service.acknowledgement().empty() || deployment.session.mode == CorrectionMode::kShadow)
+    return;
+  say({{.severity = Severity::kWarning,
+        .code = "W-RT-ACKNOWLEDGE",
+        .message = fmt::format("an operator must acknowledge before the first correction: {}",
+                               service.acknowledgement()),
+        .help = "the controller's button, when this says state shadow: plumb-rt status " +
+                shell_word(display_name(deployment.folder))}});
+}
+
+/// A thread that waits for a disk for ever cannot be ended, but the program can.
+[[noreturn]] void end_without_service() {
+  std::cerr << render(Problem{.severity = Severity::kError,
+                              .code = "E-RT-STOP",
+                              .message = "a file that is written to does not answer",
+                              .help = "check the disk of [log] in rt.toml"})
+            << '\n';
+  ::_exit(static_cast<int>(Exit::kEnvironment));
+}
+
 /// Stops the service even if the cycle throws while it is set up.
 void run(const RunOptions& options, Outcome& outcome) {
   Deployment deployment = load_deployment(options.dir);
@@ -127,8 +151,10 @@ void run(const RunOptions& options, Outcome& outcome) {
   std::cerr << fmt::format("plumb-rt: {} on {}, cycle {} us, mode {}\n",
                            deployment.config.model.string(), deployment.config.source->name(),
                            deployment.config.cycle_us, to_string(deployment.session.mode));
+  ask_operator(service, deployment);
   const Loop::Next next = cycle_until_told(deployment, *bus, slot, shared);
-  service.stop();
+  const bool well = next == Loop::Next::kDone || next == Loop::Next::kBusLost;
+  if (!service.stop(well ? Service::Ended::kWell : Service::Ended::kBadly)) end_without_service();
   outcome.result = status_json(service.snapshot(), service.facts());
   outcome.text = status_text(outcome.result);
   refuse_end(next, deployment, outcome);

@@ -21,7 +21,7 @@ bool holds_words(std::span<const std::uint8_t> pdu, std::size_t head, std::uint1
 
 }  // namespace
 
-ModbusService::Bytes ModbusService::answer(Bytes pdu, std::uint64_t peer,
+ModbusService::Bytes ModbusService::answer(Bytes pdu, const ModbusPeer& peer,
                                            std::int64_t now_ns) noexcept {
   if (pdu.empty()) return refuse(0, ModbusException::kIllegalFunction);
   switch (ModbusFunction{pdu[0]}) {
@@ -46,7 +46,7 @@ ModbusService::Bytes ModbusService::refuse(std::uint8_t function, ModbusExceptio
 }
 
 void ModbusService::leave(std::uint64_t peer) noexcept {
-  if (writer_ == peer) writer_ = 0;
+  if (writer_.number == peer) writer_ = 0;
 }
 
 ModbusService::Bytes ModbusService::served(std::size_t size) noexcept {
@@ -63,7 +63,7 @@ ModbusService::Bytes ModbusService::read(Bytes pdu, std::int64_t now_ns) noexcep
   return registers_answer(pdu[0], first, count, now_ns);
 }
 
-ModbusService::Bytes ModbusService::write_single(Bytes pdu, std::uint64_t peer,
+ModbusService::Bytes ModbusService::write_single(Bytes pdu, const ModbusPeer& peer,
                                                  std::int64_t now_ns) noexcept {
   if (pdu.size() != kWriteSingleSize) return refuse(pdu[0], ModbusException::kIllegalValue);
   const std::uint16_t address = word_at(pdu, 1);
@@ -73,7 +73,7 @@ ModbusService::Bytes ModbusService::write_single(Bytes pdu, std::uint64_t peer,
   return served(kWriteSingleSize);
 }
 
-ModbusService::Bytes ModbusService::write_multiple(Bytes pdu, std::uint64_t peer,
+ModbusService::Bytes ModbusService::write_multiple(Bytes pdu, const ModbusPeer& peer,
                                                    std::int64_t now_ns) noexcept {
   if (pdu.size() < kWriteMultipleHead) return refuse(pdu[0], ModbusException::kIllegalValue);
   const std::uint16_t first = word_at(pdu, 1);
@@ -86,7 +86,7 @@ ModbusService::Bytes ModbusService::write_multiple(Bytes pdu, std::uint64_t peer
   return served(kReadSize);
 }
 
-ModbusService::Bytes ModbusService::read_write(Bytes pdu, std::uint64_t peer,
+ModbusService::Bytes ModbusService::read_write(Bytes pdu, const ModbusPeer& peer,
                                                std::int64_t now_ns) noexcept {
   if (pdu.size() < kReadWriteHead) return refuse(pdu[0], ModbusException::kIllegalValue);
   const std::uint16_t read_first = word_at(pdu, 1);
@@ -114,14 +114,22 @@ ModbusService::Bytes ModbusService::registers_answer(std::uint8_t function, std:
   return served(2 + 2 * words.size());
 }
 
+/// True if another connection writes, which then counts this one as a second sender.
+bool ModbusService::holds(const ModbusPeer& peer, std::int64_t now_ns) noexcept {
+  const bool other = writer_.number != 0 && writer_.number != peer.number;
+  if (!other || now_ns - written_ns_ >= writer_hold_ns_) return false;
+  if (peer.host == writer_.host && peer.number > writer_.number) return false;
+  const bool first = is_superseded(peer) && belated_ != peer.number;
+  if (!first) ++counters_->foreign_senders;
+  if (first) belated_ = peer.number;
+  return true;
+}
+
 std::optional<ModbusException> ModbusService::objection(std::uint16_t first, std::uint16_t count,
-                                                        std::uint64_t peer,
+                                                        const ModbusPeer& peer,
                                                         std::int64_t now_ns) noexcept {
   if (!registers_->writable(first, count)) return ModbusException::kIllegalAddress;
-  if (writer_ != 0 && writer_ != peer && now_ns - written_ns_ < writer_hold_ns_) {
-    ++counters_->foreign_senders;
-    return ModbusException::kBusy;
-  }
+  if (holds(peer, now_ns)) return ModbusException::kBusy;
   writer_ = peer;
   written_ns_ = now_ns;
   return std::nullopt;

@@ -97,17 +97,37 @@ void ModbusTcpListener::admit(Descriptor socket, const SocketAddress& from, std:
     ++exchange_->counters.foreign_peers;
     return;
   }
-  if (peers_.size() >= settings_.most_connections) {
+  if (peers_.size() >= settings_.most_connections && !make_room(from)) {
     ++exchange_->counters.crowded_out;
     return;
   }
   const int on = 1;
   ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  const std::uint64_t number = ++connections_, host = host_of(from, number);
   Peer& peer = peers_.emplace_back();
   peer.socket = std::move(socket);
-  peer.number = ++connections_;
+  peer.who = {number, host};
+  peer.from = from;
   peer.request_ns = now_ns;
   ++exchange_->counters.connects;
+}
+
+/// The number of the first connection of this host that is there still.
+std::uint64_t ModbusTcpListener::host_of(const SocketAddress& from, std::uint64_t number) const {
+  const auto found =
+      std::ranges::find_if(peers_, [&](const Peer& peer) { return same_host(peer.from, from); });
+  return found == peers_.end() ? number : found->who.host;
+}
+
+/// Ends a connection of this host that a later one has superseded. False: there is none.
+bool ModbusTcpListener::make_room(const SocketAddress& for_host) {
+  const auto old = std::ranges::find_if(peers_, [&](const Peer& peer) {
+    return same_host(peer.from, for_host) && service_->is_superseded(peer.who);
+  });
+  if (old == peers_.end()) return false;
+  old->over = true;
+  drop_those_over();
+  return true;
 }
 
 bool ModbusTcpListener::is_allowed(const SocketAddress& from) const {
@@ -153,7 +173,7 @@ bool ModbusTcpListener::answer(Peer& peer, std::int64_t now_ns) {
   const MbapHeader& request = peer.framer.header();
   const bool known = request.unit == settings_.unit ||
                      std::ranges::find(kAnyUnit, request.unit) != std::end(kAnyUnit);
-  const auto pdu = known ? service_->answer(peer.framer.pdu(), peer.number, now_ns)
+  const auto pdu = known ? service_->answer(peer.framer.pdu(), peer.who, now_ns)
                          : service_->refuse(peer.framer.pdu()[0], ModbusException::kNoSuchUnit);
   peer.request_ns = now_ns;
   peer.served = true;
@@ -181,7 +201,7 @@ void ModbusTcpListener::drop_those_over() {
   const auto over = std::stable_partition(peers_.begin(), peers_.end(),
                                           [](const Peer& peer) { return !peer.over; });
   for (auto peer = over; peer != peers_.end(); ++peer) {
-    service_->leave(peer->number);
+    service_->leave(peer->who.number);
     ++exchange_->counters.disconnects;
   }
   peers_.erase(over, peers_.end());

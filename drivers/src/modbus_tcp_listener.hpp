@@ -28,7 +28,8 @@ class ModbusTcpListener {
  private:
   struct Peer {
     Descriptor socket;
-    std::uint64_t number = 0;  // the connections are numbered from 1
+    ModbusPeer who = 0;  // the connections are numbered from 1
+    SocketAddress from = {};
     ModbusFramer framer;
     std::int64_t part_since_ns = 0;  // when the first byte of the incomplete request came
     std::int64_t request_ns = 0;     // when the last complete request came, or the connection
@@ -40,6 +41,8 @@ class ModbusTcpListener {
   std::int64_t next_deadline_ns() const;
   void accept_new(std::int64_t now_ns);
   void admit(Descriptor socket, const SocketAddress& from, std::int64_t now_ns);
+  bool make_room(const SocketAddress& for_host);
+  std::uint64_t host_of(const SocketAddress& from, std::uint64_t number) const;
   bool is_allowed(const SocketAddress& from) const;
   void serve(Peer& peer, std::int64_t now_ns);
   void serve_requests(Peer& peer, std::int64_t now_ns);

@@ -32,6 +32,8 @@ void count(TargetVerdict verdict, SessionCounters& counters) noexcept {
   }
 }
 
+constexpr double kSleep_s = 3600.0;  // counts for a suspension of the machine, however long it was
+
 bool is_finite(const BusMessage& message) noexcept {
   for (std::size_t i = 0; i < message.size; ++i)
     if (!std::isfinite(message.values[i])) return false;
@@ -53,14 +55,23 @@ Session::Session(ModelSlot& slot, const SessionSettings& settings) noexcept
       cycle_(slot, settings.cycle),
       sync_(settings.sync),
       gate_(settings.target),
+      arm_(settings.arm),
       share_(settings.share) {
+  using Acknowledgement = SessionStart::Acknowledgement;
+  needs_acknowledgement_ = settings.start.acknowledgement == Acknowledgement::kNeeded;
   report_.mode = settings.mode;
+  report_.cause = settings.start.fault;
+  if (settings.start.fault != FaultCause::kNone) state_ = SessionState::kFault;
 }
 
 void Session::hear(const BusMessage& message) noexcept {
   switch (message.kind) {
     case MessageKind::kTarget:
       return hear_target(message);
+    case MessageKind::kJoints:
+      return hear_joints(message);
+    case MessageKind::kActual:
+      return hear_actual(message);
     case MessageKind::kController:
       hear_controller(message);
       break;
@@ -68,8 +79,30 @@ void Session::hear(const BusMessage& message) noexcept {
       if (!std::isfinite(message.values[0])) return;
       break;
     default:
-      sync_.hear(message, cycle_.model().corrector().nominal());
+      break;
   }
+  inbox_.hear(message);
+}
+
+/// Joints that are no numbers are not heard, so they are lost after a while.
+void Session::hear_joints(const BusMessage& message) noexcept {
+  const Chain& nominal = cycle_.model().corrector().nominal();
+  const auto n = static_cast<std::size_t>(nominal.joints());
+  const std::span q = std::span(message.values).first(n);
+  if (message.size < n || !is_joint_state(q)) {
+    ++report_.counters.no_joints;
+    return;
+  }
+  arm_.show_joints(q);
+  sync_.hear(message, nominal);
+  inbox_.hear(message);
+}
+
+void Session::hear_actual(const BusMessage& message) noexcept {
+  const auto X_BA = pose_in(message);
+  if (!X_BA) return;
+  arm_.show(*X_BA);
+  sync_.hear(message, cycle_.model().corrector().nominal());
   inbox_.hear(message);
 }
 
@@ -77,10 +110,13 @@ void Session::hear_target(const BusMessage& message) noexcept {
   Transformd X_BD;
   const TargetVerdict verdict = gate_.judge(message, X_BD);
   count(verdict, report_.counters);
-  if (verdict == TargetVerdict::kTooFar || verdict == TargetVerdict::kTooFast)
+  if (verdict == TargetVerdict::kTooFar || verdict == TargetVerdict::kTooFast) {
     target_misbehaved_ = true;
+    arm_.jump();
+  }
   if (verdict != TargetVerdict::kAccepted) return;
   target_ = message;
+  arm_.aim(X_BD);
   inbox_.hear(message);
 }
 
@@ -125,9 +161,30 @@ CycleInput Session::cycle_input(std::int64_t now_ns) const noexcept {
   return out;
 }
 
+/// Cycles missed for longer than an input's limit: during them every input was lost.
+void Session::note_stall(const SessionTick& tick, double dt_s) noexcept {
+  const bool slept = tick.host == SessionTick::Host::kSlept;
+  const double limit_s = std::max(settings_.inputs.limit_s, 3.0 * settings_.cycle_s);
+  stalled_ = slept || dt_s > limit_s;
+  overdue_s_ = slept ? kSleep_s : stalled_ ? dt_s - limit_s : 0.0;
+  if (!stalled_) return;
+  ++report_.counters.stalls;
+  after_stall_ = answering();
+}
+
+Lost Session::find_all_lost() const noexcept {
+  const auto when = [](bool lost, Lost one) { return lost ? one : Lost::kNothing; };
+  return find_lost(inbox_, settings_.inputs) | when(target_misbehaved_, Lost::kMotion) |
+         when(sync_.silent(), Lost::kComparison) | when(arm_.away(), Lost::kArmAway) |
+         when(arm_.still(), Lost::kArmStill) | when(stalled_, Lost::kStall) |
+         when(needs_acknowledgement_, Lost::kAcknowledge);
+}
+
+/// Before the first correction an acknowledgement counts once the poses were compared, so that it
+/// is given to what plumb-rt then shows.
 void Session::note_permission(double ageing_s) noexcept {
-  lost_ =
-      find_lost(inbox_, settings_.inputs) | (target_misbehaved_ ? Lost::kMotion : Lost::kNothing);
+  if (acknowledged_ && state_ == SessionState::kShadow) needs_acknowledgement_ = false;
+  lost_ = find_all_lost();
   permitted_s_ = lost_ == Lost::kNothing ? permitted_s_ + ageing_s : 0.0;
   // An acknowledgement that was switched on while the controller was silent does not count.
   if (has(lost_, Lost::kController)) acknowledge_was_on_ = true;
@@ -171,6 +228,8 @@ void Session::change_state(const SessionTick& tick) noexcept {
 
 void Session::enter(SessionState state) noexcept {
   if (state == SessionState::kHold) ++report_.counters.holds;
+  if (state == SessionState::kActive) after_stall_ = false;
+  if (state_ == SessionState::kFault) needs_acknowledgement_ = false;
   if (state == SessionState::kInit) {
     sync_.restart();
     report_.cause = FaultCause::kNone;
@@ -188,15 +247,24 @@ bool Session::answering() const noexcept {
   return state_ == SessionState::kActive || state_ == SessionState::kHold;
 }
 
+double Session::ramp_out_s() const noexcept {
+  const format::GuardLimits& limits = cycle_.model().limits();
+  const auto s = [](double way, double slew) { return slew > 0.0 ? way / slew : 0.0; };
+  return limits.ramp_s + std::max(s(limits.max_correction_m, limits.slew_m_per_s),
+                                  s(limits.max_rotation_rad, limits.slew_rad_per_s));
+}
+
 GuardOutput Session::correct(std::int64_t now_ns, double dt_s) noexcept {
   cycle_.enable(computes(state_) ? Guard::Enable::kOn : Guard::Enable::kOff);
   GuardOutput guarded = cycle_.step(cycle_input(now_ns)).output;
   const format::GuardLimits& limits = cycle_.model().limits();
   if (answering()) {
     const double most_s = 2.0 * limits.cycle_s;
-    X_BC_ = share_.step(X_BD_, guarded.X_BC, settings_.mode, limits, std::min(dt_s, most_s));
+    const CorrectionMode mode = after_stall_ ? CorrectionMode::kShadow : settings_.mode;
+    X_BC_ = share_.step(X_BD_, guarded.X_BC, mode, limits, std::min(dt_s, most_s) + overdue_s_);
   } else {
     share_.reset();
+    after_stall_ = false;
     owes_zero_ = false;
   }
   has_output_ = guarded.has_output;
@@ -233,7 +301,7 @@ void Session::fill_report(const GuardOutput& guarded) noexcept {
   report_.state = state_;
   report_.mode = settings_.mode;
   report_.status = guarded.status;
-  report_.lost = lost_;
+  report_.lost = lost_ | (after_stall_ ? Lost::kStall : Lost::kNothing);
   report_.has_output = answering() && guarded.has_output;
   report_.target_age_s = inbox_.age_s(MessageKind::kTarget);
   report_.joints_age_s = inbox_.age_s(MessageKind::kJoints);
@@ -251,6 +319,9 @@ void Session::fill_report(const GuardOutput& guarded) noexcept {
 SessionOutput Session::step(const SessionTick& tick) noexcept {
   const CycleTime::Tick time = time_.tick(tick.now_ns, settings_.cycle_s);
   inbox_.step(tick.now_ns, time.ageing_s);
+  sync_.step(time.ageing_s);
+  arm_.step(time.ageing_s);
+  note_stall(tick, time.dt_s);
   take_target();
   note_permission(time.ageing_s);
   note_foreign(tick, time.ageing_s);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumb/drivers/session_inputs.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace plumb::drivers {
 namespace {
+
+constexpr double kMostJoint = 1e4;  // [rad] or [m]: larger than any joint position of an arm
 
 constexpr Lost unless(bool good, Lost lost) noexcept { return good ? Lost::kNothing : lost; }
 
@@ -37,7 +41,8 @@ Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcep
   const bool controller = comes(MessageKind::kController, inbox, settings);
   const ControllerState said = controller_in(inbox.last(MessageKind::kController));
   const Lost silent = unless(comes(MessageKind::kTarget, inbox, settings), Lost::kTarget) |
-                      unless(comes(MessageKind::kJoints, inbox, settings), Lost::kJoints);
+                      unless(comes(MessageKind::kJoints, inbox, settings), Lost::kJoints) |
+                      unless(comes(MessageKind::kRobot, inbox, settings), Lost::kRobot);
   if (!controller) return silent | Lost::kController;
   return silent | unless(said.drives_on, Lost::kDrives) | unless(said.automatic, Lost::kManual) |
          unless(!said.protective_stop, Lost::kStop) |
@@ -52,6 +57,10 @@ bool is_heard(const SessionInbox& inbox, const InputSettings& settings) noexcept
          comes(MessageKind::kController, inbox, settings) &&
          comes(MessageKind::kActual, inbox, settings) &&
          comes(MessageKind::kRobot, inbox, settings);
+}
+
+bool is_joint_state(std::span<const double> q) noexcept {
+  return std::all_of(q.begin(), q.end(), [](double x) { return std::abs(x) <= kMostJoint; });
 }
 
 const char* to_string(Lost one) noexcept {
@@ -80,6 +89,18 @@ const char* to_string(Lost one) noexcept {
       return "payload";
     case Lost::kMotion:
       return "motion";
+    case Lost::kRobot:
+      return "robot";
+    case Lost::kComparison:
+      return "comparison";
+    case Lost::kArmAway:
+      return "arm-away";
+    case Lost::kArmStill:
+      return "arm-still";
+    case Lost::kStall:
+      return "stall";
+    case Lost::kAcknowledge:
+      return "acknowledge";
   }
   return "several";
 }

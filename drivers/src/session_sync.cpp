@@ -6,24 +6,14 @@
 #include <span>
 
 #include "plumb/drivers/bus_content.hpp"
+#include "plumb/drivers/session_inputs.hpp"
 
 namespace plumb::drivers {
-namespace {
-
-constexpr double kMostJoint = 1e4;  // [rad] or [m]: larger than any joint position of an arm
-
-bool is_joint_state(std::span<const double> q) noexcept {
-  return std::all_of(q.begin(), q.end(), [](double x) { return std::abs(x) <= kMostJoint; });
-}
-
-}  // namespace
-
 void SyncCheck::restart() noexcept {
   counters_.agreed = counters_.distinct = counters_.mismatched_in_row = 0;
   counters_.worst_m = counters_.worst_rad = 0.0;
   for (auto& joints : joints_) joints.size = 0;
   actual_.size = 0;
-  q_distinct_ = BusMessage::unknown();
 }
 
 void SyncCheck::hear(const BusMessage& message, const Chain& nominal) noexcept {
@@ -64,24 +54,32 @@ void SyncCheck::compare(const BusMessage& joints, const Chain& nominal) noexcept
 
 void SyncCheck::count(bool agrees, std::span<const double> q) noexcept {
   ++counters_.compared;
+  compared_.renew();
   if (!agrees) {
     ++counters_.mismatched;
     counters_.mismatched_in_row = std::min(counters_.mismatched_in_row + 1, settings_.mismatches);
-    if (!agreed()) counters_.agreed = 0;
+    if (!agreed()) counters_.agreed = counters_.distinct = 0;
     return;
   }
   counters_.mismatched_in_row = 0;
   if (agreed()) return;
-  ++counters_.agreed;
-  if (!moved(q)) return;
+  counters_.agreed = std::min(counters_.agreed + 1, settings_.poses);
+  if (!is_distinct(q)) return;
+  std::copy(q.begin(), q.end(), distinct_[static_cast<std::size_t>(counters_.distinct)].begin());
   ++counters_.distinct;
-  std::copy(q.begin(), q.end(), q_distinct_.begin());
 }
 
-bool SyncCheck::moved(std::span<const double> q) const noexcept {
+bool SyncCheck::apart(std::span<const double> q, const Values& from) const noexcept {
   for (std::size_t i = 0; i < q.size(); ++i)
-    if (!(std::abs(q[i] - q_distinct_[i]) <= settings_.moved)) return true;
+    if (!(std::abs(q[i] - from[i]) < settings_.moved)) return true;
   return false;
+}
+
+bool SyncCheck::is_distinct(std::span<const double> q) const noexcept {
+  const auto known = std::span(distinct_).first(static_cast<std::size_t>(counters_.distinct));
+  return counters_.distinct < kMostDistinct &&
+         std::all_of(known.begin(), known.end(),
+                     [&](const Values& from) { return apart(q, from); });
 }
 
 }  // namespace plumb::drivers

@@ -8,12 +8,19 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
+std::int64_t read(clockid_t clock) noexcept {
+  timespec time{};
+  ::clock_gettime(clock, &time);
+  return static_cast<std::int64_t>(time.tv_sec) * kSecond_ns + time.tv_nsec;
+}
+
 }  // namespace
 
-std::int64_t MonotonicTime::now_ns() noexcept {
-  timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<std::int64_t>(time.tv_sec) * kSecond_ns + time.tv_nsec;
+std::int64_t MonotonicTime::now_ns() noexcept { return read(CLOCK_MONOTONIC); }
+
+std::int64_t MonotonicTime::suspended_ns() noexcept {
+  const std::int64_t awake_ns = read(CLOCK_MONOTONIC);
+  return read(CLOCK_BOOTTIME) - awake_ns;
 }
 
 int MonotonicTime::sleep_until_ns(std::int64_t time_ns) noexcept {

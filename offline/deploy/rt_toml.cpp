@@ -55,10 +55,12 @@ std::string limits(drivers::CorrectionMode mode) {
       "target_speed_deg_s = {:.10g}\n"
       "target_step_mm = {:.10g}   # from one target to the next\ntarget_step_deg = {:.10g}\n"
       "limited_mm = {:.10g}   # largest correction of mode limited\n"
-      "limited_scale = {:.10g}   # and its share of the whole\n\n",
+      "limited_scale = {:.10g}   # and its share of the whole\n"
+      "arm_distance_mm = {:.10g}   # how far the arm may be from the path of the targets\n"
+      "arm_distance_deg = {:.10g}\narm_lag_s = {:.10g}   # and by how much it may be late\n\n",
       drivers::to_string(mode), s.target.speed_m_s / kMilli, s.target.speed_rad_s / kDegree,
       s.target.step_m / kMilli, s.target.step_rad / kDegree, s.share.limited_m / kMilli,
-      s.share.limited_scale);
+      s.share.limited_scale, s.arm.distance_m / kMilli, s.arm.angle_rad / kDegree, s.arm.lag_s);
 }
 
 std::string checks() {
@@ -67,11 +69,14 @@ std::string checks() {
       "[expect]   # the controller's numbers; others hold the correction\n"
       "# tool = 1\n# frame = 0\n# payload = 1\n\n"
       "[sync]   # before any correction: does the controller compute poses as the nominal model?\n"
-      "poses = {}\nposition_um = {:.10g}\nrotation_urad = {:.10g}\n\n"
+      "poses = {}\nposition_um = {:.10g}\nrotation_urad = {:.10g}\n"
+      "distinct = {}   # of them, apart by 0.1 rad; 1: the arm may stand still\n"
+      "silence_s = {:.10g}   # longest time without a compared pose\n\n"
       "[log]\n# record = \"record.log\"   # every frame, in the format of candump\n"
       "record_max_mb = 1000   # where a record ends; 0: when the disk is full\n"
       "metrics_port = 0   # for Prometheus on 127.0.0.1; 0: none\n\n",
-      sync.poses, sync.position_m / kMicro, sync.rotation_rad / kMicro);
+      sync.poses, sync.position_m / kMicro, sync.rotation_rad / kMicro, sync.distinct,
+      sync.silence_s);
 }
 
 }  // namespace

@@ -92,6 +92,8 @@ void Controller::hear_status(const BusMessage& message) {
   session_ = drivers::status_in(message);
   status_ns_ = time_.now_ns;
   has_status_ = true;
+  const bool shadow = session_.state == drivers::SessionState::kShadow;
+  shadow_ns_ = !shadow ? 0 : shadow_ns_ == 0 ? time_.now_ns : shadow_ns_;
   if (states_.empty() || states_.back().state != session_.state)
     states_.push_back({session_.state, time_.path_s});
   if (session_.state == drivers::SessionState::kActive && counters_.first_active_s < 0.0)
@@ -173,12 +175,19 @@ Isometry3d Controller::shown_pose() const {
   return out;
 }
 
+/// Pressed for a fifth of a second in every one, the first time after half of it.
+bool Controller::operator_acknowledges() const {
+  if (shadow_ns_ == 0) return false;
+  const double second = std::fmod(seconds(time_.now_ns - shadow_ns_), 1.0);
+  return second >= 0.5 && second < 0.7;
+}
+
 drivers::ControllerState Controller::state() const {
   return {.drives_on = !fault(FaultKind::kDrivesOff),
           .automatic = !fault(FaultKind::kManual),
           .protective_stop = fault(FaultKind::kStop),
           .correction_enabled = !fault(FaultKind::kDisable),
-          .acknowledge = fault(FaultKind::kAcknowledge),
+          .acknowledge = fault(FaultKind::kAcknowledge) || operator_acknowledges(),
           .tool = static_cast<std::uint8_t>(settings_.tool + (fault(FaultKind::kTool) ? 1 : 0)),
           .frame = settings_.frame,
           .payload = settings_.payload};

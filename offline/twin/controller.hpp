@@ -57,7 +57,8 @@ struct ControllerCounters {
 /// A robot controller that knows the nominal arm only. In every cycle it sends its actual pose and
 /// its target, receives corrections, and moves to the corrected target with its own inverse
 /// kinematics. Before the path begins it moves to and fro between the first two stations until
-/// corrections arrive.
+/// corrections arrive. Its operator acknowledges a plumb-rt that stays in SHADOW, which may wait
+/// for that, but no FAULT.
 ///
 /// To be used by one thread.
 class Controller {
@@ -107,6 +108,7 @@ class Controller {
   void say(drivers::BusPort& port, const drivers::BusMessage& message);
   Isometry3d shown_pose() const;
   drivers::ControllerState state() const;
+  bool operator_acknowledges() const;
 
   const Path& path_;
   ControllerSettings settings_;
@@ -136,6 +138,7 @@ class Controller {
   std::uint16_t counter_ = 0;
   std::int64_t start_ns_ = 0, path_ns_ = 0, status_ns_ = 0;
   bool has_status_ = false;
+  std::int64_t shadow_ns_ = 0;  // since when plumb-rt has been in SHADOW; 0: it is not
   drivers::SessionStatus session_;
   std::vector<StateSeen> states_;
   std::vector<Stop> stops_;

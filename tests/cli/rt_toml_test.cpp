@@ -100,6 +100,11 @@ TEST(RtToml, SaysWhatAnEmptyFileWouldMean) {
   EXPECT_EQ(a.session.sync.poses, b.session.sync.poses);
   EXPECT_NEAR(a.session.sync.position_m, b.session.sync.position_m, 1e-15);
   EXPECT_NEAR(a.session.sync.rotation_rad, b.session.sync.rotation_rad, 1e-15);
+  EXPECT_EQ(a.session.sync.distinct, b.session.sync.distinct);
+  EXPECT_NEAR(a.session.sync.silence_s, b.session.sync.silence_s, 1e-12);
+  EXPECT_NEAR(a.session.arm.distance_m, b.session.arm.distance_m, 1e-12);
+  EXPECT_NEAR(a.session.arm.angle_rad, b.session.arm.angle_rad, 1e-10);
+  EXPECT_NEAR(a.session.arm.lag_s, b.session.arm.lag_s, 1e-12);
   EXPECT_EQ(a.record, b.record);
   EXPECT_EQ(a.record_max_mb, b.record_max_mb);
   EXPECT_EQ(a.metrics_port, b.metrics_port);

@@ -124,6 +124,50 @@ TEST(ModbusServer, TakesNoMoreConnectionsThanItIsTold) {
   EXPECT_EQ(first.receive(), kAnswer);
 }
 
+constexpr std::uint8_t kBusyCode = 6;
+
+/// Writes a register of message robot, and what comes back of it: 0 or the code of an exception.
+int written(const Peer& peer) {
+  const Bytes request{0, 7, 0, 0, 0, 6, 1, 6, 0x04, 0x58, 0, 1};
+  EXPECT_TRUE(peer.send(request));
+  const Bytes answer = peer.receive();
+  if (answer == request) return 0;
+  return answer.size() == 9 ? answer[8] : -1;
+}
+
+/// A controller that reconnects, as after a stall of ours or a cable that was off, cannot always
+/// end its old connection first.
+TEST(ModbusServer, AConnectionSupersedesAnEarlierOneOfItsHost) {
+  Started s(brisk());
+  const Peer half_open(s.server.port());
+  ASSERT_EQ(written(half_open), 0);
+  const Peer again(s.server.port());
+  EXPECT_EQ(written(again), 0) << "at once, not when half a second is over";
+  EXPECT_EQ(written(half_open), kBusyCode) << "a request that was on the way for long";
+  EXPECT_EQ(written(again), 0);
+  EXPECT_EQ(s.counters().foreign_senders, 0U);
+  const Peer third(s.server.port());
+  EXPECT_EQ(written(third), 0) << "its place was that of the one superseded";
+}
+
+TEST(ModbusServer, AConnectionThatWritesOnThoughItWasSupersededIsASecondSender) {
+  Started s(brisk());
+  const Peer one(s.server.port()), other(s.server.port());
+  ASSERT_EQ(written(one), 0);
+  ASSERT_EQ(written(other), 0);
+  EXPECT_EQ(written(one), kBusyCode);
+  EXPECT_EQ(written(one), kBusyCode);
+  EXPECT_EQ(s.counters().foreign_senders, 1U);
+}
+
+TEST(ModbusServer, AnotherHostSupersedesNobody) {
+  Started s(brisk());
+  const Peer one(s.server.port(), "127.0.0.1"), other(s.server.port(), "127.0.0.2");
+  ASSERT_EQ(written(one), 0);
+  EXPECT_EQ(written(other), kBusyCode);
+  EXPECT_EQ(s.counters().foreign_senders, 1U);
+}
+
 TEST(ModbusServer, HangsUpOnARequestThatDripsHoweverSteadily) {
   Started s(brisk());
   const Peer peer(s.server.port());

@@ -21,7 +21,7 @@ constexpr std::uint64_t kPeer = 1, kOther = 2;
 /// from 1272) is ours.
 class Service : public testing::Test {
  protected:
-  Bytes ask(const Bytes& pdu, std::uint64_t peer = kPeer, std::int64_t now_ns = kSecond_ns) {
+  Bytes ask(const Bytes& pdu, const ModbusPeer& peer = kPeer, std::int64_t now_ns = kSecond_ns) {
     const auto answer = service.answer(pdu, peer, now_ns);
     return {answer.begin(), answer.end()};
   }

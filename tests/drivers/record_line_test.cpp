@@ -43,7 +43,8 @@ TEST(RecordLine, WhatIsNoneIsRefused) {
 TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
   const RecordedTick tick{.told = {.now_ns = 123'456'789'000,
                                    .foreign_senders = 0x01020304,
-                                   .run = SessionTick::Run::kStop},
+                                   .run = SessionTick::Run::kStop,
+                                   .host = SessionTick::Host::kSlept},
                           .model = 0x7FABCD};
   const auto line = parse_line(to_line({kTickName, tick_frame(tick)}));
   ASSERT_TRUE(line.has_value());
@@ -52,6 +53,17 @@ TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
   EXPECT_EQ(read.told.foreign_senders, tick.told.foreign_senders);
   EXPECT_EQ(read.model, tick.model);
   EXPECT_EQ(read.told.run, tick.told.run);
+  EXPECT_EQ(read.told.host, tick.told.host);
+}
+
+TEST(RecordLine, AStartHoldsWhatTheRunsBeforeLeft) {
+  const SessionStart start{.fault = FaultCause::kOtherRobot,
+                           .acknowledgement = SessionStart::Acknowledgement::kNeeded};
+  const auto line = parse_line(to_line({kStartName, start_frame(start, 5'000)}));
+  ASSERT_TRUE(line.has_value());
+  EXPECT_EQ(start_in(line->frame).fault, start.fault);
+  EXPECT_EQ(start_in(line->frame).acknowledgement, start.acknowledgement);
+  EXPECT_EQ(start_in(CanFrame{}).fault, FaultCause::kNone);
 }
 
 TEST(SyncCheck, ComparesAPoseWithTheJointsOfItsCounterOnly) {
@@ -59,7 +71,7 @@ TEST(SyncCheck, ComparesAPoseWithTheJointsOfItsCounterOnly) {
   const Chain& nominal = model->corrector().nominal();
   SyncCheck check({});
   const auto joints_at = [](int i) {
-    return std::vector<double>{0.1 * i, -1.0, 1.2, -0.4, 1.1, 0.2};
+    return std::vector<double>{0.11 * i, -1.0, 1.2, -0.4, 1.1, 0.2};
   };
   for (int i = 0; i < 100; ++i) {
     auto joints = joints_message(MessageKind::kJoints, joints_at(i), static_cast<std::uint16_t>(i));
@@ -73,7 +85,7 @@ TEST(SyncCheck, ComparesAPoseWithTheJointsOfItsCounterOnly) {
   }
   EXPECT_EQ(check.counters().compared, 97U);
   EXPECT_EQ(check.counters().mismatched, 0U);
-  EXPECT_EQ(check.counters().distinct, 50);
+  EXPECT_EQ(check.counters().distinct, kMostDistinct);
   EXPECT_TRUE(check.agreed());
   auto alone = pose_message(MessageKind::kActual, nominal.forward(joints_at(0)), 5000);
   check.hear(alone, nominal);
@@ -84,7 +96,7 @@ TEST(SyncCheck, StandingStillAgreesAndSaysHowLittleThatIsWorth) {
   const auto model = loaded();
   const Chain& nominal = model->corrector().nominal();
   const std::vector<double> q{0.1, -1.0, 1.2, -0.4, 1.1, 0.2};
-  SyncCheck check({});
+  SyncCheck check({.distinct = 1});
   for (std::uint16_t i = 0; i < 60; ++i) {
     check.hear(joints_message(MessageKind::kJoints, q, i), nominal);
     check.hear(pose_message(MessageKind::kActual, nominal.forward(q), i), nominal);

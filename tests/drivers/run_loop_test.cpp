@@ -34,7 +34,10 @@ struct Bench {
 
   Loop::Next cycle() {
     rig.now_ns = script.now_ns + kCycle_ns;
-    for (const auto& message : rig.controller_says()) port.coming.push_back(message);
+    for (auto& message : rig.controller_says()) {
+      if (message.kind == MessageKind::kTarget) message.time_ns -= target_waited_ns;
+      port.coming.push_back(message);
+    }
     ++rig.counter;
     rig.swing();
     return loop->cycle();
@@ -46,6 +49,7 @@ struct Bench {
   }
 
   SessionRig rig;
+  std::int64_t target_waited_ns = 0;
   InMemoryPort port;
   Script script;
   std::unique_ptr<RunShared> shared;
@@ -74,6 +78,19 @@ TEST(RunLoop, StopsOnlyWhenTheCorrectionIsOut) {
   EXPECT_TRUE(run.rig.session->at_rest());
 }
 
+/// Targets that wait too long in our own queue are asked for, and never answered.
+TEST(RunLoop, StopsInTheStatedTimeThoughTheCorrectionCannotBeTakenAway) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 1000; ++i) run.cycle();
+  ASSERT_EQ(run.rig.session->state(), SessionState::kActive);
+  run.shared->stop = true;
+  run.target_waited_ns = 50'000'000;
+  int cycles = 0;
+  while (run.cycle() == Loop::Next::kGoOn && cycles < 5000) ++cycles;
+  EXPECT_FALSE(run.rig.session->at_rest());
+  EXPECT_NEAR(0.004 * cycles, run.rig.session->ramp_out_s() + 1.0, 0.02);
+}
+
 TEST(RunLoop, GivesUpADeadBusOnlyWhenTold) {
   Bench patient(CorrectionMode::kFull);
   patient.port.link = LinkState::kDown;
@@ -91,6 +108,7 @@ TEST(RunLoop, ASecondStoppedIsOneTickAndNoStep) {
   run.script.now_ns += 1'000'000'000;
   for (int i = 0; i < 1000; ++i) run.cycle();
   EXPECT_GE(run.clock->counters().missed, 249U);
+  EXPECT_EQ(run.rig.session->report().counters.stalls, 1U);
   EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
 }
 
@@ -106,7 +124,8 @@ TEST(RunLoop, ASnapshotIsOfTheWholeRun) {
   for (int i = 0; i < 100; ++i) run.cycle();
   RunSnapshot snapshot;
   ASSERT_TRUE(run.shared->snapshots.take(snapshot));
-  EXPECT_EQ(snapshot.session.state, SessionState::kShadow);
+  EXPECT_EQ(snapshot.session.state, SessionState::kSync);
+  EXPECT_GT(snapshot.session.sync.compared, 80U);
   EXPECT_GT(snapshot.wake.count(), 80U);
   EXPECT_FALSE(run.shared->snapshots.take(snapshot));
 }

@@ -15,7 +15,8 @@ struct RunSettings {
 };
 
 /// The loop of the cycle's thread. In every cycle it waits for the clock, takes the received
-/// messages, steps the session, sends its messages and records all of this.
+/// messages, steps the session, sends its messages and records all of this. Told to stop, it ends
+/// when the correction is out, a second after Session::ramp_out_s() at the latest.
 ///
 /// Times, including those of messages, are truncated to whole microseconds, the resolution of the
 /// record. A replay of the record therefore gives the same results to the bit.
@@ -68,6 +69,8 @@ class RunLoop {
  private:
   using What = RecordEntry::What;
   static constexpr std::int64_t kSnapshot_ns = 50'000'000, kMicro_ns = 1'000;
+  static constexpr std::int64_t kSlept_ns = 100'000'000;  // an input's limit
+  static constexpr std::int64_t kSpare_ns = 1'000'000'000;
 
   static std::int64_t whole_us(std::int64_t time_ns) noexcept {
     return time_ns - time_ns % kMicro_ns;
@@ -87,15 +90,37 @@ class RunLoop {
     const SessionTick tick{
         .now_ns = whole_us(now_ns),
         .foreign_senders = port_.counters().foreign_senders,
-        .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn};
+        .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn,
+        .host = host()};
     const SessionOutput out = session_.step(tick);
-    stopping_ = tick.run == Run::kStop;
+    note_stop(tick);
     shared_.record.put(
         {.what = What::kTick, .tick = tick, .model = session_.model(), .message = {}});
     for (BusMessage message : out.sent()) {
       message.time_ns = tick.now_ns;
       write_down(send(message) ? What::kSent : What::kNotSent, message);
     }
+  }
+
+  /// Whether the machine was suspended since the last cycle. The two clocks are not read at once,
+  /// so a thread that loses the processor between them for so long seems suspended, which it is.
+  SessionTick::Host host() noexcept {
+    using Host = SessionTick::Host;
+    if constexpr (requires { time_.suspended_ns(); }) {
+      const std::int64_t suspended_ns = time_.suspended_ns();
+      const bool slept = cycles_ > 0 && suspended_ns - suspended_ns_ > kSlept_ns;
+      suspended_ns_ = suspended_ns;
+      return slept ? Host::kSlept : Host::kAwake;
+    }
+    return Host::kAwake;
+  }
+
+  /// A stop waits for the ramp, and for no more: a controller that asks on in a way that is never
+  /// answered would hold it up for ever.
+  void note_stop(const SessionTick& tick) noexcept {
+    stopping_ = tick.run == SessionTick::Run::kStop;
+    if (!stopping_ || stop_by_ns_ != 0) return;
+    stop_by_ns_ = tick.now_ns + static_cast<std::int64_t>(1e9 * session_.ramp_out_s()) + kSpare_ns;
   }
 
   bool send(const BusMessage& message) noexcept {
@@ -107,7 +132,7 @@ class RunLoop {
   }
 
   Next next(const Tick& tick) noexcept {
-    if (stopping_ && session_.at_rest()) return Next::kDone;
+    if (stopping_ && (session_.at_rest() || tick.time_ns >= stop_by_ns_)) return Next::kDone;
     down_ns_ = port_.state() == LinkState::kDown ? down_ns_ + tick.elapsed_ns : 0;
     const bool given_up = settings_.give_up_ns > 0 && down_ns_ >= settings_.give_up_ns;
     return given_up ? Next::kBusLost : Next::kGoOn;
@@ -123,6 +148,8 @@ class RunLoop {
   std::uint64_t cycles_ = 0;
   std::int64_t down_ns_ = 0;
   bool stopping_ = false;
+  std::int64_t stop_by_ns_ = 0;  // 0: not told to stop
+  std::int64_t suspended_ns_ = 0;
   LatencyHistogram work_;
   RunSnapshot snapshot_;
 };

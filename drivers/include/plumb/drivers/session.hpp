@@ -10,6 +10,7 @@
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/bus_layout.hpp"
 #include "plumb/drivers/sensor_places.hpp"
+#include "plumb/drivers/session_arm.hpp"
 #include "plumb/drivers/session_inbox.hpp"
 #include "plumb/drivers/session_inputs.hpp"
 #include "plumb/drivers/session_share.hpp"
@@ -20,6 +21,14 @@
 
 namespace plumb::drivers {
 
+/// What the runs before leave for a session to begin with.
+struct SessionStart {
+  enum class Acknowledgement : std::uint8_t { kNotNeeded, kNeeded };
+
+  FaultCause fault = FaultCause::kNone;  // of the last run, not acknowledged: begins in FAULT
+  Acknowledgement acknowledgement = Acknowledgement::kNotNeeded;  // before the first correction
+};
+
 struct SessionSettings {
   CorrectionMode mode = CorrectionMode::kShadow;
   CorrectionForm form = CorrectionForm::kPose;
@@ -27,6 +36,7 @@ struct SessionSettings {
   ShareSettings share = {};
   SyncSettings sync = {};
   TargetLimits target = {};
+  ArmLimits arm = {};
   InputSettings inputs = {};
   double cycle_s = 0.004;
   double answer_s = 0.02;    // an older target is not answered
@@ -36,6 +46,7 @@ struct SessionSettings {
   double signature_s = 0.2;  // period of the signature
   CycleSettings cycle = {};
   SensorPlaces sensors = sensors_in_order();
+  SessionStart start = {};
 };
 
 /// The inputs of a cycle besides its messages.
@@ -43,6 +54,10 @@ struct SessionTick {
   std::int64_t now_ns = 0;
   std::uint64_t foreign_senders = 0;                                // the port's counter of them
   enum class Run : std::uint8_t { kGoOn, kStop } run = Run::kGoOn;  // kStop: ramp out for good
+  enum class Host : std::uint8_t {
+    kAwake,
+    kSlept,  // the machine was suspended since the last step, which now_ns does not show
+  } host = Host::kAwake;
 };
 
 /// The messages to send, in this order.
@@ -65,8 +80,10 @@ struct SessionCounters {
   std::uint64_t no_pose = 0;
   std::uint64_t too_far = 0;
   std::uint64_t too_fast = 0;
-  std::uint64_t too_old = 0;  // targets that had waited too long to be answered
-  std::uint64_t holds = 0;    // transitions from ACTIVE to HOLD
+  std::uint64_t too_old = 0;    // targets that had waited too long to be answered
+  std::uint64_t no_joints = 0;  // joint states with a value that is no joint position
+  std::uint64_t stalls = 0;     // times that cycles were missed for longer than an input's limit
+  std::uint64_t holds = 0;      // transitions from ACTIVE to HOLD
   std::uint64_t faults = 0;
 };
 
@@ -99,7 +116,9 @@ struct SessionReport {
 /// signature are sent at their periods in every state; the counter of the status is plumb-rt's
 /// heart-beat.
 ///
-/// A correction begins, changes and ends only by the guard's ramps and slew limits.
+/// A correction begins, changes and ends only by the guard's ramps and slew limits. Cycles missed
+/// for longer than an input's limit are a lost input: the correction is then where the ramp would
+/// have taken it meanwhile, ramps out and begins anew from zero.
 ///
 /// No system call, no allocation. Thread: one; the loader of the slot may run at the same time.
 /// Cost: fixed for a given model and number of messages. The same calls give the same output, to
@@ -120,6 +139,9 @@ class Session {
 
   SessionState state() const noexcept { return state_; }
 
+  /// The longest time that a correction of the running model takes to ramp out [s].
+  double ramp_out_s() const noexcept;
+
   /// Number of the model that the last step used: the fingerprint of its file.
   std::uint32_t model() const noexcept { return cycle_.model().number(); }
 
@@ -130,7 +152,11 @@ class Session {
   void hear_controller(const BusMessage& message) noexcept;
   CycleInput cycle_input(std::int64_t now_ns) const noexcept;
   void take_target() noexcept;
+  void hear_joints(const BusMessage& message) noexcept;
+  void hear_actual(const BusMessage& message) noexcept;
+  void note_stall(const SessionTick& tick, double dt_s) noexcept;
   void note_permission(double ageing_s) noexcept;
+  Lost find_all_lost() const noexcept;
   void note_foreign(const SessionTick& tick, double ageing_s) noexcept;
   FaultCause fault() const noexcept;
   SessionFacts facts(const SessionTick& tick) const noexcept;
@@ -148,19 +174,24 @@ class Session {
   SessionInbox inbox_;
   SyncCheck sync_;
   TargetGate gate_;
+  ArmWatch arm_;
   CorrectionShare share_;
   CycleTime time_;
   SessionState state_ = SessionState::kInit;
-  BusMessage target_;               // the newest accepted target
-  Transformd X_BD_;                 // pose of the target
-  Transformd X_BC_;                 // corrected pose of the target
-  bool target_came_ = false;        // a target arrived in this cycle and is not too old
-  bool target_misbehaved_ = false;  // a target of this cycle exceeded its limits
-  bool acknowledged_ = false;       // an acknowledgement began in this cycle
-  bool acknowledge_was_on_ = true;  // true until the signal was seen off
-  bool has_output_ = false;         // the guard has an output
-  bool owes_zero_ = false;          // the last answer contained a correction
-  double permitted_s_ = 0.0;        // how long the inputs have been good
+  BusMessage target_;                   // the newest accepted target
+  Transformd X_BD_;                     // pose of the target
+  Transformd X_BC_;                     // corrected pose of the target
+  bool target_came_ = false;            // a target arrived in this cycle and is not too old
+  bool target_misbehaved_ = false;      // a target of this cycle exceeded its limits
+  bool acknowledged_ = false;           // an acknowledgement began in this cycle
+  bool acknowledge_was_on_ = true;      // true until the signal was seen off
+  bool needs_acknowledgement_ = false;  // before the first correction
+  bool has_output_ = false;             // the guard has an output
+  bool owes_zero_ = false;              // the last answer contained a correction
+  bool stalled_ = false;                // the cycles before this one were missed for too long
+  bool after_stall_ = false;            // true from a stall until the correction begins anew
+  double overdue_s_ = 0.0;              // time in this cycle for which the inputs had been lost
+  double permitted_s_ = 0.0;            // how long the inputs have been good
   double foreign_age_s_ = std::numeric_limits<double>::infinity();  // time since another sender
   std::uint64_t foreign_senders_ = 0;
   double status_due_s_ = 0.0;

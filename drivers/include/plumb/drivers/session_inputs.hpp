@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/session_inbox.hpp"
@@ -10,21 +11,27 @@
 namespace plumb::drivers {
 
 /// The reasons that prevent a correction, as bits; several may be set at once.
-enum class Lost : std::uint16_t {
+enum class Lost : std::uint32_t {
   kNothing = 0,
-  kTarget = 1 << 0,      // no valid target for too long
-  kJoints = 1 << 1,      // no joint state for too long
-  kController = 1 << 2,  // no message of the controller's state for too long
-  kDrives = 1 << 3,      // the drives are off
-  kManual = 1 << 4,      // the operating mode is not automatic
-  kStop = 1 << 5,        // a protective stop is active
-  kDisabled = 1 << 6,    // the enable signal of the cell is off
-  kTool = 1 << 7,        // another tool than the expected one is active
-  kFrame = 1 << 8,       // another frame than the expected one is active
-  kPayload = 1 << 9,     // another payload than the expected one is active
-  kMotion = 1 << 10,     // a target exceeded its limits of step or speed
+  kTarget = 1 << 0,        // no valid target for too long
+  kJoints = 1 << 1,        // no joint state for too long
+  kController = 1 << 2,    // no message of the controller's state for too long
+  kDrives = 1 << 3,        // the drives are off
+  kManual = 1 << 4,        // the operating mode is not automatic
+  kStop = 1 << 5,          // a protective stop is active
+  kDisabled = 1 << 6,      // the enable signal of the cell is off
+  kTool = 1 << 7,          // another tool than the expected one is active
+  kFrame = 1 << 8,         // another frame than the expected one is active
+  kPayload = 1 << 9,       // another payload than the expected one is active
+  kMotion = 1 << 10,       // a target exceeded its limits of step or speed
+  kRobot = 1 << 11,        // no message of the robot's identity for too long
+  kComparison = 1 << 12,   // no pose of the controller was compared for too long
+  kArmAway = 1 << 13,      // the arm is not where the targets are
+  kArmStill = 1 << 14,     // the targets move, and the joints do not
+  kStall = 1 << 15,        // plumb-rt missed its cycles for too long
+  kAcknowledge = 1 << 16,  // an operator must acknowledge before the first correction
 };
-inline constexpr int kLostBits = 11;
+inline constexpr int kLostBits = 17;
 
 constexpr Lost operator|(Lost a, Lost b) noexcept {
   return static_cast<Lost>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -33,7 +40,7 @@ constexpr bool has(Lost set, Lost one) noexcept {
   return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
 }
 
-/// Stable lower-case words for one bit: "target", "drives", "manual".
+/// Stable lower-case words for one bit: "target", "drives", "arm-away".
 const char* to_string(Lost one) noexcept;
 
 struct InputSettings {
@@ -51,6 +58,9 @@ double longest_silence_s(MessageKind kind, const InputSettings& settings = {}) n
 
 /// The reasons in the messages that now prevent a correction. Pure.
 Lost find_lost(const SessionInbox& inbox, const InputSettings& settings) noexcept;
+
+/// True if all of these are positions [rad] or [m] that a joint of an arm can have. Pure.
+bool is_joint_state(std::span<const double> q) noexcept;
 
 /// True if joints, actual pose, controller and robot arrived recently, so that a controller is
 /// there.

@@ -26,7 +26,8 @@ class CorrectionShare {
   explicit CorrectionShare(const ShareSettings& settings) noexcept : settings_(settings) {}
 
   /// Returns the pose X_BC to send. X_BD: the target; X_BG: the output of the guard for it; dt_s:
-  /// time since the last step, 0 .. two cycles.
+  /// time since the last step, 0 .. two cycles, and after a stall the time for which the inputs had
+  /// been lost.
   Transformd step(const Transformd& X_BD, const Transformd& X_BG, CorrectionMode mode,
                   const format::GuardLimits& limits, double dt_s) noexcept;
 

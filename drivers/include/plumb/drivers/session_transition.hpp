@@ -14,6 +14,7 @@ enum class FaultCause : std::uint8_t {
   kOtherRobot,     // the robot on the bus is not the one of the model
   kForeignSender,  // another sender uses our identifiers
 };
+inline constexpr int kFaultCauses = 4;
 
 /// Stable lower-case words: "init", "pose-mismatch", "shadow".
 const char* to_string(SessionState state) noexcept;

@@ -22,6 +22,10 @@ concept TimeSource = requires(T source, std::int64_t time_ns) {
 struct MonotonicTime {
   static std::int64_t now_ns() noexcept;
   static int sleep_until_ns(std::int64_t time_ns) noexcept;
+
+  /// How long the machine was suspended since it started [ns], which CLOCK_MONOTONIC does not
+  /// count: CLOCK_BOOTTIME is ahead of it by so much.
+  static std::int64_t suspended_ns() noexcept;
 };
 
 }  // namespace plumb::drivers

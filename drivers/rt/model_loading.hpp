@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "rt/running_model.hpp"
+
+namespace plumb::drivers::rt {
+
+/// Reads and verifies a model on a thread of its own, which may take as long as the disk does.
+/// Nobody waits for that thread: if this object goes first, it ends by itself, or with the program.
+class ModelLoading {
+ public:
+  /// As load_model. Throws std::system_error if there is no thread for it.
+  ModelLoading(const std::filesystem::path& file, const std::string& serial);
+
+  bool done() const noexcept;
+
+  /// The model; or throws what load_model threw. Once, and only when done.
+  RunningModel result();
+
+ private:
+  struct Shared;
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace plumb::drivers::rt

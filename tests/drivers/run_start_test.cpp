@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one run leaves for the next, with a controller made of sockets; and what cannot hold a run
+// up.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/drivers/deployed.hpp"
+#include "tests/drivers/raw_controller.hpp"
+#include "tests/drivers/rt_program.hpp"
+
+namespace plumb::tests {
+namespace {
+
+using enum drivers::SessionState;
+using Json = nlohmann::json;
+using namespace std::chrono_literals;
+
+class ARunAfterAnother : public testing::Test {
+ protected:
+  static std::string toml(int port) {
+    return "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
+           "role = \"server\"\nport = " +
+           std::to_string(port) + "\n[limits]\nmode = \"full\"\n[log]\nrecord = \"record.log\"\n";
+  }
+
+  void start() {
+    run = std::make_unique<RtProgram>(std::vector<std::string>{"run", folder.folder.string()},
+                                      folder.folder);
+  }
+  /// Ends the run, and waits until the controller has seen that.
+  void end(int signal) {
+    run->kill(signal);
+    const int exit = run->wait().exit;
+    EXPECT_EQ(exit, signal == SIGKILL ? -1 : 0);
+    run.reset();
+    EXPECT_TRUE(becomes([&] { return controller.state == -1; }));
+  }
+  bool comes(drivers::SessionState state) {
+    return becomes([&] { return controller.sees(state); });
+  }
+  Json status() const {
+    return plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json()["result"];
+  }
+  /// Stays in SHADOW for longer than the inputs must be good, and says why.
+  void expect_to_wait(const std::string& why) {
+    ASSERT_TRUE(comes(kShadow));
+    std::this_thread::sleep_for(800ms);
+    EXPECT_TRUE(controller.sees(kShadow));
+    const Json said = status();
+    EXPECT_EQ(said["lost"], Json({"acknowledge"}));
+    EXPECT_NE(said["acknowledge"].get<std::string>().find(why), std::string::npos)
+        << said["acknowledge"];
+  }
+
+  const int port = 21'000 + static_cast<int>(::getpid() % 20'000);
+  Deployed folder{toml(port)};
+  RawController controller{static_cast<std::uint16_t>(port), Deployed::arm().nominal,
+                           drivers::fingerprint(Deployed::arm().serial)};
+  std::unique_ptr<RtProgram> run;
+};
+
+TEST_F(ARunAfterAnother, AsksForAnAcknowledgementAfterACrashAndForANewModel) {
+  start();
+  expect_to_wait("first run");
+  controller.press();
+  ASSERT_TRUE(comes(kActive));
+  EXPECT_EQ(status()["acknowledge"], "");
+  end(SIGTERM);
+  start();
+  EXPECT_TRUE(comes(kActive)) << "it ended well, and its model was acknowledged";
+  end(SIGKILL);
+  start();
+  expect_to_wait("did not end well");
+  end(SIGTERM);
+  start();
+  expect_to_wait("was not acknowledged");
+  controller.press();
+  ASSERT_TRUE(comes(kActive));
+  end(SIGTERM);
+  format::Model other = Deployed::arm();
+  for (auto& joint : other.calibrated.joints) joint.a -= 1e-4;
+  folder.write_model("robot.plumb", other);
+  start();
+  expect_to_wait("first run with this model");
+  end(SIGTERM);
+}
+
+TEST_F(ARunAfterAnother, BeginsInTheFaultThatNobodyAcknowledged) {
+  start();
+  ASSERT_TRUE(comes(kShadow));
+  controller.press();
+  ASSERT_TRUE(comes(kActive));
+  controller.another_tool = true;
+  ASSERT_TRUE(comes(kFault));
+  controller.another_tool = false;
+  std::this_thread::sleep_for(200ms);  // until it is written down
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    end(signal);
+    start();
+    ASSERT_TRUE(comes(kFault));
+    std::this_thread::sleep_for(700ms);
+    EXPECT_TRUE(controller.sees(kFault));
+    EXPECT_EQ(status()["fault"], "pose-mismatch");
+  }
+  controller.press();
+  EXPECT_TRUE(comes(kActive));
+  end(SIGTERM);
+  for (const char* const record : {"record.log", "record.log.1", "record.log.2"}) {
+    const RtRan replayed = plumb_rt(
+        {"replay", (folder.folder / record).string(), "--dir", folder.folder.string(), "--json"},
+        folder.folder);
+    EXPECT_EQ(replayed.exit, 0) << record << ": " << replayed.err;
+    EXPECT_GT(replayed.json()["result"]["frames"], 20) << record;
+  }
+}
+
+TEST_F(ARunAfterAnother, TakesADamagedNoteOfItForTheWorst) {
+  folder.write("plumb-rt.state", "{\"schema\": \"plumb-rt-last-run/1\", \"ended\": tr");
+  start();
+  expect_to_wait("damaged");
+  end(SIGTERM);
+  std::filesystem::remove(folder.folder / "plumb-rt.state");
+  ASSERT_EQ(::mkfifo((folder.folder / "plumb-rt.state").c_str(), 0600), 0);
+  start();
+  expect_to_wait("not known");
+  end(SIGTERM);
+}
+
+/// A stall, as of a debugger: it goes on without a correction, and begins anew.
+TEST_F(ARunAfterAnother, AStoppedRunGoesOnWithoutCorrectionAndIsNoSecondSenderToItself) {
+  start();
+  ASSERT_TRUE(comes(kShadow));
+  controller.press();
+  ASSERT_TRUE(comes(kActive));
+  for (const auto stop : {400ms, 700ms}) {
+    run->kill(SIGSTOP);
+    std::this_thread::sleep_for(stop);  // the controller gives up its connection after 200 ms
+    run->kill(SIGCONT);
+    EXPECT_TRUE(becomes([&] { return controller.state >= 0 && !controller.sees(kActive); }));
+    EXPECT_FALSE(controller.sees(kFault));
+    EXPECT_TRUE(comes(kActive));
+  }
+  const Json said = status();
+  EXPECT_EQ(said["counters"]["faults"], 0);
+  EXPECT_EQ(said["link"]["foreign_senders"], 0);
+  EXPECT_GE(said["counters"]["stalls"], 2);
+  end(SIGTERM);
+}
+
+TEST(RunModel, WhatIsNoRegularFileIsRefusedAndHoldsNothingUp) {
+  const Deployed folder;
+  const std::string first = folder.text("targets.csv");
+  const std::string row =
+      first.substr(first.find('\n') + 1, first.find('\n', first.find('\n') + 1) - first.find('\n'));
+  std::string rows;
+  for (int i = 0; i < 20'000; ++i) rows += row;
+  folder.write("targets.csv", first + rows);
+  const auto file = [&](const char* name) { return (folder.folder / name).string(); };
+  ASSERT_EQ(::mkfifo(file("pipe.plumb").c_str(), 0600), 0);
+  folder.write("large.plumb", "");
+  std::filesystem::resize_file(file("large.plumb"), 1u << 30);  // one with holes
+
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
+  const auto ask = [&](std::vector<std::string> words) { return plumb_rt(words, folder.folder); };
+  const auto runs = [&] { return ask({"status", folder.folder.string()}).exit == 0; };
+  ASSERT_TRUE(becomes(runs));
+  const std::pair<std::string, const char*> bad[] = {{file("pipe.plumb"), "no regular file"},
+                                                     {"/dev/zero", "no regular file"},
+                                                     {file("large.plumb"), "more than 16 MB"}};
+  for (const auto& [model, why] : bad) {
+    const auto begin = std::chrono::steady_clock::now();
+    const RtRan ran = ask({"swap", model, "--dir", folder.folder.string()});
+    EXPECT_EQ(ran.exit, 3) << model;
+    EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 4s) << model;
+    EXPECT_TRUE(runs());
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
+
+  std::filesystem::remove(file("robot.plumb"));
+  ASSERT_EQ(::mkfifo(file("robot.plumb").c_str(), 0600), 0);
+  EXPECT_EQ(ask({"run", folder.folder.string()}).exit, 3) << "nor is it waited for at the start";
+}
+
+}  // namespace
+}  // namespace plumb::tests
