@@ -19,8 +19,4 @@ struct RunningModel {
 /// `serial` is not empty and not the model's. Slow.
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial);
 
-/// If the folder contains SHA256SUMS: throws Failure (kInput, E-RT-SUMS) unless every file listed
-/// there has its checksum. Other files are not checked.
-void verify_sums(const std::filesystem::path& folder);
-
 }  // namespace plumb::drivers::rt

@@ -13,6 +13,9 @@
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "rt/answer_file.hpp"
+#include "rt/model_change.hpp"
+#include "rt/screen_units.hpp"
+#include "rt/swap_request.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -58,6 +61,8 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
   facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
   facts_.model_sha256 = deployment.model.sha256;
+  facts_.ceilings = config.ceilings;
+  facts_.model_limits = deployment.model.loaded->limits();
   if (files == Files::kMade)
     make_files();
   else
@@ -160,15 +165,17 @@ void Service::serve() {
 std::string Service::control(const std::string& request) {
   shared_.snapshots.take(snapshot_);
   if (request == "status") return reply({{"ok", true}, {"result", status_json(snapshot_, facts_)}});
-  if (request.starts_with("swap ")) return swap(request.substr(5));
+  if (request.starts_with("swap ")) return swap(read_swap(request.substr(5)));
   return refusal("E-RT-CONTROL", "not a request that this plumb-rt knows");
 }
 
 /// Swaps in the model of a file. If it fails any check the running model stays in use.
-std::string Service::swap(const std::string& file) {
+std::string Service::swap(const SwapRequest& request) {
+  const std::string& file = request.file;
   RunningModel next;
   try {
     next = load_model(file, deployment_.model.loaded->model().serial);
+    refuse_wider(file, *next.loaded, deployment_.config.ceilings, deployment_.folder);
   } catch (const Failure& failure) {
     const Problem& first = failure.problems().front();
     return refusal(first.code.c_str(), first.message);
@@ -181,6 +188,13 @@ std::string Service::swap(const std::string& file) {
     return refusal("E-RT-SWAP",
                    "it listens to a sensor that the model before does not: start plumb-rt anew");
   const LoadedModel& running = *deployment_.model.loaded;
+  ModelChange change;
+  if (find_binding_fault(running.model(), next.loaded->model()) == BindingFault::kNone) {
+    change = find_change(running, *next.loaded);
+    const Ceilings& ceilings = deployment_.config.ceilings;
+    if (const auto fault = change_fault(change, request, ceilings); !fault.empty())
+      return refusal("E-RT-CHANGE", fault);
+  }
   const auto published = slot_.publish(*next.loaded);
   if (published == ModelSlot::Published::kBusy)
     return refusal("E-RT-SWAP", "the cycle has not taken the model before yet");
@@ -194,10 +208,13 @@ std::string Service::swap(const std::string& file) {
   if (!slot_.settled()) next_ = std::move(next);  // kept, because the cycle may still use it
   facts_.model_file = file;
   facts_.model_sha256 = deployment_.model.sha256;
+  facts_.model_limits = deployment_.model.loaded->limits();
   return reply({{"ok", true},
                 {"result",
                  {{"file", file},
                   {"sha256", facts_.model_sha256},
+                  {"change_mm", 1e3 * change.position_m},
+                  {"change_deg", change.rotation_rad / kDegree},
                   {"fingerprint", deployment_.model.loaded->number()}}}});
 }
 

@@ -47,7 +47,7 @@ class Service {
   void tell_manager();
   void serve();
   std::string control(const std::string& request);
-  std::string swap(const std::string& file);
+  std::string swap(const struct SwapRequest& request);
   std::string page(const std::string& request);
 
   Deployment& deployment_;

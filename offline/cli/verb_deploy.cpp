@@ -62,11 +62,11 @@ void warn_of_temperatures(const format::Model& model, const drivers::BusLayout& 
 }
 
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
-                                 const std::string& model) {
+                                 const format::GuardLimits& guard, const std::string& model) {
   return {{"robot.plumb", model},
           {"bus.dbc", drivers::write_dbc(layout, about(cell))},
           {"modbus-map.md", drivers::modbus_map_markdown(layout, about(cell))},
-          {"rt.toml", write_rt_toml(cell, layout), DeployFile::Summed::kNo}};
+          {"rt.toml", write_rt_toml(cell, layout, guard)}};
 }
 
 void put_result(const DeployArguments& options, const Cell& cell, const drivers::BusLayout& layout,
@@ -105,7 +105,7 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
-  const auto files = files_of(cell, layout, bytes);
+  const auto files = files_of(cell, layout, model.guard, bytes);
   put_result(options, cell, layout, files, bytes, outcome);
   const auto note = folder_note(options.folder, options.write);
   if (!options.write.dry_run) write_deploy_folder(options.folder, files);

@@ -5,11 +5,14 @@
 
 #include "cell/cell.hpp"
 #include "plumb/drivers/bus_layout.hpp"
+#include "plumb/format/model.hpp"
 
 namespace plumb::offline {
 
 /// rt.toml for a cell: every table and key with what it is for, so that nothing need be looked up
-/// on the machine. plumb-rt reads it.
-std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout);
+/// on the machine. plumb-rt reads it. `guard`: the limits that follow from [deploy] of the cell;
+/// they become the ceilings of every model that runs there.
+std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout,
+                          const format::GuardLimits& guard);
 
 }  // namespace plumb::offline

@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include "program/bounded_file.hpp"
@@ -37,7 +38,12 @@ struct RtFile {
   std::string kind = "can", interface = "can0", role = "client", address = "127.0.0.1", mode;
   int port = 502;
   double cycle_us = 4000.0;
+  std::optional<double> max_correction_mm, max_rotation_deg;  // ceilings of every model
 };
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 RtFile read_rt_file(const fs::path& file) {
   TomlSource source(file.string(), read_file_up_to(file, kMostCellBytes), "E-RT");
@@ -51,7 +57,11 @@ RtFile read_rt_file(const fs::path& file) {
     out.address = table->text_or("address", out.address);
     out.port = static_cast<int>(table->number_or("port", out.port));
   }
-  if (auto table = top.table("limits")) out.mode = table->text_or("mode", "");
+  if (auto table = top.table("limits")) {
+    out.mode = table->text_or("mode", "");
+    out.max_correction_mm = table->number("max_correction_mm");
+    out.max_rotation_deg = table->number("max_rotation_deg");
+  }
   if (auto table = top.table("cycle")) out.cycle_us = table->number_or("cycle_us", out.cycle_us);
   return out;
 }
@@ -117,8 +127,8 @@ std::string Monitor::look(const std::string& asked) {
                "plumb deploy -o deploy");
   try {
     const RtFile file = read_rt_file(cell_folder_ / folder / "rt.toml");
-    out["limits"] = {{"max_correction_mm", nullptr},
-                     {"max_rotation_deg", nullptr},
+    out["limits"] = {{"max_correction_mm", number_or_null(file.max_correction_mm)},
+                     {"max_rotation_deg", number_or_null(file.max_rotation_deg)},
                      {"cycle_us", file.cycle_us},
                      {"mode", file.mode}};
     const ShortRun asked_rt = run_to_end({{beside_own_program("plumb-rt").string(), "status",

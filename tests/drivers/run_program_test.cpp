@@ -157,11 +157,33 @@ TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
   EXPECT_NE(swap("other.plumb").err.find("E-RT-SERIAL"), std::string::npos);
   EXPECT_NE(swap("set-up.plumb").err.find("E-RT-SWAP"), std::string::npos);
   EXPECT_EQ(swap("missing.plumb").exit, 3);
+  format::Model wide = Deployed::arm();
+  wide.guard.max_correction_m = 0.02;
+  folder.write_model("wide.plumb", wide);
+  const RtRan wider = swap("wide.plumb");
+  EXPECT_NE(wider.err.find("E-RT-CEILING"), std::string::npos) << wider.err;
+  EXPECT_NE(wider.err.find("up to 20 mm, and [limits] max_correction_mm is 10"), std::string::npos)
+      << wider.err;
+  format::Model far = Deployed::arm();
+  far.guard.max_correction_m = 0.009;
+  for (auto& joint : far.calibrated.joints) joint.a += 2e-3;
+  folder.write_model("far.plumb", far);
+  const RtRan changed = swap("far.plumb");
+  EXPECT_NE(changed.err.find("E-RT-CHANGE"), std::string::npos) << changed.err;
+  EXPECT_NE(changed.err.find("and 5.000 mm are allowed"), std::string::npos) << changed.err;
   EXPECT_EQ(status(folder)["result"]["counters"]["swaps"], 0);
+  const auto limits = status(folder)["result"]["limits"];
+  EXPECT_NEAR(limits["correction_mm"]["model"].get<double>(), 3.0, 1e-9);
+  EXPECT_NEAR(limits["correction_mm"]["ceiling"].get<double>(), 10.0, 1e-9);
   EXPECT_EQ(swap("better.plumb").exit, 0);
   EXPECT_EQ(swap("robot.plumb").exit, 0);
   EXPECT_TRUE(becomes([&] { return status(folder)["result"]["counters"]["swaps"] == 2; }));
   EXPECT_EQ(status(folder)["result"]["state"], "active");
+  const RtRan meant = plumb_rt({"swap", (folder.folder / "far.plumb").string(), "--dir",
+                                folder.folder.string(), "--allow-change-mm", "20"},
+                               folder.folder);
+  EXPECT_EQ(meant.exit, 0) << meant.err;
+  EXPECT_NE(meant.out.find("changes corrections by"), std::string::npos) << meant.out;
   const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
   EXPECT_EQ(second.exit, 5);
   EXPECT_NE(second.err.find("E-RT-RUNNING"), std::string::npos) << second.err;
