@@ -91,7 +91,9 @@ void serve_one(int listening, const std::string& end_of_request, const Patience&
   if (!peer.open()) return;
   const auto request =
       read_until(peer.get(), end_of_request, patience.most_bytes, Deadline(patience.within_ms));
-  if (request) write_all(peer.get(), answer(*request), Deadline(patience.within_ms));
+  if (!request) return;
+  const std::string said = answer(*request);  // takes its own time, for example to load a model
+  write_all(peer.get(), said, Deadline(patience.within_ms));
 }
 
 std::optional<Descriptor> listen_unix(const std::filesystem::path& path) {

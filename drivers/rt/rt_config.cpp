@@ -110,6 +110,7 @@ void read_sync(TomlTable table, SyncSettings& out) {
 void read_log(TomlTable table, const std::filesystem::path& folder, RtConfig& out) {
   out.record = in(folder, table.text_or("record", ""));
   read_whole(table, "record_max_mb", {0, 1'000'000}, out.record_max_mb);
+  out.events = in(folder, table.text_or("events", ""));
   read_whole(table, "metrics_port", {0, 65535}, out.metrics_port);
   table.done();
 }

@@ -33,6 +33,7 @@ struct RtConfig {
   Ceilings ceilings = {};
   std::filesystem::path record = {};  // empty: none
   int record_max_mb = 1000;           // size limit of the record [1e6 bytes]; 0: none
+  std::filesystem::path events = {};  // journal; empty: where journal_file() puts it
   int metrics_port = 0;               // on 127.0.0.1; 0: none
 };
 

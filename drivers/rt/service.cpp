@@ -56,7 +56,10 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
       slot_(slot),
       shared_(shared),
       control_(open_control(deployment.folder)),
-      metrics_(open_metrics(deployment.config.metrics_port)) {
+      metrics_(open_metrics(deployment.config.metrics_port)),
+      journal_(files == Files::kMade ? journal_file(deployment.folder, deployment.config.events)
+                                     : std::filesystem::path{},
+               files == Files::kMade ? Journal::Echo::kStderr : Journal::Echo::kNone) {
   const RtConfig& config = deployment.config;
   facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
@@ -94,6 +97,12 @@ Service::~Service() {
 
 /// The thread starts with all signals blocked, so that they reach the thread that ends the program.
 void Service::start() {
+  facts_.events = journal_.file().string();
+  journal_.note("start", {{"bus", facts_.bus},
+                          {"mode", to_string(deployment_.session.mode)},
+                          {"file", facts_.model_file},
+                          {"sha256", facts_.model_sha256},
+                          {"fingerprint", deployment_.model.loaded->number()}});
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -110,6 +119,8 @@ void Service::run() {
   while (!ended_) pass();
   manager_.tell("STOPPING=1");
   write_down();
+  journal_.note("end", {{"state", to_string(snapshot_.session.state)},
+                        {"cycles", snapshot_.session.counters.cycles}});
 }
 
 void Service::pass() {
@@ -122,6 +133,9 @@ void Service::pass() {
 
 void Service::write_down() {
   shared_.snapshots.take(snapshot_);
+  for (SessionMoment moment; shared_.events.take(moment);) journal_.note_change(moment);
+  facts_.events_failure = journal_.failure();
+  facts_.events_lost = shared_.events.lost();
   for (RecordEntry entry; shared_.record.take(entry);) {
     if (record_) record_->add(entry);
     const bool answer =
@@ -132,6 +146,8 @@ void Service::write_down() {
   if (!record_) return;
   record_->note_lost(facts_.record_lost);
   record_->flush();
+  if (facts_.record_failure.empty() && !record_->failure().empty())
+    journal_.note("record-ended", {{"reason", record_->failure()}});
   facts_.record_failure = record_->failure();
 }
 
@@ -165,7 +181,12 @@ void Service::serve() {
 std::string Service::control(const std::string& request) {
   shared_.snapshots.take(snapshot_);
   if (request == "status") return reply({{"ok", true}, {"result", status_json(snapshot_, facts_)}});
-  if (request.starts_with("swap ")) return swap(read_swap(request.substr(5)));
+  if (request.starts_with("swap ")) {
+    const SwapRequest asked = read_swap(request.substr(5));
+    std::string answer = swap(asked);
+    note_swap(asked.file, answer);
+    return answer;
+  }
   return refusal("E-RT-CONTROL", "not a request that this plumb-rt knows");
 }
 
@@ -216,6 +237,16 @@ std::string Service::swap(const SwapRequest& request) {
                   {"change_mm", 1e3 * change.position_m},
                   {"change_deg", change.rotation_rad / kDegree},
                   {"fingerprint", deployment_.model.loaded->number()}}}});
+}
+
+/// Writes down what came of a request to swap.
+void Service::note_swap(const std::string& file, const std::string& answer) {
+  const Json said = Json::parse(answer, nullptr, false);
+  Json details{{"file", file}};
+  const bool done = said.is_object() && said.value("ok", false);
+  const char* const part = done ? "result" : "error";
+  if (said.is_object() && said.contains(part)) details.update(said[part]);
+  journal_.note(done ? "swap" : "swap-refused", details);
 }
 
 std::string Service::page(const std::string& request) {

@@ -10,6 +10,7 @@
 #include "rt/bus_source.hpp"
 #include "rt/control_path.hpp"
 #include "rt/deployment.hpp"
+#include "rt/journal.hpp"
 #include "rt/notify.hpp"
 #include "rt/record_writer.hpp"
 #include "rt/status_text.hpp"
@@ -48,6 +49,7 @@ class Service {
   void serve();
   std::string control(const std::string& request);
   std::string swap(const struct SwapRequest& request);
+  void note_swap(const std::string& file, const std::string& answer);
   std::string page(const std::string& request);
 
   Deployment& deployment_;
@@ -57,6 +59,7 @@ class Service {
   ServiceManager manager_;
   ControlSocket control_;
   std::optional<Descriptor> metrics_;
+  Journal journal_;
   std::unique_ptr<RecordWriter> record_;
   std::unique_ptr<class AnswerFile> answers_;
   RunFacts facts_;

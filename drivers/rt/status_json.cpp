@@ -145,7 +145,9 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
         {"sha256", facts.model_sha256},
         {"fingerprint", snapshot.model}}},
       {"record",
-       {{"file", facts.record}, {"failure", facts.record_failure}, {"lost", facts.record_lost}}}};
+       {{"file", facts.record}, {"failure", facts.record_failure}, {"lost", facts.record_lost}}},
+      {"events",
+       {{"file", facts.events}, {"failure", facts.events_failure}, {"lost", facts.events_lost}}}};
 }
 
 }  // namespace plumb::drivers::rt

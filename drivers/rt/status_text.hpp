@@ -19,6 +19,9 @@ struct RunFacts {
   std::string record;          // file; empty: none
   std::string record_failure;  // empty: none
   std::uint64_t record_lost = 0;
+  std::string events;          // file of the journal; empty: none
+  std::string events_failure;  // empty: none
+  std::uint64_t events_lost = 0;
 };
 
 /// {state, mode, cause, status, lost[], has_output, correction{}, ages{}, sync{}, counters{},

@@ -650,6 +650,9 @@ constexpr Explanation kCodes[] = {
     {"E-RT-RUNNING",
      "Another plumb-rt runs from this folder; two would be two senders of one identifier. plumb-rt "
      "status shows it."},
+    {"E-RT-LOCK",
+     "plumb-rt holds a lock on its folder for as long as it lives, so that no second one runs it; "
+     "this folder cannot be opened or locked."},
     {"E-RT-NOT-RUNNING", "No plumb-rt runs from this folder, so there is none to ask."},
     {"E-RT-CONTROL",
      "There is no place for the socket over which status, monitor and swap speak to plumb-rt, or "

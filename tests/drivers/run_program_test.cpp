@@ -194,6 +194,62 @@ TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
   EXPECT_EQ(run.wait().exit, 0);
 }
 
+std::vector<nlohmann::json> events(const Deployed& folder) {
+  return plumb_rt({"events", folder.folder.string(), "--json"}, folder.folder)
+      .json()["result"]["events"];
+}
+
+TEST(Run, TheJournalHoldsStatesSwapsAndRefusalsWithBothTimes) {
+  const Deployed folder;
+  write_long_targets(folder);
+  folder.write_model("better.plumb", Deployed::arm());
+  RtProgram run({"run", folder.folder.string()}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  const auto swap = [&](const char* file) {
+    return plumb_rt({"swap", (folder.folder / file).string(), "--dir", folder.folder.string()},
+                    folder.folder);
+  };
+  EXPECT_EQ(swap("better.plumb").exit, 0);
+  const RtRan garbage = swap("targets.csv");
+  EXPECT_EQ(garbage.exit, 3) << garbage.err;
+  const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(second.exit, 5);
+  run.kill(SIGTERM);
+  const RtRan ended = run.wait();
+  EXPECT_EQ(ended.exit, 0);
+  std::string course;
+  double before_s = 0.0;
+  for (const auto& event : events(folder)) {
+    const std::string name = event["event"];
+    course += name + (name == "state" ? ":" + event["to"].get<std::string>() : "") + " ";
+    EXPECT_EQ(event["time"].get<std::string>().size(), 24U) << event;
+    EXPECT_GE(event["monotonic_s"].get<double>(), before_s - 0.1) << event;
+    before_s = event["monotonic_s"].get<double>();
+  }
+  std::size_t at = 0;
+  for (const char* const part : {"start", "state:sync", "state:shadow", "state:active", "swap ",
+                                 "swap-refused", "not-started", "state:hold", "end"}) {
+    at = course.find(part, at);
+    ASSERT_NE(at, std::string::npos) << part << " in " << course;
+  }
+  EXPECT_NE(ended.err.find("state  from shadow  to active"), std::string::npos) << ended.err;
+}
+
+TEST(Run, AStoppedOneKeepsItsFolder) {
+  const Deployed folder;
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string()}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  run.kill(SIGSTOP);
+  const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(second.exit, 5);
+  EXPECT_NE(second.err.find("E-RT-RUNNING"), std::string::npos) << second.err;
+  run.kill(SIGCONT);
+  EXPECT_TRUE(becomes([&] { return status(folder).is_object(); })) << "it has kept its socket";
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+}
+
 TEST(Run, ARecordWithSwapsReplaysWithTheModelsThatItWentBy) {
   const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
   write_long_targets(folder);

@@ -258,6 +258,7 @@ def controller_side(plumb):
     finally:
         daemon.send_signal(signal.SIGTERM)
         plumb.finish(daemon, *words)
+    plumb.run("plumb-rt", "events", "twin/deploy")
     record = next(iter((plumb.scratch / "twin/deploy").glob("record*")), None)
     if record:
         plumb.run("plumb-rt", "replay", record, "--dir", "twin/deploy")

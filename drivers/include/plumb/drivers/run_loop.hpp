@@ -90,12 +90,30 @@ class RunLoop {
         .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn};
     const SessionOutput out = session_.step(tick);
     stopping_ = tick.run == Run::kStop;
+    note_change(tick.now_ns);
     shared_.record.put(
         {.what = What::kTick, .tick = tick, .model = session_.model(), .message = {}});
     for (BusMessage message : out.sent()) {
       message.time_ns = tick.now_ns;
       write_down(send(message) ? What::kSent : What::kNotSent, message);
     }
+  }
+
+  /// Passes what an operator wants to know to the journal, if it has changed.
+  void note_change(std::int64_t now_ns) noexcept {
+    const SessionReport& report = session_.report();
+    const SessionMoment now{.time_ns = now_ns,
+                            .state = report.state,
+                            .cause = report.cause,
+                            .mode = report.mode,
+                            .status = report.status,
+                            .lost = report.lost,
+                            .link = port_.state(),
+                            .model = session_.model(),
+                            .applied_m = report.applied_m,
+                            .difference_m = report.sync.last_m};
+    if (now.differs(moment_)) shared_.events.put(now);
+    moment_ = now;
   }
 
   bool send(const BusMessage& message) noexcept {
@@ -123,6 +141,7 @@ class RunLoop {
   std::uint64_t cycles_ = 0;
   std::int64_t down_ns_ = 0;
   bool stopping_ = false;
+  SessionMoment moment_;  // of the cycle before
   LatencyHistogram work_;
   RunSnapshot snapshot_;
 };
