@@ -22,12 +22,12 @@ struct CeilingKey {
 
 constexpr CeilingKey kCeilingKeys[] = {
     {"max_correction_mm", kMilli, 50.0, &Ceilings::correction_m},
-    {"max_rotation_deg", kDegree, 10.0, &Ceilings::rotation_rad},
+    {"max_rotation_deg", kDegree, 90.0, &Ceilings::rotation_rad},
     {"max_slew_mm_s", kMilli, 200.0, &Ceilings::slew_m_s},
-    {"max_slew_deg_s", kDegree, 40.0, &Ceilings::slew_rad_s},
+    {"max_slew_deg_s", kDegree, 90.0, &Ceilings::slew_rad_s},
     {"min_ramp_s", 1.0, 60.0, &Ceilings::ramp_s},
     {"max_change_mm", kMilli, 50.0, &Ceilings::change_m},
-    {"max_change_deg", kDegree, 10.0, &Ceilings::change_rad},
+    {"max_change_deg", kDegree, 90.0, &Ceilings::change_rad},
 };
 
 }  // namespace
