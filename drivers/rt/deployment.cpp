@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/deployment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -8,6 +10,8 @@
 #include "bus_text/reach.hpp"
 #include "plumb/drivers/bus_content.hpp"
 #include "program/file.hpp"
+#include "program/shell_word.hpp"
+#include "rt/check_sums.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -55,7 +59,20 @@ BusLayout record_layout(const Deployment& deployment) {
   return out;
 }
 
-Deployment load_deployment(const std::filesystem::path& folder) {
+void refuse_wider(const std::filesystem::path& file, const LoadedModel& model,
+                  const Ceilings& ceilings, const std::filesystem::path& folder) {
+  std::vector<Problem> problems;
+  for (const WiderLimit& wider : wider_limits(model.limits(), ceilings))
+    problems.push_back(
+        {.severity = Severity::kError,
+         .code = "E-RT-CEILING",
+         .message = fmt::format("{} allows {}", display_name(file), wider.text()),
+         .help = fmt::format("if that is meant: {} = {:.4g} in rt.toml, then: plumb-rt seal {}",
+                             wider.key, wider.model, shell_word(display_name(folder)))});
+  if (!problems.empty()) throw Failure(Exit::kInput, std::move(problems));
+}
+
+Deployment load_deployment(const std::filesystem::path& folder, Sums sums) {
   Deployment out;
   out.folder = folder;
   const std::filesystem::path file = folder / "rt.toml";
@@ -66,8 +83,9 @@ Deployment load_deployment(const std::filesystem::path& folder) {
   auto bus = top.table("bus");
   top.done();
   source.stop_on_errors();
-  verify_sums(folder);
+  if (sums == Sums::kVerified) verify_sums(folder, out.config.model);
   out.model = load_model(out.config.model, out.config.serial);
+  refuse_wider(out.config.model, *out.model.loaded, out.config.ceilings, folder);
   const BusArm arm = bus_arm(out.model.loaded->model().nominal, 1e-6 * out.config.cycle_us);
   const toml::table nothing;
   TomlTable absent(nothing, "bus", source);

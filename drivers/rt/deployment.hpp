@@ -31,8 +31,16 @@ bool sensors_come(const Deployment& deployment, const LoadedModel& model);
 /// variant, which represents all values of other buses exactly.
 BusLayout record_layout(const Deployment& deployment);
 
+/// Throws Failure (kInput, E-RT-CEILING) if a limit of this model, read from `file`, is wider than
+/// the ceilings of [limits].
+void refuse_wider(const std::filesystem::path& file, const LoadedModel& model,
+                  const Ceilings& ceilings, const std::filesystem::path& folder);
+
+/// Whether the files must be those that SHA256SUMS lists; `plumb-rt seal` writes the list anew.
+enum class Sums : std::uint8_t { kVerified, kIgnored };
+
 /// Reads and verifies a folder without opening a bus. Throws Failure (kInput) with everything that
 /// is wrong: codes E-RT-..., E-TOML. Slow.
-Deployment load_deployment(const std::filesystem::path& folder);
+Deployment load_deployment(const std::filesystem::path& folder, Sums sums = Sums::kVerified);
 
 }  // namespace plumb::drivers::rt

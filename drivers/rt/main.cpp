@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/verb_control.hpp"
 #include "rt/verb_doctor.hpp"
+#include "rt/verb_events.hpp"
 #include "rt/verb_replay.hpp"
 #include "rt/verb_run.hpp"
+#include "rt/verb_seal.hpp"
 
 int main(int argc, char** argv) {
   using namespace plumb::drivers;
@@ -22,6 +24,8 @@ int main(int argc, char** argv) {
   rt::add_status(program);
   rt::add_monitor(program);
   rt::add_swap(program);
+  rt::add_events(program);
+  rt::add_seal(program);
   rt::add_replay(program);
   rt::add_doctor(program);
   return program.run(argc, argv);

@@ -39,6 +39,8 @@ void add_session(const SessionReport& report, Metrics& out) {
   out.gauge("state", "0 init, 1 sync, 2 shadow, 3 active, 4 hold, 5 fault",
             static_cast<double>(report.state));
   out.gauge("mode", "0 shadow, 1 limited, 2 full", static_cast<double>(report.mode));
+  out.gauge("fault_cause", "0 none, 1 pose-mismatch, 2 other-robot, 3 foreign-sender",
+            static_cast<double>(report.cause));
   out.gauge("status", "below 0: refused", static_cast<double>(report.status));
   out.gauge("correction_applied_meters", "On the target", report.applied_m);
   out.gauge("correction_wanted_meters", "As the model asks, guarded", report.wanted_m);
@@ -65,6 +67,9 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   Metrics out;
   add_session(snapshot.session, out);
   const PortCounters& port = snapshot.port;
+  out.gauge("model", "Number of the running model, as on the bus",
+            static_cast<double>(snapshot.model));
+  out.counter("events_lost", "Changes that the journal had no room for", facts.events_lost);
   out.gauge("link", "0 up, 1 degraded, 2 down", static_cast<double>(snapshot.link));
   out.counter("received", "Messages", port.received);
   out.counter("sent", "Messages", port.sent);

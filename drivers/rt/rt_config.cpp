@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/rt_config.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <numbers>
 
 #include "rt/can_source.hpp"
+#include "rt/screen_units.hpp"
 #include "rt/whole_number.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
-
-constexpr double kMilli = 1e-3, kMicro = 1e-6, kDegree = std::numbers::pi / 180.0;
 
 void read_positive(TomlTable& table, const char* key, double unit, double& out) {
   if (const auto value = table.positive(key)) out = *value * unit;
@@ -62,7 +62,8 @@ SinkConfig read_sink(TomlTable table, const std::filesystem::path& folder) {
   return out;
 }
 
-void read_limits(TomlTable table, SessionSettings& out) {
+void read_limits(TomlTable table, SessionSettings& out, Ceilings& ceilings) {
+  read_ceilings(table, ceilings);
   const std::string mode = table.choice("mode", {"shadow", "limited", "full"});
   out.mode = mode == "full"      ? CorrectionMode::kFull
              : mode == "limited" ? CorrectionMode::kLimited
@@ -88,10 +89,24 @@ void read_expect(TomlTable table, InputSettings& out) {
   table.done();
 }
 
+/// Wider limits of comparison would not see another tool, frame or arm, which is what the
+/// comparison is for. A controller that shows poses in steps of 0.1 mm needs 100 um.
+constexpr double kMostSync_um = 500.0, kMostSync_urad = 1000.0;
+
+void read_sync_limit(TomlTable& table, const char* key, double most, double& out) {
+  const auto value = table.positive(key);
+  if (!value) return;
+  out = *value * kMicro;
+  if (*value > most)
+    table.out_of_range(key, fmt::format("greater than 0, {:g} at most: beyond it another tool, "
+                                        "frame or arm would pass as the nominal one",
+                                        most));
+}
+
 void read_sync(TomlTable table, SyncSettings& out) {
   read_whole(table, "poses", {1, 100'000}, out.poses);
-  read_positive(table, "position_um", kMicro, out.position_m);
-  read_positive(table, "rotation_urad", kMicro, out.rotation_rad);
+  read_sync_limit(table, "position_um", kMostSync_um, out.position_m);
+  read_sync_limit(table, "rotation_urad", kMostSync_urad, out.rotation_rad);
   read_whole(table, "distinct", {1, kMostDistinct}, out.distinct);
   read_positive(table, "silence_s", 1.0, out.silence_s);
   table.done();
@@ -100,6 +115,7 @@ void read_sync(TomlTable table, SyncSettings& out) {
 void read_log(TomlTable table, const std::filesystem::path& folder, RtConfig& out) {
   out.record = in(folder, table.text_or("record", ""));
   read_whole(table, "record_max_mb", {0, 1'000'000}, out.record_max_mb);
+  out.events = in(folder, table.text_or("events", ""));
   read_whole(table, "metrics_port", {0, 65535}, out.metrics_port);
   table.done();
 }
@@ -116,7 +132,7 @@ RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder) {
   if (auto table = top.table("cycle")) read_cycle(*table, out);
   if (auto table = top.table("source")) out.source = read_source(*table, folder);
   if (auto table = top.table("sink")) out.sink = read_sink(*table, folder);
-  if (auto table = top.table("limits")) read_limits(*table, out.session);
+  if (auto table = top.table("limits")) read_limits(*table, out.session, out.ceilings);
   if (auto table = top.table("expect")) read_expect(*table, out.session.inputs);
   if (auto table = top.table("sync")) read_sync(*table, out.session.sync);
   if (auto table = top.table("log")) read_log(*table, folder, out);

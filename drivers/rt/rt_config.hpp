@@ -9,6 +9,7 @@
 #include "plumb/drivers/session.hpp"
 #include "program/toml_table.hpp"
 #include "rt/bus_source.hpp"
+#include "rt/ceilings.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -29,8 +30,10 @@ struct RtConfig {
   std::shared_ptr<const BusSource> source;  // never null once read
   SinkConfig sink = {};
   SessionSettings session = {};
+  Ceilings ceilings = {};
   std::filesystem::path record = {};  // empty: none
   int record_max_mb = 1000;           // size limit of the record [1e6 bytes]; 0: none
+  std::filesystem::path events = {};  // journal; empty: where journal_file() puts it
   int metrics_port = 0;               // on 127.0.0.1; 0: none
 };
 

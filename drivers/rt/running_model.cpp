@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
-
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/format/reader.hpp"
 #include "program/bounded_file.hpp"
@@ -30,19 +28,6 @@ std::unique_ptr<const LoadedModel> make(const std::filesystem::path& file, std::
   return loaded;
 }
 
-void check_sum(const std::filesystem::path& folder, const std::string& line) {
-  constexpr std::size_t kDigits = 64;
-  const std::size_t begin = line.find_first_not_of(" *", std::min(kDigits, line.size()));
-  if (line.size() <= kDigits || begin == std::string::npos) return;
-  const std::filesystem::path file = folder / line.substr(begin);
-  if (sha256(read_file(file)) == line.substr(0, kDigits)) return;
-  throw Failure(
-      Exit::kInput,
-      {.code = "E-RT-SUMS",
-       .message = fmt::format("{} is not the file that SHA256SUMS lists", display_name(file)),
-       .help = fmt::format("cd {} && sha256sum -c SHA256SUMS", shell_word(display_name(folder)))});
-}
-
 }  // namespace
 
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial) {
@@ -55,13 +40,6 @@ RunningModel load_model(const std::filesystem::path& file, const std::string& se
                                .message = fmt::format("{} was made for robot '{}', not for '{}'",
                                                       display_name(file), own, serial),
                                .help = "plumb inspect " + shell_word(display_name(file))});
-}
-
-void verify_sums(const std::filesystem::path& folder) {
-  const std::filesystem::path sums = folder / "SHA256SUMS";
-  if (!std::filesystem::exists(sums)) return;
-  std::istringstream lines(read_file(sums));
-  for (std::string line; std::getline(lines, line);) check_sum(folder, line);
 }
 
 }  // namespace plumb::drivers::rt

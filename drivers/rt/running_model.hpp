@@ -23,8 +23,4 @@ inline constexpr std::uintmax_t kMostModelBytes = 16u << 20;
 /// E-RT-MODEL, or E-RT-SERIAL if `serial` is not empty and not the model's. Slow.
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial);
 
-/// If the folder contains SHA256SUMS: throws Failure (kInput, E-RT-SUMS) unless every file listed
-/// there has its checksum. Other files are not checked.
-void verify_sums(const std::filesystem::path& folder);
-
 }  // namespace plumb::drivers::rt

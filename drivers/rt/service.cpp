@@ -13,6 +13,8 @@
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "rt/answer_file.hpp"
+#include "rt/model_change.hpp"
+#include "rt/screen_units.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -54,11 +56,16 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
       slot_(slot),
       shared_(shared),
       control_(open_control(deployment.folder)),
-      metrics_(open_metrics(deployment.config.metrics_port)) {
+      metrics_(open_metrics(deployment.config.metrics_port)),
+      journal_(files == Files::kMade ? journal_file(deployment.folder, deployment.config.events)
+                                     : std::filesystem::path{},
+               files == Files::kMade ? Journal::Echo::kStderr : Journal::Echo::kNone) {
   const RtConfig& config = deployment.config;
   facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
   facts_.model_sha256 = deployment.model.sha256;
+  facts_.ceilings = config.ceilings;
+  facts_.model_limits = deployment.model.loaded->limits();
   if (files == Files::kMade)
     make_files();
   else
@@ -97,6 +104,12 @@ Service::~Service() {
 
 /// The thread starts with all signals blocked, so that they reach the thread that ends the program.
 void Service::start() {
+  facts_.events = journal_.file().string();
+  journal_.note("start", {{"bus", facts_.bus},
+                          {"mode", to_string(deployment_.session.mode)},
+                          {"file", facts_.model_file},
+                          {"sha256", facts_.model_sha256},
+                          {"fingerprint", deployment_.model.loaded->number()}});
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -122,6 +135,8 @@ void Service::run() {
   manager_.tell("STOPPING=1");
   write_down();
   remember();
+  journal_.note("end", {{"state", to_string(snapshot_.session.state)},
+                        {"cycles", snapshot_.session.counters.cycles}});
   over_ = true;
 }
 
@@ -137,6 +152,9 @@ void Service::pass() {
 
 void Service::write_down() {
   shared_.snapshots.take(snapshot_);
+  for (SessionMoment moment; shared_.events.take(moment);) journal_.note_change(moment);
+  facts_.events_failure = journal_.failure();
+  facts_.events_lost = shared_.events.lost();
   for (RecordEntry entry; shared_.record.take(entry);) {
     if (record_) record_->add(entry);
     const bool answer =
@@ -147,6 +165,8 @@ void Service::write_down() {
   if (!record_) return;
   record_->note_lost(facts_.record_lost);
   record_->flush();
+  if (facts_.record_failure.empty() && !record_->failure().empty())
+    journal_.note("record-ended", {{"reason", record_->failure()}});
   facts_.record_failure = record_->failure();
 }
 
@@ -189,7 +209,7 @@ void Service::serve_control() {
   if (!asked) return;
   shared_.snapshots.take(snapshot_);
   if (asked->request.starts_with("swap "))
-    begin_swap(std::move(asked->peer), asked->request.substr(5));
+    begin_swap(std::move(asked->peer), read_swap(asked->request.substr(5)));
   else
     reply_to(asked->peer, control(asked->request), {});
 }
@@ -200,19 +220,25 @@ std::string Service::control(const std::string& request) const {
 }
 
 /// Loads the model of a file on another thread; the answer follows when that is done.
-void Service::begin_swap(Descriptor peer, const std::string& file) {
-  if (swap_)
-    return reply_to(peer, refusal("E-RT-SWAP", "another model is being loaded: " + swap_->file),
-                    {});
-  try {
-    ModelLoading loading(file, deployment_.model.loaded->model().serial);
-    swap_.emplace(Swap{.peer = std::move(peer),
-                       .file = file,
-                       .loading = std::move(loading),
-                       .end_ns = MonotonicTime::now_ns() + kLoad_ns});
-  } catch (const std::exception& error) {
-    reply_to(peer, refusal("E-RT-SWAP", error.what()), {});
+void Service::begin_swap(Descriptor peer, const SwapRequest& request) {
+  std::string why;
+  if (swap_) {
+    why = "another model is being loaded: " + swap_->request.file;
+  } else {
+    try {
+      ModelLoading loading(request.file, deployment_.model.loaded->model().serial);
+      swap_.emplace(Swap{.peer = std::move(peer),
+                         .request = request,
+                         .loading = std::move(loading),
+                         .end_ns = MonotonicTime::now_ns() + kLoad_ns});
+      return;
+    } catch (const std::exception& error) {
+      why = error.what();
+    }
   }
+  const std::string answer = refusal("E-RT-SWAP", why);
+  note_swap(request.file, answer);
+  reply_to(peer, answer, {});
 }
 
 /// A model that comes too late is not swapped in: who asked for it was told so.
@@ -220,18 +246,26 @@ void Service::go_on_with_swap() {
   if (!swap_) return;
   const bool late = MonotonicTime::now_ns() >= swap_->end_ns;
   if (swap_->loading.done()) {
-    if (swap_->peer.open()) reply_to(swap_->peer, loaded_swap(), {});
+    if (swap_->peer.open()) end_swap(loaded_swap());
     swap_.reset();
   } else if (late && swap_->peer.open()) {
-    reply_to(swap_->peer, refusal("E-RT-SWAP", "the file cannot be read in time: " + swap_->file),
-             {});
-    swap_->peer = Descriptor();
+    end_swap(refusal("E-RT-SWAP", "the file cannot be read in time: " + swap_->request.file));
   }
 }
 
+/// Writes down what came of the request to swap, and answers who asked.
+void Service::end_swap(const std::string& answer) {
+  note_swap(swap_->request.file, answer);
+  reply_to(swap_->peer, answer, {});
+  swap_->peer = Descriptor();
+}
+
 std::string Service::loaded_swap() {
+  const SwapRequest& request = swap_->request;
   try {
-    return swap(swap_->file, swap_->loading.result());
+    RunningModel next = swap_->loading.result();
+    refuse_wider(request.file, *next.loaded, deployment_.config.ceilings, deployment_.folder);
+    return swap(request, std::move(next));
   } catch (const Failure& failure) {
     const Problem& first = failure.problems().front();
     return refusal(first.code.c_str(), first.message);
@@ -241,13 +275,20 @@ std::string Service::loaded_swap() {
 }
 
 /// Swaps in a model. If it fails any check the running model stays in use.
-std::string Service::swap(const std::string& file, RunningModel next) {
+std::string Service::swap(const SwapRequest& request, RunningModel next) {
   if (const auto short_of = find_short_reach(deployment_, *next.loaded); !short_of.empty())
     return refusal("E-RT-SWAP", short_of.front().what);
   if (!sensors_come(deployment_, *next.loaded))
     return refusal("E-RT-SWAP",
                    "it listens to a sensor that the model before does not: start plumb-rt anew");
   const LoadedModel& running = *deployment_.model.loaded;
+  ModelChange change;
+  if (find_binding_fault(running.model(), next.loaded->model()) == BindingFault::kNone) {
+    change = find_change(running, *next.loaded);
+    const Ceilings& ceilings = deployment_.config.ceilings;
+    if (const auto fault = change_fault(change, request, ceilings); !fault.empty())
+      return refusal("E-RT-CHANGE", fault);
+  }
   const auto published = slot_.publish(*next.loaded);
   if (published == ModelSlot::Published::kBusy)
     return refusal("E-RT-SWAP", "the cycle has not taken the model before yet");
@@ -259,13 +300,26 @@ std::string Service::swap(const std::string& file, RunningModel next) {
   while (!slot_.settled() && MonotonicTime::now_ns() < end_ns)
     std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kSecond_ns / 1000);
   if (!slot_.settled()) next_ = std::move(next);  // kept, because the cycle may still use it
-  facts_.model_file = file;
+  facts_.model_file = request.file;
   facts_.model_sha256 = deployment_.model.sha256;
+  facts_.model_limits = deployment_.model.loaded->limits();
   return reply({{"ok", true},
                 {"result",
-                 {{"file", file},
+                 {{"file", request.file},
                   {"sha256", facts_.model_sha256},
+                  {"change_mm", 1e3 * change.position_m},
+                  {"change_deg", change.rotation_rad / kDegree},
                   {"fingerprint", deployment_.model.loaded->number()}}}});
+}
+
+/// One line of the journal.
+void Service::note_swap(const std::string& file, const std::string& answer) {
+  const Json said = Json::parse(answer, nullptr, false);
+  Json details{{"file", file}};
+  const bool done = said.is_object() && said.value("ok", false);
+  const char* const part = done ? "result" : "error";
+  if (said.is_object() && said.contains(part)) details.update(said[part]);
+  journal_.note(done ? "swap" : "swap-refused", details);
 }
 
 std::string Service::page(const std::string& request) {

@@ -11,11 +11,13 @@
 #include "rt/bus_source.hpp"
 #include "rt/control_path.hpp"
 #include "rt/deployment.hpp"
+#include "rt/journal.hpp"
 #include "rt/last_run.hpp"
 #include "rt/model_loading.hpp"
 #include "rt/notify.hpp"
 #include "rt/record_writer.hpp"
 #include "rt/status_text.hpp"
+#include "rt/swap_request.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -61,10 +63,12 @@ class Service {
   void serve();
   void serve_control();
   std::string control(const std::string& request) const;
-  void begin_swap(Descriptor peer, const std::string& file);
+  void begin_swap(Descriptor peer, const SwapRequest& request);
   void go_on_with_swap();
   std::string loaded_swap();
-  std::string swap(const std::string& file, RunningModel next);
+  std::string swap(const SwapRequest& request, RunningModel next);
+  void end_swap(const std::string& answer);
+  void note_swap(const std::string& file, const std::string& answer);
   void remember();
   std::string page(const std::string& request);
 
@@ -75,6 +79,7 @@ class Service {
   ServiceManager manager_;
   ControlSocket control_;
   std::optional<Descriptor> metrics_;
+  Journal journal_;
   std::unique_ptr<RecordWriter> record_;
   std::unique_ptr<class AnswerFile> answers_;
   RunFacts facts_;
@@ -82,7 +87,7 @@ class Service {
   RunningModel next_;  // the model before, kept while the cycle may still use it
   struct Swap {
     Descriptor peer;  // who asked; closed once answered
-    std::string file;
+    SwapRequest request;
     ModelLoading loading;
     std::int64_t end_ns;  // when the peer is answered that it takes too long
   };

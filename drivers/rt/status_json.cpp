@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "rt/screen_units.hpp"
 #include "rt/status_text.hpp"
 
 namespace plumb::drivers::rt {
@@ -25,6 +26,20 @@ Json lost_json(Lost lost) {
     if (has(lost, one)) out.push_back(drivers::to_string(one));
   }
   return out;
+}
+
+Json limits_json(const RunFacts& facts) {
+  const auto both = [](double model, double ceiling) {
+    return Json{{"model", model}, {"ceiling", ceiling}};
+  };
+  const format::GuardLimits& m = facts.model_limits;
+  const Ceilings& c = facts.ceilings;
+  return {{"correction_mm", both(1e3 * m.max_correction_m, 1e3 * c.correction_m)},
+          {"rotation_deg", both(m.max_rotation_rad / kDegree, c.rotation_rad / kDegree)},
+          {"slew_mm_s", both(1e3 * m.slew_m_per_s, 1e3 * c.slew_m_s)},
+          {"slew_deg_s", both(m.slew_rad_per_s / kDegree, c.slew_rad_s / kDegree)},
+          {"ramp_s", both(m.ramp_s, c.ramp_s)},
+          {"change_mm", 1e3 * c.change_m}};
 }
 
 Json ages_json(const SessionReport& report) {
@@ -116,6 +131,7 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
         {"wanted_urad", 1e6 * report.wanted_rad},
         {"applied_um", 1e6 * report.applied_m},
         {"applied_urad", 1e6 * report.applied_rad}}},
+      {"limits", limits_json(facts)},
       {"ages", ages_json(report)},
       {"sync", sync_json(report.sync)},
       {"counters", counters_json(report)},
@@ -132,7 +148,9 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
         {"sha256", facts.model_sha256},
         {"fingerprint", snapshot.model}}},
       {"record",
-       {{"file", facts.record}, {"failure", facts.record_failure}, {"lost", facts.record_lost}}}};
+       {{"file", facts.record}, {"failure", facts.record_failure}, {"lost", facts.record_lost}}},
+      {"events",
+       {{"file", facts.events}, {"failure", facts.events_failure}, {"lost", facts.events_lost}}}};
 }
 
 }  // namespace plumb::drivers::rt

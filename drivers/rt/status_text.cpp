@@ -72,6 +72,13 @@ std::string status_text(const Json& status) {
       "correction  {:.1f} um, {:.1f} urad on the target; the model asks for {:.1f} um\n",
       number(correction, "applied_um"), number(correction, "applied_urad"),
       number(correction, "wanted_um"));
+  const Json& limits = status["limits"];
+  out += fmt::format(
+      "limits      the model's {:.4g} mm, {:.4g} mm/s, ramp {:.4g} s; rt.toml allows {:.4g} mm, "
+      "{:.4g} mm/s, ramp {:.4g} s\n",
+      number(limits["correction_mm"], "model"), number(limits["slew_mm_s"], "model"),
+      number(limits["ramp_s"], "model"), number(limits["correction_mm"], "ceiling"),
+      number(limits["slew_mm_s"], "ceiling"), number(limits["ramp_s"], "ceiling"));
   const Json& ages = status["ages"];
   out += fmt::format("ages        target {}, joints {}, controller {}, robot {}\n",
                      age(ages, "target_ms"), age(ages, "joints_ms"), age(ages, "controller_ms"),

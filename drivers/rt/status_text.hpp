@@ -5,6 +5,7 @@
 
 #include "plumb/drivers/run_shared.hpp"
 #include "program/json.hpp"
+#include "rt/ceilings.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -13,10 +14,15 @@ struct RunFacts {
   std::string bus;  // "can0"
   std::string model_file;
   std::string model_sha256;
+  format::GuardLimits model_limits = {};
+  Ceilings ceilings = {};
   std::string record;          // file; empty: none
   std::string record_failure;  // empty: none
   std::uint64_t record_lost = 0;
   std::string acknowledge;  // why an operator must acknowledge first; empty: that is not needed
+  std::string events;          // file of the journal; empty: none
+  std::string events_failure;  // empty: none
+  std::uint64_t events_lost = 0;
 };
 
 /// {state, mode, cause, status, lost[], has_output, correction{}, ages{}, sync{}, counters{},

@@ -11,6 +11,7 @@
 #include "plumb/drivers/time_source.hpp"
 #include "rt/control_path.hpp"
 #include "rt/status_text.hpp"
+#include "rt/swap_request.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -20,6 +21,7 @@ constexpr int kAnswer_ms = 10'000;
 struct ControlOptions {
   std::string dir = ".";
   std::string file;
+  double change_mm = 0.0;  // that the operator allows to this swap; 0: what rt.toml does
   bool once = false;
   double every_s = 0.5;
 };
@@ -78,8 +80,10 @@ void watch(const ControlOptions& options, Outcome& outcome) {
 
 void swap(const ControlOptions& options, Outcome& outcome) {
   const std::string file = std::filesystem::absolute(options.file).string();
-  outcome.result = asked(options.dir, "swap " + file);
-  outcome.text = fmt::format("{} runs now\n", options.file);
+  outcome.result =
+      asked(options.dir, swap_line({.file = file, .change_m = 1e-3 * options.change_mm}));
+  outcome.text = fmt::format("{} runs now; it changes corrections by {:.3f} mm at most\n",
+                             options.file, outcome.result["change_mm"].get<double>());
 }
 
 }  // namespace
@@ -105,6 +109,9 @@ void add_swap(Program& program) {
                    [options](const Globals&, Outcome& outcome) { swap(*options, outcome); });
   verb.add_option("FILE", options->file, "The model").required();
   verb.add_option("--dir", options->dir, "The folder that runs").shows_default();
+  verb.add_option("--allow-change-mm", options->change_mm,
+                  "Let this swap change corrections by as much, beyond max_change_mm of rt.toml")
+      .check(number_between(0.001, 50.0));
 }
 
 void add_monitor(Program& program) {

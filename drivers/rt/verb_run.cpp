@@ -12,6 +12,8 @@
 #include "plumb/drivers/run_loop.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
+#include "rt/folder_lock.hpp"
+#include "rt/journal.hpp"
 #include "rt/rt_probe.hpp"
 #include "rt/service.hpp"
 #include "rt/stop_signal.hpp"
@@ -129,8 +131,9 @@ void ask_operator(const Service& service, const Deployment& deployment) {
 }
 
 /// Stops the service even if the cycle throws while it is set up.
-void run(const RunOptions& options, Outcome& outcome) {
+void run_folder(const RunOptions& options, Outcome& outcome) {
   Deployment deployment = load_deployment(options.dir);
+  const FolderLock lock(options.dir);
   if (options.priority >= 0) deployment.config.priority = options.priority;
   outcome.inputs.push_back({deployment.config.model.string(), deployment.model.sha256});
   need_rights(deployment.config, outcome);
@@ -158,6 +161,21 @@ void run(const RunOptions& options, Outcome& outcome) {
   outcome.result = status_json(service.snapshot(), service.facts());
   outcome.text = status_text(outcome.result);
   refuse_end(next, deployment, outcome);
+}
+
+/// A run that is refused leaves its reason in the journal of the folder.
+void run(const RunOptions& options, Outcome& outcome) {
+  try {
+    run_folder(options, outcome);
+  } catch (const Failure& failure) {
+    std::error_code ignored;
+    if (!options.check && std::filesystem::is_directory(options.dir, ignored)) {
+      const Problem& first = failure.problems().front();
+      Journal(journal_file(options.dir, {}), Journal::Echo::kNone)
+          .note("not-started", {{"code", first.code}, {"message", first.message}});
+    }
+    throw;
+  }
 }
 
 }  // namespace

@@ -622,8 +622,16 @@ constexpr Explanation kCodes[] = {
      "The model was made for another robot than rt.toml or the running model names. A correction "
      "of one arm makes another worse, so it is refused."},
     {"E-RT-SUMS",
-     "A file of the folder is not what SHA256SUMS lists. Deploy again, or find out who changed "
-     "it."},
+     "A file of the folder is not what SHA256SUMS lists, or the list is missing or does not name "
+     "rt.toml and the model. Deploy again, or find out who changed it. After editing rt.toml: "
+     "plumb-rt seal FOLDER."},
+    {"E-RT-CEILING",
+     "The model allows itself a larger or faster correction, or a shorter ramp, than [limits] of "
+     "rt.toml lets any model have. If that is meant, raise the ceiling there and seal the folder."},
+    {"E-RT-CHANGE",
+     "The new model corrects some pose differently by more than max_change_mm of rt.toml. The "
+     "running model runs on. plumb-rt swap FILE --allow-change-mm X accepts just that change; "
+     "points must be verified again."},
     {"E-RT-CSV",
      "The file of targets has a wrong column or number. It is read as plumb correct reads its "
      "targets."},
@@ -642,6 +650,9 @@ constexpr Explanation kCodes[] = {
     {"E-RT-RUNNING",
      "Another plumb-rt runs from this folder; two would be two senders of one identifier. plumb-rt "
      "status shows it."},
+    {"E-RT-LOCK",
+     "plumb-rt holds a lock on its folder for as long as it lives, so that no second one runs it; "
+     "this folder cannot be opened or locked."},
     {"E-RT-NOT-RUNNING", "No plumb-rt runs from this folder, so there is none to ask."},
     {"E-RT-CONTROL",
      "There is no place for the socket over which status, monitor and swap speak to plumb-rt, or "

@@ -89,11 +89,12 @@ std::string mode_text(const DeployArguments& options) {
 }
 
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
-                                 const std::string& model, drivers::CorrectionMode mode) {
+                                 const format::GuardLimits& guard, const std::string& model,
+                                 drivers::CorrectionMode mode) {
   return {{"robot.plumb", model},
           {"bus.dbc", drivers::write_dbc(layout, about(cell))},
           {"modbus-map.md", drivers::modbus_map_markdown(layout, about(cell))},
-          {"rt.toml", write_rt_toml(cell, layout, mode), DeployFile::Summed::kNo}};
+          {"rt.toml", write_rt_toml(cell, layout, guard, mode)}};
 }
 
 void put_result(const DeployArguments& options, const Cell& cell, const drivers::BusLayout& layout,
@@ -135,7 +136,7 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
-  const auto files = files_of(cell, layout, bytes, mode_of(options));
+  const auto files = files_of(cell, layout, model.guard, bytes, mode_of(options));
   put_result(options, cell, layout, files, bytes, model, outcome);
   const auto note = folder_note(options.folder, options.write);
   if (!options.write.dry_run) write_deploy_folder(options.folder, files);

@@ -40,8 +40,7 @@ void write_new_folder(const fs::path& folder, const std::vector<DeployFile>& fil
 std::string check_sums(const std::vector<DeployFile>& files) {
   std::string out;
   for (const DeployFile& file : files)
-    if (file.summed == DeployFile::Summed::kYes)
-      out += fmt::format("{}  {}\n", sha256(file.bytes), file.name);
+    out += fmt::format("{}  {}\n", sha256(file.bytes), file.name);
   return out;
 }
 

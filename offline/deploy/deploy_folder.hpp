@@ -10,7 +10,6 @@ namespace plumb::offline {
 struct DeployFile {
   std::string name;
   std::string bytes;
-  enum class Summed { kYes, kNo } summed = Summed::kYes;  // kNo: users edit it
 };
 
 /// "hash  name" a line, as sha256sum -c reads it.

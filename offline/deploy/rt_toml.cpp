@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "bus_text/layout_toml.hpp"
@@ -10,6 +11,7 @@
 #include "cell/toml_text.hpp"
 #include "plumb/drivers/session.hpp"
 #include "plumb/drivers/session_transition.hpp"
+#include "rt/ceilings.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -18,7 +20,7 @@ constexpr double kMilli = 1e-3, kMicro = 1e-6, kDegree = std::numbers::pi / 180.
 
 std::string head(const Cell& cell) {
   return fmt::format(
-      "schema = \"rt/1\"   # read by plumb-rt run; may be edited, and is not in SHA256SUMS\n\n"
+      "schema = \"rt/1\"   # read by plumb-rt run; after editing: plumb-rt seal FOLDER\n\n"
       "[model]\nfile = \"robot.plumb\"\nserial = {}   # the robot's; refused if the model is of "
       "another\n\n"
       "[cycle]\ncycle_us = {:.10g}\npriority = 80   # of SCHED_FIFO; 0: an ordinary thread\n"
@@ -45,22 +47,42 @@ std::string source(const DeploySettings& deploy) {
          "\"corrected.csv\"\n\n";
 }
 
-std::string limits(drivers::CorrectionMode mode) {
+/// A number that is not below the value, so that the model itself keeps its ceiling.
+double rounded_up(double value) { return std::ceil(value * 1e6 * (1.0 - 1e-9)) / 1e6; }
+
+/// What no model may exceed, whatever it says of itself.
+std::string ceilings(const format::GuardLimits& guard) {
+  const drivers::rt::Ceilings own;
+  return fmt::format(
+      "max_correction_mm = {:.10g}   # ceilings: a model that allows itself more is refused\n"
+      "max_rotation_deg = {:.10g}\n"
+      "max_slew_mm_s = {:.10g}\nmax_slew_deg_s = {:.10g}\n"
+      "min_ramp_s = {:.10g}\n"
+      "max_change_mm = {:.10g}   # by which a swap may change the correction of a pose\n"
+      "max_change_deg = {:.10g}\n\n",
+      rounded_up(guard.max_correction_m / kMilli), rounded_up(guard.max_rotation_rad / kDegree),
+      rounded_up(guard.slew_m_per_s / kMilli), rounded_up(guard.slew_rad_per_s / kDegree),
+      guard.ramp_s, own.change_m / kMilli, own.change_rad / kDegree);
+}
+
+std::string limits(const format::GuardLimits& guard, drivers::CorrectionMode mode) {
   const drivers::SessionSettings s;
   return fmt::format(
-      "[limits]\nmode = \"{}\"   # \"shadow\": computes and reports, sends no correction; then "
-      "\"limited\", "
-      "then \"full\"\n"
-      "target_speed_mm_s = {:.10g}   # of desired targets; faster ones are refused\n"
-      "target_speed_deg_s = {:.10g}\n"
-      "target_step_mm = {:.10g}   # from one target to the next\ntarget_step_deg = {:.10g}\n"
-      "limited_mm = {:.10g}   # largest correction of mode limited\n"
-      "limited_scale = {:.10g}   # and its share of the whole\n"
-      "arm_distance_mm = {:.10g}   # how far the arm may be from the path of the targets\n"
-      "arm_distance_deg = {:.10g}\narm_lag_s = {:.10g}   # and by how much it may be late\n\n",
-      drivers::to_string(mode), s.target.speed_m_s / kMilli, s.target.speed_rad_s / kDegree,
-      s.target.step_m / kMilli, s.target.step_rad / kDegree, s.share.limited_m / kMilli,
-      s.share.limited_scale, s.arm.distance_m / kMilli, s.arm.angle_rad / kDegree, s.arm.lag_s);
+             "[limits]\nmode = \"{}\"   # \"shadow\": computes and reports, sends no correction; "
+             "then \"limited\", "
+             "then \"full\"\n"
+             "target_speed_mm_s = {:.10g}   # of desired targets; faster ones are refused\n"
+             "target_speed_deg_s = {:.10g}\n"
+             "target_step_mm = {:.10g}   # from one target to the next\ntarget_step_deg = {:.10g}\n"
+             "limited_mm = {:.10g}   # largest correction of mode limited\n"
+             "limited_scale = {:.10g}   # and its share of the whole\n"
+             "arm_distance_mm = {:.10g}   # how far the arm may be from the path of the targets\n"
+             "arm_distance_deg = {:.10g}\narm_lag_s = {:.10g}   # and by how much it may be late\n",
+             drivers::to_string(mode), s.target.speed_m_s / kMilli, s.target.speed_rad_s / kDegree,
+             s.target.step_m / kMilli, s.target.step_rad / kDegree, s.share.limited_m / kMilli,
+             s.share.limited_scale, s.arm.distance_m / kMilli, s.arm.angle_rad / kDegree,
+             s.arm.lag_s) +
+         ceilings(guard);
 }
 
 std::string checks() {
@@ -82,8 +104,8 @@ std::string checks() {
 }  // namespace
 
 std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout,
-                          drivers::CorrectionMode mode) {
-  return head(cell) + source(cell.deploy) + limits(mode) + checks() +
+                          const format::GuardLimits& guard, drivers::CorrectionMode mode) {
+  return head(cell) + source(cell.deploy) + limits(guard, mode) + checks() +
          drivers::write_bus(layout, "bus");
 }
 

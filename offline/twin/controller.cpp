@@ -63,8 +63,10 @@ void Controller::cycle(std::int64_t now_ns, drivers::BusPort* port) {
   if (fault(FaultKind::kReboot)) return reboot();
   was_down_ = false;
   if (port != nullptr) hear(*port);
-  const bool held = fault(FaultKind::kStop) || fault(FaultKind::kDrivesOff);
-  if (!held) {
+  if (fault(FaultKind::kDrivesOff) || fault(FaultKind::kStop)) {
+    stand();
+  } else {
+    set_out_again();
     advance();
     drive();
   }
@@ -75,7 +77,7 @@ void Controller::cycle(std::int64_t now_ns, drivers::BusPort* port) {
 void Controller::reboot() {
   if (was_down_) return;
   was_down_ = true;
-  receiver_.forget();
+  receiver_.restart();
   counter_ = 0;
   has_status_ = false;
 }
@@ -135,6 +137,26 @@ void Controller::arrive() {
   if (++station_ < path_.stations()) set_out(row(path_, station_));
 }
 
+Receiver::Own Controller::own_state() const {
+  return {.drives_on = !fault(FaultKind::kDrivesOff), .automatic = !fault(FaultKind::kManual)};
+}
+
+/// With drives off or at a protective stop the arm stands where it is, whatever its correction.
+void Controller::stand() {
+  stood_ = true;
+  receiver_.step(time_.now_ns, settings_.cycle_s, own_state());
+  recent_.clear();
+}
+
+/// When the arm moves again, the path begins where it stands, so that the command does not jump by
+/// the correction that was taken away meanwhile.
+void Controller::set_out_again() {
+  if (!stood_) return;
+  stood_ = false;
+  q_path_ = q_commanded_ = q_measured_;
+  if (!done()) set_out(row(path_, phase_ == Phase::kPath ? station_ : to_and_fro_ ? 1 : 0));
+}
+
 void Controller::advance() {
   if (done()) return;
   if (move_s_ < move_.duration_s()) {
@@ -150,7 +172,7 @@ void Controller::drive() {
   X_BD_ = arm_.forward(q_path_);
   const Vector3d before = receiver_.present().translation;
   if (corrections_ == Corrections::kUse) {
-    receiver_.step(time_.now_ns, settings_.cycle_s);
+    receiver_.step(time_.now_ns, settings_.cycle_s, own_state());
     recent_.push_back(receiver_.present());
     if (static_cast<double>(recent_.size()) * settings_.cycle_s > kRest_s)
       recent_.erase(recent_.begin());

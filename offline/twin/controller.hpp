@@ -97,6 +97,9 @@ class Controller {
   void reboot();
   void hear(drivers::BusPort& port);
   void hear_status(const drivers::BusMessage& message);
+  Receiver::Own own_state() const;
+  void stand();
+  void set_out_again();
   void advance();
   void arrive();
   void set_out(const VectorXd& to);
@@ -129,6 +132,7 @@ class Controller {
   int station_ = 0;      // the station that the arm moves to
   bool to_and_fro_ = false;
   bool was_down_ = false;
+  bool stood_ = false;  // in the cycle before
   bool gave_up_ = false;
 
   VectorXd q_path_, q_commanded_, q_measured_, q_frozen_;

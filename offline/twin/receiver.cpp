@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "plumb/drivers/bus_content.hpp"
 #include "twin/transforms.hpp"
 
 namespace plumb::offline::twin {
@@ -35,6 +34,14 @@ Isometry3d applied(const Offset& offset, const Isometry3d& X_BD) {
 
 void Receiver::sent(std::uint16_t counter, const Isometry3d& X_BD, std::int64_t now_ns) {
   sent_[counter & 0xFFU] = {true, now_ns, X_BD};
+  last_sent_ = counter;
+}
+
+/// The target of this counter, if it is one of those that are remembered.
+const Receiver::Sent* Receiver::remembered(std::uint16_t counter) const {
+  const unsigned before = static_cast<unsigned>(last_sent_ - counter) & 0xFFU;
+  const Sent& target = sent_[counter & 0xFFU];
+  return before < kRemembered && target.known ? &target : nullptr;
 }
 
 std::optional<Offset> Receiver::offset_in(const drivers::BusMessage& message,
@@ -50,37 +57,67 @@ std::optional<Offset> Receiver::offset_in(const drivers::BusMessage& message,
 }
 
 void Receiver::hear(const drivers::BusMessage& message, std::int64_t now_ns) {
-  if (message.kind != MessageKind::kCorrected && message.kind != MessageKind::kOffset) return;
-  const Sent& target = sent_[message.counter & 0xFFU];
-  const double age_s = 1e-9 * static_cast<double>(now_ns - target.time_ns);
-  if (!target.known || age_s > settings_.fresh_s) return void(++counters_.stale);
-  if (has_goal_ && target.time_ns < goal_ns_) return void(++counters_.overtaken);
-  const auto offset = offset_in(message, target);
+  if (message.kind == MessageKind::kStatus) hear_status(message, now_ns);
+  if (message.kind == MessageKind::kCorrected || message.kind == MessageKind::kOffset)
+    hear_answer(message, now_ns);
+}
+
+void Receiver::hear_status(const drivers::BusMessage& message, std::int64_t now_ns) {
+  if (has_status_ && message.counter == status_counter_) return;
+  status_ = drivers::status_in(message);
+  has_beat_ = has_status_;  // one status alone is no heart-beat: it may be an old one
+  has_status_ = true;
+  status_counter_ = message.counter;
+  beat_ns_ = now_ns;
+}
+
+void Receiver::hear_answer(const drivers::BusMessage& message, std::int64_t now_ns) {
+  const Sent* const target = remembered(message.counter);
+  if (target == nullptr) return void(++counters_.stale);
+  const double age_s = 1e-9 * static_cast<double>(now_ns - target->time_ns);
+  if (age_s > settings_.fresh_s) return void(++counters_.stale);
+  if (has_wanted_ && target->time_ns < wanted_ns_) return void(++counters_.overtaken);
+  const auto offset = offset_in(message, *target);
   const bool small = offset && offset->translation.norm() <= settings_.most_m &&
                      offset->rotation.norm() <= settings_.most_rad;
   if (!small) return void(++counters_.too_large);
-  goal_ = *offset;
-  goal_ns_ = target.time_ns;
-  has_goal_ = true;
+  wanted_ = *offset;
+  wanted_ns_ = target->time_ns;
+  has_wanted_ = true;
   ++counters_.used;
   counters_.oldest_s = std::max(counters_.oldest_s, age_s);
 }
 
 bool Receiver::fresh(std::int64_t now_ns) const {
-  return has_goal_ && 1e-9 * static_cast<double>(now_ns - goal_ns_) <= settings_.fresh_s;
+  return has_wanted_ && 1e-9 * static_cast<double>(now_ns - wanted_ns_) <= settings_.fresh_s;
 }
 
-const Offset& Receiver::step(std::int64_t now_ns, double dt_s) {
-  const Offset goal = fresh(now_ns) ? goal_ : Offset{};
+bool Receiver::alive(std::int64_t now_ns) const {
+  return has_beat_ && 1e-9 * static_cast<double>(now_ns - beat_ns_) <= settings_.fresh_s;
+}
+
+/// True if what is wanted may be the goal.
+bool Receiver::applies(std::int64_t now_ns) const {
+  using drivers::SessionState;
+  const bool answers = status_.state == SessionState::kActive ||
+                       status_.state == SessionState::kHold ||
+                       status_.state == SessionState::kFault;
+  return fresh(now_ns) && alive(now_ns) && answers && status_.has_output;
+}
+
+const Offset& Receiver::step(std::int64_t now_ns, double dt_s, const Own& own) {
+  if (!own.drives_on) return present_ = Offset{};
+  const Offset goal = own.automatic && applies(now_ns) ? wanted_ : Offset{};
   present_.translation =
       towards(present_.translation, goal.translation, settings_.slew_m_per_s * dt_s);
   present_.rotation = towards(present_.rotation, goal.rotation, settings_.slew_rad_per_s * dt_s);
   return present_;
 }
 
-void Receiver::forget() {
-  sent_.fill({});
-  has_goal_ = false;
+void Receiver::restart() {
+  const Counters kept = counters_;
+  *this = Receiver(settings_);
+  counters_ = kept;
 }
 
 }  // namespace plumb::offline::twin

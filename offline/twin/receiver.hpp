@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/bus_message.hpp"
 #include "simulate/arm.hpp"
 
@@ -24,16 +25,10 @@ Isometry3d applied(const Offset& offset, const Isometry3d& X_BD);
 
 /// What a controller that receives corrections must do, so that neither a fault of the bus nor the
 /// death of the sender moves the robot wrongly. It is the reference for an implementation in the
-/// language of a robot controller:
+/// language of a robot controller, and does what docs/safety.md says of the controller's side,
+/// sentence by sentence; tests/twin/receiver_test.cpp compares the two.
 ///
-///   1  A correction says which target it belongs to by its counter. Its age is the time since
-///      that target was sent, not since the answer came: a late answer is an old one.
-///   2  What is applied is the difference from that target, on top of the present target. A
-///      corrected pose is never driven to as such: the target has moved on.
-///   3  Older than the limit, larger than the limit, not finite, or for a target never sent: not
-///      used, and counted.
-///   4  Nothing usable for longer than the limit: the goal is zero.
-///   5  What is applied moves towards the goal at a limited speed, always: in, out and in between.
+/// Thread: one. Cost: fixed. Errors: by counters only.
 class Receiver {
  public:
   struct Settings {
@@ -44,9 +39,18 @@ class Receiver {
     double slew_rad_per_s = 0.1;
   };
 
+  /// The largest number of sent targets that are remembered.
+  static constexpr unsigned kRemembered = 64;
+
+  /// The state of the controller itself, on which the offset depends.
+  struct Own {
+    bool drives_on = true;
+    bool automatic = true;
+  };
+
   struct Counters {
     std::uint64_t used = 0;
-    std::uint64_t stale = 0;      // for an old target, or for one that was never sent
+    std::uint64_t stale = 0;      // for an old target, or for one that is not remembered
     std::uint64_t too_large = 0;  // or not finite
     std::uint64_t overtaken = 0;  // for a target that is older than the one used last
     double oldest_s = 0.0;        // largest age on arrival of a correction that was used
@@ -57,18 +61,21 @@ class Receiver {
   /// Remembers the target that is sent with this counter.
   void sent(std::uint16_t counter, const Isometry3d& X_BD, std::int64_t now_ns);
 
-  /// Takes a message of the kind kCorrected or kOffset; other kinds are ignored.
+  /// Takes a message whose check sum was right, of the kind kCorrected, kOffset or kStatus; other
+  /// kinds are ignored.
   void hear(const drivers::BusMessage& message, std::int64_t now_ns);
 
-  /// Returns the correction to apply now. To be called once in every cycle.
-  const Offset& step(std::int64_t now_ns, double dt_s);
+  /// Returns the correction to apply now. To be called once in every cycle, also with drives off.
+  const Offset& step(std::int64_t now_ns, double dt_s, const Own& own);
 
   const Offset& present() const { return present_; }
-  bool fresh(std::int64_t now_ns) const;
+  bool fresh(std::int64_t now_ns) const;  // what is wanted is not too old
+  bool alive(std::int64_t now_ns) const;  // plumb-rt's heart beats
   const Counters& counters() const { return counters_; }
 
-  /// Forgets all sent targets, as after a restart. The applied correction does not change.
-  void forget();
+  /// Begins anew, as after a restart or when the program is changed: no target, no answer and no
+  /// status is known, and the offset is zero.
+  void restart();
 
  private:
   struct Sent {
@@ -76,13 +83,23 @@ class Receiver {
     std::int64_t time_ns = 0;
     Isometry3d X_BD = Isometry3d::Identity();
   };
+  const Sent* remembered(std::uint16_t counter) const;
+  bool applies(std::int64_t now_ns) const;
+  void hear_status(const drivers::BusMessage& message, std::int64_t now_ns);
+  void hear_answer(const drivers::BusMessage& message, std::int64_t now_ns);
   std::optional<Offset> offset_in(const drivers::BusMessage& message, const Sent& target) const;
 
   Settings settings_;
   std::array<Sent, 256> sent_{};  // by the eight bits of the counter that every bus transmits
-  Offset goal_, present_;
-  bool has_goal_ = false;
-  std::int64_t goal_ns_ = 0;  // when the target that the goal belongs to was sent
+  std::uint16_t last_sent_ = 0;
+  Offset wanted_, present_;
+  bool has_wanted_ = false;
+  std::int64_t wanted_ns_ = 0;  // when the target that it belongs to was sent
+  drivers::SessionStatus status_;
+  std::uint16_t status_counter_ = 0;
+  bool has_status_ = false;
+  bool has_beat_ = false;
+  std::int64_t beat_ns_ = 0;  // when a status with another counter than before came
   Counters counters_;
 };
 

@@ -50,7 +50,8 @@ TEST(RtToml, IsReadWithoutAWordOfComplaintForAnyArmAndLink) {
       cell.deploy.link = link;
       cell.deploy.interface = "vcan3";
       cell.deploy.address = "192.168.0.7";
-      const Read got = read(write_rt_toml(cell, drivers::default_layout(joints, 0.004, 2)), cell);
+      const Read got =
+          read(write_rt_toml(cell, drivers::default_layout(joints, 0.004, 2), {}), cell);
       EXPECT_EQ(got.errors, "");
       EXPECT_EQ(got.config.serial, cell.serial);
       EXPECT_EQ(got.config.source->use(), link);
@@ -79,7 +80,7 @@ TEST(RtToml, AnAddressMayNameItsPort) {
 
 TEST(RtToml, SaysWhatAnEmptyFileWouldMean) {
   const Cell cell = cell_of(6);
-  const Read got = read(write_rt_toml(cell, drivers::default_layout(6, 0.004)), cell);
+  const Read got = read(write_rt_toml(cell, drivers::default_layout(6, 0.004), {}), cell);
   const Read empty = read("schema = \"rt/1\"\n[bus]\n", cell);
   const auto& a = got.config;
   const auto& b = empty.config;

@@ -12,6 +12,7 @@
 
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "program/file.hpp"
 #include "tests/rt/one_arm.hpp"
 
 namespace plumb::tests {
@@ -40,6 +41,7 @@ class Deployed {
   Deployed& operator=(const Deployed&) = delete;
 
   static constexpr int kTargets = 20;
+  static constexpr const char* kSums = "SHA256SUMS";
 
   static format::Model arm() {
     format::Model out = one_arm();
@@ -52,18 +54,31 @@ class Deployed {
     return "schema = \"rt/1\"\n[cycle]\ncycle_us = 1000\npriority = 0\n"
            "[source]\nkind = \"csv\"\nfile = \"targets.csv\"\n"
            "[sink]\nkind = \"csv\"\nfile = \"corrected.csv\"\n"
-           "[limits]\nmode = \"full\"\n" +
+           "[limits]\nmax_change_mm = 5\nmode = \"full\"\n" +
            more;
   }
 
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(folder / file) << text;
+    if (file != kSums) seal();
   }
   void write_model(const std::string& file, const format::Model& model) const {
     const auto bytes = format::write_model(model);
     std::ofstream(folder / file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
+    seal();
+  }
+  /// Lists the configuration and the models in SHA256SUMS, as an operator who edited them would.
+  void seal() const {
+    std::string text;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      const bool summed =
+          name == "rt.toml" || entry.path().extension() == ".plumb" || name == "targets.csv";
+      if (summed) text += sha256(read_file(entry.path())) + "  " + name + "\n";
+    }
+    std::ofstream(folder / kSums) << text;
   }
   std::string text(const std::string& file) const {
     std::ifstream in(folder / file);

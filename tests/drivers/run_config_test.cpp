@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "tests/drivers/deployed.hpp"
 #include "tests/drivers/rights.hpp"
 #include "tests/drivers/rt_program.hpp"
@@ -33,6 +36,18 @@ const Bad kBad[] = {
      "priority"},
     {"unknown mode", "schema = \"rt/1\"\n[limits]\nmode = \"ful\"\n", 3, "E-RT-RANGE", "full"},
     {"scale beyond 1", Deployed::csv("limited_scale = 1.5\n"), 3, "E-RT-RANGE", "limited_scale"},
+    {"ceiling of a metre", Deployed::csv("max_correction_mm = 1000\n"), 3, "E-RT-RANGE",
+     "50 at most"},
+    {"model beyond the ceiling", Deployed::csv("max_correction_mm = 2.5\n"), 3, "E-RT-CEILING",
+     "corrections of up to 3 mm, and [limits] max_correction_mm is 2.5"},
+    {"model faster than the ceiling", Deployed::csv("max_slew_mm_s = 9\n"), 3, "E-RT-CEILING",
+     "changes of up to 10 mm/s, and [limits] max_slew_mm_s is 9"},
+    {"ramp shorter than the ceiling", Deployed::csv("min_ramp_s = 0.5\n"), 3, "E-RT-CEILING",
+     "a ramp of only 0.1 s, and [limits] min_ramp_s is 0.5"},
+    {"comparison within a metre", Deployed::csv("[sync]\nposition_um = 1e6\n"), 3, "E-RT-RANGE",
+     "500 at most: beyond it another tool"},
+    {"comparison within a turn", Deployed::csv("[sync]\nrotation_urad = 6e6\n"), 3, "E-RT-RANGE",
+     "1000 at most: beyond it another tool"},
     {"tool of 256", Deployed::csv("[expect]\ntool = 256\n"), 3, "E-RT-RANGE", "tool"},
     {"port of 0", "schema = \"rt/1\"\n[source]\nkind = \"modbus\"\nport = 0\n", 3, "E-RT-RANGE",
      "port"},
@@ -82,6 +97,64 @@ TEST(RunConfig, AFileThatTheSumsDoNotKnowIsRefused) {
   const RtRan ran = plumb_rt({"run", folder.folder.string()}, folder.folder);
   EXPECT_EQ(ran.exit, 3);
   EXPECT_NE(ran.err.find("error[E-RT-SUMS]"), std::string::npos) << ran.err;
+}
+
+RtRan checked(const Deployed& folder) {
+  return plumb_rt({"run", folder.folder.string(), "--check"}, folder.folder);
+}
+
+TEST(RunConfig, AListOfSumsThatIsMissingEmptyOrShortIsRefused) {
+  const Deployed folder;
+  const std::string whole = folder.text("SHA256SUMS");
+  ASSERT_EQ(checked(folder).exit, 0);
+  const std::string lines[] = {"", "no sum\n", whole.substr(0, whole.find('\n') + 1)};
+  for (const std::string& text : lines) {
+    folder.write("SHA256SUMS", text);
+    const RtRan ran = checked(folder);
+    EXPECT_EQ(ran.exit, 3) << text;
+    EXPECT_NE(ran.err.find("error[E-RT-SUMS]"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("plumb-rt seal"), std::string::npos) << ran.err;
+  }
+  for (const char* const left_out : {"rt.toml", "robot.plumb"}) {
+    std::string text, line;
+    for (std::istringstream in(whole); std::getline(in, line);)
+      if (line.find(left_out) == std::string::npos) text += line + "\n";
+    folder.write("SHA256SUMS", text);
+    EXPECT_NE(checked(folder).err.find(std::string("does not list ") + left_out), std::string::npos)
+        << left_out;
+  }
+  std::filesystem::remove(folder.folder / "SHA256SUMS");
+  EXPECT_NE(checked(folder).err.find("SHA256SUMS is missing"), std::string::npos);
+}
+
+TEST(RunConfig, AnEditedConfigurationRunsOnceItIsSealed) {
+  const Deployed folder;
+  const auto seal = [&](std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"seal", folder.folder.string()});
+    return plumb_rt(more, folder.folder);
+  };
+  std::ofstream(folder.folder / "rt.toml") << Deployed::csv("target_step_mm = 20\n");
+  const RtRan refused = checked(folder);
+  EXPECT_EQ(refused.exit, 3);
+  EXPECT_NE(refused.err.find("rt.toml is not the file that SHA256SUMS lists"), std::string::npos);
+  EXPECT_NE(refused.err.find("if you edited it: plumb-rt seal"), std::string::npos) << refused.err;
+  const RtRan sealed = seal();
+  EXPECT_EQ(sealed.exit, 0) << sealed.err;
+  EXPECT_NE(sealed.out.find("changed since the last time: rt.toml"), std::string::npos);
+  EXPECT_EQ(checked(folder).exit, 0);
+
+  std::ofstream(folder.folder / "rt.toml") << Deployed::csv("target_step_m = 20\n");
+  EXPECT_EQ(seal().exit, 3) << "what plumb-rt would not run is not sealed";
+  std::ofstream(folder.folder / "rt.toml") << Deployed::csv("");
+  const std::string targets = folder.text("targets.csv");
+  std::ofstream(folder.folder / "targets.csv") << targets << targets.substr(targets.find('\n') + 1);
+  EXPECT_EQ(seal().exit, 3) << "the seal of rt.toml does not cover another file";
+  EXPECT_EQ(seal({"--all"}).exit, 0);
+  EXPECT_EQ(checked(folder).exit, 0);
+  std::filesystem::remove(folder.folder / "SHA256SUMS");
+  EXPECT_EQ(seal().exit, 3);
+  EXPECT_EQ(seal({"--all"}).exit, 0);
+  EXPECT_EQ(checked(folder).exit, 0);
 }
 
 TEST(RunConfig, APortInUseIsAnEnvironmentError) {

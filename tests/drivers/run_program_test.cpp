@@ -157,17 +157,95 @@ TEST(Run, SwapsAModelAndRefusesGarbageAndOtherRobots) {
   EXPECT_NE(swap("other.plumb").err.find("E-RT-SERIAL"), std::string::npos);
   EXPECT_NE(swap("set-up.plumb").err.find("E-RT-SWAP"), std::string::npos);
   EXPECT_EQ(swap("missing.plumb").exit, 3);
+  format::Model wide = Deployed::arm();
+  wide.guard.max_correction_m = 0.02;
+  folder.write_model("wide.plumb", wide);
+  const RtRan wider = swap("wide.plumb");
+  EXPECT_NE(wider.err.find("E-RT-CEILING"), std::string::npos) << wider.err;
+  EXPECT_NE(wider.err.find("up to 20 mm, and [limits] max_correction_mm is 10"), std::string::npos)
+      << wider.err;
+  format::Model far = Deployed::arm();
+  far.guard.max_correction_m = 0.009;
+  for (auto& joint : far.calibrated.joints) joint.a += 2e-3;
+  folder.write_model("far.plumb", far);
+  const RtRan changed = swap("far.plumb");
+  EXPECT_NE(changed.err.find("E-RT-CHANGE"), std::string::npos) << changed.err;
+  EXPECT_NE(changed.err.find("and 5.000 mm are allowed"), std::string::npos) << changed.err;
   EXPECT_EQ(status(folder)["result"]["counters"]["swaps"], 0);
+  const auto limits = status(folder)["result"]["limits"];
+  EXPECT_NEAR(limits["correction_mm"]["model"].get<double>(), 3.0, 1e-9);
+  EXPECT_NEAR(limits["correction_mm"]["ceiling"].get<double>(), 10.0, 1e-9);
   EXPECT_EQ(swap("better.plumb").exit, 0);
   EXPECT_EQ(swap("robot.plumb").exit, 0);
   EXPECT_TRUE(becomes([&] { return status(folder)["result"]["counters"]["swaps"] == 2; }));
   EXPECT_TRUE(becomes([&] { return is_active(folder); }));
+  const RtRan meant = plumb_rt({"swap", (folder.folder / "far.plumb").string(), "--dir",
+                                folder.folder.string(), "--allow-change-mm", "20"},
+                               folder.folder);
+  EXPECT_EQ(meant.exit, 0) << meant.err;
+  EXPECT_NE(meant.out.find("changes corrections by"), std::string::npos) << meant.out;
   const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
   EXPECT_EQ(second.exit, 5);
   EXPECT_NE(second.err.find("E-RT-RUNNING"), std::string::npos) << second.err;
   const RtRan seen = plumb_rt({"monitor", folder.folder.string(), "--once"}, folder.folder);
   EXPECT_EQ(seen.exit, 0);
   EXPECT_NE(seen.out.find("cycles/s"), std::string::npos) << seen.out;
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+}
+
+std::vector<nlohmann::json> events(const Deployed& folder) {
+  return plumb_rt({"events", folder.folder.string(), "--json"}, folder.folder)
+      .json()["result"]["events"];
+}
+
+TEST(Run, TheJournalHoldsStatesSwapsAndRefusalsWithBothTimes) {
+  const Deployed folder;
+  write_long_targets(folder);
+  folder.write_model("better.plumb", Deployed::arm());
+  RtProgram run({"run", folder.folder.string()}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  const auto swap = [&](const char* file) {
+    return plumb_rt({"swap", (folder.folder / file).string(), "--dir", folder.folder.string()},
+                    folder.folder);
+  };
+  EXPECT_EQ(swap("better.plumb").exit, 0);
+  const RtRan garbage = swap("targets.csv");
+  EXPECT_EQ(garbage.exit, 3) << garbage.err;
+  const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(second.exit, 5);
+  run.kill(SIGTERM);
+  const RtRan ended = run.wait();
+  EXPECT_EQ(ended.exit, 0);
+  std::string course;
+  double before_s = 0.0;
+  for (const auto& event : events(folder)) {
+    const std::string name = event["event"];
+    course += name + (name == "state" ? ":" + event["to"].get<std::string>() : "") + " ";
+    EXPECT_EQ(event["time"].get<std::string>().size(), 24U) << event;
+    EXPECT_GE(event["monotonic_s"].get<double>(), before_s - 0.1) << event;
+    before_s = event["monotonic_s"].get<double>();
+  }
+  std::size_t at = 0;
+  for (const char* const part : {"start", "state:sync", "state:shadow", "state:active", "swap ",
+                                 "swap-refused", "not-started", "state:hold", "end"}) {
+    at = course.find(part, at);
+    ASSERT_NE(at, std::string::npos) << part << " in " << course;
+  }
+  EXPECT_NE(ended.err.find("state  from shadow  to active"), std::string::npos) << ended.err;
+}
+
+TEST(Run, AStoppedOneKeepsItsFolder) {
+  const Deployed folder;
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string()}, folder.folder);
+  ASSERT_TRUE(becomes([&] { return is_active(folder); }));
+  run.kill(SIGSTOP);
+  const RtRan second = plumb_rt({"run", folder.folder.string()}, folder.folder);
+  EXPECT_EQ(second.exit, 5);
+  EXPECT_NE(second.err.find("E-RT-RUNNING"), std::string::npos) << second.err;
+  run.kill(SIGCONT);
+  EXPECT_TRUE(becomes([&] { return status(folder).is_object(); })) << "it has kept its socket";
   run.kill(SIGTERM);
   EXPECT_EQ(run.wait().exit, 0);
 }

@@ -238,6 +238,7 @@ def controller_side(plumb):
     text = toml.read_text().replace('kind = "can"\ninterface = "vcan0"', f'kind = "modbus"\nport = {port}')
     text = text.replace('mode = "shadow"', 'mode = "full"')
     toml.write_text(text.replace('# record = "record.log"', 'record = "record.log"'))
+    plumb.run("plumb-rt", "seal", "twin/deploy")
     plumb.run("plumb-rt", "run", "twin/deploy", "--priority", "0", "--check")
     words = ("plumb-rt", "run", "twin/deploy", "--priority", "0")
     daemon = plumb.start(*words)
@@ -257,6 +258,7 @@ def controller_side(plumb):
     finally:
         daemon.send_signal(signal.SIGTERM)
         plumb.finish(daemon, *words)
+    plumb.run("plumb-rt", "events", "twin/deploy")
     record = next(iter((plumb.scratch / "twin/deploy").glob("record*")), None)
     if record:
         plumb.run("plumb-rt", "replay", record, "--dir", "twin/deploy")

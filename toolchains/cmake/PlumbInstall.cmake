@@ -3,6 +3,24 @@
 # and, on Linux, Plumb::drivers.
 include(CMakePackageConfigHelpers)
 
+# plumb_needs(COMPONENT TARGET...): the installation of a component ends with what to build, if a target of it is not.
+function(plumb_needs component)
+  install(CODE "set(plumb_missing)" COMPONENT ${component})
+  foreach(target ${ARGN})
+    if(TARGET ${target})
+      install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
+  list(APPEND plumb_missing ${target})
+endif()" COMPONENT ${component})
+    endif()
+  endforeach()
+  install(CODE "if(plumb_missing)
+  string(REPLACE \";\" \" \" plumb_missing \"\${plumb_missing}\")
+  message(FATAL_ERROR \"component ${component} is not built whole. Build it first:\\n  cmake --build ${PROJECT_BINARY_DIR} --target \${plumb_missing}\\nor install the other one alone: --component tools|runtime\")
+endif()" COMPONENT ${component})
+endfunction()
+plumb_needs(runtime plumb_format plumb_runtime plumb_robot plumb_c plumb_drivers)
+plumb_needs(tools plumb plumb-twin plumb-rt)
+
 set(plumb_package ${CMAKE_INSTALL_LIBDIR}/cmake/Plumb)
 install(TARGETS plumb_format plumb_runtime plumb_robot plumb_c EXPORT PlumbTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)

@@ -94,6 +94,7 @@ class RunLoop {
         .host = host()};
     const SessionOutput out = session_.step(tick);
     note_stop(tick);
+    note_change(tick.now_ns);
     shared_.record.put(
         {.what = What::kTick, .tick = tick, .model = session_.model(), .message = {}});
     for (BusMessage message : out.sent()) {
@@ -123,6 +124,23 @@ class RunLoop {
     stop_by_ns_ = tick.now_ns + static_cast<std::int64_t>(1e9 * session_.ramp_out_s()) + kSpare_ns;
   }
 
+  /// Passes what an operator wants to know to the journal, if it has changed.
+  void note_change(std::int64_t now_ns) noexcept {
+    const SessionReport& report = session_.report();
+    const SessionMoment now{.time_ns = now_ns,
+                            .state = report.state,
+                            .cause = report.cause,
+                            .mode = report.mode,
+                            .status = report.status,
+                            .lost = report.lost,
+                            .link = port_.state(),
+                            .model = session_.model(),
+                            .applied_m = report.applied_m,
+                            .difference_m = report.sync.last_m};
+    if (now.differs(moment_)) shared_.events.put(now);
+    moment_ = now;
+  }
+
   bool send(const BusMessage& message) noexcept {
     return settings_.answers == RunSettings::Answers::kRecordOnly || port_.send(message);
   }
@@ -150,6 +168,7 @@ class RunLoop {
   bool stopping_ = false;
   std::int64_t stop_by_ns_ = 0;  // 0: not told to stop
   std::int64_t suspended_ns_ = 0;
+  SessionMoment moment_;  // of the cycle before
   LatencyHistogram work_;
   RunSnapshot snapshot_;
 };

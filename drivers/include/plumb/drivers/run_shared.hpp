@@ -6,6 +6,7 @@
 
 #include "plumb/drivers/bus_port.hpp"
 #include "plumb/drivers/cycle_clock.hpp"
+#include "plumb/drivers/event_ring.hpp"
 #include "plumb/drivers/mailbox.hpp"
 #include "plumb/drivers/record_ring.hpp"
 
@@ -27,6 +28,7 @@ struct RunSnapshot {
 struct RunShared {
   Mailbox<RunSnapshot> snapshots;
   RecordRing record;
+  EventRing events;
   std::atomic<bool> stop{false};        // request to ramp out and end
   std::atomic<std::uint64_t> beats{0};  // completed cycles; a watchdog checks that it grows
 };

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/journal.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+
+#include "plumb/drivers/time_source.hpp"
+#include "program/file.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kJournalName = "events.jsonl";
+constexpr std::int64_t kNanosInSecond = 1'000'000'000;
+
+/// The wall time of a moment of CLOCK_MONOTONIC in UTC, ISO 8601 with milliseconds.
+std::string wall_time(std::int64_t monotonic_ns) {
+  timespec wall{};
+  ::clock_gettime(CLOCK_REALTIME, &wall);
+  const std::int64_t ns =
+      wall.tv_sec * kNanosInSecond + wall.tv_nsec - (MonotonicTime::now_ns() - monotonic_ns);
+  const time_t seconds = static_cast<time_t>(ns / kNanosInSecond);
+  tm parts{};
+  ::gmtime_r(&seconds, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", parts.tm_year + 1900,
+                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
+                     ns % kNanosInSecond / 1'000'000);
+}
+
+Json words_of(Lost lost) {
+  Json out = Json::array();
+  for (int i = 0; i < kLostBits; ++i) {
+    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
+    if (has(lost, one)) out.push_back(to_string(one));
+  }
+  return out;
+}
+
+const char* word_of(LinkState link) {
+  return link == LinkState::kUp ? "up" : link == LinkState::kDegraded ? "degraded" : "down";
+}
+
+fs::path older(const fs::path& file) { return file.string() + ".1"; }
+
+/// The name in a folder that is not the deploy folder itself, so that several do not collide.
+std::string name_elsewhere(const fs::path& folder) {
+  const std::string name = fs::weakly_canonical(folder).string();
+  return fmt::format("{}-{}", sha256(name).substr(0, 12), kJournalName);
+}
+
+}  // namespace
+
+Journal::Journal(fs::path file, Echo echo) : file_(std::move(file)), echo_(echo) {
+  before_.model = 0;
+}
+
+void Journal::note(const char* event, const Json& details) {
+  const std::int64_t now_ns = MonotonicTime::now_ns();
+  if (room(now_ns)) write(now_ns, event, details);
+}
+
+void Journal::note_change(const SessionMoment& now) {
+  const auto say = [&](const char* event, const Json& details) {
+    if (room(now.time_ns)) write(now.time_ns, event, details);
+  };
+  if (now.model != before_.model) say("model", {{"fingerprint", now.model}});
+  if (now.link != before_.link) say("link", {{"state", word_of(now.link)}});
+  if (now.lost != before_.lost) say("lost", {{"inputs", words_of(now.lost)}});
+  if (now.state != before_.state) {
+    Json details{{"from", to_string(before_.state)},
+                 {"to", to_string(now.state)},
+                 {"mode", to_string(now.mode)},
+                 {"applied_um", 1e6 * now.applied_m}};
+    if (now.state == SessionState::kHold) details["inputs"] = words_of(now.lost);
+    say("state", details);
+  }
+  if (now.cause != before_.cause && now.cause != FaultCause::kNone)
+    say("fault", {{"cause", to_string(now.cause)},
+                  {"applied_um", 1e6 * now.applied_m},
+                  {"pose_difference_um", 1e6 * now.difference_m},
+                  {"fingerprint", now.model}});
+  if (refused(now.status) != refused(before_.status))
+    say(refused(now.status) ? "refused" : "solved", {{"status", plumb::to_string(now.status)}});
+  before_ = now;
+}
+
+/// True if this second has room for one event more; else it is counted.
+bool Journal::room(std::int64_t monotonic_ns) {
+  const std::int64_t second = monotonic_ns / kNanosInSecond;
+  if (second != second_) {
+    const std::uint64_t left_out = suppressed_;
+    second_ = second;
+    in_second_ = 0;
+    suppressed_ = 0;
+    if (left_out > 0) write(monotonic_ns, "left-out", {{"events", left_out}});
+  }
+  if (++in_second_ <= kMostPerSecond) return true;
+  ++suppressed_;
+  return false;
+}
+
+void Journal::write(std::int64_t monotonic_ns, const char* event, const Json& details) {
+  Json line{{"time", wall_time(monotonic_ns)},
+            {"monotonic_s", 1e-9 * static_cast<double>(monotonic_ns)},
+            {"event", event}};
+  line.update(details);
+  if (echo_ == Echo::kStderr) std::cerr << "plumb-rt: " << event_text(line) << std::endl;
+  append(line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void Journal::append(const std::string& line) {
+  if (file_.empty()) return;
+  struct stat now {};
+  if (::stat(file_.c_str(), &now) == 0 &&
+      static_cast<std::uint64_t>(now.st_size) + line.size() > kMostBytes)
+    std::ignore = ::rename(file_.c_str(), older(file_).c_str());
+  const int fd =
+      ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
+  const bool plain = fd >= 0 && ::fstat(fd, &now) == 0 && S_ISREG(now.st_mode);
+  const bool written =
+      plain && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+  failure_ = written ? "" : plain || fd < 0 ? std::strerror(errno) : "not a regular file";
+  if (fd >= 0) ::close(fd);
+}
+
+std::vector<fs::path> journal_places(const fs::path& folder) {
+  std::vector<fs::path> out{folder / kJournalName};
+  if (const char* const state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state != '\0')
+    out.push_back(fs::path(state) / name_elsewhere(folder));
+  out.push_back(fs::path("/var/lib/plumb") / name_elsewhere(folder));
+  return out;
+}
+
+fs::path journal_file(const fs::path& folder, const fs::path& configured) {
+  if (!configured.empty()) return configured;
+  if (::access(folder.c_str(), W_OK) == 0) return folder / kJournalName;
+  const char* const state = std::getenv("STATE_DIRECTORY");
+  if (state == nullptr || *state == '\0') return {};
+  return fs::path(state) / name_elsewhere(folder);
+}
+
+std::vector<Json> read_events(const fs::path& file, std::size_t most) {
+  std::vector<Json> out;
+  for (const fs::path& part : {older(file), file}) {
+    std::error_code error;
+    if (!fs::is_regular_file(part, error)) continue;
+    std::ifstream in(part);
+    for (std::string line; std::getline(in, line);) {
+      Json event = Json::parse(line, nullptr, false);
+      if (event.is_object() && event.contains("event")) out.push_back(std::move(event));
+    }
+  }
+  if (out.size() > most) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(most));
+  return out;
+}
+
+std::string event_text(const Json& event) {
+  std::string out = event.value("time", "") + "  " + event.value("event", "");
+  for (const auto& [key, value] : event.items()) {
+    if (key == "time" || key == "event" || key == "monotonic_s") continue;
+    if (value.is_number_float())
+      out += fmt::format("  {} {:.4g}", key, value.get<double>());
+    else if (value.is_array() && value.empty())
+      out += fmt::format("  {} none", key);
+    else
+      out +=
+          fmt::format("  {} {}", key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return out;
+}
+
+}  // namespace plumb::drivers::rt

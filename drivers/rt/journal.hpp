@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plumb/drivers/event_ring.hpp"
+#include "program/json.hpp"
+
+namespace plumb::drivers::rt {
+
+/// The event journal of a run: every change of state, fault with its cause, lost input, refusal,
+/// swap, start and end, with wall time and monotonic time. Each event is a line of JSON in a file
+/// of bounded size and a short line on stderr, which systemd passes to journald.
+///
+/// When the file would exceed kMostBytes, it is renamed to NAME.1, whose content before is lost; so
+/// at most twice as many bytes are kept. More than kMostPerSecond events in a second are counted
+/// and not written one by one. A file that cannot be written ends only the file; the lines on
+/// stderr go on.
+///
+/// Thread: one, without real-time priority. System calls: yes.
+class Journal {
+ public:
+  static constexpr std::uint64_t kMostBytes = 1'000'000;
+  static constexpr int kMostPerSecond = 50;
+
+  enum class Echo { kStderr, kNone };
+
+  /// file: is appended to; empty: no file.
+  explicit Journal(std::filesystem::path file, Echo echo = Echo::kStderr);
+
+  /// Writes an event now. `details` is an object; its keys follow time, monotonic_s and event.
+  void note(const char* event, const Json& details);
+
+  /// Writes what has changed since the moment before: events "state", "fault", "lost", "model",
+  /// "link", "refused" (the inverse refuses a target) and "solved" (it does so no more). The first
+  /// moment is compared with a session that has not begun.
+  void note_change(const SessionMoment& now);
+
+  const std::filesystem::path& file() const noexcept { return file_; }
+  const std::string& failure() const noexcept { return failure_; }  // of the file; empty: none
+
+ private:
+  void write(std::int64_t monotonic_ns, const char* event, const Json& details);
+  bool room(std::int64_t monotonic_ns);
+  void append(const std::string& line);
+
+  std::filesystem::path file_;
+  Echo echo_;
+  std::string failure_;
+  SessionMoment before_;
+  std::int64_t second_ = 0;  // whole second of the last event
+  int in_second_ = 0;
+  std::uint64_t suppressed_ = 0;
+};
+
+/// Where the journal of a folder stands: `configured` if it is not empty, else events.jsonl in the
+/// folder if that may be written, else in $STATE_DIRECTORY, which systemd provides. Empty if there
+/// is no such place.
+std::filesystem::path journal_file(const std::filesystem::path& folder,
+                                   const std::filesystem::path& configured);
+
+/// Where journal_file() may have put the journal of a folder, best first: in the folder, in
+/// $STATE_DIRECTORY, and in /var/lib/plumb, the state directory of the systemd unit.
+std::vector<std::filesystem::path> journal_places(const std::filesystem::path& folder);
+
+/// The events of a journal, oldest first, those of NAME.1 included; damaged lines are left out.
+/// At most `most` of them, the newest.
+std::vector<Json> read_events(const std::filesystem::path& file, std::size_t most);
+
+/// "2026-11-25 03:50:46.123  fault  pose-mismatch" for people.
+std::string event_text(const Json& event);
+
+}  // namespace plumb::drivers::rt
