@@ -11,7 +11,6 @@
 #include "cell/toml_text.hpp"
 #include "plumb/drivers/session.hpp"
 #include "plumb/drivers/session_transition.hpp"
-#include "rt/ceilings.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -52,17 +51,15 @@ double rounded_up(double value) { return std::ceil(value * 1e6 * (1.0 - 1e-9)) /
 
 /// What no model may exceed, whatever it says of itself.
 std::string ceilings(const format::GuardLimits& guard) {
-  const drivers::rt::Ceilings own;
   return fmt::format(
       "max_correction_mm = {:.10g}   # ceilings: a model that allows itself more is refused\n"
       "max_rotation_deg = {:.10g}\n"
       "max_slew_mm_s = {:.10g}\nmax_slew_deg_s = {:.10g}\n"
       "min_ramp_s = {:.10g}\n"
-      "max_change_mm = {:.10g}   # by which a swap may change the correction of a pose\n"
-      "max_change_deg = {:.10g}\n\n",
+      "# max_change_mm, max_change_deg: by which a swap may change the correction of a pose\n\n",
       rounded_up(guard.max_correction_m / kMilli), rounded_up(guard.max_rotation_rad / kDegree),
       rounded_up(guard.slew_m_per_s / kMilli), rounded_up(guard.slew_rad_per_s / kDegree),
-      guard.ramp_s, own.change_m / kMilli, own.change_rad / kDegree);
+      guard.ramp_s);
 }
 
 std::string limits(const format::GuardLimits& guard, drivers::CorrectionMode mode) {
