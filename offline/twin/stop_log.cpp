@@ -19,8 +19,7 @@ constexpr double kMm = 1e3;
 
 }  // namespace
 
-StopLog::StopLog(const std::filesystem::path& file, const Arm& arm)
-    : file_(file), arm_(arm) {
+StopLog::StopLog(const std::filesystem::path& file, const Arm& arm) : file_(file), arm_(arm) {
   (void)true_errors(arm.cell, arm.hidden, arm.truth, arm.stations, {});  // throws here, if at all
   out_.open(file, std::ios::trunc);
   out_ << "station,path_s,settled,correction_mm,true_off_mm,true_on_mm\n" << std::flush;
