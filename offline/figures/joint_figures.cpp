@@ -248,7 +248,7 @@ void add_curve_legend(const WithLaw& with, std::vector<draw::LegendEntry>& out) 
 
 std::vector<std::string> joint_notes(const RunResults& results) {
   auto out = error_notes(results);
-  out.push_back(
+  out.emplace_back(
       "Each point: by how much the joint would have to move to explain the error of its "
       "pose, which poses far from its axis show best; the mean is weighted accordingly. "
       "Outliers and repeats in a row are left out or averaged.");

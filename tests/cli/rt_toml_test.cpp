@@ -70,7 +70,7 @@ TEST(RtToml, AnAddressMayNameItsPort) {
   for (const auto& [address, host, port] :
        {std::tuple("10.0.0.7:1502", "10.0.0.7", 1502), std::tuple("fe80::1", "fe80::1", 502)}) {
     cell.deploy.address = address;
-    const Read got = read(write_rt_toml(cell, drivers::default_layout(6, 0.004)), cell);
+    const Read got = read(write_rt_toml(cell, drivers::default_layout(6, 0.004), {}), cell);
     EXPECT_EQ(got.errors, "");
     const auto& modbus = dynamic_cast<const drivers::rt::ModbusSource&>(*got.config.source);
     EXPECT_EQ(modbus.address, host);
