@@ -76,7 +76,8 @@ void control(UdpPort& bus, const LoadedModel& model, std::atomic<int>& corrected
     q.push_back(0.6 * joint.q_max + 0.4 * joint.q_min);
   const Chain& nominal = model.corrector().nominal();
   for (std::uint16_t counter = 0; corrected < kWanted; ++counter) {
-    for (double& x : q) x += counter % 500 < 250 ? 1e-4 : -1e-4;
+    // Far enough that the poses compared are distinct, see [sync] in docs/run.md.
+    for (double& x : q) x += counter % 1000 < 500 ? 5e-4 : -5e-4;
     const Transformd X_BD = nominal.forward(q);
     bus.send(controller_message(kReady, counter));
     bus.send(robot_message(fingerprint(model.model().serial), counter));

@@ -665,6 +665,18 @@ constexpr Explanation kCodes[] = {
     {"E-RT-SWAP",
      "The new model has another nominal arm or other sensors than the running one, or wants larger "
      "numbers than the layout of the bus has, or a swap is under way. The running model runs on."},
+    {"E-RT-STOP",
+     "plumb-rt was told to stop and the correction is out, but a file that it writes to, the "
+     "record "
+     "or the answers, did not answer within 3 s. The program ended all the same; what was not "
+     "written is lost."},
+    {"W-RT-ACKNOWLEDGE",
+     "Before the first correction an operator must acknowledge: the last run did not end well, or "
+     "nobody has acknowledged this model yet. plumb-rt waits in state shadow until the bit "
+     "acknowledge of the controller goes from off to on."},
+    {"W-RT-STATE",
+     "plumb-rt.state, the note of how the last run ended, cannot be written. The run goes on, and "
+     "the next one asks for an acknowledgement."},
     {"E-RT-LOST",
      "The bus was down for longer than give_up_s of rt.toml; without that key plumb-rt waits for "
      "ever."},
