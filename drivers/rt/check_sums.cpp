@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "program/shell_word.hpp"
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kSums = "SHA256SUMS";
 constexpr const char* kConfigurationFile = "rt.toml";
 constexpr std::size_t kDigits = 64;
+constexpr std::uintmax_t kMostBytes = 256u << 20;  // of a file that is summed
 
 [[noreturn]] void refuse_sums(const std::string& what, const std::string& help) {
   throw Failure(Exit::kInput, {.code = "E-RT-SUMS", .message = what, .help = help});
@@ -42,7 +44,7 @@ SummedFile read_line(const fs::path& folder, const std::string& line) {
   std::error_code error;
   if (!fs::is_regular_file(folder / out.name, error))
     out.state = SummedFile::State::kMissing;
-  else if (sha256(read_file(folder / out.name)) != out.sha256)
+  else if (sha256(read_regular_file(folder / out.name, kMostBytes)) != out.sha256)
     out.state = SummedFile::State::kOther;
   return out;
 }
@@ -87,7 +89,7 @@ std::vector<SummedFile> read_sums(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kSums, error)) refuse_list(folder, "is missing");
   std::vector<SummedFile> out;
-  std::istringstream lines(read_file(folder / kSums));
+  std::istringstream lines(read_regular_file(folder / kSums, kMostBytes));
   for (std::string line; std::getline(lines, line);)
     if (!line.empty()) out.push_back(read_line(folder, line));
   if (out.empty()) refuse_list(folder, "is empty");
@@ -117,7 +119,7 @@ std::vector<SummedFile> renew_sums(const fs::path& folder, const fs::path& model
   }
   std::string text;
   for (const std::string& name : names)
-    text += fmt::format("{}  {}\n", sha256(read_file(folder / name)), name);
+    text += fmt::format("{}  {}\n", sha256(read_regular_file(folder / name, kMostBytes)), name);
   write_file_atomically(folder / kSums, text);
   return before;
 }

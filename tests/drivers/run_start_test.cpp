@@ -156,17 +156,17 @@ TEST(RunModel, WhatIsNoRegularFileIsRefusedAndHoldsNothingUp) {
   for (int i = 0; i < 20'000; ++i) rows += row;
   folder.write("targets.csv", first + rows);
   const auto file = [&](const char* name) { return (folder.folder / name).string(); };
-  ASSERT_EQ(::mkfifo(file("pipe.plumb").c_str(), 0600), 0);
-  folder.write("large.plumb", "");
-  std::filesystem::resize_file(file("large.plumb"), 1u << 30);  // one with holes
+  ASSERT_EQ(::mkfifo(file("pipe.model").c_str(), 0600), 0);
+  folder.write("large.model", "");
+  std::filesystem::resize_file(file("large.model"), 1u << 30);  // one with holes
 
   RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder);
   const auto ask = [&](std::vector<std::string> words) { return plumb_rt(words, folder.folder); };
   const auto runs = [&] { return ask({"status", folder.folder.string()}).exit == 0; };
   ASSERT_TRUE(becomes(runs));
-  const std::pair<std::string, const char*> bad[] = {{file("pipe.plumb"), "no regular file"},
+  const std::pair<std::string, const char*> bad[] = {{file("pipe.model"), "no regular file"},
                                                      {"/dev/zero", "no regular file"},
-                                                     {file("large.plumb"), "more than 16 MB"}};
+                                                     {file("large.model"), "more than 16 MB"}};
   for (const auto& [model, why] : bad) {
     const auto begin = std::chrono::steady_clock::now();
     const RtRan ran = ask({"swap", model, "--dir", folder.folder.string()});
