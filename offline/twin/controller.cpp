@@ -125,16 +125,25 @@ void Controller::arrive() {
   const bool waited = rest_s_ >= settings_.longest_dwell_s;
   if (rest_s_ < settings_.dwell_s || (!waited && !at_rest())) return;
   if (phase_ == Phase::kApproach) {
-    if (corrections_are_there()) {
+    if (corrections_are_there() && walk_ <= 1) {
       phase_ = Phase::kPath;
       return set_out(row(path_, 0));
     }
     gave_up_ = seconds(time_.now_ns - start_ns_) >= settings_.wait_s;
-    to_and_fro_ = !to_and_fro_;
-    return set_out(row(path_, to_and_fro_ ? 1 : 0));
+    walk_on();
+    return set_out(row(path_, walk_));
   }
   stops_.push_back({station_, q_measured_, X_BD_, receiver_.present(), !waited, time_.path_s});
   if (++station_ < path_.stations()) set_out(row(path_, station_));
+}
+
+/// To the first stations and back, each time one farther: plumb-rt wants to compare distinct poses.
+/// Only the ways between neighbours are known to be away from singular poses.
+void Controller::walk_on() {
+  if (walk_ == 0) back_ = false;
+  if (walk_ >= farthest_) back_ = true;
+  walk_ += back_ ? -1 : 1;
+  if (walk_ == 0) farthest_ = std::min(farthest_ + 1, std::max(1, path_.stations() - 1));
 }
 
 Receiver::Own Controller::own_state() const {
@@ -154,7 +163,7 @@ void Controller::set_out_again() {
   if (!stood_) return;
   stood_ = false;
   q_path_ = q_commanded_ = q_measured_;
-  if (!done()) set_out(row(path_, phase_ == Phase::kPath ? station_ : to_and_fro_ ? 1 : 0));
+  if (!done()) set_out(row(path_, phase_ == Phase::kPath ? station_ : walk_));
 }
 
 void Controller::advance() {

@@ -56,9 +56,9 @@ struct ControllerCounters {
 
 /// A robot controller that knows the nominal arm only. In every cycle it sends its actual pose and
 /// its target, receives corrections, and moves to the corrected target with its own inverse
-/// kinematics. Before the path begins it moves to and fro between the first two stations until
-/// corrections arrive. Its operator acknowledges a plumb-rt that stays in SHADOW, which may wait
-/// for that, but no FAULT.
+/// kinematics. Before the path begins it moves to the first stations and back, each time one
+/// farther, until corrections arrive. Its operator acknowledges a plumb-rt that stays in SHADOW,
+/// which may wait for that, but no FAULT.
 ///
 /// To be used by one thread.
 class Controller {
@@ -102,6 +102,7 @@ class Controller {
   void set_out_again();
   void advance();
   void arrive();
+  void walk_on();
   void set_out(const VectorXd& to);
   bool corrections_are_there() const;
   bool at_rest() const;
@@ -130,7 +131,9 @@ class Controller {
   double move_s_ = 0.0;  // time since the move began
   double rest_s_ = 0.0;  // time since the move ended
   int station_ = 0;      // the station that the arm moves to
-  bool to_and_fro_ = false;
+  int walk_ = 0;         // the station that it moves to before the path begins
+  int farthest_ = 1;     // where it turns
+  bool back_ = false;
   bool was_down_ = false;
   bool stood_ = false;  // in the cycle before
   bool gave_up_ = false;
