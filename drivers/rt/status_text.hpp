@@ -19,7 +19,7 @@ struct RunFacts {
   std::string record;          // file; empty: none
   std::string record_failure;  // empty: none
   std::uint64_t record_lost = 0;
-  std::string acknowledge;  // why an operator must acknowledge first; empty: that is not needed
+  std::string acknowledge;     // why an operator must acknowledge first; empty: that is not needed
   std::string events;          // file of the journal; empty: none
   std::string events_failure;  // empty: none
   std::uint64_t events_lost = 0;
