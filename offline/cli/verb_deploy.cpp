@@ -20,6 +20,7 @@
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
+#include "show/cost_view.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -59,6 +60,15 @@ void warn_of_temperatures(const format::Model& model, const drivers::BusLayout& 
                               "its fallback",
                               fmt::join(missing, ", ")),
        .help = fmt::format("[deploy.bus] temperatures = [\"{}\"]", fmt::join(needed, "\", \""))});
+}
+
+void refuse_slow(const bench::StepCost& cost, double cycle_s) {
+  const std::string fault = bench::cycle_fault(cost, cycle_s);
+  if (fault.empty()) return;
+  throw Failure(Exit::kNumbersSayNo, {.code = "E-DEPLOY-CYCLE",
+                                      .message = fault,
+                                      .help = "a longer [deploy] cycle_us, or fewer effects: plumb "
+                                              "bench says what each costs"});
 }
 
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
@@ -101,7 +111,11 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   warn_of_temperatures(model, layout, outcome);
   made.put_run(outcome.result);
   outcome.result["audit"] = show::audit_json(found, model);
-  outcome.text = compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model);
+  const bench::StepCost cost = bench::step_cost(model);
+  outcome.result["cost"] = show::cost_json(cost);
+  outcome.text = compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model) +
+                 show::cost_text(cost);
+  refuse_slow(cost, cell.deploy.cycle_s);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);

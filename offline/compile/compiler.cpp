@@ -18,6 +18,13 @@ namespace {
 /// The slew limit lets the correction grow from zero to its largest size in this time.
 constexpr double kSlewTime_s = 1.0;
 
+/// A correction of the position alone is small against the reach, so that it can be solved closer
+/// to singular poses than one of the orientation: at this singular value 1 mm of 1 m turns a joint
+/// by 0.33 rad at most, and max_seed_distance refuses more than 0.2 rad. Measured on a UR10 with
+/// errors of 1 to 3 mm: of 10^5 random poses 19.3 % are refused at 0.02 and 6.0 % at 0.003; of 10^6
+/// none came out worse than without correction (tests/compile/refusal_share_test.cpp, 3,000 of them).
+constexpr double kLeastSingularPosition = 0.003;
+
 format::HeldOut held_out(const ErrorStats& s) {
   return {.poses = static_cast<std::uint32_t>(s.n),
           .mean_m = s.mean,
@@ -71,6 +78,7 @@ format::GuardLimits guard(const Cell& cell, const Run& run) {
   out.corrects = turns ? format::Corrects::kPose : format::Corrects::kPosition;
   out.length_scale_m = reach(cell.nominal);
   out.cycle_s = cell.deploy.cycle_s;
+  if (out.corrects == format::Corrects::kPosition) out.min_singular_value = kLeastSingularPosition;
   out.max_correction_m = cell.deploy.max_correction_m;
   out.max_rotation_rad = cell.deploy.max_correction_m / out.length_scale_m * M_PI;
   out.slew_m_per_s = out.max_correction_m / kSlewTime_s;

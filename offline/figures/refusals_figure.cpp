@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "cell/random.hpp"
 #include "compile/compiler.hpp"
+#include "compile/refusal_share.hpp"
 #include "figures/model_figures.hpp"
 #include "figures/words.hpp"
 #include "figures/workspace_views.hpp"
@@ -23,7 +23,6 @@ using draw::Tone;
 constexpr int kPoses = 1500;
 constexpr int kMostDrawn = 600;  // in each view
 constexpr int kBands = 12;       // of a joint range
-constexpr double kFewestInRefusalBand = 20.0, kWellAbove = 1.5;
 constexpr double kSignMargin_px = 10.0;
 
 /// What happens at a pose, the gravest first.
@@ -95,32 +94,12 @@ double percent(int n) { return 100.0 * n / kPoses; }
 
 bool is_refused(const Tried& one) { return one.fate < kLimit; }
 
-/// "most of all at J3 between -30 and 30 deg (62 %)": the band of a joint in which the share of
-/// refusals is largest, if that is well above the mean.
-std::string worst_band_words(const std::vector<Tried>& all, const format::Chain& nominal) {
-  double mean = 0.0, most = 0.0;
-  for (const Tried& one : all) mean += is_refused(one) / static_cast<double>(all.size());
-  std::string out;
-  for (std::size_t j = 0; j < nominal.joints.size(); ++j) {
-    const auto& row = nominal.joints[j];
-    const bool slides = row.type == format::JointType::kPrismatic;
-    const double step = (row.q_max - row.q_min) / kBands;
-    const double per = slides ? 1e3 : 180.0 / std::numbers::pi;
-    for (int k = 0; k < kBands && step > 0.0; ++k) {
-      double n = 0.0, refusals = 0.0;
-      for (const Tried& one : all) {
-        if (one.q[j] < row.q_min + k * step || one.q[j] >= row.q_min + (k + 1) * step) continue;
-        n += 1.0, refusals += is_refused(one);
-      }
-      if (n < kFewestInRefusalBand || refusals / n < std::max(most, kWellAbove * mean)) continue;
-      most = refusals / n;
-      out = fmt::format(", most of all at {} between {:.0f} and {:.0f} {} ({:.0f} %)", row.name,
-                        std::round(per * (row.q_min + k * step)) + 0.0,
-                        std::round(per * (row.q_min + (k + 1) * step)) + 0.0, slides ? "mm" : "deg",
-                        100.0 * most);
-    }
-  }
-  return out;
+std::string where_words(const std::vector<Tried>& all, const format::Chain& nominal) {
+  std::vector<PoseTried> tried;
+  for (const Tried& one : all) tried.push_back({one.q, is_refused(one)});
+  JointBox box;
+  for (const auto& row : nominal.joints) box.emplace_back(row.q_min, row.q_max);
+  return worst_band_words(tried, box, nominal);
 }
 
 std::string refusal_sentence(const std::array<int, kFates>& n, const std::string& where) {
@@ -192,7 +171,7 @@ std::string refusals_figure(const RunResults& results, double width) {
   draw::Sheet sheet(
       width,
       {.title = "Where the arm cannot be corrected, and why",
-       .sentence = refusal_sentence(n, worst_band_words(all, model.nominal)),
+       .sentence = refusal_sentence(n, where_words(all, model.nominal)),
        .legend = std::move(legend),
        .notes = {fmt::format(
            "Run {}, through the controller's own inverse correction: {} random poses within the "

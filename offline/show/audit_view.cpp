@@ -48,6 +48,8 @@ Json audit_json(const Audit& audit, const format::Model& model) {
   out["active_leaves"] = audit.active_leaves;
   out["bytes"] = audit.bytes;
   out["poses_looked_at"] = kAuditPoses;
+  put(out, "refused_pct", 100.0 * audit.refusals.refused);
+  put(out, "near_singular_pct", 100.0 * audit.refusals.near_singular);
   return out;
 }
 
@@ -59,6 +61,9 @@ std::string audit_text(const Audit& audit, const format::Model& model) {
                                to_deg(audit.worst_rotation_rad))
                  : mm(audit.worst_correction_m) + " mm"});
   if (!audit.worst_q.empty()) table.add({"  at joints", worst_q_text(audit, model)});
+  table.add({"refused in the trained range",
+             fmt::format("{:.1f} %, near singular poses {:.1f} %", 100.0 * audit.refusals.refused,
+                         100.0 * audit.refusals.near_singular)});
   table.add({"limit of the guard", mm(model.guard.max_correction_m) + " mm"});
   if (!model.provenance.covariance.empty())
     table.add({"3-D sigma of the fit at the tool",
@@ -70,7 +75,11 @@ std::string audit_text(const Audit& audit, const format::Model& model) {
     table.add({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
   }
   table.add({"size", fmt::format("{} bytes", audit.bytes)});
-  return table.left_from(1).text();
+  std::string out = table.left_from(1).text();
+  if (!audit.refusals.where.empty())
+    out += fmt::format("Not corrected: {:.1f} % of the trained range{}.\n",
+                       100.0 * audit.refusals.refused, audit.refusals.where);
+  return out;
 }
 
 }  // namespace plumb::offline::show
