@@ -32,6 +32,10 @@ void add_naming(MarkList& m) {
       "cases with a false extra effect", 0.03,
       [](const Score& s) { return s.drawn.group != Group::kUnknown; },
       [](const Score& s) { return s.extra > 0; });
+  m.at_most(
+      "cases with an unrelated extra effect", 0.01,
+      [](const Score& s) { return s.drawn.group != Group::kUnknown; },
+      [](const Score& s) { return s.claims && s.claims->unrelated > 0; });
   m.at_least(
       "unknown effect: verdict and inputs, >= 2 sigma", 0.95,
       [](const Score& s) { return s.drawn.group == Group::kUnknown; },

@@ -226,10 +226,9 @@ Score run_case(const HiddenCase& drawn) {
     const double seen_error =
         blind.fresh_scattered ? true_error(diagnosed, *blind.fresh_scattered) / sigma : out.after;
     out.held_over_true = d.after.rms / (sigma * std::sqrt(axes * (1.0 + seen_error * seen_error)));
-    if (!drawn.kind.empty()) {
-      out.claims = claims_of(drawn, d);
-      if (out.claims->fall_counts) out.claims->true_fall = true_fall(seen, blind, d, sigma);
-    }
+    out.claims = claims_of(drawn, d);
+    if (!drawn.kind.empty() && out.claims->fall_counts)
+      out.claims->true_fall = true_fall(seen, blind, d, sigma);
     out.made = true;
   } catch (const Failure& failure) {
     out.why_not = failure.what();
