@@ -40,6 +40,16 @@ void read_wire(TomlTable& bus, BusLayout& layout) {
   layout.data_bit_rate = bus.number_or("data_bit_rate", layout.data_bit_rate);
 }
 
+void read_owner(TomlTable& bus, MissingOwner missing, BusLayout& layout) {
+  if (bus.node("owner_register") == nullptr) {
+    if (missing == MissingOwner::kNone) layout.owner_register.reset();
+    return;
+  }
+  const auto first = whole_number(bus, "owner_register", 0, 0xFFFF);
+  layout.owner_register.reset();
+  if (first && *first > 0) layout.owner_register = static_cast<std::uint16_t>(*first);
+}
+
 /// The message that a table describes. A table for `commanded` adds that message to the layout. If
 /// the layout cannot have the message, the result is null and the table is reported.
 MessageLayout* message_for(TomlTable& bus, const std::string& name, MessageKind kind,
@@ -156,7 +166,7 @@ void report_fault(TomlTable& bus, const LayoutFault& fault) {
   bus.source().problems().error(bus.source().code("BUS"), fault.what, std::move(place), fault.help);
 }
 
-BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use) {
+BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use, MissingOwner owner) {
   const std::size_t before = bus.source().problems().errors().size();
   const Temperatures temperatures = read_temperatures(bus);
   const bool offset = bus.choice("correction", {"pose", "offset"}) == "offset";
@@ -164,6 +174,7 @@ BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use) {
       arm_layout(arm, temperatures.count, offset ? CorrectionForm::kOffset : CorrectionForm::kPose);
   name_temperatures(temperatures.names, out);
   read_wire(bus, out);
+  read_owner(bus, owner, out);
   read_messages(bus, arm, out);
   bus.done();
   if (bus.source().problems().errors().size() == before)
@@ -182,6 +193,8 @@ std::string write_bus(const BusLayout& layout, const std::string& path) {
                      word(layout.word_order));
   out += fmt::format("correction = \"{}\"   # \"pose\" or \"offset\"\n",
                      layout.correction == CorrectionForm::kPose ? "pose" : "offset");
+  out += fmt::format("owner_register = {}   # of plumb-rt's number as Modbus client; 0: none\n",
+                     layout.owner_register.value_or(0));
   out += fmt::format("bit_rate = {:.10g}\n", layout.bit_rate);
   out += fmt::format("data_bit_rate = {:.10g}   # of CAN FD\n", layout.data_bit_rate);
   out += fmt::format("temperatures = {}   # sensors that the controller reports\n",

@@ -17,6 +17,7 @@ namespace plumb::drivers {
 ///   byte_order = "little"         # of CAN values, counters and check sums; or "big"
 ///   word_order = "big"            # of the two registers of a Modbus value; or "little"
 ///   correction = "pose"           # or "offset": the difference to the target
+///   owner_register = 1288         # of the number by which plumb-rt knows its registers again; 0: none
 ///   bit_rate = 1000000
 ///   data_bit_rate = 4000000       # of CAN FD
 ///   temperatures = ["temp"]       # sensors that the controller reports; or how many, in the order
@@ -30,7 +31,12 @@ namespace plumb::drivers {
 ///
 /// Problems are reported to the table's source, among them unknown keys and every fault of the
 /// layout (code BUS). After a problem the result must not be used.
-BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use);
+///
+/// `owner`: what a missing owner_register means. A folder that was deployed before there was one
+/// says nothing of it, and its controller may use the register for something else.
+enum class MissingOwner : std::uint8_t { kDefault, kNone };
+BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use,
+                   MissingOwner owner = MissingOwner::kDefault);
 
 /// Reports a fault at its key, its message's table or the whole table (code BUS).
 void report_fault(TomlTable& bus, const LayoutFault& fault);

@@ -35,6 +35,20 @@ std::vector<Row> rows_of(const MessageLayout& message) {
   return out;
 }
 
+constexpr const char* kOwnerMeaning =
+    "Random number of the plumb-rt that writes here; 0: none has begun";
+
+std::string owner_section(const BusLayout& layout) {
+  if (!layout.owner_register) return "";
+  return fmt::format(
+      "\n## owner\n\n"
+      "The number by which plumb-rt, as Modbus client, knows its registers again. It writes it once, "
+      "before all else: {} registers\nfrom {}, without a check sum.\n\n"
+      "| register | value | type | unit | factor | |\n|---|---|---|---|---|---|\n"
+      "| {} | token | uint32 |  | 1 | {} |\n",
+      kOwnerRegisters, *layout.owner_register, *layout.owner_register, kOwnerMeaning);
+}
+
 const char* sender(const MessageLayout& message) {
   return message.sender == Sender::kPlumb ? "plumb-rt" : "controller";
 }
@@ -66,10 +80,13 @@ std::string modbus_map_markdown(const BusLayout& layout, const std::string& abou
       "The check sum of a message is CRC-32P4 (polynomial 0xF4ACFB13, reflected, start and final "
       "xor "
       "0xFFFFFFFF) over the\nmessage's first register number as four bytes, low byte first, then "
-      "every register before the check sum, high byte\nfirst.\n",
+      "every register before the check sum, high byte\nfirst.\n\n"
+      "The registers that plumb-rt writes must keep what was written, and be readable. It compares "
+      "them before every\nwrite: nobody else may write them, but a controller that starts may zero "
+      "them.\n",
       about, big ? "high" : "low");
   for (const MessageLayout& message : layout.messages) out += section(message);
-  return out;
+  return out + owner_section(layout);
 }
 
 std::string modbus_map_csv(const BusLayout& layout) {
@@ -79,6 +96,9 @@ std::string modbus_map_csv(const BusLayout& layout) {
       out += fmt::format("{},{},{},{},{},{},{:.10g},{},{:.10g},\"{}\"\n", row.first, row.count,
                          message.name, row.value, row.type, row.unit, row.factor, sender(message),
                          message.period_s * 1e6, row.meaning);
+  if (layout.owner_register)
+    out += fmt::format("{},{},owner,token,uint32,,1,plumb-rt,0,\"{}\"\n", *layout.owner_register,
+                       kOwnerRegisters, kOwnerMeaning);
   return out;
 }
 

@@ -90,7 +90,7 @@ Deployment load_deployment(const std::filesystem::path& folder, Sums sums) {
   const toml::table nothing;
   TomlTable absent(nothing, "bus", source);
   TomlTable& table = bus ? *bus : absent;
-  out.layout = read_bus(table, arm, out.config.source->use());
+  out.layout = read_bus(table, arm, out.config.source->use(), MissingOwner::kNone);
   source.stop_on_errors();
   for (const LayoutFault& fault : find_short_reach(out, *out.model.loaded))
     report_fault(table, fault);

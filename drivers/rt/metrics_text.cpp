@@ -75,6 +75,7 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   out.counter("sent", "Messages", port.sent);
   out.counter("corrupt", "Messages with a wrong check sum, length or value", port.corrupt);
   out.counter("not_sent", "Messages that the link did not take", port.not_sent);
+  out.counter("restarts", "Times the controller was seen to have been restarted", port.restarts);
   out.counter("foreign_senders", "Our identifiers, sent by someone else", port.foreign_senders);
   out.counter("cycles", "Ticks of the clock", snapshot.clock.ticks);
   out.counter("cycles_missed", "Points of the grid skipped", snapshot.clock.missed);

@@ -95,6 +95,7 @@ Json link_json(const RunSnapshot& snapshot, const std::string& bus) {
           {"overflowed", p.overflowed},
           {"not_sent", p.not_sent},
           {"reconnects", p.reconnects},
+          {"restarts", p.restarts},
           {"foreign_senders", p.foreign_senders}};
 }
 

@@ -8,6 +8,7 @@ namespace plumb::drivers {
 namespace {
 
 constexpr double kMicro = 1e-6;
+constexpr std::uint16_t kOwnerRegister = 1288;
 
 /// Identifier and registers of a message in the default layout. The identifiers lie between
 /// CANopen's time stamp and its first process data. Lower identifiers win the bus, so the most
@@ -127,6 +128,7 @@ BusLayout default_layout(int joints, double cycle_s, int temperatures, Correctio
   const bool offset = correction == CorrectionForm::kOffset;
   BusLayout out;
   out.correction = correction;
+  out.owner_register = kOwnerRegister;
   for (const Place& place : kPlaces) {
     if (place.kind == MessageKind::kCommanded && joints <= 6) continue;
     if (place.kind == (offset ? MessageKind::kCorrected : MessageKind::kOffset)) continue;
@@ -137,6 +139,12 @@ BusLayout default_layout(int joints, double cycle_s, int temperatures, Correctio
 
 std::size_t modbus_registers(const MessageLayout& message) {
   return 2 * message.signals.size() + 3;
+}
+
+std::size_t modbus_registers(const BusLayout& layout) {
+  std::size_t out = layout.owner_register ? kOwnerRegisters : 0U;
+  for (const MessageLayout& message : layout.messages) out += modbus_registers(message);
+  return out;
 }
 
 }  // namespace plumb::drivers

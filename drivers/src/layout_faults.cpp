@@ -47,6 +47,7 @@ class Faults {
     for (std::size_t i = 0; i < layout_.messages.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) check_apart(layout_.messages[j], layout_.messages[i]);
     if (use_ == BusUse::kCan) check_load();
+    if (use_ == BusUse::kModbus) check_owner();
     return std::move(out_);
   }
 
@@ -135,6 +136,25 @@ class Faults {
               std::to_string(registers(a).first) + " to " + std::to_string(registers(a).last) +
               ") share registers",
           "the next behind " + a.name + " is " + std::to_string(registers(a).last + 1));
+  }
+
+  void check_owner() {
+    if (!layout_.owner_register) return;
+    const std::uint32_t first = *layout_.owner_register;
+    const Span own{first, first + kOwnerRegisters - 1};
+    std::uint32_t free = 0;
+    for (const MessageLayout& m : layout_.messages) free = std::max(free, registers(m).last + 1);
+    const auto taken = std::find_if(layout_.messages.begin(), layout_.messages.end(),
+                                    [&](const MessageLayout& m) { return registers(m).meets(own); });
+    const std::string help = "behind all messages is " + std::to_string(free) +
+                             "; 0 if the controller has no register for it";
+    if (own.last > 0xFFFF)
+      add("", "owner_register", "the owner's number ends beyond register 65535", help);
+    else if (taken != layout_.messages.end())
+      add("", "owner_register",
+          "the owner's number (" + std::to_string(own.first) + " to " + std::to_string(own.last) +
+              ") and " + taken->name + " share registers",
+          help);
   }
 
   void check_load() {

@@ -2,8 +2,10 @@
 #include "plumb/drivers/modbus_client.hpp"
 
 #include <algorithm>
+#include <random>
 
 #include "link_thread.hpp"
+#include "modbus_owner.hpp"
 #include "modbus_reader.hpp"
 #include "modbus_settings.hpp"
 #include "modbus_talk.hpp"
@@ -11,15 +13,24 @@
 #include "plumb/drivers/time_source.hpp"
 
 namespace plumb::drivers {
+namespace {
+
+ModbusClientSettings with_token(ModbusClientSettings settings) {
+  for (std::random_device random; settings.token == 0;) settings.token = random();
+  return settings;
+}
+
+}  // namespace
 
 class ModbusClient::Work {
  public:
   Work(const BusLayout& layout, const ModbusClientSettings& asked)
-      : settings(asked),
+      : settings(with_token(asked)),
         codec_(layout),
         talk_(exchange.counters),
         reader_(layout, codec_, settings, talk_, exchange),
-        writer_(layout, codec_, settings, talk_, exchange) {}
+        owner_(layout, codec_, settings, talk_, exchange.counters),
+        writer_(layout, codec_, settings, talk_, owner_, exchange) {}
 
   void run();
 
@@ -37,6 +48,7 @@ class ModbusClient::Work {
   ModbusCodec codec_;
   ModbusTalk talk_;
   ModbusReader reader_;
+  ModbusOwner owner_;
   ModbusWriter writer_;
   double back_off_s_ = 0;
 };
@@ -55,7 +67,7 @@ bool ModbusClient::Work::connect() {
   if (!connection) return false;
   talk_.begin(std::move(connection), serial() ? ModbusTalk::Met::kNotYet : ModbusTalk::Met::kYes);
   reader_.begin();
-  writer_.begin();
+  owner_.begin();
   return true;
 }
 
@@ -72,7 +84,7 @@ void ModbusClient::Work::serve() {
 /// Returns false if the connection can no longer be used.
 bool ModbusClient::Work::round(std::int64_t now_ns) {
   talk_.begin_round();
-  if (!reader_.round(now_ns) || !writer_.round(now_ns)) return false;
+  if (!reader_.round(now_ns) || !owner_.round(now_ns) || !writer_.round(now_ns)) return false;
   exchange.state = talk_.clean() ? LinkState::kUp : LinkState::kDegraded;
   back_off_s_ = settings.first_back_off_s;
   return true;

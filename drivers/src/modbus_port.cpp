@@ -46,6 +46,7 @@ PortCounters ModbusPort::counters() const noexcept {
   out.repeated = link.repeated;
   out.not_sent = link.not_sent + link.stale;
   out.reconnects = link.connects > 0 ? link.connects - 1 : 0;
+  out.restarts = link.restarts;
   out.foreign_senders = link.foreign_senders;
   return out;
 }

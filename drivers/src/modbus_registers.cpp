@@ -28,6 +28,12 @@ ModbusRegisters::ModbusRegisters(const BusLayout& layout, Sender self, std::int6
     begin_ = std::min<std::size_t>(begin_, first);
     end_ = std::max(end_, first + std::size_t{count});
   }
+  if (self != Sender::kController || !layout.owner_register) return;
+  const std::size_t first = *layout.owner_register;
+  if (first + kOwnerRegisters > kAddresses) return;
+  std::fill_n(peers_.begin() + static_cast<std::ptrdiff_t>(first), kOwnerRegisters, true);
+  begin_ = std::min(begin_, first);
+  end_ = std::max(end_, first + kOwnerRegisters);
 }
 
 bool ModbusRegisters::readable(std::uint16_t first, std::uint16_t count) const noexcept {

@@ -58,7 +58,7 @@ Fault find_fault(const ModbusClientSettings& settings) {
                               std::pair{"first_back_off", settings.first_back_off_s},
                               std::pair{"longest_back_off", settings.longest_back_off_s},
                               std::pair{"stale_after", settings.stale_after_s},
-                              std::pair{"read_back_period", settings.read_back_period_s}})
+                              std::pair{"watch", settings.watch_s}})
     if (auto fault = find_time(key, value_s)) return fault;
   if (const auto* line = std::get_if<SerialLine>(&settings.server))
     return find_fault(*line, settings.unit);

@@ -172,22 +172,23 @@ void Session::note_stall(const SessionTick& tick, double dt_s) noexcept {
   after_stall_ = answering();
 }
 
-Lost Session::find_all_lost() const noexcept {
+Lost Session::find_all_lost(const SessionTick& tick) const noexcept {
   const auto when = [](bool lost, Lost one) { return lost ? one : Lost::kNothing; };
   return find_lost(inbox_, settings_.inputs) | when(target_misbehaved_, Lost::kMotion) |
          when(sync_.silent(), Lost::kComparison) | when(arm_.away(), Lost::kArmAway) |
          when(arm_.still(), Lost::kArmStill) | when(stalled_, Lost::kStall) |
-         when(needs_acknowledgement_, Lost::kAcknowledge);
+         when(needs_acknowledgement_, Lost::kAcknowledge) |
+         when(tick.peer == SessionTick::Peer::kRestarted, Lost::kRestart);
 }
 
 /// Before the first correction an acknowledgement counts once the poses were compared, so that it
 /// is given to what plumb-rt then shows.
-void Session::note_permission(double ageing_s) noexcept {
+void Session::note_permission(const SessionTick& tick, double ageing_s) noexcept {
   if (acknowledged_ && state_ == SessionState::kShadow) needs_acknowledgement_ = false;
-  lost_ = find_all_lost();
+  lost_ = find_all_lost(tick);
   permitted_s_ = lost_ == Lost::kNothing ? permitted_s_ + ageing_s : 0.0;
   // An acknowledgement that was switched on while the controller was silent does not count.
-  if (has(lost_, Lost::kController)) acknowledge_was_on_ = true;
+  if (has(lost_, Lost::kController) || has(lost_, Lost::kRestart)) acknowledge_was_on_ = true;
 }
 
 void Session::note_foreign(const SessionTick& tick, double ageing_s) noexcept {
@@ -323,7 +324,7 @@ SessionOutput Session::step(const SessionTick& tick) noexcept {
   arm_.step(time.ageing_s);
   note_stall(tick, time.dt_s);
   take_target();
-  note_permission(time.ageing_s);
+  note_permission(tick, time.ageing_s);
   note_foreign(tick, time.ageing_s);
   change_state(tick);
   fill_report(correct(tick.now_ns, time.dt_s));

@@ -101,6 +101,8 @@ const char* to_string(Lost one) noexcept {
       return "stall";
     case Lost::kAcknowledge:
       return "acknowledge";
+    case Lost::kRestart:
+      return "restart";
   }
   return "several";
 }

@@ -20,8 +20,7 @@ struct ModbusMapArguments {
 void run_map(const ModbusMapArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   const drivers::BusLayout layout = bus_of(cell, drivers::BusUse::kModbus);
-  std::size_t registers = 0;
-  for (const auto& message : layout.messages) registers += drivers::modbus_registers(message);
+  const std::size_t registers = drivers::modbus_registers(layout);
   outcome.result = {{"messages", layout.messages.size()}, {"registers", registers}};
   put_out(options.output, options.csv ? "csv" : "markdown",
           options.csv ? drivers::modbus_map_csv(layout)

@@ -111,7 +111,9 @@ drivers::BusLayout read_layout(const Cell& cell, const std::filesystem::path& fi
   const toml::table* found = at.as_table();
   TomlTable bus(found != nullptr ? *found : empty, root.contains("bus") ? "bus" : "deploy.bus",
                 source);
-  auto layout = drivers::read_bus(bus, arm, use);
+  const auto owner =
+      root.contains("bus") ? drivers::MissingOwner::kNone : drivers::MissingOwner::kDefault;
+  auto layout = drivers::read_bus(bus, arm, use, owner);
   source.stop_on_errors();
   return layout;
 }

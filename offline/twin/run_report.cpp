@@ -25,6 +25,7 @@ Json port_json(const drivers::PortCounters& port) {
           {"overflowed", port.overflowed},
           {"not_sent", port.not_sent},
           {"reconnects", port.reconnects},
+          {"restarts", port.restarts},
           {"foreign_senders", port.foreign_senders}};
 }
 

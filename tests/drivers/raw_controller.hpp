@@ -10,23 +10,21 @@
 
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <thread>
 #include <vector>
 
 #include "plumb/drivers/bus_content.hpp"
-#include "plumb/drivers/bus_layout.hpp"
-#include "plumb/runtime/chain.hpp"
+#include "tests/drivers/raw_arm.hpp"
 
 namespace plumb::tests {
 
 /// A controller that asks a plumb-rt on Modbus TCP, made of sockets and of the map of registers
-/// alone: frames, numbers and check sums are its own. Its arm swings, and is the nominal one.
+/// alone: frames, numbers and check sums are its own.
 class RawController {
  public:
   RawController(std::uint16_t port, const format::Chain& arm, std::uint32_t robot)
-      : port_(port), arm_(arm), robot_(robot), thread_([this] {
+      : port_(port), arm_(arm, robot), thread_([this] {
           while (!ended_) beat();
         }) {}
   ~RawController() {
@@ -50,41 +48,7 @@ class RawController {
   }
 
  private:
-  using Bytes = std::vector<std::uint8_t>;
-  using Kind = drivers::MessageKind;
-
-  /// CRC-32P4 of AUTOSAR: polynomial F4ACFB13, reflected.
-  static std::uint32_t crc(const Bytes& bytes) {
-    std::uint32_t out = 0xFFFFFFFF;
-    for (const std::uint8_t byte : bytes) {
-      out ^= byte;
-      for (int i = 0; i < 8; ++i) out = (out >> 1) ^ ((out & 1) != 0 ? 0xC8DF352F : 0);
-    }
-    return ~out;
-  }
-
-  static void put(Bytes& out, std::uint32_t word) {
-    out.push_back(static_cast<std::uint8_t>(word >> 8));
-    out.push_back(static_cast<std::uint8_t>(word));
-  }
-  void put_pair(Bytes& out, std::uint32_t value) const {
-    const bool big = layout_.word_order == drivers::ByteOrder::kBig;
-    put(out, (big ? value >> 16 : value) & 0xFFFF);
-    put(out, (big ? value : value >> 16) & 0xFFFF);
-  }
-
-  Bytes block(const drivers::MessageLayout& message, const std::vector<double>& values) const {
-    Bytes out;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      put_pair(out, static_cast<std::uint32_t>(static_cast<std::int32_t>(
-                        std::lround(values[i] / message.signals[i].scale))));
-    put(out, counter_);
-    Bytes sum{static_cast<std::uint8_t>(message.first_register),
-              static_cast<std::uint8_t>(message.first_register >> 8), 0, 0};
-    sum.insert(sum.end(), out.begin(), out.end());
-    put_pair(out, crc(sum));
-    return out;
-  }
+  using Bytes = RawArm::Bytes;
 
   void hang_up() {
     if (socket_ >= 0) ::close(socket_);
@@ -124,12 +88,10 @@ class RawController {
     return {answer.begin() + 8, answer.begin() + got};
   }
 
-  void write(Kind kind, const std::vector<double>& values) {
-    const auto& message = *layout_.find(kind);
-    const Bytes words = block(message, values);
+  void write(std::uint16_t first, const Bytes& words) {
     Bytes pdu{16};
-    put(pdu, message.first_register);
-    put(pdu, static_cast<std::uint32_t>(words.size() / 2));
+    RawArm::put(pdu, first);
+    RawArm::put(pdu, static_cast<std::uint32_t>(words.size() / 2));
     pdu.push_back(static_cast<std::uint8_t>(words.size()));
     pdu.insert(pdu.end(), words.begin(), words.end());
     ask(pdu);
@@ -137,45 +99,27 @@ class RawController {
 
   void read_status() {
     Bytes pdu{3};
-    put(pdu, layout_.find(Kind::kStatus)->first_register);
-    put(pdu, 2);
+    RawArm::put(pdu, arm_.layout.find(drivers::MessageKind::kStatus)->first_register);
+    RawArm::put(pdu, 2);
     const Bytes said = ask(pdu);  // number of bytes, then the pair of the state
     if (said.size() != 5) return;
-    state = layout_.word_order == drivers::ByteOrder::kBig ? said[4] : said[2];
+    state = arm_.layout.word_order == drivers::ByteOrder::kBig ? said[4] : said[2];
   }
 
   void beat() {
     const auto next = std::chrono::steady_clock::now() + std::chrono::milliseconds(4);
     if (dial()) {
-      const Transformd X_BA = arm_.forward(q_);
-      const Vector3 r = rotation_vector(X_BA.R);
-      const double shift = another_tool ? 0.02 : 0.0;
-      const std::vector<double> pose{X_BA.p(0), X_BA.p(1), X_BA.p(2), r(0), r(1), r(2)};
-      std::vector<double> shown = pose;
-      shown[2] += shift;
-      const unsigned flags = 1 + 2 + 8 + (acknowledge ? 16 : 0);
-      write(Kind::kController, {static_cast<double>(flags), 0, 0, 0});
-      write(Kind::kRobot, {static_cast<double>(robot_)});
-      write(Kind::kJoints, q_);
-      write(Kind::kActual, shown);
-      write(Kind::kTarget, pose);
+      for (const auto& [first, words] :
+           arm_.beat({.acknowledge = acknowledge, .another_tool = another_tool}))
+        write(first, words);
       read_status();
-      ++counter_;
-      phase_ += 0.005;
-      for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = rest_[i] + 0.3 * std::sin(phase_);
     }
     std::this_thread::sleep_until(next);
   }
 
   std::uint16_t port_;
-  Chain arm_;
-  std::uint32_t robot_;
-  drivers::BusLayout layout_ = drivers::default_layout(6, 0.004);
+  RawArm arm_;
   int socket_ = -1;
-  std::uint16_t counter_ = 0;
-  double phase_ = 0.0;
-  std::vector<double> rest_{0.3, -1.0, 1.2, -0.4, 1.1, 0.2};
-  std::vector<double> q_ = rest_;
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

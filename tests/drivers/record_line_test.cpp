@@ -44,7 +44,8 @@ TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
   const RecordedTick tick{.told = {.now_ns = 123'456'789'000,
                                    .foreign_senders = 0x01020304,
                                    .run = SessionTick::Run::kStop,
-                                   .host = SessionTick::Host::kSlept},
+                                   .host = SessionTick::Host::kSlept,
+                                   .peer = SessionTick::Peer::kRestarted},
                           .model = 0x7FABCD};
   const auto line = parse_line(to_line({kTickName, tick_frame(tick)}));
   ASSERT_TRUE(line.has_value());
@@ -54,6 +55,7 @@ TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
   EXPECT_EQ(read.model, tick.model);
   EXPECT_EQ(read.told.run, tick.told.run);
   EXPECT_EQ(read.told.host, tick.told.host);
+  EXPECT_EQ(read.told.peer, tick.told.peer);
 }
 
 TEST(RecordLine, AStartHoldsWhatTheRunsBeforeLeft) {

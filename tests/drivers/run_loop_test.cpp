@@ -112,6 +112,18 @@ TEST(RunLoop, ASecondStoppedIsOneTickAndNoStep) {
   EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
 }
 
+TEST(RunLoop, TellsTheSessionOnceThatTheControllerWasRestarted) {
+  Bench run(CorrectionMode::kFull);
+  for (int i = 0; i < 1000; ++i) run.cycle();
+  ++run.port.counted.restarts;
+  run.cycle();
+  EXPECT_EQ(run.rig.session->state(), SessionState::kHold);
+  EXPECT_EQ(run.rig.session->report().lost, Lost::kRestart);
+  for (int i = 0; i < 200; ++i) run.cycle();
+  EXPECT_EQ(run.rig.session->state(), SessionState::kActive);
+  EXPECT_EQ(run.rig.session->report().counters.holds, 1U);
+}
+
 TEST(RunLoop, AFullRecordCostsTheCycleNothing) {
   Bench run(CorrectionMode::kFull);
   for (int i = 0; i < 5000; ++i) run.cycle();  // nobody empties the ring

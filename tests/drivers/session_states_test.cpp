@@ -318,6 +318,21 @@ TEST(Session, ASecondSenderIsAFaultForAsLongAsItSends) {
   EXPECT_NE(rig.session->state(), kFault);
 }
 
+TEST(Session, AControllerThatWasRestartedIsCorrectedAnew) {
+  SessionRig rig(in_mode(CorrectionMode::kFull));
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  rig.tick.peer = SessionTick::Peer::kRestarted;
+  rig.cycle();
+  rig.tick.peer = SessionTick::Peer::kSame;
+  EXPECT_EQ(rig.session->state(), kHold);
+  EXPECT_EQ(rig.session->report().lost, Lost::kRestart);
+  rig.run(120);
+  EXPECT_EQ(rig.session->state(), kHold) << "for half a second";
+  EXPECT_TRUE(rig.run_to(kActive, 10));
+  EXPECT_EQ(rig.session->report().counters.faults, 0U);
+}
+
 TEST(Session, StopsByRampingOut) {
   SessionRig rig(in_mode(CorrectionMode::kFull));
   ASSERT_TRUE(rig.run_to(kActive));

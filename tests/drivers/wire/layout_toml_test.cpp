@@ -41,6 +41,7 @@ void expect_equal(const BusLayout& a, const BusLayout& b) {
   EXPECT_EQ(a.correction, b.correction);
   EXPECT_EQ(a.bit_rate, b.bit_rate);
   EXPECT_EQ(a.data_bit_rate, b.data_bit_rate);
+  EXPECT_EQ(a.owner_register, b.owner_register);
   ASSERT_EQ(a.messages.size(), b.messages.size());
   for (const MessageLayout& m : a.messages) {
     const MessageLayout* other = b.find(m.kind);
@@ -73,6 +74,8 @@ TEST(LayoutToml, WhatIsWrittenReadsBackTheSame) {
           .cycle_s = 0.004};
       arm.joints.back() = format::JointType::kPrismatic;
       BusLayout layout = arm_layout(arm, joints - 1, form);
+      if (joints == 4) layout.owner_register.reset();
+      if (joints == 5) layout.owner_register = 3000;
       if (joints == 3) name_temperatures({"temp_elbow", "temp"}, layout);
       layout.can_format = CanFrame::Format::kFd;
       layout.id_kind = CanFrame::Id::kExtended;
@@ -100,6 +103,7 @@ id_kind = "extended"
 byte_order = "big"
 word_order = "little"
 correction = "offset"
+owner_register = 5000
 bit_rate = 500000
 data_bit_rate = 2000000
 temperatures = 2
@@ -119,6 +123,7 @@ count_um = 0.5
   EXPECT_EQ(got.layout.byte_order, ByteOrder::kBig);
   EXPECT_EQ(got.layout.word_order, ByteOrder::kLittle);
   EXPECT_EQ(got.layout.correction, CorrectionForm::kOffset);
+  EXPECT_EQ(got.layout.owner_register, 5000);
   EXPECT_EQ(got.layout.bit_rate, 500e3);
   EXPECT_EQ(got.layout.data_bit_rate, 2e6);
   const MessageLayout& target = *got.layout.find(MessageKind::kTarget);
@@ -142,6 +147,8 @@ TEST(LayoutToml, BadTablesAreRefusedAtTheirPlace) {
       {"[bus]\ncan_format = \"FD\"", {"E-RT-RANGE 2:14"}},
       {"[bus]\nbit_rate = \"1M\"", {"E-RT-TYPE 2:12"}},
       {"[bus]\nbit_rate = 0", {"E-RT-BUS 2:12"}},
+      {"[bus]\nowner_register = 65536", {"E-RT-RANGE 2:18"}},
+      {"[bus]\nowner_register = 1200", {}},  // of no use on CAN
       {"[bus]\ntemperatures = 9", {"E-RT-RANGE 2:16"}},
       {"[bus]\ntemperatures = 1.5", {"E-RT-RANGE 2:16"}},
       {"[bus]\ntemperatures = [\"temp\", 3]", {"E-RT-TYPE 2:25"}},
@@ -172,6 +179,26 @@ TEST(LayoutToml, TooMuchLoadIsNoMatterForModbus) {
   fast.cycle_s = 0.001;
   EXPECT_EQ(read("[bus]\n", fast).errors, Errors{"E-RT-BUS 1:1"});
   EXPECT_EQ(read("[bus]\n", fast, BusUse::kModbus).errors, Errors{});
+}
+
+/// In the register of a folder of before there may be something else.
+TEST(LayoutToml, TheOwnersRegisterIsThereIfItIsNamed) {
+  EXPECT_EQ(read("[bus]\n").layout.owner_register, 1288);
+  EXPECT_EQ(read("[bus]\nowner_register = 0").layout.owner_register, std::nullopt);
+  for (const auto& [text, owner] : {std::pair{"[bus]\n", std::optional<std::uint16_t>()},
+                                    std::pair{"[bus]\nowner_register = 1288", std::optional<std::uint16_t>(1288)}}) {
+    TomlSource source("rt.toml", text, "E-RT");
+    const toml::table parsed = source.parse();
+    TomlTable root(parsed, "", source);
+    auto bus = root.table("bus");
+    EXPECT_EQ(read_bus(*bus, six_axes(), BusUse::kModbus, MissingOwner::kNone).owner_register,
+              owner);
+  }
+  for (const char* taken : {"1279", "1278", "1200", "65535"})
+    EXPECT_EQ(read(std::string("[bus]\nowner_register = ") + taken, six_axes(), BusUse::kModbus)
+                  .errors.empty(),
+              std::string(taken) == "1279")
+        << taken;
 }
 
 TEST(Reach, NumbersThatAreTooSmallForTheArmAreToldWithACountThatFits) {

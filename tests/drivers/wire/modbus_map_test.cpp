@@ -37,9 +37,10 @@ TEST(ModbusMap, CsvHasEveryRegisterOnce) {
     ASSERT_EQ(f.size(), 10U) << line;
     for (int i = 0; i < std::stoi(f[1]); ++i) ++seen[std::stoi(f[0]) + i];
   }
-  std::size_t registers = 0;
+  std::size_t registers = 2;  // the owner's number
   for (const MessageLayout& m : layout.messages) registers += modbus_registers(m);
   EXPECT_EQ(seen.size(), registers);
+  EXPECT_EQ(modbus_registers(layout), registers);
   for (const auto& [first, count] : seen) EXPECT_EQ(count, 1) << first;
 }
 
@@ -51,7 +52,8 @@ TEST(ModbusMap, CsvSaysWhereTheTargetStands) {
         "1058,2,target,rz,int32,urad,1,controller,4000,\"\"\n",
         "1060,1,target,counter,uint16,,1,controller,4000,\"Of the cycle\"\n",
         "1061,2,target,crc,uint32,,1,controller,4000,\"CRC-32P4 of this block\"\n",
-        "1200,2,corrected,x,int32,um,1,plumb-rt,4000,\"\"\n"})
+        "1200,2,corrected,x,int32,um,1,plumb-rt,4000,\"\"\n",
+        "1288,2,owner,token,uint32,,1,plumb-rt,0,"})
     EXPECT_NE(csv.find(line), std::string::npos) << line;
 }
 
@@ -78,6 +80,9 @@ TEST(ModbusMap, MarkdownHasATableAMessageAndSaysTheWordOrder) {
   EXPECT_NE(text.find("| 1048 | x | int32 | um | 1 |  |\n"), std::string::npos);
   for (const MessageLayout& m : layout.messages)
     EXPECT_NE(text.find("\n## " + m.name + "\n"), std::string::npos);
+  EXPECT_NE(text.find("\n## owner\n"), std::string::npos);
+  layout.owner_register.reset();
+  EXPECT_EQ(modbus_map_markdown(layout, "").find("owner"), std::string::npos);
   layout.word_order = ByteOrder::kLittle;
   EXPECT_NE(modbus_map_markdown(layout, "").find("the first holds the low word"),
             std::string::npos);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,12 +41,18 @@ struct BusLayout {
   ByteOrder byte_order = ByteOrder::kLittle;  // of numbers longer than a byte, in CAN frames
   ByteOrder word_order = ByteOrder::kBig;     // of the two registers of a value, in Modbus
   CorrectionForm correction = CorrectionForm::kPose;
+  /// Modbus: where plumb-rt as client writes a random number by which it knows its registers again.
+  /// None: the controller has no place for it.
+  std::optional<std::uint16_t> owner_register = std::nullopt;
   double bit_rate = 1e6;       // arbitration phase [bit/s]
   double data_bit_rate = 4e6;  // data phase of CAN FD [bit/s]
   std::vector<MessageLayout> messages;
 
   const MessageLayout* find(MessageKind kind) const;
 };
+
+/// The registers of the owner's number, in the word order of the others.
+inline constexpr std::uint16_t kOwnerRegisters = 2;
 
 /// The default layout for an arm of `joints` joints. `temperatures`: number of temperatures that
 /// the model uses.
@@ -70,6 +77,7 @@ double si_per_unit(const std::string& unit);
 /// checksum).
 std::size_t can_frames(const BusLayout& layout, const MessageLayout& message);
 std::size_t modbus_registers(const MessageLayout& message);
+std::size_t modbus_registers(const BusLayout& layout);
 
 /// The fraction of the bus time that the layout takes in the worst case, when every frame has the
 /// most stuff bits possible (classic: ISO 11898-1; FD: both bit rates).

@@ -17,6 +17,7 @@ struct PortCounters {
   std::uint64_t overflowed = 0;  // messages lost in our own receive queue
   std::uint64_t not_sent = 0;    // the transmit queue was full or the link down
   std::uint64_t reconnects = 0;
+  std::uint64_t restarts = 0;         // times that the controller was seen to have been restarted
   std::uint64_t foreign_senders = 0;  // our own identifier, sent by someone else
 };
 

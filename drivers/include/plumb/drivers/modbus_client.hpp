@@ -21,7 +21,8 @@ struct ModbusClientSettings {
   double first_back_off_s = 0.01;   // wait before the next attempt to connect; doubles each time
   double longest_back_off_s = 0.5;
   double stale_after_s = 0.1;       // a message of the cycle that waited longer is not written
-  double read_back_period_s = 0.1;  // how often the last written message is read back
+  double watch_s = 0.3;  // how long registers that are in use must not change before we take them
+  std::uint32_t token = 0;  // written into the layout's register for it; 0: a random number
 };
 
 /// A Modbus client for a controller that is the Modbus server: it polls the controller's messages
@@ -30,9 +31,13 @@ struct ModbusClientSettings {
 /// It reads the blocks of the other side as often as the periods of their messages require. Over
 /// TCP one request reads as many blocks as fit; once a server has refused the registers between
 /// them, each block is read by itself. A message whose counter was seen before is not delivered
-/// again. It writes the newest message of each kind and reads it back from time to time and after
-/// every connection. Although libmodbus and this client check every field of an answer, only
-/// reading shows what a register contains.
+/// again. It writes the newest message of each kind.
+///
+/// The registers into which it writes are its own. In every round over TCP, and on a serial line
+/// before every write, it reads them and compares them with what it wrote last. What it did not
+/// write counts as a foreign sender (modbus_owner.hpp). Registers that were in use when it came, and
+/// those that another client took over, it watches without writing; while they change, each change
+/// counts as a foreign sender.
 ///
 /// An answer that is late, incomplete, too long, or belongs to another transaction, unit, protocol,
 /// function or address ends the connection, so that a late answer cannot be taken for the next one.

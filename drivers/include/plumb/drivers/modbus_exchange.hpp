@@ -41,6 +41,8 @@ struct ModbusCounters {
   Count disconnects;      // connections closed, for whatever reason
   Count foreign_peers;    // server: connections refused by the allow-list
   Count crowded_out;      // server: connections refused because there were too many
+  Count restarts;         // client: our registers were zeroed or reset, as by a controller that
+                          // was started again
   Count foreign_senders;  // client: our registers contained what we did not write; server: a
                           // second connection wrote to the controller's registers
 };

@@ -23,7 +23,8 @@ class ModbusRegisters {
   /// True if registers first .. first + count - 1 lie between the first and the last register of
   /// the layout. Registers that belong to no message are 0.
   bool readable(std::uint16_t first, std::uint16_t count) const noexcept;
-  /// True if all these registers belong to messages of the peer.
+  /// True if all these registers belong to messages of the peer, or hold the number of a plumb-rt
+  /// that owns them.
   bool writable(std::uint16_t first, std::uint16_t count) const noexcept;
 
   /// Reads registers, after our own messages were brought up to date. Precondition: readable(first,
@@ -53,7 +54,7 @@ class ModbusRegisters {
   ModbusCodec codec_;
   ModbusExchange* exchange_;
   std::vector<std::uint16_t> values_;
-  std::vector<bool> peers_;  // true if a message of the peer contains the register
+  std::vector<bool> peers_;  // true if the peer may write the register
   std::size_t begin_ = kAddresses;
   std::size_t end_ = 0;
   std::vector<Message> ours_;

@@ -87,11 +87,15 @@ class RunLoop {
 
   void step(std::int64_t now_ns) noexcept {
     using Run = SessionTick::Run;
+    using Peer = SessionTick::Peer;
+    const PortCounters counters = port_.counters();
     const SessionTick tick{
         .now_ns = whole_us(now_ns),
-        .foreign_senders = port_.counters().foreign_senders,
+        .foreign_senders = counters.foreign_senders,
         .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn,
-        .host = host()};
+        .host = host(),
+        .peer = counters.restarts == restarts_ ? Peer::kSame : Peer::kRestarted};
+    restarts_ = counters.restarts;
     const SessionOutput out = session_.step(tick);
     note_stop(tick);
     note_change(tick.now_ns);
@@ -168,6 +172,7 @@ class RunLoop {
   bool stopping_ = false;
   std::int64_t stop_by_ns_ = 0;  // 0: not told to stop
   std::int64_t suspended_ns_ = 0;
+  std::uint64_t restarts_ = 0;   // of the controller, as the port counted them a cycle before
   SessionMoment moment_;  // of the cycle before
   LatencyHistogram work_;
   RunSnapshot snapshot_;

@@ -58,6 +58,10 @@ struct SessionTick {
     kAwake,
     kSlept,  // the machine was suspended since the last step, which now_ns does not show
   } host = Host::kAwake;
+  enum class Peer : std::uint8_t {
+    kSame,
+    kRestarted,  // the port saw since the last step that the controller was restarted
+  } peer = Peer::kSame;
 };
 
 /// The messages to send, in this order.
@@ -155,8 +159,8 @@ class Session {
   void hear_joints(const BusMessage& message) noexcept;
   void hear_actual(const BusMessage& message) noexcept;
   void note_stall(const SessionTick& tick, double dt_s) noexcept;
-  void note_permission(double ageing_s) noexcept;
-  Lost find_all_lost() const noexcept;
+  void note_permission(const SessionTick& tick, double ageing_s) noexcept;
+  Lost find_all_lost(const SessionTick& tick) const noexcept;
   void note_foreign(const SessionTick& tick, double ageing_s) noexcept;
   FaultCause fault() const noexcept;
   SessionFacts facts(const SessionTick& tick) const noexcept;

@@ -30,8 +30,9 @@ enum class Lost : std::uint32_t {
   kArmStill = 1 << 14,     // the targets move, and the joints do not
   kStall = 1 << 15,        // plumb-rt missed its cycles for too long
   kAcknowledge = 1 << 16,  // an operator must acknowledge before the first correction
+  kRestart = 1 << 17,      // the controller has been restarted in this cycle
 };
-inline constexpr int kLostBits = 17;
+inline constexpr int kLostBits = 18;
 
 constexpr Lost operator|(Lost a, Lost b) noexcept {
   return static_cast<Lost>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

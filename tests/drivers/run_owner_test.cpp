@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whose the registers of a controller are: plumb-rt as client of a controller made of sockets, beside
+// a second plumb-rt, beside another client, and with a controller that starts again.
+#include <gtest/gtest.h>
+
+#include "tests/drivers/deployed.hpp"
+#include "tests/drivers/raw_server.hpp"
+#include "tests/drivers/rt_program.hpp"
+
+namespace plumb::tests {
+namespace {
+
+using enum drivers::SessionState;
+using Json = nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr const char* kWithOwner = "[bus]\nowner_register = 1288\n";
+constexpr const char* kWithoutOwner = "";  // as a folder of before
+
+/// plumb-rt as client of that controller, from a folder of its own.
+class ClientOf {
+ public:
+  ClientOf(const RawServer& server, const std::string& bus)
+      : folder("schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
+               "role = \"client\"\nport = " +
+               std::to_string(server.port) + "\n[limits]\nmode = \"full\"\n" + bus) {
+    start();
+  }
+  void start() {
+    run = std::make_unique<RtProgram>(std::vector<std::string>{"run", folder.folder.string()},
+                                      folder.folder);
+  }
+  void end() {
+    run->kill(SIGTERM);
+    EXPECT_EQ(run->wait().exit, 0);
+    run.reset();
+  }
+  Json status() const {
+    const Json said =
+        plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json();
+    return said.is_object() && said.contains("result") && said["result"].is_object()
+               ? said["result"]
+               : Json{{"state", "none"}, {"fault", ""}};
+  }
+  bool becomes_foreign() const {
+    return becomes([&] {
+      const Json said = status();
+      return said["state"] == "fault" && said["fault"] == "foreign-sender";
+    });
+  }
+  /// What the journal says of a kind of event.
+  int events(const std::string& kind) const {
+    const std::string text = folder.text("events.jsonl");
+    int out = 0;
+    for (std::size_t at = 0; (at = text.find("\"event\":\"" + kind + "\"", at)) != text.npos; ++at)
+      ++out;
+    return out;
+  }
+
+  Deployed folder;
+  std::unique_ptr<RtProgram> run;
+};
+
+class RegistersOfOne : public testing::Test {
+ protected:
+  bool comes(drivers::SessionState state) {
+    return becomes([&] { return server.sees(state); });
+  }
+  void activate() {
+    ASSERT_TRUE(comes(kShadow));
+    server.press();
+    ASSERT_TRUE(comes(kActive));
+    ASSERT_TRUE(becomes([&] { return server.largest_correction_m(1) > 1e-4; }));
+  }
+  void expect_no_step() {
+    const auto limits = Deployed::arm().guard;
+    // Guard and share each move by the slew; target and answer are rounded to a micrometre each.
+    EXPECT_LE(server.largest_step_m(), 2.0 * limits.slew_m_per_s * limits.cycle_s + 4e-6);
+  }
+  int writes_by(int client) {
+    const auto writes = server.writes();
+    return static_cast<int>(std::ranges::count(writes, client, &RawServer::Write::client));
+  }
+  std::uint32_t token() {
+    const auto words = server.registers(RawServer::kOwner, 2);
+    return std::uint32_t{words[0]} << 16 | words[1];
+  }
+
+  RawServer server{Deployed::arm().nominal, drivers::fingerprint(Deployed::arm().serial)};
+};
+
+TEST_F(RegistersOfOne, ASecondPlumbThatComesLaterWritesNothingAndTheFirstGoesOn) {
+  for (const char* const bus : {kWithOwner, kWithoutOwner}) {
+    RawServer another{Deployed::arm().nominal, drivers::fingerprint(Deployed::arm().serial)};
+    ClientOf first(another, bus);
+    ASSERT_TRUE(becomes([&] { return another.sees(kShadow); }));
+    const int before = another.newest_client();
+    ClientOf second(another, bus);
+    EXPECT_TRUE(second.becomes_foreign());
+    std::this_thread::sleep_for(400ms);  // longer than registers that rest are watched
+    EXPECT_GT(another.newest_client(), before) << "it connected";
+    for (const auto& write : another.writes()) ASSERT_LE(write.client, before);
+    EXPECT_TRUE(another.sees(kShadow));
+    EXPECT_EQ(first.status()["link"]["foreign_senders"], 0);
+    EXPECT_GE(second.events("fault"), 1);
+    first.end();
+    EXPECT_TRUE(becomes([&] { return another.sees(kFault); }))
+        << "once the first is gone, the second has the registers, and says its fault in them";
+    second.end();
+  }
+}
+
+TEST_F(RegistersOfOne, TwoThatBeginAtOnceAreNotBothInThem) {
+  ClientOf first(server, kWithOwner), second(server, kWithOwner);
+  ASSERT_TRUE(becomes([&] {
+    return first.status()["fault"] == "foreign-sender" ||
+           second.status()["fault"] == "foreign-sender";
+  }));
+  std::this_thread::sleep_for(300ms);
+  server.forget_writes();
+  std::this_thread::sleep_for(300ms);
+  EXPECT_GT(writes_by(1) + writes_by(2), 5);
+  EXPECT_EQ(std::min(writes_by(1), writes_by(2)), 0) << "one alone has the token";
+}
+
+/// Without a place for a token, too, both find what they did not write.
+TEST_F(RegistersOfOne, TwoThatBeginAtOnceWithoutATokenAreBothInFault) {
+  ClientOf first(server, kWithoutOwner), second(server, kWithoutOwner);
+  EXPECT_TRUE(first.becomes_foreign());
+  EXPECT_TRUE(second.becomes_foreign());
+}
+
+TEST_F(RegistersOfOne, AnotherClientIsNoticedAtTheNextPoll) {
+  for (const std::uint16_t first : {RawServer::kCorrected, RawServer::kStatus}) {
+    RawServer another{Deployed::arm().nominal, drivers::fingerprint(Deployed::arm().serial)};
+    ClientOf plumb(another, kWithOwner);
+    ASSERT_TRUE(becomes([&] { return another.sees(kShadow); }));
+    another.press();
+    ASSERT_TRUE(becomes([&] { return another.largest_correction_m(1) > 1e-4; }));
+    another.forget_writes();
+    const int looks = another.looks_of(1);
+    another.put(first, RawServer::Words{0, 7, 0, 8});
+    EXPECT_TRUE(becomes([&] { return another.sees(kFault); }));
+    // A look every 2 ms, twice if it finds something; the status is due within 20 ms.
+    int until = 1000;
+    for (const auto& write : another.writes())
+      if (write.first == RawServer::kStatus && write.words[1] == static_cast<int>(kFault))
+        until = std::min(until, write.looks - looks);
+    std::printf("its status said so after %d looks\n", until);
+    EXPECT_LE(until, 18);
+    EXPECT_EQ(plumb.status()["fault"], "foreign-sender");
+    EXPECT_LE(another.largest_step_m(), 2.0 * 0.01 * 0.004 * 10) << "of plumb-rt's own answers";
+    plumb.end();
+  }
+}
+
+TEST_F(RegistersOfOne, AnotherTokenSilencesAnOwnerUntilItRests) {
+  ClientOf plumb(server, kWithOwner);
+  activate();
+  const std::uint32_t own = token();
+  EXPECT_NE(own, 0U);
+  server.put(RawServer::kOwner, {0x1234, 0x5678});
+  EXPECT_TRUE(plumb.becomes_foreign());
+  EXPECT_TRUE(comes(kFault)) << "as nobody uses them, it takes the registers again";
+  EXPECT_EQ(token(), own);
+  expect_no_step();
+}
+
+TEST_F(RegistersOfOne, WhoWasStoppedFindsThatAnotherTookOver) {
+  ClientOf first(server, kWithOwner);
+  activate();
+  const int old = server.newest_client();
+  first.run->kill(SIGSTOP);
+  ClientOf second(server, kWithOwner);
+  ASSERT_TRUE(comes(kShadow)) << "what rests may be taken";
+  server.press();
+  ASSERT_TRUE(comes(kActive));
+  server.forget_writes();
+  first.run->kill(SIGCONT);
+  EXPECT_TRUE(first.becomes_foreign());
+  EXPECT_EQ(writes_by(old), 0);
+  EXPECT_TRUE(server.sees(kActive));
+  expect_no_step();
+}
+
+TEST_F(RegistersOfOne, AControllerThatStartsAgainIsNoSecondSender) {
+  ClientOf plumb(server, kWithOwner);
+  activate();
+  const std::uint32_t own = token();
+  server.zero();
+  EXPECT_TRUE(becomes([&] { return server.sees(kHold); })) << "its correction begins anew";
+  EXPECT_TRUE(comes(kActive));
+  server.zero();  // and takes the connection with it
+  server.hang_up();
+  EXPECT_TRUE(becomes([&] { return server.sees(kHold) || server.sees(kSync); }));
+  EXPECT_TRUE(comes(kActive));
+  const Json said = plumb.status();
+  EXPECT_GE(said["link"]["restarts"], 2);
+  EXPECT_EQ(said["link"]["foreign_senders"], 0);
+  EXPECT_EQ(said["counters"]["faults"], 0);
+  EXPECT_EQ(token(), own);
+  expect_no_step();
+}
+
+TEST_F(RegistersOfOne, AWriteWithoutAnAnswerIsNoSecondSender) {
+  ClientOf plumb(server, kWithOwner);
+  activate();
+  for (const auto lost : {RawServer::Lose::kRequest, RawServer::Lose::kAnswer})
+    for (int i = 0; i < 3; ++i) {
+      const int before = server.newest_client();
+      server.lose = lost;
+      ASSERT_TRUE(becomes([&] { return server.newest_client() > before; }));
+      std::this_thread::sleep_for(50ms);
+    }
+  server.hang_up();
+  std::this_thread::sleep_for(100ms);
+  const Json said = plumb.status();
+  EXPECT_EQ(said["link"]["foreign_senders"], 0);
+  EXPECT_EQ(said["link"]["restarts"], 0);
+  EXPECT_GE(said["link"]["reconnects"], 7);
+  EXPECT_EQ(said["counters"]["faults"], 0);
+}
+
+/// What an earlier run left is watched for a while, and then taken.
+TEST_F(RegistersOfOne, TheNextRunTakesThemOver) {
+  ClientOf plumb(server, kWithOwner);
+  activate();
+  const std::uint32_t earlier = token();
+  plumb.end();
+  const int before = server.newest_client();
+  plumb.start();
+  ASSERT_TRUE(becomes([&] { return server.newest_client() > before && token() != earlier; }));
+  EXPECT_TRUE(comes(kShadow));
+  EXPECT_EQ(plumb.status()["link"]["foreign_senders"], 0);
+  const auto writes = server.writes();
+  const auto first = std::ranges::find(writes, before + 1, &RawServer::Write::client);
+  ASSERT_NE(first, writes.end());
+  EXPECT_EQ(first->first, RawServer::kOwner);
+  EXPECT_GT(first->looks, 50) << "0.3 s of looks every 2 ms, on a machine that may be busy";
+}
+
+}  // namespace
+}  // namespace plumb::tests
