@@ -50,7 +50,8 @@ bool RecordWriter::wants_beginning() const noexcept {
 }
 
 void RecordWriter::begin(const std::string& lines, std::int64_t now_ns) {
-  if (wants_beginning()) {
+  const bool next = wants_beginning();
+  if (next) {
     out_.reset();
     open(now_ns);
   }
@@ -58,7 +59,9 @@ void RecordWriter::begin(const std::string& lines, std::int64_t now_ns) {
   out_->add(lines);
   out_->flush();
   pause_on_error(now_ns);
+  std::error_code ignored;
   if (out_) failure_.clear();
+  if (!out_ && next) std::filesystem::remove(name_, ignored);  // no replay could begin with it
 }
 
 void RecordWriter::add(const std::string& lines) {
@@ -71,6 +74,7 @@ void RecordWriter::open(std::int64_t now_ns) {
   if (!has_space()) return pause(failure_, now_ns);
   name_ = next_part(settings_.file);
   out_ = std::make_unique<LineFile>(name_);
+  ++files_;
   opened_s_ = disk_.wall_s();
   opened_ns_ = now_ns;
   pause_on_error(now_ns);

@@ -110,8 +110,8 @@ TEST_F(RecordFiles, WhatIsTooOldGoesAndThePresentFileStays) {
   EXPECT_EQ(names(), std::vector<std::string>{"record.log.2"});
   EXPECT_TRUE(fs::exists(folder / "record.log.old"));
   write(record, 10);
-  EXPECT_EQ(names(), std::vector<std::string>{"record.log.3"})
-      << "a file of so many days is followed by another one";
+  EXPECT_EQ(names(), std::vector<std::string>{"record.log"})
+      << "a file of so many days is followed by another one, and removed";
 }
 
 TEST_F(RecordFiles, ADiskThatRunsFullMakesAPauseAndTheRecordGoesOnWhenThereIsSpace) {
@@ -147,6 +147,17 @@ TEST_F(RecordFiles, OldFilesGoForTheFloorOnlyIfThatIsEnough) {
   wait(record, 1.1);
   EXPECT_TRUE(fs::exists(settings.file)) << "2 MB would not help";
   EXPECT_NE(record.failure(), "");
+  RecordDisk small = disk();  // of 102 MB, with nothing else on it
+  small.free_bytes = [this](const fs::path&) {
+    std::uint64_t used = 0;
+    for (const auto& part : record_parts(settings.file)) used += part.bytes;
+    return 102'000'000 - used;
+  };
+  RecordWriter other(settings, small);
+  write(other, 10);
+  wait(other, 1.1);
+  EXPECT_FALSE(fs::exists(settings.file));
+  EXPECT_EQ(other.failure(), "");
 }
 
 TEST_F(RecordFiles, AFolderThatIsGoneAndAFileThatIsRemovedMakeAPause) {

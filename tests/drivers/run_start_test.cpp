@@ -58,7 +58,8 @@ class ARunAfterAnother : public testing::Test {
     const Json events =
         plumb_rt({"events", folder.folder.string(), "--json"}, folder.folder).json()["result"];
     for (const Json& event : events["events"])
-      if (event["event"] == "snapshot") made.push_back(event);
+      if (event["event"] == "snapshot" && event["reason"].get<std::string>().starts_with("fault"))
+        made.push_back(event);
     ASSERT_EQ(made.size(), 1U) << events;
     EXPECT_EQ(made.front()["reason"], "fault-pose-mismatch");
     const std::string file = made.front()["file"];
@@ -67,7 +68,8 @@ class ARunAfterAnother : public testing::Test {
         plumb_rt({"replay", file, "--dir", folder.folder.string(), "--json"}, folder.folder);
     EXPECT_EQ(replayed.exit, 0) << replayed.err;
     EXPECT_EQ(replayed.json()["result"]["state"], "fault") << replayed.out;
-    EXPECT_GT(replayed.json()["result"]["answered"], 20) << "and before it the correction";
+    EXPECT_GT(replayed.json()["result"]["answered"], 0) << "and before it the correction";
+    EXPECT_GT(replayed.json()["result"]["cycles"], 100) << "the seconds before and after";
   }
 
   const int port = 21'000 + static_cast<int>(::getpid() % 20'000);
