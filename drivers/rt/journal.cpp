@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <fstream>
 #include <iostream>
 
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kJournalName = "events.jsonl";
 constexpr std::int64_t kNanosInSecond = 1'000'000'000;
+constexpr std::uintmax_t kMostRead = 4 * Journal::kMostBytes;
 
 /// The wall time of a moment of CLOCK_MONOTONIC in UTC, ISO 8601 with milliseconds.
 std::string wall_time(std::int64_t monotonic_ns) {
@@ -50,6 +52,16 @@ Json words_of(Lost lost) {
 
 const char* word_of(LinkState link) {
   return link == LinkState::kUp ? "up" : link == LinkState::kDegraded ? "degraded" : "down";
+}
+
+/// True if the last line has no end, because its writer was killed or the disk was full.
+bool ends_within_line(const fs::path& file, off_t size) {
+  if (size == 0) return false;
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  char last = '\n';
+  if (fd >= 0 && ::pread(fd, &last, 1, size - 1) != 1) last = '\n';
+  if (fd >= 0) ::close(fd);
+  return last != '\n';
 }
 
 fs::path older(const fs::path& file) { return file.string() + ".1"; }
@@ -84,13 +96,14 @@ void Journal::note_change(const SessionMoment& now) {
                  {"mode", to_string(now.mode)},
                  {"applied_um", 1e6 * now.applied_m}};
     if (now.state == SessionState::kHold) details["inputs"] = words_of(now.lost);
-    say("state", details);
+    write(now.time_ns, "state", details);
   }
   if (now.cause != before_.cause && now.cause != FaultCause::kNone)
-    say("fault", {{"cause", to_string(now.cause)},
-                  {"applied_um", 1e6 * now.applied_m},
-                  {"pose_difference_um", 1e6 * now.difference_m},
-                  {"fingerprint", now.model}});
+    write(now.time_ns, "fault",
+          {{"cause", to_string(now.cause)},
+           {"applied_um", 1e6 * now.applied_m},
+           {"pose_difference_um", 1e6 * now.difference_m},
+           {"fingerprint", now.model}});
   if (refused(now.status) != refused(before_.status))
     say(refused(now.status) ? "refused" : "solved", {{"status", plumb::to_string(now.status)}});
   before_ = now;
@@ -129,8 +142,9 @@ void Journal::append(const std::string& line) {
   const int fd =
       ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
   const bool plain = fd >= 0 && ::fstat(fd, &now) == 0 && S_ISREG(now.st_mode);
+  const std::string text = (plain && ends_within_line(file_, now.st_size) ? "\n" : "") + line;
   const bool written =
-      plain && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+      plain && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   failure_ = written ? "" : plain || fd < 0 ? std::strerror(errno) : "not a regular file";
   if (fd >= 0) ::close(fd);
 }
@@ -151,23 +165,39 @@ fs::path journal_file(const fs::path& folder, const fs::path& configured) {
   return fs::path(state) / name_elsewhere(folder);
 }
 
-std::vector<Json> read_events(const fs::path& file, std::size_t most) {
-  std::vector<Json> out;
+ReadEvents read_events(const fs::path& file, std::size_t most) {
+  ReadEvents out;
+  std::deque<Json> newest;
   for (const fs::path& part : {older(file), file}) {
     std::error_code error;
     if (!fs::is_regular_file(part, error)) continue;
-    std::ifstream in(part);
-    for (std::string line; std::getline(in, line);) {
+    const std::uintmax_t size = fs::file_size(part, error);
+    if (error) continue;
+    std::ifstream in(part, std::ios::binary);
+    std::string line;
+    if (size > kMostRead) {
+      in.seekg(static_cast<std::streamoff>(size - kMostRead));
+      std::getline(in, line);  // the rest of a line
+    }
+    while (std::getline(in, line)) {
       Json event = Json::parse(line, nullptr, false);
-      if (event.is_object() && event.contains("event")) out.push_back(std::move(event));
+      if (!event.is_object() || !event.contains("event") || !event["event"].is_string()) {
+        out.damaged += line.empty() ? 0 : 1;
+        continue;
+      }
+      newest.push_back(std::move(event));
+      if (newest.size() > most) newest.pop_front();
     }
   }
-  if (out.size() > most) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(most));
+  out.events.assign(newest.begin(), newest.end());
   return out;
 }
 
 std::string event_text(const Json& event) {
-  std::string out = event.value("time", "") + "  " + event.value("event", "");
+  const auto word = [&](const char* key) {
+    return event.contains(key) && event[key].is_string() ? event[key].get<std::string>() : "";
+  };
+  std::string out = word("time") + "  " + word("event");
   for (const auto& [key, value] : event.items()) {
     if (key == "time" || key == "event" || key == "monotonic_s") continue;
     if (value.is_number_float())

@@ -17,8 +17,9 @@ namespace plumb::drivers::rt {
 ///
 /// When the file would exceed kMostBytes, it is renamed to NAME.1, whose content before is lost; so
 /// at most twice as many bytes are kept. More than kMostPerSecond events in a second are counted
-/// and not written one by one. A file that cannot be written ends only the file; the lines on
-/// stderr go on.
+/// and not written one by one, except "state" and "fault", which cannot come so often. While the
+/// file cannot be written the lines on stderr go on. Where a killed program left a part of a line,
+/// the next event begins on a line of its own.
 ///
 /// Thread: one, without real-time priority. System calls: yes.
 class Journal {
@@ -66,9 +67,15 @@ std::filesystem::path journal_file(const std::filesystem::path& folder,
 /// $STATE_DIRECTORY, and in /var/lib/plumb, the state directory of the systemd unit.
 std::vector<std::filesystem::path> journal_places(const std::filesystem::path& folder);
 
-/// The events of a journal, oldest first, those of NAME.1 included; damaged lines are left out.
-/// At most `most` of them, the newest.
-std::vector<Json> read_events(const std::filesystem::path& file, std::size_t most);
+struct ReadEvents {
+  std::vector<Json> events;   // oldest first
+  std::uint64_t damaged = 0;  // lines that are no event
+};
+
+/// The events of a journal, those of NAME.1 included, at most `most` of them, the newest. A line
+/// that is no event is left out and counted; the last line of a program that was killed while it
+/// wrote may be one. Of a longer file than a journal can be only the end is read.
+ReadEvents read_events(const std::filesystem::path& file, std::size_t most);
 
 /// "2026-11-25 03:50:46.123  fault  pose-mismatch" for people.
 std::string event_text(const Json& event);

@@ -18,6 +18,19 @@ class Metrics {
     text_ += fmt::format("# HELP plumb_{0} {1}\n# TYPE plumb_{0} gauge\nplumb_{0} {2}\n", name,
                          help, number(value));
   }
+  /// One sample for each value of a label.
+  void labelled(const char* name, const char* help, const char* label,
+                const std::vector<std::pair<std::string, bool>>& values) {
+    text_ += fmt::format("# HELP plumb_{0} {1}\n# TYPE plumb_{0} gauge\n", name, help);
+    for (const auto& [value, on] : values)
+      text_ += fmt::format("plumb_{}{{{}=\"{}\"}} {}\n", name, label, value, on ? 1 : 0);
+  }
+  void model(const RunFacts& facts, std::uint32_t number) {
+    text_ += fmt::format(
+        "# HELP plumb_model_info The running model\n# TYPE plumb_model_info gauge\n"
+        "plumb_model_info{{name=\"{}\",file=\"{}\",sha256=\"{}\",number=\"{}\"}} 1\n",
+        escaped(facts.model_name), escaped(facts.model_file), facts.model_sha256, number);
+  }
   void histogram(const char* name, const char* help, const LatencyHistogram& of) {
     text_ += fmt::format("# HELP plumb_{0} {1}\n# TYPE plumb_{0} summary\n", name, help);
     for (const double share : {0.5, 0.99, 0.999, 1.0})
@@ -28,6 +41,15 @@ class Metrics {
   std::string text() && { return std::move(text_); }
 
  private:
+  /// As the format asks for in the value of a label.
+  static std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+      if (c == '\\' || c == '"') out += '\\';
+      out += c == '\n' ? "\\n" : std::string(1, c);
+    }
+    return out;
+  }
   static std::string number(double value) {
     if (value != value) return "NaN";
     return value > 1e300 ? "+Inf" : fmt::format("{}", value);
@@ -41,6 +63,18 @@ void add_session(const SessionReport& report, Metrics& out) {
   out.gauge("mode", "0 shadow, 1 limited, 2 full", static_cast<double>(report.mode));
   out.gauge("fault_cause", "0 none, 1 pose-mismatch, 2 other-robot, 3 foreign-sender",
             static_cast<double>(report.cause));
+  std::vector<std::pair<std::string, bool>> faults, lost;
+  for (int i = 1; i < kFaultCauses; ++i) {
+    const auto one = static_cast<FaultCause>(i);
+    faults.emplace_back(to_string(one),
+                        report.state == SessionState::kFault && report.cause == one);
+  }
+  for (int i = 0; i < kLostBits; ++i) {
+    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
+    lost.emplace_back(to_string(one), has(report.lost, one));
+  }
+  out.labelled("fault", "1: the session is in FAULT for this cause", "cause", faults);
+  out.labelled("lost", "1: this input holds the correction now", "input", lost);
   out.gauge("status", "below 0: refused", static_cast<double>(report.status));
   out.gauge("correction_applied_meters", "On the target", report.applied_m);
   out.gauge("correction_wanted_meters", "As the model asks, guarded", report.wanted_m);
@@ -69,6 +103,7 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   const PortCounters& port = snapshot.port;
   out.gauge("model", "Number of the running model, as on the bus",
             static_cast<double>(snapshot.model));
+  out.model(facts, snapshot.model);
   out.counter("events_lost", "Changes that the journal had no room for", facts.events_lost);
   out.gauge("link", "0 up, 1 degraded, 2 down", static_cast<double>(snapshot.link));
   out.counter("received", "Messages", port.received);
@@ -79,9 +114,17 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   out.counter("foreign_senders", "Our identifiers, sent by someone else", port.foreign_senders);
   out.counter("cycles", "Ticks of the clock", snapshot.clock.ticks);
   out.counter("cycles_missed", "Points of the grid skipped", snapshot.clock.missed);
-  out.counter("record_lost", "Entries that the record had no room for", facts.record_lost);
-  out.gauge("record_failed", "1: the disk or record_max_mb ended the record",
-            facts.record_failure.empty() ? 0 : 1);
+  const RecordFacts& record = facts.record;
+  out.counter("record_lost", "Entries that the record had no room for", record.lost);
+  out.gauge("record_failed", "1: the record pauses, because it cannot be written",
+            record.failure.empty() ? 0 : 1);
+  out.gauge("record_files", "Files of the record", static_cast<double>(record.files));
+  out.gauge("record_bytes", "Of all of them", static_cast<double>(record.bytes));
+  out.counter("snapshots", "Made of faults and holds", record.snapshots);
+  out.gauge("snapshot_failed", "1: the last snapshot could not be written",
+            record.snapshot_failure.empty() ? 0 : 1);
+  out.gauge("events_failed", "1: the journal cannot be written",
+            facts.events_failure.empty() ? 0 : 1);
   out.histogram("wake_up_seconds", "How late the cycle began", snapshot.wake);
   out.histogram("cycle_seconds", "How long the cycle took", snapshot.work);
   return std::move(out).text();

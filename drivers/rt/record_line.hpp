@@ -19,6 +19,7 @@ struct RecordLine {
 
 /// Names that stand in place of the interface on lines that are not frames of the bus.
 inline constexpr char kStartName[] = "start";    // what the runs before left for the session
+inline constexpr char kStateName[] = "state";    // a copy of the session (session_lines.hpp)
 inline constexpr char kTickName[] = "tick";      // one step of the session
 inline constexpr char kUnsentName[] = "unsent";  // an answer that could not be sent
 inline constexpr char kGapName[] = "gap";        // the record lacks entries

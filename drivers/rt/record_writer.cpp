@@ -1,115 +1,164 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/record_writer.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
-#include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "rt/creatable.hpp"
-#include "rt/record_line.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
 
-constexpr std::size_t kBlock = 64 << 10;
-constexpr std::uint64_t kMega = 1'000'000;
+constexpr std::int64_t kLook_ns = 1'000'000'000, kMostPatience_ns = 60 * kLook_ns;
+constexpr std::int64_t kDay_s = 86'400;
+constexpr std::uint64_t kSpare = 1'000'000;  // free bytes beyond the floor before it goes on
 
-std::filesystem::path free_name(const std::filesystem::path& file) {
-  std::filesystem::path out = file;
-  for (int i = 1; std::filesystem::exists(out); ++i) out = fmt::format("{}.{}", file.string(), i);
-  return out;
-}
-
-[[noreturn]] void refuse_record(const std::filesystem::path& file, int error) {
-  throw Failure(Exit::kEnvironment,
-                {.code = "E-RT-RECORD",
-                 .message = fmt::format("cannot write the record {}: {}", display_name(file),
-                                        std::strerror(error)),
-                 .help = "choose another file in rt.toml, [log] record, or leave it out"});
+/// What is still written to a file while its successor waits for a beginning.
+std::uint64_t last_words(std::uint64_t file_bytes) {
+  return std::min<std::uint64_t>(100'000, file_bytes / 8);
 }
 
 }  // namespace
 
 void RecordWriter::check(const std::filesystem::path& file) {
-  const std::filesystem::path free = free_name(file);
-  if (const int error = creation_error(free); error != 0) refuse_record(free, error);
+  const std::filesystem::path next = next_part(file);
+  const int error = creation_error(next);
+  if (error == 0 || error == ENOSPC || error == EDQUOT) return;
+  throw Failure(Exit::kEnvironment,
+                {.code = "E-RT-RECORD",
+                 .message = fmt::format("cannot write the record {}: {}", display_name(next),
+                                        std::strerror(error)),
+                 .help = "choose another file in rt.toml, [log] record, or leave it out"});
 }
 
-RecordWriter::RecordWriter(const std::filesystem::path& file, const BusLayout& layout,
-                           std::string bus, int most_mb)
-    : file_(free_name(file)), codec_(layout), bus_(std::move(bus)), most_mb_(most_mb) {
-  fd_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd_ < 0) refuse_record(file_, errno);
+RecordWriter::RecordWriter(const RecordSettings& settings, RecordDisk disk)
+    : settings_(settings), disk_(std::move(disk)), name_(next_part(settings.file)) {}
+
+RecordWriter::~RecordWriter() = default;
+
+bool RecordWriter::wants_beginning() const noexcept {
+  if (!out_) return may_open_;
+  const std::uint64_t most = settings_.file_bytes();
+  if (out_->bytes() + last_words(most) >= most) return true;
+  const std::int64_t age_s = disk_.wall_s() - opened_s_;
+  return settings_.max_age_days > 0 && age_s >= settings_.max_age_days * kDay_s / 10;
 }
 
-RecordWriter::~RecordWriter() {
-  flush();
-  ::close(fd_);
-}
-
-bool RecordWriter::fits(std::size_t bytes) const noexcept {
-  return most_mb_ == 0 || end_ + text_.size() + bytes <= kMega * static_cast<unsigned>(most_mb_);
-}
-
-void RecordWriter::add_line(const std::string& interface, const CanFrame& frame) {
-  if (!failure_.empty()) return;
-  const std::string line = to_line({interface, frame}) + "\n";
-  if (!fits(line.size())) {
-    flush();
-    if (failure_.empty())
-      failure_ = fmt::format("{}: reached record_max_mb = {}", file_.string(), most_mb_);
-    return;
+void RecordWriter::begin(const std::string& lines, std::int64_t now_ns) {
+  const bool next = wants_beginning();
+  if (next) {
+    out_.reset();
+    open(now_ns);
   }
-  text_ += line;
-  last_ns_ = frame.time_ns;
-  if (text_.size() >= kBlock) flush();
+  if (!out_) return;
+  out_->add(lines);
+  out_->flush();
+  pause_on_error(now_ns);
+  std::error_code ignored;
+  if (out_) failure_.clear();
+  if (!out_ && next) std::filesystem::remove(name_, ignored);  // no replay could begin with it
 }
 
-void RecordWriter::add(const RecordEntry& entry) {
-  using What = RecordEntry::What;
-  if (!failure_.empty()) return;
-  if (entry.what == What::kTick) return add_line(kTickName, tick_frame({entry.tick, entry.model}));
-  for (CanFrame frame : codec_.encode(entry.message)) {
-    frame.time_ns = entry.message.time_ns;
-    add_line(entry.what == What::kNotSent ? kUnsentName : bus_, frame);
+void RecordWriter::add(const std::string& lines) {
+  if (out_) out_->add(lines);
+}
+
+void RecordWriter::open(std::int64_t now_ns) {
+  may_open_ = false;
+  remove_old(settings_.file_bytes());
+  if (!has_space()) return pause(failure_, now_ns);
+  name_ = next_part(settings_.file);
+  out_ = std::make_unique<LineFile>(name_);
+  ++files_;
+  opened_s_ = disk_.wall_s();
+  opened_ns_ = now_ns;
+  pause_on_error(now_ns);
+}
+
+/// If the last pause ended only a moment ago, the next attempt waits longer.
+void RecordWriter::pause(const std::string& why, std::int64_t now_ns) {
+  const bool again = opened_ns_ != 0 && now_ns - opened_ns_ < kMostPatience_ns;
+  patience_ns_ = again ? std::clamp(2 * patience_ns_, kLook_ns, kMostPatience_ns) : kLook_ns;
+  retry_ns_ = now_ns + patience_ns_;
+  out_.reset();
+  may_open_ = false;
+  failure_ = why;
+}
+
+void RecordWriter::pause_on_error(std::int64_t now_ns) {
+  if (!out_ || out_->error() == 0) return;
+  pause(fmt::format("{}: {}", name_.string(), std::strerror(out_->error())), now_ns);
+}
+
+bool RecordWriter::is_open(const RecordPart& part) const {
+  return out_ && part.file.filename() == name_.filename();
+}
+
+/// Removes old files of the record until the floor is kept. If all of them would not be enough,
+/// none is removed, and failure_ says so.
+bool RecordWriter::has_space() {
+  const auto folder = std::filesystem::absolute(settings_.file).parent_path();
+  const std::uint64_t wanted = settings_.floor_bytes() + (out_ ? 0 : kSpare);
+  const std::uint64_t free = disk_.free_bytes(folder);
+  if (free >= wanted) return true;
+  auto parts = record_parts(settings_.file);
+  std::erase_if(parts, [this](const RecordPart& part) { return is_open(part); });
+  std::uint64_t removable = 0;
+  for (const RecordPart& part : parts) removable += part.bytes;
+  for (const RecordPart& part : parts) {
+    if (free + removable < wanted) break;
+    std::error_code ignored;
+    std::filesystem::remove(part.file, ignored);
+    if (disk_.free_bytes(folder) >= wanted) return true;
   }
+  failure_ = fmt::format("{}: less than free_space_floor_mb = {} is free", folder.string(),
+                         settings_.free_space_floor_mb);
+  return false;
 }
 
-void RecordWriter::begin(const SessionStart& start) {
-  add_line(kStartName, start_frame(start, MonotonicTime::now_ns()));
-}
-
-void RecordWriter::note_lost(std::uint64_t lost) {
-  if (lost == lost_ || !failure_.empty()) return;
-  CanFrame frame{.length = 8, .time_ns = last_ns_};
-  for (unsigned i = 0; i < 8; ++i)
-    frame.data[i] = static_cast<std::uint8_t>((lost - lost_) >> (8 * i));
-  add_line(kGapName, frame);
-  lost_ = lost;
-}
-
-void RecordWriter::flush() {
-  while (!text_.empty() && failure_.empty()) {
-    const auto written = ::write(fd_, text_.data(), text_.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      failure_ = fmt::format("{}: {}", file_.string(), std::strerror(errno));
-      std::ignore = ::ftruncate(fd_, static_cast<off_t>(length_));
-      text_.clear();
-      return;
-    }
-    const auto taken = static_cast<std::size_t>(written);
-    const std::size_t last_end = text_.rfind('\n', taken - 1);
-    if (last_end != std::string::npos && last_end < taken) length_ = end_ + last_end + 1;
-    end_ += taken;
-    text_.erase(0, taken);
+/// Removes the oldest files until `coming` more bytes keep within the total, and what is too old.
+void RecordWriter::remove_old(std::uint64_t coming) {
+  const auto parts = record_parts(settings_.file);
+  std::uint64_t total = 0;
+  files_ = parts.size();
+  for (const RecordPart& part : parts) total += part.bytes;
+  const std::int64_t now_s = disk_.wall_s();
+  for (const RecordPart& part : parts) {
+    const bool too_much = settings_.total_bytes() > 0 && total + coming > settings_.total_bytes();
+    const bool too_old =
+        settings_.max_age_days > 0 && now_s - part.written_s > settings_.max_age_days * kDay_s;
+    if (is_open(part) || !(too_much || too_old)) continue;
+    std::error_code ignored;
+    if (!std::filesystem::remove(part.file, ignored)) continue;
+    total -= part.bytes;
+    --files_;
   }
+  bytes_ = total;
+}
+
+void RecordWriter::look(std::int64_t now_ns) {
+  looked_ns_ = now_ns;
+  remove_old(0);
+  if (out_) out_->begin_sync();
+  if (out_ && out_->removed()) pause(name_.string() + ": was removed", now_ns);
+  if (out_ && !has_space()) pause(failure_, now_ns);
+  if (!out_ && now_ns >= retry_ns_) may_open_ = true;
+}
+
+void RecordWriter::tend(std::int64_t now_ns) {
+  if (out_) out_->flush();
+  pause_on_error(now_ns);
+  if (now_ns - looked_ns_ >= kLook_ns) look(now_ns);
+}
+
+void RecordWriter::close() {
+  if (out_) out_->sync();
+  out_.reset();
 }
 
 }  // namespace plumb::drivers::rt

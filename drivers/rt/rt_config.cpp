@@ -112,9 +112,32 @@ void read_sync(TomlTable table, SyncSettings& out) {
   table.done();
 }
 
+constexpr int kMostRecord_mb = 1'000'000;
+
+void read_seconds(TomlTable& table, const char* key, double most, double& out) {
+  const auto value = table.positive(key);
+  if (!value) return;
+  out = *value;
+  if (*value > most)
+    table.out_of_range(key,
+                       fmt::format("greater than 0, {:g} at most: it is kept in memory", most));
+}
+
+void read_record(TomlTable table, RecordSettings& out) {
+  read_whole(table, "max_file_mb", {1, 10'000}, out.max_file_mb);
+  read_whole(table, "max_total_mb", {0, kMostRecord_mb}, out.max_total_mb);
+  read_whole(table, "max_age_days", {0, 36'500}, out.max_age_days);
+  read_whole(table, "free_space_floor_mb", {0, kMostRecord_mb}, out.free_space_floor_mb);
+  read_whole(table, "snapshots", {0, 1000}, out.snapshots);
+  read_seconds(table, "before_s", 60.0, out.before_s);
+  read_seconds(table, "after_s", 60.0, out.after_s);
+  table.done();
+}
+
 void read_log(TomlTable table, const std::filesystem::path& folder, RtConfig& out) {
-  out.record = in(folder, table.text_or("record", ""));
-  read_whole(table, "record_max_mb", {0, 1'000'000}, out.record_max_mb);
+  out.record.file = in(folder, table.text_or("record", ""));
+  // The older name of [record] max_total_mb, in the rt.toml of folders that were deployed before.
+  read_whole(table, "record_max_mb", {0, kMostRecord_mb}, out.record.max_total_mb);
   out.events = in(folder, table.text_or("events", ""));
   read_whole(table, "metrics_port", {0, 65535}, out.metrics_port);
   table.done();
@@ -136,6 +159,7 @@ RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder) {
   if (auto table = top.table("expect")) read_expect(*table, out.session.inputs);
   if (auto table = top.table("sync")) read_sync(*table, out.session.sync);
   if (auto table = top.table("log")) read_log(*table, folder, out);
+  if (auto table = top.table("record")) read_record(*table, out.record);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "program/toml_table.hpp"
 #include "rt/bus_source.hpp"
 #include "rt/ceilings.hpp"
+#include "rt/record_settings.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -31,8 +32,7 @@ struct RtConfig {
   SinkConfig sink = {};
   SessionSettings session = {};
   Ceilings ceilings = {};
-  std::filesystem::path record = {};  // empty: none
-  int record_max_mb = 1000;           // size limit of the record [1e6 bytes]; 0: none
+  RecordSettings record = {};
   std::filesystem::path events = {};  // journal; empty: where journal_file() puts it
   int metrics_port = 0;               // on 127.0.0.1; 0: none
 };

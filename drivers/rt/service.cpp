@@ -12,7 +12,6 @@
 #include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
-#include "rt/answer_file.hpp"
 #include "rt/model_change.hpp"
 #include "rt/screen_units.hpp"
 
@@ -40,6 +39,11 @@ std::optional<Descriptor> open_metrics(int port) {
        .help = "choose another port in rt.toml, [log] metrics_port"});
 }
 
+std::string name_of(const RunningModel& model, const std::filesystem::path& file) {
+  const std::string& robot = model.loaded->model().robot_name;
+  return robot.empty() ? file.filename().string() : robot;
+}
+
 std::string http(const char* line, const std::string& type, const std::string& body) {
   return fmt::format(
       "HTTP/1.0 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n"
@@ -63,13 +67,14 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
   const RtConfig& config = deployment.config;
   facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
+  facts_.model_name = name_of(deployment.model, config.model);
   facts_.model_sha256 = deployment.model.sha256;
   facts_.ceilings = config.ceilings;
   facts_.model_limits = deployment.model.loaded->limits();
   if (files == Files::kMade)
     make_files();
   else
-    check_files();
+    Recorder::check(recorder_files());
 }
 
 void Service::make_files() {
@@ -80,20 +85,17 @@ void Service::make_files() {
     deployment_.session.start = last_run_->start();
     facts_.acknowledge = last_run_->why();
   }
-  if (!config.record.empty()) {
-    record_ = std::make_unique<RecordWriter>(config.record, record_layout(deployment_), facts_.bus,
-                                             config.record_max_mb);
-    facts_.record = record_->file().string();
-    if (last_run_) record_->begin(last_run_->start());
-  }
-  if (config.sink.kind == SinkConfig::Kind::kCsv)
-    answers_ = std::make_unique<AnswerFile>(config.sink.file);
+  recorder_ = std::make_unique<Recorder>(recorder_files(), record_layout(deployment_), facts_.bus,
+                                         shared_, deployment_.session.start);
+  facts_.record = recorder_->facts();
 }
 
-void Service::check_files() const {
+Recorder::Files Service::recorder_files() const {
   const RtConfig& config = deployment_.config;
-  if (!config.record.empty()) RecordWriter::check(config.record);
-  if (config.sink.kind == SinkConfig::Kind::kCsv) AnswerFile::check(config.sink.file);
+  const bool answers = config.sink.kind == SinkConfig::Kind::kCsv;
+  return {.record = config.record,
+          .snapshots = snapshot_folder(journal_.file()),
+          .answers = answers ? config.sink.file : std::filesystem::path{}};
 }
 
 Service::~Service() {
@@ -109,10 +111,12 @@ void Service::start() {
                           {"mode", to_string(deployment_.session.mode)},
                           {"file", facts_.model_file},
                           {"sha256", facts_.model_sha256},
-                          {"fingerprint", deployment_.model.loaded->number()}});
+                          {"fingerprint", deployment_.model.loaded->number()},
+                          {"acknowledge", facts_.acknowledge}});
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &before);
+  recorder_->start();
   thread_ = std::thread([this] { run(); });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
@@ -133,6 +137,7 @@ bool Service::stop(Ended ended) {
 void Service::run() {
   while (!ended_) pass();
   manager_.tell("STOPPING=1");
+  recorder_->stop();
   write_down();
   remember();
   journal_.note("end", {{"state", to_string(snapshot_.session.state)},
@@ -152,22 +157,24 @@ void Service::pass() {
 
 void Service::write_down() {
   shared_.snapshots.take(snapshot_);
-  for (SessionMoment moment; shared_.events.take(moment);) journal_.note_change(moment);
+  for (SessionMoment moment; shared_.events.take(moment);) {
+    journal_.note_change(moment);
+    note_state(moment);
+  }
+  for (const RecordNotice& notice : recorder_->take_notices())
+    journal_.note(notice.event, notice.details);
   facts_.events_failure = journal_.failure();
   facts_.events_lost = shared_.events.lost();
-  for (RecordEntry entry; shared_.record.take(entry);) {
-    if (record_) record_->add(entry);
-    const bool answer =
-        entry.what != RecordEntry::What::kReceived && entry.what != RecordEntry::What::kTick;
-    if (answers_ && answer) answers_->add(entry.message);
-  }
-  facts_.record_lost = shared_.record.lost();
-  if (!record_) return;
-  record_->note_lost(facts_.record_lost);
-  record_->flush();
-  if (facts_.record_failure.empty() && !record_->failure().empty())
-    journal_.note("record-ended", {{"reason", record_->failure()}});
-  facts_.record_failure = record_->failure();
+  facts_.record = recorder_->facts();
+}
+
+/// Keeps why the session is in its present state. In HOLD and FAULT that is the reason for which
+/// it came there, which may be gone; elsewhere what it waits for now.
+void Service::note_state(const SessionMoment& moment) {
+  const bool latched = moment.state == SessionState::kHold || moment.state == SessionState::kFault;
+  if (latched && moment.state == state_) return;
+  state_ = moment.state;
+  facts_.cause = cause_text(moment);
 }
 
 void Service::remember() {
@@ -301,6 +308,7 @@ std::string Service::swap(const SwapRequest& request, RunningModel next) {
     std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kSecond_ns / 1000);
   if (!slot_.settled()) next_ = std::move(next);  // kept, because the cycle may still use it
   facts_.model_file = request.file;
+  facts_.model_name = name_of(deployment_.model, request.file);
   facts_.model_sha256 = deployment_.model.sha256;
   facts_.model_limits = deployment_.model.loaded->limits();
   return reply({{"ok", true},

@@ -15,15 +15,16 @@
 #include "rt/last_run.hpp"
 #include "rt/model_loading.hpp"
 #include "rt/notify.hpp"
-#include "rt/record_writer.hpp"
+#include "rt/recorder.hpp"
 #include "rt/status_text.hpp"
 #include "rt/swap_request.hpp"
 
 namespace plumb::drivers::rt {
 
 /// All slow tasks of a run, on a thread of its own without real-time priority: control socket,
-/// metrics, model swap, record, file of answers, service manager, recovery of links, what the next
-/// run must know. A model is loaded on yet another thread, so that a slow disk holds up nothing.
+/// metrics, model swap, journal, service manager, recovery of links, what the next run must know.
+/// Record and file of answers are written on another thread (recorder.hpp), and a model is loaded
+/// on yet another one, so that a slow disk holds up nothing.
 ///
 /// It shares RunShared and the model slot with the cycle's thread, which never waits for them.
 class Service {
@@ -55,10 +56,11 @@ class Service {
 
  private:
   void make_files();
-  void check_files() const;
+  Recorder::Files recorder_files() const;
   void run();
   void pass();
   void write_down();
+  void note_state(const SessionMoment& moment);
   void tell_manager();
   void serve();
   void serve_control();
@@ -80,10 +82,10 @@ class Service {
   ControlSocket control_;
   std::optional<Descriptor> metrics_;
   Journal journal_;
-  std::unique_ptr<RecordWriter> record_;
-  std::unique_ptr<class AnswerFile> answers_;
+  std::unique_ptr<Recorder> recorder_;  // none for a service that is not started
   RunFacts facts_;
   RunSnapshot snapshot_;
+  SessionState state_ = SessionState::kInit;  // whose cause is in facts_
   RunningModel next_;  // the model before, kept while the cycle may still use it
   struct Swap {
     Descriptor peer;  // who asked; closed once answered

@@ -99,6 +99,19 @@ Json link_json(const RunSnapshot& snapshot, const std::string& bus) {
           {"foreign_senders", p.foreign_senders}};
 }
 
+Json record_json(const RecordFacts& record) {
+  return {{"file", record.file},
+          {"failure", record.failure},
+          {"lost", record.lost},
+          {"files", record.files},
+          {"mb", 1e-6 * static_cast<double>(record.bytes)},
+          {"snapshots",
+           {{"folder", record.snapshot_folder},
+            {"made", record.snapshots},
+            {"last", record.snapshot},
+            {"failure", record.snapshot_failure}}}};
+}
+
 Json histogram_json(const LatencyHistogram& histogram) {
   const auto us = [&](double share) {
     return 1e-3 * static_cast<double>(histogram.percentile_ns(share));
@@ -122,6 +135,7 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
   return {
       {"state", drivers::to_string(report.state)},
       {"mode", drivers::to_string(report.mode)},
+      {"cause", facts.cause},
       {"fault", drivers::to_string(report.cause)},
       {"status", plumb::to_string(report.status)},
       {"lost", lost_json(report.lost)},
@@ -146,10 +160,10 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
       {"work", histogram_json(snapshot.work)},
       {"model",
        {{"file", facts.model_file},
+        {"name", facts.model_name},
         {"sha256", facts.model_sha256},
         {"fingerprint", snapshot.model}}},
-      {"record",
-       {{"file", facts.record}, {"failure", facts.record_failure}, {"lost", facts.record_lost}}},
+      {"record", record_json(facts.record)},
       {"events",
        {{"file", facts.events}, {"failure", facts.events_failure}, {"lost", facts.events_lost}}}};
 }

@@ -41,12 +41,40 @@ std::string bars(const Json& histogram) {
   return out;
 }
 
+std::string words_of_lost(Lost lost) {
+  std::string out;
+  for (int i = 0; i < kLostBits; ++i) {
+    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
+    if (has(lost, one)) out += (out.empty() ? "" : ", ") + std::string(to_string(one));
+  }
+  return out;
+}
+
 std::string reasons(const Json& status) {
   std::string out;
   for (const auto& one : status["lost"])
     out += (out.empty() ? ", waits for: " : ", ") + one.get<std::string>();
-  const auto fault = status["fault"].get<std::string>();
-  return out + (fault == "none" ? "" : ", fault: " + fault);
+  const std::string cause = status.value("cause", "");
+  const bool held = status["state"] == "hold" || status["state"] == "fault";
+  return out + (held && !cause.empty() ? ", because of: " + cause : "");
+}
+
+/// Where the record and the last snapshot stand, and what is wrong with them; empty: there are
+/// none.
+std::string record_text(const Json& record) {
+  const auto word = [](const Json& of, const char* key) { return of.value(key, ""); };
+  std::string out;
+  if (!word(record, "file").empty())
+    out += fmt::format("record      {}, {} files, {:.1f} MB\n", word(record, "file"),
+                       record["files"].dump(), number(record, "mb"));
+  if (!word(record, "failure").empty())
+    out += fmt::format("record      PAUSED: {}\n", word(record, "failure"));
+  const Json& snapshots = record["snapshots"];
+  if (!word(snapshots, "last").empty())
+    out += fmt::format("snapshot    {}\n", word(snapshots, "last"));
+  if (!word(snapshots, "failure").empty())
+    out += fmt::format("snapshot    NOT WRITTEN: {}\n", word(snapshots, "failure"));
+  return out;
 }
 
 /// What an operator is asked to do, and why; empty: nothing.
@@ -61,6 +89,26 @@ std::string request_to_operator(const Json& status) {
 }
 
 }  // namespace
+
+std::string cause_text(const SessionMoment& moment) {
+  const std::string lost = words_of_lost(moment.lost);
+  const bool shadow = moment.mode == CorrectionMode::kShadow;
+  switch (moment.state) {
+    case SessionState::kFault:
+      return to_string(moment.cause);
+    case SessionState::kSync:
+      return "compares poses";
+    case SessionState::kActive:
+      return "";
+    case SessionState::kHold:
+      return !lost.empty() ? lost : shadow ? "mode shadow" : "told to stop";
+    case SessionState::kShadow:
+      return !lost.empty() ? lost : shadow ? "mode shadow" : "inputs have come only now";
+    case SessionState::kInit:
+      break;
+  }
+  return lost;
+}
 
 std::string status_text(const Json& status) {
   const Json& correction = status["correction"];
@@ -93,11 +141,10 @@ std::string status_text(const Json& status) {
   out += fmt::format("link        {} {}: {}\n", status["link"]["bus"].get<std::string>(),
                      status["link"]["state"].get<std::string>(), all(status["link"]));
   out += fmt::format("clock       {}\n", all(status["clock"]));
-  out += fmt::format("model       {} {}\n", status["model"]["file"].get<std::string>(),
+  out += fmt::format("model       {}, {} {}\n", status["model"]["name"].get<std::string>(),
+                     status["model"]["file"].get<std::string>(),
                      status["model"]["sha256"].get<std::string>().substr(0, 12));
-  const Json& record = status["record"];
-  if (!record["failure"].get<std::string>().empty())
-    out += fmt::format("record      ENDED: {}\n", record["failure"].get<std::string>());
+  out += record_text(status["record"]);
   out += fmt::format("wake-up     {}\n{}", latency(status["wake"]), bars(status["wake"]));
   out += fmt::format("cycle       {}\n{}", latency(status["work"]), bars(status["work"]));
   return out;

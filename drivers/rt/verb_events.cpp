@@ -5,6 +5,10 @@
 
 #include <memory>
 
+#include "program/bounded_file.hpp"
+#include "program/file.hpp"
+#include "program/problem.hpp"
+#include "program/shell_word.hpp"
 #include "rt/deployment.hpp"
 #include "rt/journal.hpp"
 
@@ -31,8 +35,18 @@ std::filesystem::path file_of(const EventOptions& options) {
 
 void show_events(const EventOptions& options, Outcome& outcome) {
   const auto file = file_of(options);
-  const auto events = read_events(file, static_cast<std::size_t>(options.most));
-  outcome.result = {{"file", file.string()}, {"events", events}};
+  if (!options.file.empty() && !std::filesystem::is_regular_file(file))
+    std::ignore = read_regular_file(file, 0);  // says in its own words what is wrong
+  const auto [events, damaged] = read_events(file, static_cast<std::size_t>(options.most));
+  outcome.result = {{"file", file.string()}, {"events", events}, {"damaged", damaged}};
+  if (damaged > 0)
+    outcome.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-RT-EVENTS",
+         .message = fmt::format("{} lines of {} are no events and were left out: a program was "
+                                "killed while it wrote, or somebody edited them",
+                                damaged, display_name(file)),
+         .help = "grep -n -v '^{.*}$' " + shell_word(display_name(file))});
   if (events.empty()) {
     outcome.text = fmt::format("No events in {}.\n", file.string());
     return;

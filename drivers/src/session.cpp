@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "plumb/drivers/session_context.hpp"
 
@@ -62,6 +63,13 @@ Session::Session(ModelSlot& slot, const SessionSettings& settings) noexcept
   report_.mode = settings.mode;
   report_.cause = settings.start.fault;
   if (settings.start.fault != FaultCause::kNone) state_ = SessionState::kFault;
+}
+
+/// All that a session holds are numbers, except where its models come from.
+void Session::resume(std::span<const std::byte> copy, ModelSlot& slot) noexcept {
+  if (copy.size() != sizeof(Session)) return;
+  std::memcpy(static_cast<void*>(this), copy.data(), sizeof(Session));
+  cycle_.rebind(slot);
 }
 
 void Session::hear(const BusMessage& message) noexcept {

@@ -660,7 +660,9 @@ constexpr Explanation kCodes[] = {
     {"E-RT-METRICS",
      "The port for the metrics cannot be listened on; it is taken, or needs a right. It is on the "
      "loopback address only."},
-    {"E-RT-RECORD", "The record cannot be made: folder, space or rights."},
+    {"E-RT-RECORD",
+     "The record cannot be made: its folder is missing or may not be written to. A disk that is "
+     "full makes only a pause."},
     {"E-RT-SINK", "The file of answers cannot be made: folder, space or rights."},
     {"E-RT-SWAP",
      "The new model has another nominal arm or other sensors than the running one, or wants larger "
@@ -681,10 +683,15 @@ constexpr Explanation kCodes[] = {
      "The bus was down for longer than give_up_s of rt.toml; without that key plumb-rt waits for "
      "ever."},
     {"E-RT-CLOCK", "The system's clock cannot sleep, so there is no cycle."},
-    {"E-RT-REPLAY", "The file holds no cycle that plumb-rt recorded."},
+    {"E-RT-REPLAY",
+     "The files hold no cycle that plumb-rt recorded, or they go on with a session that another "
+     "version of plumb-rt copied."},
     {"E-RT-REPLAY-DIFFERS",
      "With this folder the session decides otherwise than it did when it was recorded: another "
      "model, other limits, or another version of plumb-rt."},
+    {"W-RT-EVENTS",
+     "Lines of the journal are no events and were left out. The last line of a program that was "
+     "killed while it wrote may be one."},
     {"E-TWIN-BUS",
      "The bus of the twin cannot be opened, or its layout cannot be used. The message gives the "
      "system's reason."},

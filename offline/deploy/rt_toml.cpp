@@ -92,8 +92,13 @@ std::string checks() {
       "distinct = {}   # of them, apart by 0.1 rad; 1: the arm may stand still\n"
       "silence_s = {:.10g}   # longest time without a compared pose\n\n"
       "[log]\n# record = \"record.log\"   # every frame, in the format of candump\n"
-      "record_max_mb = 1000   # where a record ends; 0: when the disk is full\n"
-      "metrics_port = 0   # for Prometheus on 127.0.0.1; 0: none\n\n",
+      "metrics_port = 0   # for Prometheus on 127.0.0.1; 0: none\n\n"
+      "[record]   # what is kept of it; the oldest files are removed\n"
+      "max_file_mb = 100\nmax_total_mb = 1000   # of all its files; 0: no limit\n"
+      "max_age_days = 30\nfree_space_floor_mb = 200   # of the disk, which it leaves free\n"
+      "snapshots = 10   # kept of faults, and as many of holds, also without a record; 0: none\n"
+      "before_s = 10   # what a snapshot holds before a fault\n"
+      "after_s = 5   # and after it\n\n",
       sync.poses, sync.position_m / kMicro, sync.rotation_rad / kMicro, sync.distinct,
       sync.silence_s);
 }

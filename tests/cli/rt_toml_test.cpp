@@ -107,7 +107,6 @@ TEST(RtToml, SaysWhatAnEmptyFileWouldMean) {
   EXPECT_NEAR(a.session.arm.angle_rad, b.session.arm.angle_rad, 1e-10);
   EXPECT_NEAR(a.session.arm.lag_s, b.session.arm.lag_s, 1e-12);
   EXPECT_EQ(a.record, b.record);
-  EXPECT_EQ(a.record_max_mb, b.record_max_mb);
   EXPECT_EQ(a.metrics_port, b.metrics_port);
 }
 

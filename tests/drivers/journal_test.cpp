@@ -38,7 +38,7 @@ TEST_F(JournalFile, AFaultIsWrittenWithItsCauseAndTheModel) {
   journal.note_change(moment);
   journal.note_change(moment);  // nothing new
   std::string course;
-  for (const Json& event : read_events(file(), 100)) course += event.dump() + "\n";
+  for (const Json& event : read_events(file(), 100).events) course += event.dump() + "\n";
   EXPECT_NE(course.find("\"cause\":\"foreign-sender\""), std::string::npos) << course;
   EXPECT_NE(course.find("\"fingerprint\":7"), std::string::npos) << course;
   EXPECT_NE(course.find("\"monotonic_s\":5.0"), std::string::npos) << course;
@@ -56,7 +56,7 @@ TEST_F(JournalFile, StaysWithinItsSizeAndKeepsTheNewest) {
   }
   EXPECT_LE(fs::file_size(file()), Journal::kMostBytes);
   EXPECT_LE(fs::file_size(file().string() + ".1"), Journal::kMostBytes);
-  EXPECT_EQ(read_events(file(), 1).front()["fingerprint"], 20'000);
+  EXPECT_EQ(read_events(file(), 1).events.front()["fingerprint"], 20'000);
 }
 
 TEST_F(JournalFile, AFloodIsCounted) {
@@ -70,10 +70,56 @@ TEST_F(JournalFile, AFloodIsCounted) {
   moment.time_ns += 2'000'000'000;
   moment.model = 5'000;
   journal.note_change(moment);
-  const auto events = read_events(file(), 1'000);
+  const auto events = read_events(file(), 1'000).events;
   EXPECT_EQ(events.size(), static_cast<std::size_t>(Journal::kMostPerSecond) + 2);
   EXPECT_EQ(events[events.size() - 2]["event"], "left-out");
   EXPECT_EQ(events[events.size() - 2]["events"], 1'000 - Journal::kMostPerSecond);
+}
+
+TEST_F(JournalFile, AFaultInAFloodIsNotLeftOut) {
+  Journal journal(file(), Journal::Echo::kNone);
+  SessionMoment moment{.time_ns = 1'000'000'000};
+  for (int k = 0; k < 1'000; ++k) {
+    ++moment.time_ns;
+    moment.model = static_cast<std::uint32_t>(k + 1);
+    journal.note_change(moment);
+  }
+  moment.state = SessionState::kFault;
+  moment.cause = FaultCause::kOtherRobot;
+  journal.note_change(moment);
+  const auto events = read_events(file(), 2).events;
+  EXPECT_EQ(events[0]["to"], "fault");
+  EXPECT_EQ(events[1]["cause"], "other-robot");
+}
+
+TEST_F(JournalFile, AKilledWriterCostsOnlyTheLineThatItDidNotFinish) {
+  const auto note = [&](int cycles) {
+    Journal(file(), Journal::Echo::kNone).note("end", {{"cycles", cycles}});
+  };
+  note(1);
+  note(2);
+  const auto whole = fs::file_size(file());
+  for (const auto rest : {std::uintmax_t{0}, std::uintmax_t{1}, whole / 2 - 1}) {
+    fs::resize_file(file(), whole / 2 + rest);  // the second line is cut off
+    note(3);
+    const auto read = read_events(file(), 10);
+    ASSERT_EQ(read.events.size(), 2U) << rest;
+    EXPECT_EQ(read.events[0]["cycles"], 1);
+    EXPECT_EQ(read.events[1]["cycles"], 3);
+    EXPECT_EQ(read.damaged, rest == 0 ? 0U : 1U);
+  }
+}
+
+TEST_F(JournalFile, OfAHugeFileOnlyTheEndIsReadAndOfNoneNothing) {
+  EXPECT_TRUE(read_events(file(), 10).events.empty());
+  std::ofstream(file()) << "{\"event\": \"start\", \"time\": 5}\n[1]\n\n{\"event\": 3}\n";
+  EXPECT_EQ(read_events(file(), 10).damaged, 2U);
+  EXPECT_EQ(event_text(read_events(file(), 10).events.front()), "  start");
+  fs::resize_file(file(), std::uintmax_t{1} << 36);  // 64 GiB, of holes
+  std::ofstream(file(), std::ios::app) << "\n{\"event\": \"end\"}\n";
+  const auto read = read_events(file(), 10);
+  ASSERT_EQ(read.events.size(), 1U);
+  EXPECT_EQ(read.events.front()["event"], "end");
 }
 
 TEST_F(JournalFile, ADeviceOrALostFolderEndsOnlyTheFile) {

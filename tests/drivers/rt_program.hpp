@@ -49,6 +49,7 @@ class RtProgram {
   RtProgram& operator=(const RtProgram&) = delete;
 
   void kill(int signal) const { ::kill(child_, signal); }
+  pid_t pid() const { return child_; }
 
   RtRan wait() {
     int status = 0;

@@ -283,52 +283,137 @@ TEST(Run, ARecordWithSwapsReplaysWithTheModelsThatItWentBy) {
   EXPECT_EQ(later.json()["result"]["swaps"], 3);
 }
 
-TEST(Run, AFullDiskEndsTheRecordAndNotTheRun) {
+RtRan replay(const Deployed& folder, std::vector<std::string> words) {
+  words.insert(words.begin(), "replay");
+  words.insert(words.end(), {"--dir", folder.folder.string(), "--json"});
+  return plumb_rt(words, folder.folder);
+}
+
+bool has_event(const Deployed& folder, const std::string& name, const std::string& reason = "") {
+  for (const auto& event : events(folder))
+    if (event["event"] == name && event.value("reason", "").find(reason) != std::string::npos)
+      return true;
+  return false;
+}
+
+/// A file that may not grow stands for a disk that is full: EFBIG instead of ENOSPC.
+TEST(Run, AFullDiskMakesAPauseInTheRecordAndNothingElse) {
   const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\n"));
-  const RtRan ran = tests::RtProgram({"run", folder.folder.string(), "--json"}, folder.folder, [] {
-                      const rlimit limit{20'000, 20'000};
-                      ::setrlimit(RLIMIT_FSIZE, &limit);
-                      ::signal(SIGXFSZ, SIG_IGN);
-                    }).wait();
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  const std::string failure = ran.json()["result"]["record"]["failure"];
-  EXPECT_NE(failure.find("File too large"), std::string::npos) << failure;
+  write_long_targets(folder);
+  RtProgram run({"run", folder.folder.string(), "--json"}, folder.folder, [] {
+    const rlimit limit{20'000, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::signal(SIGXFSZ, SIG_IGN);
+  });
+  ASSERT_TRUE(becomes([&] { return has_event(folder, "record-paused", "File too large"); }));
+  EXPECT_TRUE(becomes([&] { return is_active(folder); })) << "the run goes on";
+  const auto paused = status(folder)["result"];
+  EXPECT_NE(paused["record"]["failure"].get<std::string>().find("File too large"),
+            std::string::npos)
+      << paused["record"];
   const std::string record = folder.text("record.log");
   EXPECT_GT(record.size(), 10'000U);
   EXPECT_EQ(record.back(), '\n') << "the last line is whole";
-  EXPECT_GT(ran.json()["result"]["counters"]["answered"], Deployed::kTargets);
+  const rlimit more{RLIM_INFINITY, RLIM_INFINITY};
+  ASSERT_EQ(::prlimit(run.pid(), RLIMIT_FSIZE, &more, nullptr), 0);
+  ASSERT_TRUE(becomes([&] { return has_event(folder, "record-resumed"); }));
+  EXPECT_EQ(status(folder)["result"]["record"]["failure"], "");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+  const RtRan replayed = replay(folder, {folder.folder.string()});
+  EXPECT_EQ(replayed.exit, 0) << replayed.err;
+  const auto said = replayed.json()["result"];
+  EXPECT_GE(said["files"], 2);
+  EXPECT_EQ(said["beginnings"], 2) << "the start, and where it went on";
+  EXPECT_GT(said["cycles"], 200);
 }
 
-TEST(Run, ARecordEndsAtItsLimitAndReplaysAsFarAsItGoes) {
-  const Deployed folder(Deployed::csv("[log]\nrecord = \"record.log\"\nrecord_max_mb = 1\n"));
-  std::string targets = folder.text("targets.csv");
-  const std::string rows = targets.substr(targets.find('\n') + 1);
-  for (int i = 0; i < 100; ++i) targets += rows;
-  folder.write("targets.csv", targets);
-  const RtRan ran = plumb_rt({"run", folder.folder.string(), "--json"}, folder.folder);
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  const std::string failure = ran.json()["result"]["record"]["failure"];
-  EXPECT_NE(failure.find("record.log: reached record_max_mb = 1"), std::string::npos) << failure;
-  EXPECT_GT(ran.json()["result"]["counters"]["answered"], 1500) << "the run went on";
-  const std::string record = folder.text("record.log");
-  EXPECT_LE(record.size(), 1'000'000U);
-  EXPECT_GT(record.size(), 999'000U);
-  EXPECT_EQ(record.back(), '\n');
-  const std::string file = (folder.folder / "record.log").string();
-  const auto replayed = [&] {
-    return plumb_rt({"replay", file, "--dir", folder.folder.string()}, folder.folder);
-  };
-  EXPECT_EQ(replayed().exit, 0) << replayed().err;
-  // cut off between a tick and its answer, as a limit, a full disk or a loss of power may
-  const std::size_t answer = record.rfind(" csv 130##");
-  ASSERT_NE(answer, std::string::npos);
-  folder.write("record.log", record.substr(0, record.rfind('\n', answer) + 1));
-  EXPECT_EQ(replayed().exit, 0) << replayed().err;
-  // an answer that is missing before that is a difference
+/// Targets for a record of some MB, and what a replay says of it.
+class RotatedRecord : public testing::Test {
+ protected:
+  RotatedRecord() {
+    std::string targets = folder.text("targets.csv");
+    const std::string rows = targets.substr(targets.find('\n') + 1);
+    for (int i = 0; i < 120; ++i) targets += rows;
+    folder.write("targets.csv", targets);
+    const RtRan ran = plumb_rt({"run", folder.folder.string(), "--json"}, folder.folder);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.json()["result"]["record"]["failure"], "");
+    for (const auto& entry : std::filesystem::directory_iterator(folder.folder))
+      if (entry.path().filename().string().starts_with("record.log"))
+        files.push_back(entry.path().filename().string());
+    std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
+      return std::pair(a.size(), a) < std::pair(b.size(), b);  // .9 before .10
+    });
+  }
+  nlohmann::json replayed(const std::vector<std::string>& words, int exit) {
+    const RtRan ran = replay(folder, words);
+    EXPECT_EQ(ran.exit, exit) << ran.err;
+    return ran.json()["result"];
+  }
+  std::string path(const std::string& name) const { return (folder.folder / name).string(); }
+
+  const Deployed folder{
+      Deployed::csv("[log]\nrecord = \"record.log\"\n[record]\nmax_total_mb = 1\n")};
+  std::vector<std::string> files;
+};
+
+TEST_F(RotatedRecord, ReplaysToTheBitThoughItsBeginningIsGone) {
+  ASSERT_EQ(files.size(), 4U) << "the oldest were removed";
+  EXPECT_EQ(std::count(files.begin(), files.end(), "record.log"), 0);
+  std::uintmax_t total = 0;
+  for (const auto& name : files) total += std::filesystem::file_size(folder.folder / name);
+  EXPECT_LE(total, 1'000'000U);
+  const auto all = replayed({folder.folder.string()}, 0);
+  EXPECT_EQ(all["files"], 4);
+  EXPECT_EQ(all["beginnings"], 1) << "without a gap between the files";
+  EXPECT_EQ(all["unchecked"], 0);
+  EXPECT_GT(all["cycles"], 1000);
+  const auto last = replayed({path(files.back())}, 0);
+  EXPECT_LT(last["cycles"], all["cycles"]);
+  const auto two = replayed({path(files[1]), path(files[3])}, 0);
+  EXPECT_EQ(two["beginnings"], 2) << "one is missing between them";
+}
+
+TEST_F(RotatedRecord, WhatIsDamagedIsFoundAndWhatIsTornIsPassedOver) {
+  const std::string& name = files[1];
+  const std::string record = folder.text(name);
+  // Killed while it wrote: cut off anywhere, the record is readable up to its last whole line.
+  std::uint64_t state = 1;
+  for (int i = 0; i < 6; ++i) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    const std::size_t at = 60'000 + (state >> 33) % (record.size() - 60'000);
+    folder.write(name, record.substr(0, at));
+    const auto said = replayed({path(name)}, 0);
+    EXPECT_EQ(said["torn"], record[at - 1] == '\n' ? 0 : 1);
+    EXPECT_EQ(said["different"], 0);
+    EXPECT_GT(said["cycles"], 0);
+  }
+  // An answer that is missing is a difference, and so is one digit.
   const std::size_t within = record.rfind('\n', record.rfind(" csv 130##", record.size() / 2)) + 1;
-  folder.write("record.log",
-               std::string(record).erase(within, record.find('\n', within) + 1 - within));
-  EXPECT_EQ(replayed().exit, 1);
+  folder.write(name, std::string(record).erase(within, record.find('\n', within) + 1 - within));
+  EXPECT_GT(replayed({path(name)}, 1)["different"], 0);
+  std::string other = record;
+  char& digit = other[other.find(" csv 130##1", record.size() / 2) + 15];
+  digit = digit == '0' ? '1' : '0';
+  folder.write(name, other);
+  EXPECT_GT(replayed({path(name)}, 1)["different"], 0);
+  // A copy of the session of which a digit is wrong is not used.
+  other = record;
+  char& copied = other[other.find(" state 003##1") + 20];
+  copied = copied == '0' ? '1' : '0';
+  folder.write(name, other);
+  EXPECT_EQ(replay(folder, {path(name)}).exit, 3) << "nothing else to begin with";
+  // A gap: cycles that cannot be compared, until a file that begins anew.
+  other = record;
+  const std::size_t middle = record.find("\n", record.size() / 2) + 1;
+  other.insert(middle, "(0000000001.000000) gap 000#0100000000000000\n");
+  folder.write(name, other);
+  const auto gap = replayed({path(name), path(files[2])}, 1);
+  EXPECT_GT(gap["unchecked"], 0);
+  EXPECT_EQ(gap["different"], 0);
+  EXPECT_EQ(gap["beginnings"], 2);
 }
 
 TEST(Run, MetricsAreForPrometheusAndHostilePeersDoNotHoldItUp) {

@@ -52,6 +52,26 @@ class ARunAfterAnother : public testing::Test {
         << said["acknowledge"];
   }
 
+  /// One of the fault, which the journal names, and which replays by itself.
+  void expect_a_snapshot() const {
+    std::vector<Json> made;
+    const Json events =
+        plumb_rt({"events", folder.folder.string(), "--json"}, folder.folder).json()["result"];
+    for (const Json& event : events["events"])
+      if (event["event"] == "snapshot" && event["reason"].get<std::string>().starts_with("fault"))
+        made.push_back(event);
+    ASSERT_EQ(made.size(), 1U) << events;
+    EXPECT_EQ(made.front()["reason"], "fault-pose-mismatch");
+    const std::string file = made.front()["file"];
+    EXPECT_EQ(std::filesystem::path(file).parent_path(), folder.folder / "snapshots");
+    const RtRan replayed =
+        plumb_rt({"replay", file, "--dir", folder.folder.string(), "--json"}, folder.folder);
+    EXPECT_EQ(replayed.exit, 0) << replayed.err;
+    EXPECT_EQ(replayed.json()["result"]["state"], "fault") << replayed.out;
+    EXPECT_GT(replayed.json()["result"]["answered"], 0) << "and before it the correction";
+    EXPECT_GT(replayed.json()["result"]["cycles"], 100) << "the seconds before and after";
+  }
+
   const int port = 21'000 + static_cast<int>(::getpid() % 20'000);
   Deployed folder{toml(port)};
   RawController controller{static_cast<std::uint16_t>(port), Deployed::arm().nominal,
@@ -105,6 +125,11 @@ TEST_F(ARunAfterAnother, BeginsInTheFaultThatNobodyAcknowledged) {
   controller.press();
   EXPECT_TRUE(comes(kActive));
   end(SIGTERM);
+  const RtRan all = plumb_rt({"replay", folder.folder.string(), "--json"}, folder.folder);
+  EXPECT_EQ(all.exit, 0) << all.err;
+  EXPECT_EQ(all.json()["result"]["files"], 3);
+  EXPECT_EQ(all.json()["result"]["beginnings"], 3) << "three runs";
+  expect_a_snapshot();
   for (const char* const record : {"record.log", "record.log.1", "record.log.2"}) {
     const RtRan replayed = plumb_rt(
         {"replay", (folder.folder / record).string(), "--dir", folder.folder.string(), "--json"},

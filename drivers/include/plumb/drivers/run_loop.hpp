@@ -46,6 +46,7 @@ class RunLoop {
     const std::int64_t begin_ns = tick.time_ns + tick.latency_ns;
     drain();
     step(begin_ns);
+    give_copy(begin_ns);
     work_.add(time_.now_ns() - begin_ns);
     shared_.beats.store(++cycles_, std::memory_order_relaxed);
     if (cycles_ % static_cast<std::uint64_t>(snapshot_every_) == 0) publish(begin_ns);
@@ -99,12 +100,28 @@ class RunLoop {
     const SessionOutput out = session_.step(tick);
     note_stop(tick);
     note_change(tick.now_ns);
-    shared_.record.put(
-        {.what = What::kTick, .tick = tick, .model = session_.model(), .message = {}});
+    const SessionReport& report = session_.report();
+    shared_.record.put({.what = What::kTick,
+                        .tick = tick,
+                        .model = session_.model(),
+                        .state = report.state,
+                        .cause = report.cause,
+                        .lost = report.lost});
     for (BusMessage message : out.sent()) {
       message.time_ns = tick.now_ns;
       write_down(send(message) ? What::kSent : What::kNotSent, message);
     }
+  }
+
+  /// Gives a copy of the session to the record, if it asks for one and its ring has room.
+  void give_copy(std::int64_t now_ns) noexcept {
+    if (!shared_.copy.asked()) return;
+    shared_.copy.put(session_);
+    if (shared_.record.put({.what = What::kState,
+                            .tick = {.now_ns = whole_us(now_ns)},
+                            .model = session_.model(),
+                            .cycles = session_.report().counters.cycles}))
+      shared_.copy.given();
   }
 
   /// Whether the machine was suspended since the last cycle. The two clocks are not read at once,
@@ -150,7 +167,7 @@ class RunLoop {
   }
 
   void write_down(What what, const BusMessage& message) noexcept {
-    shared_.record.put({.what = what, .tick = {}, .model = 0, .message = message});
+    shared_.record.put({.what = what, .tick = {}, .message = message});
   }
 
   Next next(const Tick& tick) noexcept {

@@ -9,6 +9,7 @@
 #include "plumb/drivers/event_ring.hpp"
 #include "plumb/drivers/mailbox.hpp"
 #include "plumb/drivers/record_ring.hpp"
+#include "plumb/drivers/session_copy.hpp"
 
 namespace plumb::drivers {
 
@@ -28,6 +29,7 @@ struct RunSnapshot {
 struct RunShared {
   Mailbox<RunSnapshot> snapshots;
   RecordRing record;
+  SessionCopy copy;  // for the record
   EventRing events;
   std::atomic<bool> stop{false};        // request to ramp out and end
   std::atomic<std::uint64_t> beats{0};  // completed cycles; a watchdog checks that it grows

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -150,6 +151,11 @@ class Session {
   std::uint32_t model() const noexcept { return cycle_.model().number(); }
 
   const SessionReport& report() const noexcept { return report_; }
+
+  /// Goes on where another session was when its memory was copied (session_copy.hpp). `copy`: its
+  /// bytes, made by a program in which sessions have the same layout; slot: begins with the model
+  /// that it used. No effect if the size is another one.
+  void resume(std::span<const std::byte> copy, ModelSlot& slot) noexcept;
 
  private:
   void hear_target(const BusMessage& message) noexcept;

@@ -74,6 +74,13 @@ class Cycle {
   double target_age_s() const noexcept { return target_age_.value_s(); }
   double joints_age_s() const noexcept { return joints_age_.value_s(); }
 
+  /// For a cycle that was copied byte by byte from another program, with the model of `slot` at
+  /// work: from now on it takes its models from this slot.
+  void rebind(ModelSlot& slot) noexcept {
+    slot_ = &slot;
+    model_ = &slot.take();
+  }
+
  private:
   using Joints = std::array<double, kMaxJoints>;
   struct Seed {
