@@ -38,8 +38,8 @@ void lock_cell(const fs::path& folder, std::chrono::milliseconds longest) {
     const Progress progress("waiting for another plumb in this cell");
     if (lock.wait(longest) == FolderLock::State::kBusy) give_up(folder, longest);
   }
-  // A folder that is not there or has no locks: whoever writes there will say why it cannot.
-  locked.emplace(whole, std::move(lock));
+  // Of a folder that is not there, whoever writes in it will say so.
+  if (lock.state() == FolderLock::State::kHeld) locked.emplace(whole, std::move(lock));
 }
 
 }  // namespace plumb::offline::cli
