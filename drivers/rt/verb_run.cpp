@@ -5,14 +5,16 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "plumb/drivers/rt_process.hpp"
 #include "plumb/drivers/run_loop.hpp"
 #include "program/file.hpp"
+#include "program/folder_lock.hpp"
 #include "program/shell_word.hpp"
-#include "rt/folder_lock.hpp"
 #include "rt/journal.hpp"
 #include "rt/rt_probe.hpp"
 #include "rt/service.hpp"
@@ -130,10 +132,28 @@ void ask_operator(const Service& service, const Deployment& deployment) {
   ::_exit(static_cast<int>(Exit::kEnvironment));
 }
 
+/// The deploy folder, held for as long as the process lives: no second plumb-rt runs it.
+FolderLock held_alone(const std::filesystem::path& folder) {
+  FolderLock lock(folder);
+  if (lock.state() == FolderLock::State::kBusy)
+    throw Failure(Exit::kEnvironment,
+                  {.code = "E-RT-RUNNING",
+                   .message = fmt::format("another plumb-rt runs {}, or is stopped in it",
+                                          display_name(folder)),
+                   .help = "plumb-rt status " + shell_word(display_name(folder))});
+  if (lock.state() == FolderLock::State::kImpossible)
+    throw Failure(Exit::kEnvironment,
+                  {.code = "E-RT-LOCK",
+                   .message = fmt::format("{} cannot be locked: {}", display_name(folder),
+                                          std::strerror(lock.error())),
+                   .help = "keep the folder on a local file system, readable by plumb-rt"});
+  return lock;
+}
+
 /// Stops the service even if the cycle throws while it is set up.
 void run_folder(const RunOptions& options, Outcome& outcome) {
   Deployment deployment = load_deployment(options.dir);
-  const FolderLock lock(options.dir);
+  const FolderLock alone = held_alone(options.dir);
   if (options.priority >= 0) deployment.config.priority = options.priority;
   outcome.inputs.push_back({deployment.config.model.string(), deployment.model.sha256});
   need_rights(deployment.config, outcome);

@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
+#include "fit/earlier_runs.hpp"
 #include "fit/fit_steps.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
@@ -24,13 +25,6 @@ void note_tables(const MeasurementFiles& measured, Outcome& outcome) {
     outcome.inputs.push_back({table.file, table.sha256});
     outcome.remark(table.remarks);
   }
-}
-
-bool same_data(const Run& run, const MeasurementFiles& measured) {
-  if (run.inputs.size() != measured.tables.size()) return false;
-  for (std::size_t i = 0; i < run.inputs.size(); ++i)
-    if (run.inputs[i].sha256 != measured.tables[i].sha256) return false;
-  return true;
 }
 
 }  // namespace
@@ -127,12 +121,12 @@ void check_known_to_runtime(const Run& run, const MeasurementFiles& measured) {
 
 show::ListedRun::State state_of(const Run& run, const Cell& cell,
                                 const MeasurementFiles& measured) {
-  const bool current = run.cell_sha256 == sha256(cell.text) && same_data(run, measured);
+  const bool current = run.cell_sha256 == sha256(cell.text) && is_of_data(run, measured);
   return current ? show::ListedRun::State::kCurrent : show::ListedRun::State::kOther;
 }
 
 void check_same_data(const Run& run, const MeasurementFiles& measured) {
-  if (same_data(run, measured)) return;
+  if (is_of_data(run, measured)) return;
   throw Failure(Exit::kInput,
                 {.code = "E-RUN-DATA",
                  .message = fmt::format("run {} was made from other measurements than the present "

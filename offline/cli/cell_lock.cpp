@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cell_lock.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <set>
-#include <thread>
+#include <map>
+#include <utility>
 
 #include "cli/progress.hpp"
 #include "program/file.hpp"
+#include "program/folder_lock.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
-
-constexpr auto kBetweenLooks = 20ms;
-
-enum class Lock { kTaken, kBusy, kUnknown };
-
-Lock try_lock(int fd) {
-  if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return Lock::kTaken;
-  return errno == EWOULDBLOCK || errno == EINTR ? Lock::kBusy : Lock::kUnknown;
-}
 
 [[noreturn]] void give_up(const fs::path& folder, std::chrono::milliseconds waited) {
   throw Failure(
@@ -39,34 +26,20 @@ Lock try_lock(int fd) {
        .help = "wait until it has ended, and try again; which one it is: ps -C plumb -o pid,args"});
 }
 
-void wait_for_lock(int fd, const fs::path& folder, std::chrono::milliseconds longest) {
-  const Progress progress("waiting for another plumb in this cell");
-  const auto begin = std::chrono::steady_clock::now();
-  while (try_lock(fd) == Lock::kBusy) {
-    if (std::chrono::steady_clock::now() - begin > longest) give_up(folder, longest);
-    std::this_thread::sleep_for(kBetweenLooks);
-  }
-}
-
 }  // namespace
 
 void lock_cell(const fs::path& folder, std::chrono::milliseconds longest) {
-  static std::set<fs::path> locked;
+  static std::map<fs::path, FolderLock> locked;  // until the process ends
   std::error_code ignored;
   const fs::path whole = fs::weakly_canonical(folder, ignored);
   if (locked.contains(whole)) return;
-  // Never closed: the lock ends with the process.
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;  // whoever writes there will say why it cannot
-  if (try_lock(fd) == Lock::kBusy) {
-    try {
-      wait_for_lock(fd, folder, longest);
-    } catch (...) {
-      ::close(fd);
-      throw;
-    }
+  FolderLock lock(folder);
+  if (lock.state() == FolderLock::State::kBusy) {
+    const Progress progress("waiting for another plumb in this cell");
+    if (lock.wait(longest) == FolderLock::State::kBusy) give_up(folder, longest);
   }
-  locked.insert(whole);
+  // Of a folder that is not there, whoever writes in it will say so.
+  if (lock.state() == FolderLock::State::kHeld) locked.emplace(whole, std::move(lock));
 }
 
 }  // namespace plumb::offline::cli

@@ -16,6 +16,7 @@
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
 #include "effects/effect_option.hpp"
+#include "figures/law_figures.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/verdict.hpp"
@@ -90,6 +91,13 @@ void checked(const EffectOptions& options, const Cell& cell, const std::function
   }
 }
 
+/// The formulas of a fit, each with its curve, narrow enough for a telephone.
+std::string formula_figure(const Cell& cell, const MeasurementFiles& measured, const Fit& fit) {
+  constexpr double kWidth_px = 440.0;
+  const Run run = draft_run(cell, measured, Fit(fit));
+  return figures::formulas_figure(figures::results_of(cell, measured, run), kWidth_px);
+}
+
 /// What is done, and how it is taken back.
 struct Change {
   std::string what, undo;
@@ -124,6 +132,8 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   outcome.result["verdict"] = verdict;
   outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
                  before_and_after(measured, before.fit, fitted) + "\n" + verdict + "\n";
+  if (change.adds && outcome.result["effect"] == "formula")
+    outcome.result["figure"] = formula_figure(edited, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
   if (options.dry_run) {
     replace_cell(cell, edited, options.dry_run, outcome);

@@ -6,7 +6,6 @@
 
 #include "bench/benchmark.hpp"
 #include "cli/cell_data.hpp"
-#include "cli/earlier_runs.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"

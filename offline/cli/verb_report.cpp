@@ -6,7 +6,6 @@
 
 #include "cell/iso_time.hpp"
 #include "cli/cell_data.hpp"
-#include "cli/earlier_runs.hpp"
 #include "cli/model_limits.hpp"
 #include "cli/next_line.hpp"
 #include "cli/progress.hpp"

@@ -13,8 +13,9 @@ constexpr double kTickSize = 11.0, kTitleSize = 11.5, kNameSize = 12.5;
 constexpr double kTickRoom = 24.0, kLogTickRoom = 18.0;  // [px] of a y axis for each tick
 constexpr double kTickGap = 12.0;                        // [px] between the labels of an x axis
 constexpr double kLine = 16.0, kHalo = 3.0;
-constexpr double kInkStep = 5.0;     // [px] of a line that count as one mark
-constexpr double kAreaWeight = 8.0;  // marks: what a bar under a label counts
+constexpr double kInkStep = 5.0;      // [px] of a line that count as one mark
+constexpr double kAreaWeight = 8.0;   // marks: what a bar under a label counts
+constexpr double kLevelWeight = 1e4;  // marks: what another level under the name of one counts
 constexpr std::size_t kMostInk = 20000;
 
 double share_of(const Axis& axis, double value) {
@@ -248,6 +249,11 @@ void Panel::levels_x(const std::vector<Level>& levels) {
       add_place({px + 4.0, y}, Anchor::kStart, w, kTickSize, places);
       add_place({px - 4.0, y}, Anchor::kEnd, w, kTickSize, places);
     }
+    for (Place& place : places) {
+      const double left = place.anchor == Anchor::kStart ? place.at.x : place.at.x - w;
+      for (const Level& other : levels)
+        if (x_at(other.at) > left && x_at(other.at) < left + w) place.covered += kLevelWeight;
+    }
     put(std::move(places), level.words,
         {.size = kTickSize, .paint = level.style.paint, .halo = kHalo});
   }
@@ -272,6 +278,10 @@ void Panel::levels_y(const std::vector<Level>& levels) {
       for (const double offset : {-4.0, 13.0})
         add_place({plot_.left + 4.0 + share * (plot_.width() - w - 8.0), py + offset},
                   Anchor::kStart, w, kTickSize, places);
+    for (Place& place : places)
+      for (const Level& other : levels)
+        if (y_at(other.at) > place.at.y - kTickSize && y_at(other.at) < place.at.y + 3.0)
+          place.covered += kLevelWeight;
     put(std::move(places), level.words,
         {.size = kTickSize, .paint = level.style.paint, .halo = kHalo});
   }

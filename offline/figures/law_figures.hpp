@@ -37,4 +37,11 @@ std::string spectrum_figure(const RunResults& results, const JointResidual& join
 /// with the spring that the run fitted, or else the straight line that the points would have.
 std::string load_figure(const RunResults& results, const JointResidual& joint, double width);
 
+/// Whether the load on a joint varies, without which its figure shows nothing.
+bool load_varies(const RunResults& results, const JointResidual& joint);
+
+/// Each formula of the run over the input that it follows most, with what it has to explain at each
+/// pose.
+std::string formulas_figure(const RunResults& results, double width);
+
 }  // namespace plumb::offline::figures

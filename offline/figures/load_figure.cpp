@@ -239,6 +239,10 @@ std::vector<std::string> load_notes(const RunResults& results, const Loading& al
 
 }  // namespace
 
+bool load_varies(const RunResults& results, const JointResidual& joint) {
+  return varies(loading_of(results, joint));
+}
+
 std::string load_figure(const RunResults& results, const JointResidual& joint, double width) {
   const Loading all = loading_of(results, joint);
   const Line line = line_of(all);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -41,9 +40,12 @@ class Gains {
 
   /// ln det(I + G).
   double nats(std::size_t pose) const {
-    Eigen::MatrixXd grown = known_[pose];
+    Small grown = known_[pose];
     grown.diagonal().array() += 1.0;
-    return std::log(grown.determinant());
+    const Eigen::LLT<Small> root(grown);
+    double out = 0.0;
+    for (Eigen::Index i = 0; i < grown.rows(); ++i) out += 2.0 * std::log(root.matrixLLT()(i, i));
+    return out;
   }
 
   /// Mean 1 sigma of the points, in those of one axis of a reading.
@@ -57,13 +59,17 @@ class Gains {
   /// M^-1 fell by half^T half.
   void add(const Eigen::MatrixXd& half) {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const Eigen::MatrixXd fallen = lines_[i] * half.transpose();
-      known_[i] -= fallen * fallen.transpose();
+      const Small fallen = lines_[i].lazyProduct(half.transpose());
+      known_[i] -= fallen.lazyProduct(fallen.transpose());
     }
   }
 
  private:
-  std::vector<Eigen::MatrixXd> lines_, known_;
+  /// As large as a reading has axes, and so without the heap, which would take most of the time.
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+  std::vector<Eigen::MatrixXd> lines_;
+  std::vector<Small> known_;
 };
 
 /// `n` readings one after the other, the most telling first or as they come; after each, how sure

@@ -6,6 +6,7 @@
 
 #include "figures/data_figures.hpp"
 #include "figures/error_figures.hpp"
+#include "figures/formula_law.hpp"
 #include "figures/joint_residual.hpp"
 #include "figures/law_figures.hpp"
 #include "figures/model_figures.hpp"
@@ -74,6 +75,8 @@ const std::vector<Entry>& entries() {
        of_joint(spectrum_figure)},
       {{"load-JN", "Deviation of a joint over the load on it, with the fitted spring"},
        of_joint(load_figure)},
+      {{"formulas", "Each formula of your own over what it follows, with what it has to explain"},
+       of_run(formulas_figure)},
       {{"evidence", "Which effect is missing, with the evidence for each (runs plumb diagnose)",
         FigureRow::Needs::kDiagnosis},
        {}},
@@ -150,13 +153,27 @@ std::vector<std::string> figure_names(const Cell& cell) {
   return out;
 }
 
-bool is_empty(const std::string& name, const RunResults& results) {
-  if (name == "context-temperature") return !context_varies(results, Quantity::kTemperature);
-  if (name == "context-payload") return !context_varies(results, Quantity::kPayload);
-  if (name == "context-time") return !context_varies(results, Quantity::kTime);
-  const auto& trees = results.run.fit.calibration.state.arm.trees;
-  return name == "leaf-map" && std::all_of(trees.begin(), trees.end(),
-                                           [](const auto& tree) { return tree.leaves() == 0; });
+std::string why_empty(const std::string& name, const RunResults& results) {
+  const auto unless = [](bool shows, const char* why) { return std::string(shows ? "" : why); };
+  if (name == "context-temperature")
+    return unless(context_varies(results, Quantity::kTemperature),
+                  "no temperature was measured, or it never changed");
+  if (name == "context-payload")
+    return unless(context_varies(results, Quantity::kPayload), "the payload never changed");
+  if (name == "context-time")
+    return unless(context_varies(results, Quantity::kTime), "no time was recorded");
+  if (name == "formulas") return unless(has_formula(results), "the model has no formula");
+  if (name == "leaf-map") {
+    const auto& trees = results.run.fit.calibration.state.arm.trees;
+    return unless(
+        std::any_of(trees.begin(), trees.end(), [](const auto& tree) { return tree.leaves() > 0; }),
+        "the model has no tree");
+  }
+  if (name.starts_with("load-"))
+    for (const auto& joint : joint_residuals(results))
+      if (name == "load-" + joint.name)
+        return unless(load_varies(results, joint), "the load on the joint hardly changes");
+  return "";
 }
 
 FigureRow::Needs needs_of(const std::string& name) {

@@ -32,9 +32,9 @@ std::vector<CellFigure> figures_of(const Cell& cell);
 /// The names that a cell has: JN is replaced by each of its joints.
 std::vector<std::string> figure_names(const Cell& cell);
 
-/// Whether the figure of that name would say no more than that there is nothing to show: no such
-/// quantity was measured or it never changed, or the model has no tree.
-bool is_empty(const std::string& name, const RunResults& results);
+/// Why the figure of that name would say no more than that there is nothing to show, such as "the
+/// model has no tree"; empty if it shows something.
+std::string why_empty(const std::string& name, const RunResults& results);
 
 /// What the figure of that name is drawn from: a run; a run and the earlier ones of the same data;
 /// a diagnosis, which `evidence` of evidence_figure.hpp draws; a plan of the next poses

@@ -48,7 +48,8 @@ dl{grid-template-columns:1fr}dd{margin-bottom:.35rem}
 }
 @page{size:A4;margin:14mm 12mm}
 @media print{
-html{font-size:10.5pt}
+html{font-size:10pt;line-height:1.35}
+th,td{padding:.12rem .6rem}
 body{max-width:none;padding:0}
 nav{display:none}
 section{break-before:page}
@@ -56,12 +57,17 @@ section:first-of-type{break-before:auto}
 h2{border:0;margin-top:0;padding-top:0}
 h2,h3,caption{break-after:avoid}
 figure,tr,.verdict,li,dt,dd{break-inside:avoid}
-figure svg{max-height:245mm;max-width:100%;width:86%;margin:0 auto}
-figure{margin:.5rem 0}
+figure svg{max-height:245mm;max-width:100%;width:80%;margin:0 auto}
+#verdict figure svg{width:74%}
+figure,.verdict,.scroll{margin:.5rem 0}
+p{orphans:3;widows:3}
+#glossary dl{display:block;columns:2;column-gap:1.5rem;font-size:.85rem}
+#glossary dt{color:inherit;font-weight:600;break-after:avoid}
+#glossary dd{margin-bottom:.25rem}
 tbody tr:first-child{break-before:avoid}
 thead{display:table-header-group}
 .scroll{overflow:visible}
-pre{overflow:visible;white-space:pre-wrap;overflow-wrap:anywhere}
+pre{overflow:visible;white-space:pre-wrap;overflow-wrap:anywhere;font-size:.72rem;line-height:1.3;orphans:4;widows:4}
 a{color:inherit;text-decoration:none}
 }
 )css";

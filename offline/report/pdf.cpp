@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/pdf.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <system_error>
-#include <thread>
-#include <vector>
 
+#include "program/child.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "program/scratch_folder.hpp"
@@ -24,12 +20,10 @@ namespace plumb::offline::report {
 namespace {
 
 namespace fs = std::filesystem;
-using std::chrono::steady_clock;
 
 constexpr std::array kBrowsers{"chromium", "chromium-browser", "google-chrome",
                                "google-chrome-stable"};
 constexpr std::chrono::seconds kLongest{120};
-constexpr std::chrono::milliseconds kBetweenLooks{20};
 constexpr const char* kPrintYourself =
     "leave out --pdf, open the report in any browser and print it there";
 
@@ -47,55 +41,16 @@ ScratchFolder temporary_folder() {
   }
 }
 
-/// A program in a process group of its own, with its output thrown away; killed with all its
-/// children if it is still there at the end.
-class Child {
- public:
-  explicit Child(const std::vector<std::string>& words) {
-    std::vector<char*> argv;
-    for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    const int error = ::posix_spawn(&pid_, argv.front(), &files, &attributes, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    if (error != 0) {
-      pid_ = 0;
-      no_pdf(std::strerror(error));
-    }
+int exit_of(const ChildCommand& command) {
+  const std::atomic<bool> never{false};
+  try {
+    return run_to_end(command, kLongest, never).exit_code;
+  } catch (const std::system_error& error) {
+    no_pdf(error.code() == std::errc::timed_out
+               ? fmt::format("it was not ready after {} s", kLongest.count())
+               : error.code().message());
   }
-  ~Child() {
-    if (pid_ <= 0) return;
-    ::kill(-pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  /// Whether it ended by itself before that time; its exit code, or -1, goes to `exit`.
-  bool ends_before(steady_clock::time_point end, int& exit) {
-    while (steady_clock::now() < end) {
-      int status = 0;
-      if (::waitpid(pid_, &status, WNOHANG) == pid_) {
-        pid_ = 0;
-        exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        return true;
-      }
-      std::this_thread::sleep_for(kBetweenLooks);
-    }
-    return false;
-  }
-
- private:
-  pid_t pid_ = 0;
-};
+}
 
 bool is_program(const fs::path& file) {
   std::error_code error;
@@ -125,15 +80,16 @@ std::string printed_pdf(const fs::path& browser, const std::string& html) {
   const ScratchFolder folder = temporary_folder();
   const fs::path page = folder.path() / "report.html", pdf = folder.path() / "report.pdf";
   write_file_atomically(page, html);
-  Child child({browser.string(), "--headless", "--no-sandbox", "--disable-gpu",
-               "--disable-background-networking", "--disable-component-update", "--disable-sync",
-               "--disable-extensions", "--no-first-run", "--no-default-browser-check",
-               "--host-resolver-rules=MAP * ~NOTFOUND",
-               "--user-data-dir=" + (folder.path() / "profile").string(), "--no-pdf-header-footer",
-               "--print-to-pdf=" + pdf.string(), "file://" + page.string()});
-  int exit = 0;
-  if (!child.ends_before(steady_clock::now() + kLongest, exit))
-    no_pdf(fmt::format("it was not ready after {} s", kLongest.count()));
+  const ChildCommand command{
+      .words = {browser.string(), "--headless", "--no-sandbox", "--disable-gpu",
+                "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                "--disable-extensions", "--no-first-run", "--no-default-browser-check",
+                "--host-resolver-rules=MAP * ~NOTFOUND",
+                "--user-data-dir=" + (folder.path() / "profile").string(), "--no-pdf-header-footer",
+                "--print-to-pdf=" + pdf.string(), "file://" + page.string()},
+      .folder = folder.path(),
+      .group = ChildCommand::Group::kWithItsChildren};
+  const int exit = exit_of(command);
   if (exit != 0) no_pdf(fmt::format("{} ended with {}", browser.string(), exit));
   std::error_code error;
   if (!fs::exists(pdf, error)) no_pdf("it wrote no file");

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report_figures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <future>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "figures/evidence_figure.hpp"
 #include "figures/registry.hpp"
@@ -24,16 +27,16 @@ struct Place {
 };
 
 constexpr std::array kPlaces{
-    Place{"error-hist", Page::kVerdict},     Place{"error-", Page::kWhere},
-    Place{"regions", Page::kWhere},          Place{"joint", Page::kPatterns},
-    Place{"spectrum", Page::kPatterns},      Place{"load", Page::kPatterns},
-    Place{"context", Page::kPatterns},       Place{"order", Page::kPatterns},
-    Place{"coverage", Page::kData},          Place{"evidence", Page::kMissing},
-    Place{"observability", Page::kMissing},  Place{"waterfall", Page::kAdded},
-    Place{"leaf-map", Page::kAdded},         Place{"parameters", Page::kParameters},
-    Place{"correlation", Page::kParameters}, Place{"cost", Page::kController},
-    Place{"latency", Page::kController},     Place{"uncertainty", Page::kLimits},
-    Place{"refusals", Page::kLimits}};
+    Place{"error-hist", Page::kVerdict},    Place{"error-", Page::kWhere},
+    Place{"regions", Page::kWhere},         Place{"joint", Page::kPatterns},
+    Place{"spectrum", Page::kPatterns},     Place{"load", Page::kPatterns},
+    Place{"context", Page::kPatterns},      Place{"order", Page::kPatterns},
+    Place{"coverage", Page::kData},         Place{"evidence", Page::kMissing},
+    Place{"observability", Page::kMissing}, Place{"waterfall", Page::kAdded},
+    Place{"leaf-map", Page::kAdded},        Place{"formulas", Page::kAdded},
+    Place{"parameters", Page::kParameters}, Place{"correlation", Page::kParameters},
+    Place{"cost", Page::kController},       Place{"latency", Page::kController},
+    Place{"uncertainty", Page::kLimits},    Place{"refusals", Page::kLimits}};
 
 /// Joints whose own position explains something of the error, the one that explains most first.
 std::vector<std::string> joints_that_matter(const ReportData& data) {
@@ -61,9 +64,7 @@ bool is_of_unimportant_joint(const std::string& name, const ReportData& data,
 }
 
 /// Time stands in the figure of the order of measuring already.
-bool is_left_out(const std::string& name, const ReportData& data) {
-  return name == "context-time" || figures::is_empty(name, data.results);
-}
+constexpr const char* kShownElsewhere = "context-time";
 
 std::string figure_of(const std::string& name, const ReportData& data, double width) {
   if (figures::needs_of(name) == figures::FigureRow::Needs::kDiagnosis)
@@ -84,9 +85,13 @@ Page page_of(const std::string& figure) {
 
 ReportFigures::ReportFigures(const ReportData& data) {
   const auto important = joints_that_matter(data);
-  for (const auto& name : figures::figure_names(data.cell))
-    if (!is_left_out(name, data) && !is_of_unimportant_joint(name, data, important))
+  for (const auto& name : figures::figure_names(data.cell)) {
+    if (name == kShownElsewhere || is_of_unimportant_joint(name, data, important)) continue;
+    if (auto why = figures::why_empty(name, data.results); why.empty())
       all_.push_back({.name = name, .wide = {}, .narrow = {}});
+    else
+      left_out_.push_back({.name = name, .why = std::move(why)});
+  }
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < all_.size(); i = next++) {
@@ -104,6 +109,12 @@ ReportFigures::ReportFigures(const ReportData& data) {
 void ReportFigures::put(Page page, Html& html) const {
   for (const Drawn& one : all_)
     if (page_of(one.name) == page && !one.wide.empty()) html.figure(one.wide, one.narrow);
+  std::string words;
+  for (const LeftOut& one : left_out_)
+    if (page_of(one.name) == page)
+      words += fmt::format("{}{} ({})", words.empty() ? "Figures with nothing to show: " : ", ",
+                           one.name, one.why);
+  html.paragraph(words.empty() ? words : words + ".");
 }
 
 }  // namespace plumb::offline::report

@@ -34,14 +34,19 @@ class ReportFigures {
   /// ones show them all.
   explicit ReportFigures(const ReportData& data);
 
-  /// Appends those of a page, in the order of the registry.
+  /// Appends those of a page, in the order of the registry, and one line that names those which
+  /// would show nothing.
   void put(Page page, Html& html) const;
 
  private:
   struct Drawn {
     std::string name, wide, narrow;
   };
+  struct LeftOut {
+    std::string name, why;
+  };
   std::vector<Drawn> all_;
+  std::vector<LeftOut> left_out_;
 };
 
 }  // namespace plumb::offline::report

@@ -16,7 +16,7 @@ bool open_in_browser(const std::string& url) {
     if (!std::filesystem::exists(program, error)) continue;
     const std::atomic<bool> never{false};
     try {
-      return run_to_end({{program, url}, "/"}, 5s, never).exit_code == 0;
+      return finished({{program, url}, "/"}, 5s, never).exit_code == 0;
     } catch (const Failure&) {
       return false;
     }

@@ -1,64 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <string>
-#include <vector>
+#include <memory>
+
+#include "program/child.hpp"
 
 namespace plumb::offline::workbench {
 
-/// A program to run: the first word is its path. No shell is involved.
-struct ChildCommand {
-  std::vector<std::string> words;
-  std::filesystem::path folder;  // where it runs
-};
+/// `Child` of a command. Throws Failure (kEnvironment, E-SERVE-CHILD) if no process can be made.
+std::unique_ptr<Child> started(const ChildCommand& command);
 
-/// A running child process. It has no input, and gets SIGTERM when the thread that started it ends,
-/// and so when this program is killed. The destructor kills it and waits.
-class Child {
- public:
-  /// Throws Failure (kEnvironment, E-SERVE-CHILD) if no process can be made.
-  explicit Child(const ChildCommand& command);
-  ~Child();
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
+/// `run_to_end` of a command. Throws Failure (kEnvironment, E-SERVE-CHILD) if it cannot be started,
+/// or does not end in time.
+ShortRun finished(const ChildCommand& command, std::chrono::milliseconds longest,
+                  const std::atomic<bool>& stop);
 
-  int out() const { return out_; }  // file descriptors to read from, without waiting
-  int err() const { return err_; }
-
-  void signal(int number) const;
-
-  /// True once it has ended; then `exit_code` says how: its own code, or 128 and the signal.
-  bool has_ended();
-  int exit_code() const { return exit_code_; }
-
- private:
-  pid_t pid_ = -1;
-  int out_ = -1, err_ = -1;
-  int exit_code_ = -1;
-};
-
-/// Appends what can be read now. Says if more may come; `most`: what does not fit is dropped and
-/// said so.
-enum class Pipe { kOpen, kEnded, kTooMuch };
-Pipe read_some(int fd, std::string& into, std::size_t most);
-
-/// What a short program printed on its standard output.
-struct ShortRun {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-/// Runs a program to its end; kills it after `longest`, or when `stop` becomes true. Throws Failure
-/// (kEnvironment, E-SERVE-CHILD) if it cannot be started, or does not end in time.
-ShortRun run_to_end(const ChildCommand& command, std::chrono::milliseconds longest,
-                    const std::atomic<bool>& stop);
-
-/// The folder of this very program, and its own path that stays valid when the file is replaced.
+/// The path of this very program, which stays valid when the file is replaced, and a program that
+/// lies beside it.
 std::filesystem::path own_program();
 std::filesystem::path beside_own_program(const char* name);
 

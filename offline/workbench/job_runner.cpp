@@ -160,7 +160,7 @@ void JobRunner::start_waiting() {
     if (running(reading) >= (reading ? kMostReading : 1)) continue;
     job.began = Clock::now();
     try {
-      job.child = std::make_unique<Child>(job_process(job.request, folder_));
+      job.child = started(job_process(job.request, folder_));
       job.state = State::kRunning;
     } catch (const Failure& failure) {
       job.state = State::kFailed;

@@ -10,14 +10,15 @@
 #include "figures/registry.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
+#include "fit/earlier_runs.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
+#include "program/folder_lock.hpp"
 #include "program/guarded.hpp"
 #include "program/shell_word.hpp"
 #include "show/fit_view.hpp"
 #include "show/runs_view.hpp"
 #include "show/units.hpp"
-#include "workbench/folder_lock.hpp"
 #include "workbench/folder_watch.hpp"
 #include "workbench/names.hpp"
 #include "workbench/pose_columns.hpp"
@@ -30,6 +31,7 @@ namespace {
 
 constexpr std::size_t kMostKept = std::size_t{32} << 20;  // [bytes]
 constexpr std::size_t kMostViews = 2;
+constexpr std::chrono::seconds kLongestLockWait{5};
 
 std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -86,6 +88,16 @@ Json joints_json(const Cell& cell) {
     out.push_back(std::move(one));
   }
   return out;
+}
+
+/// The lock that the verbs take; a file system without locks is worked in without one.
+FolderLock locked(const fs::path& folder) {
+  FolderLock lock(folder);
+  if (lock.wait(kLongestLockWait) == FolderLock::State::kBusy)
+    throw Failure(Exit::kEnvironment, {.code = "E-CELL-BUSY",
+                                       .message = "another plumb is changing the cell",
+                                       .help = "wait until it has ended, and save again"});
+  return lock;
 }
 
 }  // namespace
@@ -340,15 +352,6 @@ Bytes LiveCell::figures(int number) {
 }
 
 /// Runs before this one that are of the same data and can be read.
-std::vector<Run> LiveCell::earlier_runs(const RunView& of) const {
-  std::vector<Run> out;
-  for (const auto& [number, row] : rows_) {
-    if (number >= of.run.number || row.problem || row.data != data_sha256_) continue;
-    (void)problem_in([&] { out.push_back(load_run(*cell_, number)); });
-  }
-  return out;
-}
-
 Bytes LiveCell::figure(const std::string& name, int number, int width) {
   using Needs = plumb::offline::figures::FigureRow::Needs;
   std::unique_lock lock(mutex_);
@@ -363,7 +366,8 @@ Bytes LiveCell::figure(const std::string& name, int number, int width) {
   if (needs == Needs::kRun || needs == Needs::kEarlierRuns)
     return kept(key, [&] {
       const RunView& of = view(number);
-      const auto earlier = needs == Needs::kEarlierRuns ? earlier_runs(of) : std::vector<Run>{};
+      const auto earlier =
+          needs == Needs::kEarlierRuns ? earlier_runs(of.run, *cell_, *data_) : std::vector<Run>{};
       return plumb::offline::figures::drawn(name, *of.results, width, earlier).value();
     });
   if (needs == Needs::kDiagnosis && number > 0)
@@ -381,7 +385,7 @@ Bytes LiveCell::figure(const std::string& name, int number, int width) {
 
 void LiveCell::replace_text(const std::string& toml, std::int64_t if_state) {
   const std::lock_guard lock(mutex_);
-  const FolderLock alone(folder_);
+  const FolderLock alone = locked(folder_);
   look();
   if (state_ != if_state)
     throw Failure(Exit::kInput, {.code = "E-SERVE-STATE",

@@ -78,7 +78,6 @@ class LiveCell {
   int current() const;
   int number_or_current(int number) const;
   const RunView& view(int number);
-  std::vector<Run> earlier_runs(const RunView& of) const;
   Bytes kept(const std::string& key, const std::function<std::string()>& make);
   Json cell_json() const;
   Json data_json() const;

@@ -225,10 +225,10 @@ std::string Monitor::look(const std::string& asked) {
     if (std::error_code error; fs::is_regular_file(cell_folder_ / "twin.toml", error))
       out["twin_command"] = shell_line(twin_words(cell_folder_, cell_folder_ / folder));
     if (stops_ == cell_folder_ / folder / kStops) out["stops"] = stops_in(stops_);
-    const ShortRun asked_rt = run_to_end({{beside_own_program("plumb-rt").string(), "status",
-                                           (cell_folder_ / folder).string(), "--json"},
-                                          cell_folder_},
-                                         5s, stop_);
+    const ShortRun asked_rt = finished({{beside_own_program("plumb-rt").string(), "status",
+                                         (cell_folder_ / folder).string(), "--json"},
+                                        cell_folder_},
+                                       5s, stop_);
     const Json answer = Json::parse(asked_rt.out, nullptr, false);
     if (answer.is_object() && answer.value("ok", false)) {
       out["running"] = true;
@@ -291,10 +291,10 @@ void Monitor::start(const std::string& folder) {
   twin_says_.clear();
   stops_ = deployed / kStops;
   fs::remove(stops_, error);
-  rt_ = std::make_unique<Child>(ChildCommand{
-      {beside_own_program("plumb-rt").string(), "run", deployed.string(), "--priority", "0"},
-      cell_folder_});
-  twin_ = std::make_unique<Child>(twin);
+  rt_ = started(
+      {{beside_own_program("plumb-rt").string(), "run", deployed.string(), "--priority", "0"},
+       cell_folder_});
+  twin_ = started(twin);
 }
 
 }  // namespace plumb::offline::workbench

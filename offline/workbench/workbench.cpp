@@ -52,7 +52,7 @@ std::string drawn_by_child(const fs::path& folder, const std::string& name, int 
       own_program().string(), "-C", folder.string(), "plot",  name, "--width",
       std::to_string(width),  "-o", file.string(),   "--json"};
   if (number > 0) command.insert(command.end(), {"--run", std::to_string(number)});
-  const ShortRun run = run_to_end({std::move(command), folder}, kLongestFigure, stop);
+  const ShortRun run = finished({std::move(command), folder}, kLongestFigure, stop);
   if (run.exit_code == 0) return read_file_up_to(file, kMostCellBytes);
   const Json said = Json::parse(run.out, nullptr, false);
   Problem problem{.code = "E-SERVE-CHILD",

@@ -90,6 +90,19 @@ TEST(Panel, TheNameOfALevelAvoidsMarksAndOtherLevels) {
   EXPECT_LT(first.right, panel.x_at(0.42)) << "on the side where the other line is not";
 }
 
+TEST(Panel, TheNameOfALevelRatherCoversMarksThanAnotherLevel) {
+  Svg svg(400.0);
+  Panel panel(svg, {0.0, 0.0, 400.0, 300.0}, {.title = "x"}, {.title = "y"});
+  for (int i = 0; i < 30; ++i)
+    for (int k = 0; k <= 100; ++k) panel.mark(0.01 * i, 0.01 * k, {});
+  panel.levels_x({{0.3, "noise floor", {}}, {0.35, "tolerance", {}}});
+  const auto boxes = text_boxes(svg.file(300.0, ""));
+  const auto floor = std::find_if(boxes.begin(), boxes.end(),
+                                  [](const TextBox& box) { return box.words == "noise floor"; });
+  ASSERT_NE(floor, boxes.end());
+  EXPECT_LT(floor->right, panel.x_at(0.3));
+}
+
 TEST(Panel, ALogarithmicAxisSaysSo) {
   Svg svg(500.0);
   const Panel panel(svg, {0.0, 0.0, 500.0, 300.0},

@@ -12,6 +12,7 @@
 #include "figures/data_figures.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/evidence_figure.hpp"
+#include "figures/formula_law.hpp"
 #include "figures/heat_map.hpp"
 #include "figures/joint_law.hpp"
 #include "figures/joint_residual.hpp"
@@ -23,6 +24,7 @@
 #include "figures/words.hpp"
 #include "figures/worst_band.hpp"
 #include "fit/calibrate.hpp"
+#include "plumb/format/formula.hpp"
 #include "tests/draw/text_boxes.hpp"
 #include "tests/draw/well_formed.hpp"
 #include "tests/figures/made_run.hpp"
@@ -506,6 +508,52 @@ TEST(Load, FindsTheSpringThatIsMissingAndDrawsTheOneThatWasFitted) {
             std::string::npos);
 }
 
+/// target = k * sin(q2)
+format::Effect wave_of_q2(format::FormulaTarget target, std::uint8_t component, double k) {
+  using format::FormulaOp;
+  format::Effect out{.name = "formula", .joints = {}, .parameters = {k}, .context = {}};
+  out.formula.name = "wave";
+  out.formula.expression = "target = k*sin(q2)";
+  out.formula.target = target;
+  out.formula.joint = 2;
+  out.formula.component = component;
+  out.formula.code = {
+      format::instruction(FormulaOp::kParameter, 0), format::instruction(FormulaOp::kPosition, 1),
+      format::instruction(FormulaOp::kSin), format::instruction(FormulaOp::kMultiply)};
+  out.formula.parameters = {{.name = "k", .unit = "rad", .typical = 1e-4, .start = 0.0}};
+  return out;
+}
+
+TEST(Formulas, ShowWhatTheFormulaAddsAndWhatItHasToExplainWhateverItMoves) {
+  using format::FormulaTarget;
+  for (const auto& [target, component, turns] :
+       {std::tuple{FormulaTarget::kJoint, 0, true}, std::tuple{FormulaTarget::kPost, 5, true},
+        std::tuple{FormulaTarget::kBase, 1, false}, std::tuple{FormulaTarget::kTool, 0, false}}) {
+    MadeRun made(120, 6);
+    made.run.fit.calibration.state.arm.effects = {
+        wave_of_q2(target, static_cast<std::uint8_t>(component), 80e-6)};
+    err_by_effects(made);  // the formula again, which the model lacks
+    const auto found = formula_points(made.results());
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].turns, turns);
+    EXPECT_EQ(found[0].input, "position of " + made.cell.nominal.joints[1].name);
+    ASSERT_EQ(found[0].poses.size(), 120U);
+    for (const auto& pose : found[0].poses) {
+      EXPECT_NEAR(pose.input, made.measured.q(pose.row, 1) * 180.0 / M_PI, 1e-9);
+      EXPECT_NEAR(pose.law, 80e-6 * std::sin(made.measured.q(pose.row, 1)), 1e-15);
+      EXPECT_NEAR(pose.value, 2.0 * pose.law, 1e-7) << "what it adds, and what is missing";
+    }
+    made.after_M.setZero();
+    for (const double width : {1280.0, 700.0, 400.0}) {
+      const std::string svg = drawn("formulas", made.results(), width).value();
+      EXPECT_EQ(collisions(svg, width), "") << width;
+      EXPECT_EQ(tests::xml_fault(svg), "");
+      EXPECT_NE(svg.find("explains 100 %"), std::string::npos);
+    }
+  }
+  EXPECT_NE(why_empty("formulas", MadeRun(30, 6).results()), "");
+}
+
 TEST(Context, NamesTheTemperatureThatTheErrorFollows) {
   MadeRun made(200, 6);
   EXPECT_NE(context_figure(made.results(), Quantity::kTemperature, 700.0).find("do not say"),
@@ -694,15 +742,15 @@ TEST(Waterfall, WritesOutWhatWasAddedAtEveryWidth) {
 
 TEST(Empty, IsWhatWasNotMeasuredOrNeverChanged) {
   MadeRun made(30, 6);
-  EXPECT_TRUE(is_empty("context-payload", made.results()));
-  EXPECT_TRUE(is_empty("leaf-map", made.results()));
-  EXPECT_FALSE(is_empty("order", made.results()));
+  EXPECT_NE(why_empty("context-payload", made.results()), "");
+  EXPECT_NE(why_empty("leaf-map", made.results()), "");
+  EXPECT_EQ(why_empty("order", made.results()), "");
   made.measured.context.payload = RowsN::Constant(30, 4, 2.0);
-  EXPECT_TRUE(is_empty("context-payload", made.results()));
+  EXPECT_NE(why_empty("context-payload", made.results()), "");
   made.measured.context.payload(3, 0) = 5.0;
-  EXPECT_FALSE(is_empty("context-payload", made.results()));
+  EXPECT_EQ(why_empty("context-payload", made.results()), "");
   add_trees(made);
-  EXPECT_FALSE(is_empty("leaf-map", made.results()));
+  EXPECT_EQ(why_empty("leaf-map", made.results()), "");
 }
 
 TEST(HeatMap, EqualNeighboursAreOneRectangleAndNothingIsLost) {

@@ -6,7 +6,7 @@ import { mm } from "../numbers";
 import { Action, Progress } from "../parts/action";
 import { Card } from "../parts/card";
 import { Command } from "../parts/command";
-import { Figure } from "../parts/figure";
+import { Drawn, Figure } from "../parts/figure";
 import { joints } from "../store";
 import type { Problem, Statistics } from "../types";
 import { remember } from "./undo";
@@ -33,7 +33,7 @@ function Underlined({ problem, law }: { problem: Problem; law: string }) {
   return <pre class="caret" aria-label={`The error is at character ${at + 1}`}>{`${law}\n${" ".repeat(at)}^ here`}</pre>;
 }
 
-interface Tried { before: Statistics; after: Statistics; verdict: string }
+interface Tried { before: Statistics; after: Statistics; verdict: string; figure?: string }
 
 export function FormulaEditor() {
   const [law, setLaw] = useState("");
@@ -72,9 +72,10 @@ export function FormulaEditor() {
         <>
           <p role="status">On unseen poses: {mm(result.before.mean_mm)} → <strong>{mm(result.after.mean_mm)} mm</strong>. {result.verdict}</p>
           <Action purpose="add" verb="add" args={args} main id="add-first" shortcut="a" quiet onDone={() => remember(args)}>Add this formula</Action>
+          {result.figure && <Drawn name="formula-tried" text={result.figure} />}
         </>
       )}
-      {jointName && <><p class="muted">What such a law has to explain: the deviation of {jointName} that the model leaves.</p><Figure name={`joint-${jointName}`} /></>}
+      {jointName && !(good && result?.figure) && <><p class="muted">What such a law has to explain: the deviation of {jointName} that the model leaves.</p><Figure name={`joint-${jointName}`} /></>}
     </Card>
   );
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { task } from "../jobs";
+import { Formulas } from "../learn/formulas";
 import { LastChange } from "../learn/learn";
 import { Action } from "../parts/action";
 import { Card } from "../parts/card";
@@ -46,6 +47,7 @@ export function ImproveScreen() {
       <Worse />
       <Board />
       <FormulaEditor />
+      <Formulas />
       <PlanCard />
     </NeedsRun>
   );

@@ -8,6 +8,7 @@ import { Empty, NeedsRun } from "../parts/empty";
 import { Figure } from "../parts/figure";
 import type { Diagnosis, Statistics } from "../types";
 import { CandidateCard } from "./candidate";
+import { Formulas } from "./formulas";
 import { grouped } from "./groups";
 
 interface Added { before: Statistics; after: Statistics; verdict: string }
@@ -81,6 +82,7 @@ export function LearnScreen() {
       {changed && !busy && <p class="note">The model has changed since this diagnosis. Learn again to see what is still missing.</p>}
       {diagnosis && !busy ? <Found diagnosis={diagnosis} />
         : !busy && <Empty>Press Learn. It takes a few seconds, some minutes with many poses; you may look at other screens meanwhile.</Empty>}
+      <Formulas />
     </NeedsRun>
   );
 }

@@ -45,6 +45,25 @@ function mark(host: HTMLElement, pose: string | null): void {
   for (const element of host.querySelectorAll(`[data-pose="${CSS.escape(pose)}"]`)) element.classList.add("picked-pose");
 }
 
+function pickHit(event: MouseEvent): void {
+  const hit = (event.target as Element).closest("[data-pose]");
+  if (hit) pickByName(hit.getAttribute("data-pose") ?? "");
+}
+
+/** A figure that is here already, as the text of its file. */
+export function Drawn({ name, text }: { name: string; text: string }) {
+  const host = useRef<HTMLDivElement>(null);
+  const pose = pickedPose.value;
+  useEffect(() => {
+    const element = host.current, svg = drawing(text);
+    if (!element || !svg) return;
+    element.replaceChildren(svg);
+    mark(element, pickedPose.peek());
+  }, [text]);
+  useEffect(() => { if (host.current) mark(host.current, pose); }, [pose]);
+  return <figure class="figure" data-figure={name}><div ref={host} onClick={pickHit} /></figure>;
+}
+
 interface FigureProps { name: string; path?: string; label?: string }
 
 export function Figure({ name, path, label }: FigureProps) {
@@ -89,14 +108,10 @@ export function Figure({ name, path, label }: FigureProps) {
 
   useEffect(() => { if (host.current) mark(host.current, pose); }, [pose]);
 
-  const onClick = (event: MouseEvent): void => {
-    const hit = (event.target as Element).closest("[data-pose]");
-    if (hit) pickByName(hit.getAttribute("data-pose") ?? "");
-  };
   return (
     <figure class="figure" data-figure={name} aria-busy={busy}>
       {busy && !problem && <p class="muted">Drawing {name} …</p>}
-      <div ref={host} onClick={onClick} />
+      <div ref={host} onClick={pickHit} />
       {problem && <ProblemBox problem={{ ...problem, severity: "note" }} />}
     </figure>
   );

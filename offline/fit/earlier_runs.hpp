@@ -5,10 +5,13 @@
 
 #include "fit/run_store.hpp"
 
-namespace plumb::offline::cli {
+namespace plumb::offline {
+
+/// Whether a run was made from exactly these files.
+bool is_of_data(const Run& run, const MeasurementFiles& measured);
 
 /// Runs before this one that are of the same data and can be read, oldest first: the steps by which
-/// a model may have grown.
+/// a model may have grown. Cost: every run before it is read.
 std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured);
 
-}  // namespace plumb::offline::cli
+}  // namespace plumb::offline

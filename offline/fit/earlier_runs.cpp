@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/earlier_runs.hpp"
+
+#include "program/problem.hpp"
+
+namespace plumb::offline {
+
+bool is_of_data(const Run& run, const MeasurementFiles& measured) {
+  if (run.inputs.size() != measured.tables.size()) return false;
+  for (std::size_t i = 0; i < run.inputs.size(); ++i)
+    if (run.inputs[i].sha256 != measured.tables[i].sha256) return false;
+  return true;
+}
+
+std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured) {
+  std::vector<Run> out;
+  for (const int number : list_runs(cell)) {
+    if (number >= last.number) break;
+    try {
+      Run run = load_run(cell, number);
+      if (is_of_data(run, measured)) out.push_back(std::move(run));
+    } catch (const Failure&) {
+      continue;  // damaged: no step of this model
+    }
+  }
+  return out;
+}
+
+}  // namespace plumb::offline
