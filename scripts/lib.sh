@@ -3,6 +3,7 @@
 
 passed=0
 failed=0
+failures=()  # names of stages that failed, and of tests: said once more at the end
 
 # stage NAME COMMAND...: runs the command and says how long it took.
 stage() {
@@ -11,6 +12,7 @@ stage() {
   echo "== $name"
   "$@" || status=$?
   echo "== $name: $((SECONDS - begin)) s$([[ $status == 0 ]] || echo ", FAILED ($status)")"
+  ((status == 0)) || failures+=("$name")
   return "$status"
 }
 
@@ -34,6 +36,7 @@ test_preset() {
   log=$(mktemp)
   ctest --preset "$@" 2>&1 | tee "$log" || true
   line=$(grep -E '% tests passed, [0-9]+ tests? failed out of [0-9]+' "$log" | tail -n 1)
+  mapfile -t -O "${#failures[@]}" failures < <(sed -nE 's/^\s*[0-9]+ - (\S+) \(.*/\1/p' "$log")
   rm -f "$log"
   if [[ -z $line ]]; then
     failed=$((failed + 1))
@@ -66,6 +69,7 @@ built_and_tested() {
 close() {
   local status=$?
   ((status == 0)) || failed=$((failed + 1))
+  ((${#failures[@]} == 0)) || printf 'FAILED: %s\n' "${failures[@]}"
   echo "$passed passed, $failed failed"
   ((status == 0)) || exit "$status"
   ((failed == 0 && passed > 0)) || exit 1
