@@ -42,7 +42,8 @@ std::string owner_section(const BusLayout& layout) {
   if (!layout.owner_register) return "";
   return fmt::format(
       "\n## owner\n\n"
-      "The number by which plumb-rt, as Modbus client, knows its registers again. It writes it once, "
+      "The number by which plumb-rt, as Modbus client, knows its registers again. It writes it "
+      "once, "
       "before all else: {} registers\nfrom {}, without a check sum.\n\n"
       "| register | value | type | unit | factor | |\n|---|---|---|---|---|---|\n"
       "| {} | token | uint32 |  | 1 | {} |\n",

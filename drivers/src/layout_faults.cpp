@@ -144,8 +144,9 @@ class Faults {
     const Span own{first, first + kOwnerRegisters - 1};
     std::uint32_t free = 0;
     for (const MessageLayout& m : layout_.messages) free = std::max(free, registers(m).last + 1);
-    const auto taken = std::find_if(layout_.messages.begin(), layout_.messages.end(),
-                                    [&](const MessageLayout& m) { return registers(m).meets(own); });
+    const auto taken =
+        std::find_if(layout_.messages.begin(), layout_.messages.end(),
+                     [&](const MessageLayout& m) { return registers(m).meets(own); });
     const std::string help = "behind all messages is " + std::to_string(free) +
                              "; 0 if the controller has no register for it";
     if (own.last > 0xFFFF)

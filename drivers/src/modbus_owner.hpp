@@ -74,7 +74,7 @@ class ModbusOwner {
     bool in_use = false;  // a register is not zero
     enum class Token : std::uint8_t { kUnseen, kOurs, kOther } token = Token::kUnseen;
     bool token_foreign = false;  // it is another, and was ours before
-    bool complete = true;  // nothing was refused for the moment
+    bool complete = true;        // nothing was refused for the moment
   };
 
   using Words = std::span<const std::uint16_t>;

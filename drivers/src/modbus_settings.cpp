@@ -54,11 +54,11 @@ Fault not_an_address(const std::string& key, const std::string& host) {
 }  // namespace
 
 Fault find_fault(const ModbusClientSettings& settings) {
-  for (auto [key, value_s] : {std::pair{"response_timeout", settings.response_timeout_s},
-                              std::pair{"first_back_off", settings.first_back_off_s},
-                              std::pair{"longest_back_off", settings.longest_back_off_s},
-                              std::pair{"stale_after", settings.stale_after_s},
-                              std::pair{"watch", settings.watch_s}})
+  for (auto [key, value_s] :
+       {std::pair{"response_timeout", settings.response_timeout_s},
+        std::pair{"first_back_off", settings.first_back_off_s},
+        std::pair{"longest_back_off", settings.longest_back_off_s},
+        std::pair{"stale_after", settings.stale_after_s}, std::pair{"watch", settings.watch_s}})
     if (auto fault = find_time(key, value_s)) return fault;
   if (const auto* line = std::get_if<SerialLine>(&settings.server))
     return find_fault(*line, settings.unit);

@@ -17,16 +17,11 @@ std::string state_of(const Controller& controller) {
 }
 
 Json port_json(const drivers::PortCounters& port) {
-  return {{"received", port.received},
-          {"sent", port.sent},
-          {"corrupt", port.corrupt},
-          {"repeated", port.repeated},
-          {"skipped", port.skipped},
-          {"overflowed", port.overflowed},
-          {"not_sent", port.not_sent},
-          {"reconnects", port.reconnects},
-          {"restarts", port.restarts},
-          {"foreign_senders", port.foreign_senders}};
+  return {{"received", port.received}, {"sent", port.sent},
+          {"corrupt", port.corrupt},   {"repeated", port.repeated},
+          {"skipped", port.skipped},   {"overflowed", port.overflowed},
+          {"not_sent", port.not_sent}, {"reconnects", port.reconnects},
+          {"restarts", port.restarts}, {"foreign_senders", port.foreign_senders}};
 }
 
 Json receiver_json(const Receiver::Counters& heard) {

@@ -55,6 +55,7 @@ class RawServer {
     std::uint16_t first = 0;
     Words words;
     int looks = 0;  // how often the client had read the registers of plumb-rt
+    std::chrono::steady_clock::time_point time;
   };
 
   std::uint16_t port = 0;
@@ -79,17 +80,6 @@ class RawServer {
     set(first, words);
   }
   void hang_up() { hang_up_ = true; }
-
-  /// An answer of another program, as the map describes it: a pose, under the counter of the newest
-  /// target.
-  Words foreign_answer() {
-    const std::lock_guard lock(mutex_);
-    const auto counter = registers_[kCorrected + 12];
-    const Bytes bytes = arm_.block(*arm_.layout.find(drivers::MessageKind::kCorrected),
-                                   {0.5, 0.1, 0.4, 0.1, 0.2, 0.3},
-                                   static_cast<std::uint16_t>(counter + 1));
-    return words_of(bytes);
-  }
 
   Words registers(std::uint16_t first, std::size_t count) {
     const std::lock_guard lock(mutex_);
@@ -118,16 +108,18 @@ class RawServer {
   }
   bool sees(drivers::SessionState wanted) { return state() == static_cast<int>(wanted); }
 
-  /// The largest step between two answers in a row, a cycle of the counters between them [m].
-  double largest_step_m() {
+  /// The largest step between two answers in a row, by the most time that may lie between them
+  /// [m/s]: an answer was computed after its target stood here, and before it came.
+  double largest_speed_m_s() {
     const std::lock_guard lock(mutex_);
     double out = 0.0;
     const Write* before = nullptr;
     for (const Write& write : writes_) {
       if (write.first != kCorrected || arm_.target(write.words[12]) == nullptr) continue;
       if (before != nullptr && before->words[12] != write.words[12]) {
-        const auto cycles = static_cast<std::uint16_t>(write.words[12] - before->words[12]);
-        out = std::max(out, (correction(write) - correction(*before)).norm() / cycles);
+        const std::chrono::duration<double> most = write.time - stood_[before->words[12]];
+        const double step_m = (correction(write) - correction(*before)).norm() - kRounded_m;
+        out = std::max(out, step_m / (most.count() + 0.004));
       }
       before = &write;
     }
@@ -145,6 +137,8 @@ class RawServer {
   }
 
  private:
+  static constexpr double kRounded_m = 4e-6;  // of targets and answers, to a micrometre each
+
   struct Client {
     int socket = -1;
     int number = 0;
@@ -178,8 +172,7 @@ class RawServer {
     Vector3 out;
     for (int i = 0; i < 3; ++i) {
       const auto at = static_cast<std::size_t>(2 * i);
-      const auto bits =
-          static_cast<std::uint32_t>(answer.words[at]) << 16 | answer.words[at + 1];
+      const auto bits = static_cast<std::uint32_t>(answer.words[at]) << 16 | answer.words[at + 1];
       out(i) = 1e-6 * static_cast<double>(static_cast<std::int32_t>(bits));
     }
     return out - *arm_.target(answer.words[12]);
@@ -208,6 +201,7 @@ class RawServer {
     const std::lock_guard lock(mutex_);
     for (const auto& [first, bytes] : arm_.beat({.acknowledge = acknowledge}))
       set(first, words_of(bytes));
+    stood_[registers_[1060]] = std::chrono::steady_clock::now();  // the counter of the target
   }
 
   void accept() {
@@ -268,7 +262,8 @@ class RawServer {
     const std::lock_guard lock(mutex_);
     const Words words = words_of(Bytes(pdu.begin() + 6, pdu.end()));
     set(word(pdu, 1), words);
-    writes_.push_back({client.number, word(pdu, 1), words, looks_[client.number]});
+    writes_.push_back({client.number, word(pdu, 1), words, looks_[client.number],
+                       std::chrono::steady_clock::now()});
     return {pdu.begin(), pdu.begin() + 5};
   }
 
@@ -278,6 +273,7 @@ class RawServer {
   std::mutex mutex_;  // of all below
   std::map<std::uint16_t, std::uint16_t> registers_;
   std::vector<Write> writes_;
+  std::map<std::uint16_t, std::chrono::steady_clock::time_point> stood_;  // since when, by counter
   std::map<int, int> looks_;
   int next_client_ = 1;
   std::atomic<bool> hang_up_{false}, ended_{false};

@@ -185,8 +185,9 @@ TEST(LayoutToml, TooMuchLoadIsNoMatterForModbus) {
 TEST(LayoutToml, TheOwnersRegisterIsThereIfItIsNamed) {
   EXPECT_EQ(read("[bus]\n").layout.owner_register, 1288);
   EXPECT_EQ(read("[bus]\nowner_register = 0").layout.owner_register, std::nullopt);
-  for (const auto& [text, owner] : {std::pair{"[bus]\n", std::optional<std::uint16_t>()},
-                                    std::pair{"[bus]\nowner_register = 1288", std::optional<std::uint16_t>(1288)}}) {
+  for (const auto& [text, owner] :
+       {std::pair{"[bus]\n", std::optional<std::uint16_t>()},
+        std::pair{"[bus]\nowner_register = 1288", std::optional<std::uint16_t>(1288)}}) {
     TomlSource source("rt.toml", text, "E-RT");
     const toml::table parsed = source.parse();
     TomlTable root(parsed, "", source);

@@ -20,7 +20,7 @@ struct ModbusClientSettings {
   double response_timeout_s = 0.1;  // for a complete answer, and for a connection
   double first_back_off_s = 0.01;   // wait before the next attempt to connect; doubles each time
   double longest_back_off_s = 0.5;
-  double stale_after_s = 0.1;       // a message of the cycle that waited longer is not written
+  double stale_after_s = 0.1;  // a message of the cycle that waited longer is not written
   double watch_s = 0.3;  // how long registers that are in use must not change before we take them
   std::uint32_t token = 0;  // written into the layout's register for it; 0: a random number
 };
@@ -35,9 +35,9 @@ struct ModbusClientSettings {
 ///
 /// The registers into which it writes are its own. In every round over TCP, and on a serial line
 /// before every write, it reads them and compares them with what it wrote last. What it did not
-/// write counts as a foreign sender (modbus_owner.hpp). Registers that were in use when it came, and
-/// those that another client took over, it watches without writing; while they change, each change
-/// counts as a foreign sender.
+/// write counts as a foreign sender (modbus_owner.hpp). Registers that were in use when it came,
+/// and those that another client took over, it watches without writing; while they change, each
+/// change counts as a foreign sender.
 ///
 /// An answer that is late, incomplete, too long, or belongs to another transaction, unit, protocol,
 /// function or address ends the connection, so that a late answer cannot be taken for the next one.

@@ -189,8 +189,8 @@ class RunLoop {
   bool stopping_ = false;
   std::int64_t stop_by_ns_ = 0;  // 0: not told to stop
   std::int64_t suspended_ns_ = 0;
-  std::uint64_t restarts_ = 0;   // of the controller, as the port counted them a cycle before
-  SessionMoment moment_;  // of the cycle before
+  std::uint64_t restarts_ = 0;  // of the controller, as the port counted them a cycle before
+  SessionMoment moment_;        // of the cycle before
   LatencyHistogram work_;
   RunSnapshot snapshot_;
 };
