@@ -242,7 +242,7 @@ TEST_F(RecorderRing, APauseAndItsEndAreSaidOnce) {
       now_ns += kSecond_ns / 10;
       tick();
       if (shared->copy.asked()) {
-        shared->record.put({.what = RecordEntry::What::kState});
+        shared->record.put({.what = RecordEntry::What::kState, .tick = {}});
         shared->copy.given();
       }
       recorder.pass(now_ns);

@@ -129,8 +129,8 @@ TEST_F(SnapshotFiles, AFolderThatCannotBeMadeIsSaid) {
 TEST(SnapshotReason, IsAFaultOrAnInputThatNobodySwitchesOff) {
   using enum SessionState;
   const auto reason = [](SessionState before, SessionState after, Lost lost) {
-    return snapshot_reason(before,
-                           {.state = after, .cause = FaultCause::kOtherRobot, .lost = lost});
+    return snapshot_reason(
+        before, {.tick = {}, .state = after, .cause = FaultCause::kOtherRobot, .lost = lost});
   };
   EXPECT_EQ(reason(kActive, kFault, Lost::kNothing), "fault-other-robot");
   EXPECT_EQ(reason(kInit, kFault, Lost::kJoints), "fault-other-robot");
