@@ -9,7 +9,9 @@
 namespace plumb::drivers {
 namespace {
 
-/// On a serial line a read takes milliseconds: what is not about to be written is seen so often.
+/// Registers that are not about to be written are read so often at most. On a serial line a read
+/// takes milliseconds.
+constexpr std::int64_t kTcpLook_ns = 1'000'000;
 constexpr std::int64_t kSerialLook_ns = 100'000'000;
 
 /// A server is started again once. Registers that are zero after every write are not kept by it, or
@@ -43,7 +45,7 @@ ModbusOwner::ModbusOwner(const BusLayout& layout, const ModbusCodec& codec,
                          ModbusCounters& counters)
     : talk_(talk),
       counters_(counters),
-      serial_(std::holds_alternative<SerialLine>(settings.server)),
+      look_ns_(std::holds_alternative<SerialLine>(settings.server) ? kSerialLook_ns : kTcpLook_ns),
       watch_ns_(to_ns(settings.watch_s)) {
   std::vector<ModbusBlock> blocks = blocks_of(layout, codec, settings.self);
   if (settings.self == Sender::kPlumb) token_register_ = layout.owner_register;
@@ -62,7 +64,7 @@ ModbusOwner::ModbusOwner(const BusLayout& layout, const ModbusCodec& codec,
   }
   confirmed_.resize(registers);
   sent_.resize(registers);
-  spans_ = join(blocks, kMostRead, widest_gap(serial_));
+  spans_ = join(blocks, kMostRead, widest_gap(look_ns_ == kSerialLook_ns));
   looks_.reserve(blocks.size());
 }
 
@@ -75,7 +77,7 @@ void ModbusOwner::begin() noexcept {
 
 bool ModbusOwner::round(std::int64_t now_ns) {
   sight_ = {};
-  const bool all = !serial_ || state_ != State::kOwns;
+  const bool all = state_ != State::kOwns;
   for (Look& look : looks_) look.fresh = false;
   // A look that is refused is taken off the list, or replaced by several at its end.
   for (std::size_t i = 0; i < looks_.size();) {
@@ -106,7 +108,7 @@ bool ModbusOwner::look(std::size_t index, std::int64_t now_ns) {
     result = read(look.span);
   if (result == ModbusTalk::Result::kRefused) return handle_refusal(index);
   if (result != ModbusTalk::Result::kDone) return false;
-  look.due_ns = now_ns + kSerialLook_ns;
+  look.due_ns = now_ns + look_ns_;
   look.fresh = true;
   compare(look.span);
   return true;

@@ -15,10 +15,10 @@ namespace plumb::drivers {
 /// A client's watch over the registers of a server into which it writes: they are the client's
 /// alone.
 ///
-/// In every round, and always before a write, the registers are read and compared with what was
-/// written last. A write that was not confirmed may have arrived or not. Registers that became zero
-/// are those of a server that was started again. Anything else was written by someone else: a
-/// foreign sender. A difference is read a second time before it counts.
+/// Before every write, and every millisecond in between, the registers are read and compared with
+/// what was written last. A write that was not confirmed may have arrived or not. Registers that
+/// became zero are those of a server that was started again. Anything else was written by someone
+/// else: a foreign sender. A difference is read a second time before it counts.
 ///
 /// Where the layout has a register for it, the client writes a random number there, its token, and
 /// reads it back before it writes anything else. A client that finds registers in use at its first
@@ -34,8 +34,7 @@ class ModbusOwner {
   /// Starts with a new connection: nothing is written before all registers were seen.
   void begin() noexcept;
 
-  /// Compares the registers: over TCP all, on a serial line those that are due. Returns false if
-  /// the connection can no longer be used.
+  /// Compares the registers that are due. Returns false if the connection can no longer be used.
   bool round(std::int64_t now_ns);
 
   /// Compares the registers around these, unless round() did so just before.
@@ -98,7 +97,7 @@ class ModbusOwner {
 
   ModbusTalk& talk_;
   ModbusCounters& counters_;
-  bool serial_;
+  std::int64_t look_ns_;
   std::int64_t watch_ns_;
   std::vector<ModbusSpan> spans_;  // of a server that refuses nothing
   std::vector<Look> looks_;

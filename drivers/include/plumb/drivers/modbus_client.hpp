@@ -33,8 +33,8 @@ struct ModbusClientSettings {
 /// them, each block is read by itself. A message whose counter was seen before is not delivered
 /// again. It writes the newest message of each kind.
 ///
-/// The registers into which it writes are its own. In every round over TCP, and on a serial line
-/// before every write, it reads them and compares them with what it wrote last. What it did not
+/// The registers into which it writes are its own. Before every write, and over TCP in every round
+/// or millisecond, it reads them and compares them with what it wrote last. What it did not
 /// write counts as a foreign sender (modbus_owner.hpp). Registers that were in use when it came,
 /// and those that another client took over, it watches without writing; while they change, each
 /// change counts as a foreign sender.
