@@ -15,6 +15,7 @@
 #include "figures/evidence_figure.hpp"
 #include "figures/observability_figure.hpp"
 #include "figures/registry.hpp"
+#include "fit/earlier_runs.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
 #include "report/kept_diagnosis.hpp"

@@ -14,6 +14,7 @@
 #include "compare/comparison.hpp"
 #include "compile/compiler.hpp"
 #include "deploy/bus_of_cell.hpp"
+#include "fit/earlier_runs.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
