@@ -91,8 +91,10 @@ double tree_terms(const format::Tree& tree, std::size_t inputs, double walks) {
       blended ? static_cast<double>(std::min<std::size_t>(tree.leaves(), format::kMaxActiveLeaves))
               : 1.0;
   const auto terms = static_cast<double>(format::leaf_terms(inputs, tree.degree));
-  const double products = inputs != 6 && tree.degree == 2 ? 90.0 : 0.0;  // in a loop
-  const double region = tree.region.empty() ? 0.0 : 9.5 * n;
+  // Of six joints the sums are unrolled, of others they are loops.
+  const bool loops = inputs != 6;
+  const double products = loops ? (tree.degree == 2 ? 90.0 : 30.0) : 0.0;
+  const double region = tree.region.empty() ? 0.0 : 9.5 * n + (loops ? 70.0 : 0.0);
   const double value = active * (10.5 * terms - 10.0 + products + region);
   const double node = oblique ? 7.0 * n : 0.0;
   const double walk = blended ? active * (56.0 + node) + 60.0 * std::max(0, tree.depth - 6)

@@ -389,9 +389,9 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   }
   look(here, arm, at);
   if (turned_far) next.left_rad = kMaxStep;
-  if (partial && !settled(next, X_BT.p - out.X_BC.p, most2)) next.left_m = kMaxError;
   out.residual_m = next.left_m;
   out.residual_rad = next.left_rad;
+  if (partial && !settled(next, X_BT.p - out.X_BC.p, most2)) next.left_m = kMaxError;
   const Status judged = judge(next, q, out.q, at, seed_sign);
   if (!refused(out.status) && judged != Status::kOk) out.status = judged;
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
