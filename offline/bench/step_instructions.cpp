@@ -97,8 +97,10 @@ double tree_terms(const format::Tree& tree, std::size_t inputs, double walks) {
   const double region = tree.region.empty() ? 0.0 : 9.5 * n + (loops ? 70.0 : 0.0);
   const double value = active * (10.5 * terms - 10.0 + products + region);
   const double node = oblique ? 7.0 * n : 0.0;
-  const double walk = blended ? active * (56.0 + node) + 60.0 * std::max(0, tree.depth - 6)
-                              : (14.0 + 1.15 * node) * tree.depth;
+  const double beyond = 6.0 * std::max(0.0, static_cast<double>(tree.leaves()) - active);
+  const double walk =
+      blended ? active * (56.0 + node) + std::min(60.0 * std::max(0, tree.depth - 6), beyond)
+              : (14.0 + 1.15 * node) * tree.depth;
   return 60.0 + value + walks * walk;
 }
 
