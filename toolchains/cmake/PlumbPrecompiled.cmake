@@ -21,7 +21,9 @@ endfunction()
 if(PLUMB_PRECOMPILED AND PLUMB_OFFLINE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CROSSCOMPILING)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "\n")  # touched only once: all that reads it follows
+  if(NOT EXISTS ${CMAKE_BINARY_DIR}/precompiled.cpp)  # touched only once: all that reads it is compiled after it
+    file(WRITE ${CMAKE_BINARY_DIR}/precompiled.cpp "")
+  endif()
   plumb_precompiled_header(plumb_precompiled)
   plumb_precompiled_header(plumb_precompiled_json LIBS nlohmann_json::nlohmann_json HEADERS <nlohmann/json.hpp>)
   if(PLUMB_TESTS)
