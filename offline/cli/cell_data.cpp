@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
+#include "fit/earlier_runs.hpp"
 #include "fit/fit_steps.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"

@@ -20,7 +20,7 @@ struct Claims {
   int unrelated = 0;         // added, but with nothing to do with what is hidden
   bool fall_counts = false;  // new poses can tell by how much the error falls with the first
   double fall = 0.0, fall_se = 0.0;  // claimed, as shares of the error
-  double true_fall = 0.0;  // of inconvenient arms
+  double true_fall = 0.0;            // of inconvenient arms
 };
 
 /// How one diagnosis did against the truth. Errors in sigma.
