@@ -55,7 +55,7 @@ const Bad kBad[] = {
     {"snapshot of an hour", Deployed::csv("[record]\nbefore_s = 3600\n"), 3, "E-RT-RANGE",
      "60 at most: it is kept in memory"},
     {"unknown key of the record", Deployed::csv("[record]\nmax_age_h = 1\n"), 3, "E-RT-KEY",
-     "did you mean 'max_age_days'?"},
+     "known here: after_s, before_s, free_space_floor_mb, max_age_days"},
     {"tool of 256", Deployed::csv("[expect]\ntool = 256\n"), 3, "E-RT-RANGE", "tool"},
     {"port of 0", "schema = \"rt/1\"\n[source]\nkind = \"modbus\"\nport = 0\n", 3, "E-RT-RANGE",
      "port"},
