@@ -99,8 +99,8 @@ TEST_F(JournalFile, AKilledWriterCostsOnlyTheLineThatItDidNotFinish) {
   for (const int rest : {0, 1, 40}) {
     fs::remove(file());
     note(1);
+    const auto line = fs::file_size(file());
     note(2);
-    const auto line = fs::file_size(file()) / 2;
     fs::resize_file(file(), line + static_cast<std::uintmax_t>(rest));  // the second is cut off
     note(3);
     const auto read = read_events(file(), 10);

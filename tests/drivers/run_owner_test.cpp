@@ -234,7 +234,8 @@ TEST_F(RegistersOfOne, TheNextRunTakesThemOver) {
   EXPECT_TRUE(comes(kActive));
   EXPECT_EQ(plumb.status()["link"]["foreign_senders"], 0);
   const auto writes = server.writes();
-  const auto first = std::ranges::find(writes, before + 1, &RawServer::Write::client);
+  const auto first = std::ranges::find_if(
+      writes, [before](const RawServer::Write& write) { return write.client > before; });
   ASSERT_NE(first, writes.end());
   EXPECT_EQ(first->first, RawServer::kOwner);
   EXPECT_GT(first->looks, 50) << "0.3 s of looks every 2 ms, on a machine that may be busy";
