@@ -17,9 +17,10 @@ namespace plumb::drivers {
 ///   byte_order = "little"         # of CAN values, counters and check sums; or "big"
 ///   word_order = "big"            # of the two registers of a Modbus value; or "little"
 ///   correction = "pose"           # or "offset": the difference to the target
-///   owner_register = 1288         # of the number by which plumb-rt knows its registers again; 0:
-///   none bit_rate = 1000000 data_bit_rate = 4000000       # of CAN FD temperatures = ["temp"] #
-///   sensors that the controller reports; or how many, in the order
+///   owner_register = 1288         # where plumb-rt writes its number (Modbus); 0: nowhere
+///   bit_rate = 1000000
+///   data_bit_rate = 4000000       # of CAN FD
+///   temperatures = ["temp"]       # sensors that the controller reports; or how many, in the order
 ///                                 # in which the model counts its own
 ///   [bus.target]                  # a table a message; also adds commanded to six joints and fewer
 ///   can_id = 0x118

@@ -43,8 +43,7 @@ std::string owner_section(const BusLayout& layout) {
   return fmt::format(
       "\n## owner\n\n"
       "The number by which plumb-rt, as Modbus client, knows its registers again. It writes it "
-      "once, "
-      "before all else: {} registers\nfrom {}, without a check sum.\n\n"
+      "once, before all else: {} registers\nfrom {}, without a check sum.\n\n"
       "| register | value | type | unit | factor | |\n|---|---|---|---|---|---|\n"
       "| {} | token | uint32 |  | 1 | {} |\n",
       kOwnerRegisters, *layout.owner_register, *layout.owner_register, kOwnerMeaning);

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +16,8 @@
 
 #include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
+#include "rt/lost_words.hpp"
+#include "rt/utc.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -29,25 +30,7 @@ constexpr std::uintmax_t kMostRead = 4 * Journal::kMostBytes;
 
 /// The wall time of a moment of CLOCK_MONOTONIC in UTC, ISO 8601 with milliseconds.
 std::string wall_time(std::int64_t monotonic_ns) {
-  timespec wall{};
-  ::clock_gettime(CLOCK_REALTIME, &wall);
-  const std::int64_t ns =
-      wall.tv_sec * kNanosInSecond + wall.tv_nsec - (MonotonicTime::now_ns() - monotonic_ns);
-  const time_t seconds = static_cast<time_t>(ns / kNanosInSecond);
-  tm parts{};
-  ::gmtime_r(&seconds, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", parts.tm_year + 1900,
-                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
-                     ns % kNanosInSecond / 1'000'000);
-}
-
-Json words_of(Lost lost) {
-  Json out = Json::array();
-  for (int i = 0; i < kLostBits; ++i) {
-    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
-    if (has(lost, one)) out.push_back(to_string(one));
-  }
-  return out;
+  return utc_text((utc_ns() - (MonotonicTime::now_ns() - monotonic_ns)) / 1'000'000);
 }
 
 const char* word_of(LinkState link) {
@@ -89,13 +72,13 @@ void Journal::note_change(const SessionMoment& now) {
   };
   if (now.model != before_.model) say("model", {{"fingerprint", now.model}});
   if (now.link != before_.link) say("link", {{"state", word_of(now.link)}});
-  if (now.lost != before_.lost) say("lost", {{"inputs", words_of(now.lost)}});
+  if (now.lost != before_.lost) say("lost", {{"inputs", lost_words(now.lost)}});
   if (now.state != before_.state) {
     Json details{{"from", to_string(before_.state)},
                  {"to", to_string(now.state)},
                  {"mode", to_string(now.mode)},
                  {"applied_um", 1e6 * now.applied_m}};
-    if (now.state == SessionState::kHold) details["inputs"] = words_of(now.lost);
+    if (now.state == SessionState::kHold) details["inputs"] = lost_words(now.lost);
     write(now.time_ns, "state", details);
   }
   if (now.cause != before_.cause && now.cause != FaultCause::kNone)

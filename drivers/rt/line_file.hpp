@@ -13,7 +13,7 @@ namespace plumb::drivers::rt {
 /// Slow, for a thread without real-time priority.
 class LineFile {
  public:
-  /// Creates the file; if it exists or cannot be created, failure() tells why.
+  /// Creates the file; if it exists or cannot be created, error() tells why.
   explicit LineFile(std::filesystem::path file);
   ~LineFile();  // writes what is left; an empty file is removed
   LineFile(const LineFile&) = delete;

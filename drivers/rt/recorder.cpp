@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/recorder.hpp"
 
-#include <chrono>
-
 #include "plumb/drivers/time_source.hpp"
+#include "rt/utc.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -11,24 +10,17 @@ namespace {
 constexpr std::int64_t kPause_ns = 10'000'000;
 constexpr std::int64_t kCopyEvery_ns = 5'000'000'000;
 
-std::int64_t wall_ms() {
-  const auto since = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::milliseconds>(since).count();
-}
-
 }  // namespace
 
 Recorder::Recorder(const Files& files, const BusLayout& layout, const std::string& bus,
                    RunShared& shared, const SessionStart& start, RecordDisk disk)
     : shared_(shared),
-      disk_(std::move(disk)),
       text_(layout, bus),
       snapshots_(files.record, files.snapshots),
-      snapshot_folder_(snapshots_.on() ? files.snapshots : std::filesystem::path{}),
       session_(start) {
   if (!files.record.file.empty()) {
     RecordWriter::check(files.record.file);
-    record_ = std::make_unique<RecordWriter>(files.record, disk_);
+    record_ = std::make_unique<RecordWriter>(files.record, std::move(disk));
   }
   if (!files.answers.empty()) answers_ = std::make_unique<AnswerFile>(files.answers);
   tell();
@@ -101,13 +93,12 @@ void Recorder::add(const std::string& lines) {
 
 /// Looks for what is worth a snapshot.
 void Recorder::watch(const RecordEntry& step, std::int64_t now_ns) {
-  const std::string reason = has_state_ ? snapshot_reason(state_, step) : "";
+  const std::string reason = state_ ? snapshot_reason(*state_, step) : "";
   state_ = step.state;
-  has_state_ = true;
   if (reason.empty()) return;
   const std::string failure = snapshots_.failure();
   const std::int64_t ago_ms = (now_ns - step.tick.now_ns) / 1'000'000;
-  const auto file = snapshots_.make(reason, now_ns, wall_ms() - ago_ms);
+  const auto file = snapshots_.make(reason, now_ns, utc_ns() / 1'000'000 - ago_ms);
   const std::scoped_lock lock(mutex_);
   if (!file.empty())
     notices_.push_back({"snapshot", {{"file", file.string()}, {"reason", reason}}});
@@ -141,7 +132,7 @@ void Recorder::tell() {
     now.bytes = record_->bytes();
   }
   now.lost = shared_.record.lost();
-  now.snapshot_folder = snapshot_folder_.string();
+  if (snapshots_.on()) now.snapshot_folder = snapshots_.folder().string();
   now.snapshot = snapshots_.last().string();
   now.snapshot_failure = snapshots_.failure();
   now.snapshots = snapshots_.made();

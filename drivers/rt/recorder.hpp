@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -81,11 +82,9 @@ class Recorder {
   void tell();
 
   RunShared& shared_;
-  RecordDisk disk_;
   RecordText text_;
   std::unique_ptr<RecordWriter> record_;  // none: not asked for
   Snapshots snapshots_;
-  std::filesystem::path snapshot_folder_;
   std::unique_ptr<AnswerFile> answers_;
   SessionStart session_;
   bool begun_ = false;
@@ -93,8 +92,7 @@ class Recorder {
   bool gap_ = false;           // entries are missing since the last copy
   std::int64_t begun_ns_ = 0;  // when the last copy came
   std::uint64_t lost_ = 0;
-  SessionState state_ = SessionState::kInit;
-  bool has_state_ = false;
+  std::optional<SessionState> state_;  // after the last step; none: there was none yet
 
   mutable std::mutex mutex_;  // facts_, notices_
   RecordFacts facts_;

@@ -2,11 +2,13 @@
 #include "rt/snapshots.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstring>
 #include <string_view>
+
+#include "rt/lost_words.hpp"
+#include "rt/utc.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -21,13 +23,11 @@ constexpr Lost kNobodysDoing = Lost::kTarget | Lost::kJoints | Lost::kController
 
 std::int64_t ns_of(double seconds) { return static_cast<std::int64_t>(1e9 * seconds); }
 
+/// The time as the name of a file has it: "20261125T093012.123Z".
 std::string stamp(std::int64_t wall_ms) {
-  const time_t seconds = static_cast<time_t>(wall_ms / 1000);
-  tm parts{};
-  ::gmtime_r(&seconds, &parts);
-  return fmt::format("{:04}{:02}{:02}T{:02}{:02}{:02}.{:03}Z", parts.tm_year + 1900,
-                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
-                     wall_ms % 1000);
+  std::string out = utc_text(wall_ms);
+  std::erase_if(out, [](char c) { return c == '-' || c == ':'; });
+  return out;
 }
 
 std::string kind_in(const std::string& reason) { return reason.substr(0, reason.find('-')); }
@@ -38,12 +38,8 @@ std::string snapshot_reason(SessionState before, const RecordEntry& now) {
   if (now.state == SessionState::kFault && before != SessionState::kFault)
     return fmt::format("{}-{}", kFaultKind, to_string(now.cause));
   if (now.state != SessionState::kHold || before != SessionState::kActive) return "";
-  for (int i = 0; i < kLostBits; ++i) {
-    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
-    if (has(now.lost, one) && has(kNobodysDoing, one))
-      return fmt::format("{}-{}", kHoldKind, to_string(one));
-  }
-  return "";
+  const auto words = lost_words(now.lost & kNobodysDoing);
+  return words.empty() ? "" : fmt::format("{}-{}", kHoldKind, words.front());
 }
 
 Snapshots::Snapshots(const RecordSettings& settings, std::filesystem::path folder)

@@ -18,7 +18,8 @@ namespace plumb::drivers::rt {
 /// is. `before`: the state after the step before.
 ///
 /// Every FAULT has one. So has a HOLD that began because an input was lost that nobody switches off
-/// on purpose: target, joints, controller, robot, comparison, motion, arm-away, arm-still, stall.
+/// on purpose: target, joints, controller, robot, comparison, motion, arm-away, arm-still, stall,
+/// restart.
 /// Its cause lies in the seconds before, and the input may be back before somebody looks. A HOLD by
 /// drives, manual, stop, disabled, tool, frame or payload, by the mode or by the end of the run is
 /// an operator's doing, and the journal says all about it.
@@ -40,6 +41,7 @@ class Snapshots {
   ~Snapshots();
 
   bool on() const noexcept { return settings_.snapshots > 0 && !folder_.empty(); }
+  const std::filesystem::path& folder() const noexcept { return folder_; }  // if on()
 
   /// Lines from which a replay can begin.
   void begin(const std::string& lines, std::int64_t now_ns);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "rt/lost_words.hpp"
 #include "rt/screen_units.hpp"
 #include "rt/status_text.hpp"
 
@@ -17,15 +18,6 @@ const char* to_string(LinkState state) {
       return "down";
   }
   return "unknown";
-}
-
-Json lost_json(Lost lost) {
-  Json out = Json::array();
-  for (int i = 0; i < kLostBits; ++i) {
-    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
-    if (has(lost, one)) out.push_back(drivers::to_string(one));
-  }
-  return out;
 }
 
 Json limits_json(const RunFacts& facts) {
@@ -138,7 +130,7 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
       {"cause", facts.cause},
       {"fault", drivers::to_string(report.cause)},
       {"status", plumb::to_string(report.status)},
-      {"lost", lost_json(report.lost)},
+      {"lost", lost_words(report.lost)},
       {"acknowledge", facts.acknowledge},
       {"has_output", report.has_output},
       {"correction",

@@ -2,8 +2,11 @@
 #include "rt/status_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+
+#include "rt/lost_words.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -38,15 +41,6 @@ std::string bars(const Json& histogram) {
     out +=
         fmt::format("  {:>10.1f} us {:>10} {}\n", number(bin, "from_us"), bin["count"].dump(),
                     std::string(static_cast<std::size_t>(40.0 * number(bin, "count") / most), '#'));
-  return out;
-}
-
-std::string words_of_lost(Lost lost) {
-  std::string out;
-  for (int i = 0; i < kLostBits; ++i) {
-    const auto one = static_cast<Lost>(1U << static_cast<unsigned>(i));
-    if (has(lost, one)) out += (out.empty() ? "" : ", ") + std::string(to_string(one));
-  }
   return out;
 }
 
@@ -91,7 +85,7 @@ std::string request_to_operator(const Json& status) {
 }  // namespace
 
 std::string cause_text(const SessionMoment& moment) {
-  const std::string lost = words_of_lost(moment.lost);
+  const std::string lost = fmt::format("{}", fmt::join(lost_words(moment.lost), ", "));
   const bool shadow = moment.mode == CorrectionMode::kShadow;
   switch (moment.state) {
     case SessionState::kFault:

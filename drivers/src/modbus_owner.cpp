@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "link_thread.hpp"
+#include "modbus_settings.hpp"
 #include "plumb/drivers/time_source.hpp"
 
 namespace plumb::drivers {
@@ -17,10 +18,6 @@ constexpr std::int64_t kSerialLook_ns = 100'000'000;
 /// A server is started again once. Registers that are zero after every write are not kept by it, or
 /// are zeroed by someone else.
 constexpr int kMostZeroed = 2;
-
-/// Over TCP the registers between two messages are read along, which costs less than another
-/// request.
-int widest_gap(bool serial) { return serial ? 0 : int{kMostRead}; }
 
 bool all_zero(std::span<const std::uint16_t> words) noexcept {
   return std::ranges::all_of(words, [](std::uint16_t word) { return word == 0; });
@@ -64,7 +61,7 @@ ModbusOwner::ModbusOwner(const BusLayout& layout, const ModbusCodec& codec,
   }
   confirmed_.resize(registers);
   sent_.resize(registers);
-  spans_ = join(blocks, kMostRead, widest_gap(look_ns_ == kSerialLook_ns));
+  spans_ = join(blocks, kMostRead, widest_gap(settings));
   looks_.reserve(blocks.size());
 }
 

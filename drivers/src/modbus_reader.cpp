@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "link_thread.hpp"
+#include "modbus_settings.hpp"
 #include "plumb/drivers/time_source.hpp"
 
 namespace plumb::drivers {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr double kShortestPoll_s = 100e-6;
 constexpr double kPollWithoutReads_s = 1e-3;
-
-/// The largest number of unused registers to read along. Over TCP they cost less than another
-/// request, on a serial line more.
-int widest_gap(const ModbusClientSettings& settings) {
-  return std::holds_alternative<TcpAddress>(settings.server) ? int{kMostRead} : 0;
-}
 
 Sender other(Sender side) { return side == Sender::kPlumb ? Sender::kController : Sender::kPlumb; }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "plumb/drivers/modbus_frame.hpp"
+
 namespace plumb::drivers {
 namespace {
 
@@ -81,6 +83,10 @@ Fault find_fault(const ModbusServerSettings& settings) {
   if (settings.most_connections < 1 || settings.most_connections > 64)
     return LinkFault{"connections", "a server has 1 to 64 connections", "leave it out"};
   return std::nullopt;
+}
+
+int widest_gap(const ModbusClientSettings& settings) {
+  return std::holds_alternative<TcpAddress>(settings.server) ? int{kMostRead} : 0;
 }
 
 LinkFault cannot_run(int error) {

@@ -132,7 +132,8 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   outcome.result["verdict"] = verdict;
   outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
                  before_and_after(measured, before.fit, fitted) + "\n" + verdict + "\n";
-  if (change.adds && outcome.result["effect"] == "formula")
+  if (change.adds && outcome.result["effect"] == "formula" &&
+      globals.output == Globals::Output::kJson)
     outcome.result["figure"] = formula_figure(edited, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
   if (options.dry_run) {

@@ -2,12 +2,13 @@
 #include "rt/journal.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 
 #include <filesystem>
 #include <fstream>
+
+#include "program/scratch_folder.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -16,16 +17,9 @@ namespace fs = std::filesystem;
 
 class JournalFile : public testing::Test {
  protected:
-  JournalFile() {
-    std::string name = (fs::temp_directory_path() / "plumb-journal-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~JournalFile() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   fs::path file() const { return folder_ / "events.jsonl"; }
-  fs::path folder_;
+  ScratchFolder scratch{"plumb-journal-"};
+  const fs::path& folder_ = scratch.path();
 };
 
 TEST_F(JournalFile, AFaultIsWrittenWithItsCauseAndTheModel) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "plumb/drivers/run_shared.hpp"
+#include "program/scratch_folder.hpp"
 #include "rt/record_line.hpp"
 #include "rt/record_writer.hpp"
 #include "rt/recorder.hpp"
@@ -24,14 +25,8 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 class RecordFiles : public testing::Test {
  protected:
   RecordFiles() {
-    std::string name = (fs::temp_directory_path() / "plumb-record-XXXXXX").string();
-    folder = ::mkdtemp(name.data());
     settings.file = folder / "record.log";
     settings.max_total_mb = 1;  // so a file has 250 kB
-  }
-  ~RecordFiles() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
   }
 
   RecordDisk disk() {
@@ -61,7 +56,8 @@ class RecordFiles : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  fs::path folder;
+  ScratchFolder scratch{"plumb-record-"};
+  const fs::path& folder = scratch.path();
   RecordSettings settings;
   std::uint64_t free = 1'000'000'000'000;
   std::int64_t later_s = 0;  // of the planted clock

@@ -3,12 +3,12 @@
 #include "rt/snapshots.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <regex>
 #include <set>
 
+#include "program/scratch_folder.hpp"
 #include "rt/status_text.hpp"
 
 namespace plumb::drivers::rt {
@@ -21,15 +21,9 @@ constexpr std::int64_t kOneSecond_ns = 1'000'000'000;
 class SnapshotFiles : public testing::Test {
  protected:
   SnapshotFiles() {
-    std::string name = (fs::temp_directory_path() / "plumb-snapshots-XXXXXX").string();
-    folder = ::mkdtemp(name.data());
     settings.snapshots = 3;
     settings.before_s = 10.0;
     settings.after_s = 5.0;
-  }
-  ~SnapshotFiles() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
   }
   /// A second of the record is a line with its number; every fifth one begins with a copy.
   void go(Snapshots& to, int seconds) {
@@ -61,7 +55,8 @@ class SnapshotFiles : public testing::Test {
     return out;
   }
 
-  fs::path folder;
+  ScratchFolder scratch{"plumb-snapshots-"};
+  const fs::path& folder = scratch.path();
   RecordSettings settings;
   int second = 0;
 };

@@ -37,9 +37,10 @@ inline constexpr int kLostBits = 18;
 constexpr Lost operator|(Lost a, Lost b) noexcept {
   return static_cast<Lost>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
-constexpr bool has(Lost set, Lost one) noexcept {
-  return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+constexpr Lost operator&(Lost a, Lost b) noexcept {
+  return static_cast<Lost>(static_cast<unsigned>(a) & static_cast<unsigned>(b));
 }
+constexpr bool has(Lost set, Lost one) noexcept { return (set & one) != Lost::kNothing; }
 
 /// Stable lower-case words for one bit: "target", "drives", "arm-away".
 const char* to_string(Lost one) noexcept;
