@@ -82,6 +82,7 @@ std::span<const NamedNumber> names_of(MessageKind kind, const std::string& signa
                                           named(Status::kContextFallback),
                                           named(Status::kLimited),
                                           named(Status::kRamping),
+                                          named(Status::kPartial),
                                           named(Status::kNotFinite),
                                           named(Status::kNearSingular),
                                           named(Status::kOtherConfiguration),

@@ -109,7 +109,7 @@ BusMessage status_message(const SessionStatus& status, std::uint16_t counter) {
 SessionStatus status_in(const BusMessage& message) {
   const auto state = whole(message, 0, 0, 5), mode = whole(message, 1, 0, 2),
              status = whole(message, 2, static_cast<int>(Status::kStale),
-                            static_cast<int>(Status::kRamping)),
+                            static_cast<int>(Status::kPartial)),
              output = whole(message, 3, 0, 1);
   if (!state || !mode || !status || !output) return {};
   const auto counter = [&](std::size_t i) {

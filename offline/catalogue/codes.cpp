@@ -496,6 +496,10 @@ constexpr Explanation kCodes[] = {
     {"N-COMPILE-LEFT",
      "Effects of the measurement or of the procedure (drift, step, tracker, settling_lag) clean "
      "the other numbers of the fit. They are not the robot's, and are not compiled."},
+    {"W-AUDIT-EFFECTS",
+     "The model has room for hardly any effect more, so that a diagnosis may have stopped there, "
+     "and "
+     "what the poses support beyond them is left out of the correction."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-EMIT-NO-TREE",
@@ -594,6 +598,14 @@ constexpr Explanation kCodes[] = {
      "so long that its sender counts as silent (50 ms for target, joints, controller and status, "
      "500 ms for actual and robot), a number too small for the arm, or more than 70 % of the bus "
      "at worst. Nothing was written."},
+    {"E-DEPLOY-CYCLE",
+     "A step of the cycle with this model takes more than half of cycle_us on this machine (99 % "
+     "of "
+     "2000 steps were faster). The rest is needed for the bus, for waking up late and for a slower "
+     "processor. Nothing was written; --allow-slow writes all the same."},
+    {"W-DEPLOY-CYCLE",
+     "A step of the cycle with this model takes more than half of cycle_us on this machine, and "
+     "--allow-slow was given."},
     {"W-DEPLOY-TEMPERATURES",
      "The compiled model listens to temperatures that message context does not bring, so in the "
      "cycle it goes by their declared fallbacks. [deploy.bus] temperatures = [\"temp\", ...] names "

@@ -296,6 +296,10 @@ constexpr Explanation kStatus[] = {
     {"limited",
      "The guard cut the correction to its size or slew limit; of predict: it would. Valid."},
     {"ramping", "The correction is still being ramped in. Valid."},
+    {"partial",
+     "Near a singular pose, in a cell that corrects the position only: the whole correction would "
+     "turn some joints far or lies out of reach, so only a part of it is made. The position is "
+     "never worse than without correction. Valid."},
     {"not-finite", "Refused: a target or joint position is NaN or infinite."},
     {"near-singular",
      "Refused: near this pose some direction can hardly be moved; the smallest singular value of "

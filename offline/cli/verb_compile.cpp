@@ -14,6 +14,7 @@
 #include "program/output_files.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
+#include "show/cost_view.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -27,7 +28,8 @@ struct CompileArguments {
   WriteOptions write;
 };
 
-Json result_of(const Compiled& made, const Audit& audit, const std::string& file) {
+Json result_of(const Compiled& made, const Audit& audit, const bench::StepCost& cost,
+               const std::string& file) {
   const auto& held = made.model.provenance.held_out;
   Json out{{"model", file}};
   made.put_run(out);
@@ -37,6 +39,7 @@ Json result_of(const Compiled& made, const Audit& audit, const std::string& file
                                       .p95 = held.p95_m,
                                       .max = held.max_m});
   out["audit"] = show::audit_json(audit, made.model);
+  out["cost"] = show::cost_json(cost);
   return out;
 }
 
@@ -76,10 +79,11 @@ void compile_cell(const CompileArguments& options, const Globals& globals, Outco
   const OutputFiles files = files_of(options, file, model);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
-  outcome.result = result_of(made, found, file.string());
+  const bench::StepCost cost = bench::step_cost(model);
+  outcome.result = result_of(made, found, cost, file.string());
   if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
-  const std::string text =
-      compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model);
+  const std::string text = compiled_headline(made, cell.tolerance_m) +
+                           show::audit_text(found, model) + show::cost_text(cost);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;

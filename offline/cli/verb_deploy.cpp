@@ -22,6 +22,7 @@
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
+#include "show/cost_view.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 struct DeployArguments {
   std::string folder;
   std::string mode = "shadow";
+  bool allow_slow = false;
   CompileOptions compile;
   WriteOptions write;
 };
@@ -88,6 +90,23 @@ std::string mode_text(const DeployArguments& options) {
   return "Mode shadow: computes and reports, sends no correction; " + change;
 }
 
+/// Refuses a model whose step does not fit the cycle; warns with --allow-slow.
+void judge_cycle(const DeployArguments& options, const bench::StepCost& cost, double cycle_s,
+                 Outcome& outcome) {
+  const std::string fault = bench::cycle_fault(cost, cycle_s);
+  if (fault.empty()) return;
+  if (options.allow_slow)
+    return outcome.remark({{.severity = Severity::kWarning,
+                            .code = "W-DEPLOY-CYCLE",
+                            .message = fault,
+                            .help = "time it on the controller-side PC: plumb bench robot.plumb"}});
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-DEPLOY-CYCLE",
+                 .message = fault,
+                 .help = "a longer [deploy] cycle_us, or fewer effects (plumb bench says what each "
+                         "costs); for a faster PC than this one: --allow-slow"});
+}
+
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
                                  const format::GuardLimits& guard, const std::string& model,
                                  drivers::CorrectionMode mode) {
@@ -132,7 +151,11 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   warn_of_temperatures(model, layout, outcome);
   made.put_run(outcome.result);
   outcome.result["audit"] = show::audit_json(found, model);
-  outcome.text = compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model);
+  const bench::StepCost cost = bench::step_cost(model);
+  outcome.result["cost"] = show::cost_json(cost);
+  outcome.text = compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model) +
+                 show::cost_text(cost);
+  judge_cycle(options, cost, cell.deploy.cycle_s, outcome);
   if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
@@ -158,6 +181,8 @@ void add_deploy(Program& program) {
   verb.add_option("--mode", options->mode, "What plumb-rt sends: nothing, a capped part, or all")
       .check(one_of({"shadow", "limited", "full"}))
       .shows_default();
+  verb.add_flag("--allow-slow", options->allow_slow,
+                "Write although a step takes more than half of the cycle on this machine");
   options->compile.add_to(verb);
   options->write.add_to(verb);
 }

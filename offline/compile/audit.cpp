@@ -22,6 +22,8 @@ constexpr double kStill = 1e-3;      // [rad] or [m]; a joint with a smaller ran
 constexpr double kLargeJump = 0.1;   // share of the guard's limit; more gives a warning
 constexpr double kLargeSigma = 0.3;  // likewise
 
+constexpr int kRoomForEffects = 8;  // fewer left than these gives a warning
+
 using Box = std::vector<std::pair<double, double>>;
 
 std::vector<double> somewhere_in(const Box& box, Random& random) {
@@ -202,6 +204,14 @@ void judge(const format::Model& model, Audit& out) {
                                 "arm does where {} elsewhere this model knows nothing",
                                 fmt::join(still, ", "), still.size() == 1 ? "it is" : "they are"),
          .help = "measure poses all over the joint limits: plumb plan --n 30"});
+  if (model.effects.size() + kRoomForEffects > static_cast<std::size_t>(format::kMaxEffects))
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-AUDIT-EFFECTS",
+         .message = fmt::format("the model holds {} effects of the {} that there is room for: what "
+                                "the poses support beyond them is left out",
+                                model.effects.size(), format::kMaxEffects),
+         .help = "plumb diagnose says what is left; [effects.local_tree] may learn it"});
   if (model.provenance.held_out.poses == 0)
     out.remarks.push_back({.severity = Severity::kWarning,
                            .code = "W-AUDIT-HELD",
@@ -223,6 +233,7 @@ Audit audit(const format::Model& model) {
   }
   look_at_uncertainty(model, out);
   out.bytes = format::write_model(model).size();
+  out.refusals = refusal_share(model);
   judge(model, out);
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "compile/refusal_share.hpp"
 #include "plumb/format/model.hpp"
 #include "program/problem.hpp"
 
@@ -20,6 +21,7 @@ struct Audit {
   int leaves = 0;
   int active_leaves = 0;  // largest number of leaves with a weight at one point, one axis
   std::size_t bytes = 0;
+  RefusalShare refusals;         // between the joint limits
   std::vector<Problem> remarks;  // a correction above the guard's limit, and such
 };
 

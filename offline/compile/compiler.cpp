@@ -18,6 +18,11 @@ namespace {
 /// The slew limit lets the correction grow from zero to its largest size in this time.
 constexpr double kSlewTime_s = 1.0;
 
+/// A correction of the position alone is damped near singular poses, so that it can be solved
+/// closer to them than one of the orientation. Nearer than this, a micrometre of 1 m turns a joint
+/// by 3 mrad.
+constexpr double kLeastSingularPosition = 0.0003;
+
 format::HeldOut held_out(const ErrorStats& s) {
   return {.poses = static_cast<std::uint32_t>(s.n),
           .mean_m = s.mean,
@@ -71,6 +76,7 @@ format::GuardLimits guard(const Cell& cell, const Run& run) {
   out.corrects = turns ? format::Corrects::kPose : format::Corrects::kPosition;
   out.length_scale_m = reach(cell.nominal);
   out.cycle_s = cell.deploy.cycle_s;
+  if (out.corrects == format::Corrects::kPosition) out.min_singular_value = kLeastSingularPosition;
   out.max_correction_m = cell.deploy.max_correction_m;
   out.max_rotation_rad = cell.deploy.max_correction_m / out.length_scale_m * M_PI;
   out.slew_m_per_s = out.max_correction_m / kSlewTime_s;

@@ -28,6 +28,22 @@ std::string worst_q_text(const Audit& audit, const format::Model& model) {
   return out;
 }
 
+/// [{joint, at_deg, within_deg, pct}], of a prismatic joint at_mm and within_mm.
+Json refused_where_json(const Audit& audit, const format::Model& model) {
+  Json out = Json::array();
+  for (const RefusedPlace& place : audit.refusals.places) {
+    const auto& row = model.nominal.joints[place.joint];
+    const bool slides = row.type == format::JointType::kPrismatic;
+    Json one{{"joint", row.name}};
+    put(one, slides ? "at_mm" : "at_deg", slides ? to_mm(place.at) : to_deg(place.at));
+    put(one, slides ? "within_mm" : "within_deg",
+        slides ? to_mm(place.within) : to_deg(place.within));
+    put(one, "pct", 100.0 * place.share);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 }  // namespace
 
 Json audit_json(const Audit& audit, const format::Model& model) {
@@ -48,6 +64,9 @@ Json audit_json(const Audit& audit, const format::Model& model) {
   out["active_leaves"] = audit.active_leaves;
   out["bytes"] = audit.bytes;
   out["poses_looked_at"] = kAuditPoses;
+  put(out, "refused_pct", 100.0 * audit.refusals.refused);
+  put(out, "partial_pct", 100.0 * audit.refusals.partial);
+  out["refused_where"] = refused_where_json(audit, model);
   return out;
 }
 
@@ -70,7 +89,7 @@ std::string audit_text(const Audit& audit, const format::Model& model) {
     table.add({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
   }
   table.add({"size", fmt::format("{} bytes", audit.bytes)});
-  return table.left_from(1).text();
+  return table.left_from(1).text() + refusal_sentence(audit.refusals, model.nominal) + "\n";
 }
 
 }  // namespace plumb::offline::show

@@ -11,7 +11,7 @@ using namespace plumb;
 
 static_assert(PLUMB_MAX_JOINTS == format::kMaxJoints);
 static_assert(PLUMB_MAX_TEMPERATURES == format::kMaxTemperatures);
-static_assert(PLUMB_STATUS_RAMPING == static_cast<int>(Status::kRamping));
+static_assert(PLUMB_STATUS_PARTIAL == static_cast<int>(Status::kPartial));
 static_assert(PLUMB_STATUS_STALE == static_cast<int>(Status::kStale));
 
 Transformd transform_of(const plumb_pose& pose) noexcept {

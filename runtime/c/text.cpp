@@ -18,7 +18,7 @@ const char* plumb_temperature_name(const plumb_robot* robot, int k) {
 }
 
 const char* plumb_status_text(std::int32_t status) {
-  const bool known = status >= PLUMB_STATUS_STALE && status <= PLUMB_STATUS_RAMPING;
+  const bool known = status >= PLUMB_STATUS_STALE && status <= PLUMB_STATUS_PARTIAL;
   return known ? plumb::to_string(static_cast<plumb::Status>(status)) : "unknown";
 }
 

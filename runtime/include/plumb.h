@@ -66,6 +66,7 @@ typedef enum plumb_status {
   PLUMB_STATUS_CONTEXT_FALLBACK = 2, /* an input of an effect was missing or stale */
   PLUMB_STATUS_LIMITED = 3,          /* the correction was cut to its size or slew limit */
   PLUMB_STATUS_RAMPING = 4,          /* the correction is being ramped in or out */
+  PLUMB_STATUS_PARTIAL = 5,          /* near a singular pose: a part of the error is corrected */
   PLUMB_STATUS_NOT_FINITE = -1,      /* a target or joint position is not finite or not valid */
   PLUMB_STATUS_NEAR_SINGULAR = -2,
   PLUMB_STATUS_OTHER_CONFIGURATION = -3,

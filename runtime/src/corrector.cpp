@@ -37,6 +37,14 @@ constexpr double kMaxError = 1e6;
 constexpr double kStructuralZero = 1e-3;
 constexpr int kSamples = 64;
 
+/// Near a singular pose the correction of a position alone may move the joints by this share of
+/// max_seed_distance, by the linearisation at the seed. Some room is left for what it neglects.
+constexpr double kShareOfDistance = 0.5;
+
+/// The largest ratio of a step's second-order part to the step where the two are opposed: beyond
+/// 1/4 a quadratic equation has no solution, so that the target is out of reach.
+constexpr double kMostOpposed = 0.2;
+
 Vector3 clamped(const Vector3& v, double limit) noexcept {
   Vector3 out;
   for (int i = 0; i < 3; ++i) out(i) = std::clamp(v(i), -limit, limit);
@@ -257,6 +265,53 @@ inline void Corrector::step(const Derivative& at, const TipMotion& r, Order orde
   for (std::size_t i = 0; i < back.size(); ++i) out.dq[i] -= back[i];
 }
 
+/// The part [m] of the position error at the seed that is left as it is, because the controller
+/// would have to move its joints too far for its correction, or could not reach it. It is a share
+/// of the component along the direction in which the joints move most for the error: at an ordinary
+/// pose none of it, near a singular one up to all of it. Its removal is what the nominal arm does
+/// for a translation without rotation.
+inline Vector3 Corrector::uncorrected(const Vector3& error, const Derivative& at,
+                                      bool& partial) const noexcept {
+  std::array<Lanes, 6> A;
+  at.square.joints_per_translation(A);
+  const Lanes e = Lanes{error(0), error(1), error(2), 0.0} * per_length_;
+  Lanes along{0.0, 0.0, 0.0, 0.0};
+  JointSteps dq{}, back;
+  double moved2 = 0.0, opposed = 0.0;
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < 6; ++j) {
+    const Lanes x = A[j] * e;
+    dq[j] = x[0] + x[1] + x[2];
+    moved2 += dq[j] * dq[j];
+    along = along + A[j] * dq[j];
+  }
+  TipMotion left;
+  solution(at, at.J.curvature(dq), back, left);
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < 6; ++j) opposed += back[j] * dq[j];
+  // The lesser of the two shares that are allowed. A quotient that is no number allows all.
+  const double most = kShareOfDistance * limits_.max_seed_distance;
+  const double near2 = std::min(1.0, most * most / moved2);
+  const double within = std::min(1.0, kMostOpposed * moved2 / std::max(opposed, 0.0));
+  const double share = std::min(portable::sqrt(near2), within);
+  const Lanes squares = along * along;
+  const double along2 = std::max(squares[0] + squares[1] + squares[2], 1e-300);
+  const double taken = (1.0 - share) * (moved2 / along2) * limits_.length_scale_m;
+  partial = share < 1.0;
+  return Vector3(along[0] * taken, along[1] * taken, along[2] * taken);
+}
+
+/// Whether a correction in part may be sent: before the last step no more than most2 [m^2] was left
+/// of the error, squared, and the last step, which has no second order, bends by micrometres at
+/// most. By chance the steps can end where the calibrated arm itself is singular.
+inline bool Corrector::settled(const Iterate& last, const Vector3& missed,
+                               double most2) const noexcept {
+  double moved2 = 0.0;
+  for (const double x : last.dq) moved2 += x * x;
+  return moved2 * limits_.length_scale_m <= 4.0 * kMaxResidual_m &&
+         dot(missed, missed) <= most2 + kMaxResidual_m * kMaxResidual_m;
+}
+
 inline void Corrector::advance(const Iterate& at, JointPositions& q) const noexcept {
   for (std::size_t i = 0; i < q.size(); ++i) q[i] += at.dq[i] * unit_[i];
 }
@@ -310,7 +365,9 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   Transformd X_BT;
   Derivative at;
   Iterate next;
-  bool turned_far = false;
+  Transformd X_BG = out.X_BC;  // where the steps lead: to the target, or near a singular pose by it
+  bool turned_far = false, partial = false;
+  double most2 = 0.0;  // what is left may be no more than the error at the seed [m^2]
   int seed_sign = 0;
   unsigned lost = 0;  // 1 once the arm could not be predicted at a step
   true_arm_.prepare(context, arm.workspace.value);
@@ -318,8 +375,15 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
     const Status found = place(here, stage, arm, X_BT, at);
     lost |= static_cast<unsigned>(refused(found));
     out.status = lost != 0 ? Status::kNotFinite : found;
-    if (out.steps == 0 && n == 6) seed_sign = at.square.determinant_sign();
-    step(at, towards(out.X_BC, X_BT, turned_far), order, next);
+    if (out.steps == 0 && n == 6) {
+      seed_sign = at.square.determinant_sign();
+      if (limits_.corrects == format::Corrects::kPosition) {
+        const Vector3 error = X_BT.p - arm.nominal.value.tip.p;
+        most2 = dot(error, error);
+        X_BG.p += uncorrected(error, at, partial);
+      }
+    }
+    step(at, towards(X_BG, X_BT, turned_far), order, next);
     advance(next, q);
     ++out.steps;
   }
@@ -327,6 +391,7 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   if (turned_far) next.left_rad = kMaxStep;
   out.residual_m = next.left_m;
   out.residual_rad = next.left_rad;
+  if (partial && !settled(next, X_BT.p - out.X_BC.p, most2)) next.left_m = kMaxError;
   const Status judged = judge(next, q, out.q, at, seed_sign);
   if (!refused(out.status) && judged != Status::kOk) out.status = judged;
   if (joints() > 6 && kind != SeedKind::kCommanded) out.status = Status::kSeedNotCommanded;
@@ -335,6 +400,7 @@ Correction Corrector::solve(const Transformd& X_BD, std::span<const double> seed
   if (refused(out.status)) return out;
   out.X_BC = arm.nominal.value.tip;
   out.q = q;
+  if (partial) out.status = Status::kPartial;
   if (found.outside) {
     out.status = Status::kOutsideDomain;
     if (found.weight < 1.0) fade(X_BD, found.weight, out.X_BC);

@@ -101,4 +101,27 @@ void SquareSystem::solve(const TipMotion& r, JointSteps& z, TipMotion& left) con
   }
 }
 
+/// As solve(), for three motions at once, one in each lane.
+void SquareSystem::joints_per_translation(std::array<Lanes, 6>& out) const noexcept {
+  const Lanes none{0.0, 0.0, 0.0, 0.0};
+  std::array<Lanes, 6> left{Lanes{1.0, 0.0, 0.0, 0.0},
+                            Lanes{0.0, 1.0, 0.0, 0.0},
+                            Lanes{0.0, 0.0, 1.0, 0.0},
+                            none,
+                            none,
+                            none};
+#pragma GCC unroll 6
+  for (std::size_t k = 0; k < 6; ++k) {
+    out[k] = left[k] * inverse_[k];
+    for (std::size_t i = k + 1; i < 6; ++i) left[i] = left[i] - out[k] * entry(column_[k], i);
+  }
+#pragma GCC unroll 6
+  for (std::size_t k = 5; k-- > 0;) {
+    Lanes sum = out[k];
+    for (std::size_t j = k + 1; j < 6; ++j) sum = sum - out[j] * factor_[k][j];
+    copy(out[chosen_[k]], out[k]);
+    copy(sum, out[chosen_[k]]);
+  }
+}
+
 }  // namespace plumb::internal

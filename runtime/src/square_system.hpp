@@ -21,6 +21,11 @@ class SquareSystem {
   /// the arm cannot move (pivots below 1e-7). left: the part of r that remains.
   void solve(const TipMotion& r, JointSteps& dq, TipMotion& left) const noexcept;
 
+  /// How joint j moves for a unit translation of the tip along each axis that keeps the rotation:
+  /// out[j], the first three columns of the inverse of J. Tiny pivots as in solve(). The fourth
+  /// lanes are arbitrary.
+  void joints_per_translation(std::array<Lanes, 6>& out) const noexcept;
+
   /// Sign of the determinant of J: -1, 0 or +1.
   int determinant_sign() const noexcept { return (determinant_ > 0.0) - (determinant_ < 0.0); }
 

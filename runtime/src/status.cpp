@@ -15,6 +15,8 @@ const char* to_string(Status s) noexcept {
       return "limited";
     case Status::kRamping:
       return "ramping";
+    case Status::kPartial:
+      return "partial";
     case Status::kNotFinite:
       return "not-finite";
     case Status::kNearSingular:

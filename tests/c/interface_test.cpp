@@ -192,11 +192,11 @@ TEST(CInterface, ReadsBytesAtAnyAlignment) {
 }
 
 TEST(CInterface, HasATextForEveryNumber) {
-  for (int status = PLUMB_STATUS_STALE; status <= PLUMB_STATUS_RAMPING; ++status)
+  for (int status = PLUMB_STATUS_STALE; status <= PLUMB_STATUS_PARTIAL; ++status)
     EXPECT_STRNE(plumb_status_text(status), "unknown") << status;
   for (int result = PLUMB_OK; result <= PLUMB_RUNNING; ++result)
     EXPECT_STRNE(plumb_result_text(result), "unknown") << result;
-  for (const int wrong : {PLUMB_STATUS_STALE - 1, PLUMB_STATUS_RAMPING + 1, 1000, -1000, INT32_MIN})
+  for (const int wrong : {PLUMB_STATUS_STALE - 1, PLUMB_STATUS_PARTIAL + 1, 1000, -1000, INT32_MIN})
     EXPECT_STREQ(plumb_status_text(wrong), "unknown") << wrong;
   for (const int wrong : {-1, PLUMB_RUNNING + 1, INT32_MIN})
     EXPECT_STREQ(plumb_result_text(wrong), "unknown") << wrong;

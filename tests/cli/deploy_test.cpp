@@ -77,6 +77,9 @@ TEST_F(Deploy, TheModeIsThatOfTheOptionAndIsSaid) {
       box->plumb({"-C", "cell", "deploy", "-o", "out", "--force", "--json"}).json().at("result");
   EXPECT_EQ(result.at("mode"), "shadow");
   EXPECT_GT(result.at("max_correction_mm"), 0.0);
+  EXPECT_LE(result.at("audit").at("refused_pct"), 5.0);
+  EXPECT_GT(result.at("cost").at("instructions"), 10'000.0);
+  EXPECT_GT(result.at("cost").at("worst_us"), 0.0);
   EXPECT_NE(box->read("out/rt.toml").find("\nmode = \"shadow\""), std::string::npos);
   EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out", "--mode", "off", "--force"}).exit, 2);
 }

@@ -45,6 +45,14 @@ struct Correction {
 ///                 the target that they can control, position before orientation; arms with more
 ///                 take the shortest steps from the seed
 ///
+/// Near a singular pose a cell that corrects the position only would ask the controller for large
+/// motions of its joints, or for a position out of reach. With six joints the part of the position
+/// error that costs them is found at the seed, from J_N and its second order, and left as it is:
+/// the component along the direction in which the joints move most, in the share that keeps the
+/// motion below half of max_seed_distance and the square equation along it solvable. The status is
+/// then kPartial. The error that is left is never larger than that at the seed; everywhere else the
+/// share is nothing, and the result the same to the bit.
+///
 /// A target is refused (Status < 0) with the first of these that applies:
 ///   kNotFinite           an input is not finite, the target's matrix is no rotation, or a joint
 ///                        position exceeds 1e4
@@ -111,6 +119,8 @@ class Corrector {
                         internal::JointSteps& dq, internal::TipMotion& left) const noexcept;
   void step(const Derivative& at, const internal::TipMotion& r, Order order,
             Iterate& out) const noexcept;
+  Vector3 uncorrected(const Vector3& error, const Derivative& at, bool& partial) const noexcept;
+  bool settled(const Iterate& last, const Vector3& missed, double most2) const noexcept;
   void advance(const Iterate& at, JointPositions& q) const noexcept;
   bool far(const JointPositions& q, const JointPositions& seed) const noexcept;
   Status judge(const Iterate& at, const JointPositions& q, const JointPositions& seed,

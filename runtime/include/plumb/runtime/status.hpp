@@ -12,6 +12,7 @@ enum class [[nodiscard]] Status : std::int8_t{
     kContextFallback = 2,  // an effect's input was missing or stale: its declared fallback was used
     kLimited = 3,          // the guard cut the correction to its size or slew limit
     kRamping = 4,          // the correction is being ramped in, or out because the guard is off
+    kPartial = 5,          // near a singular pose; only a part of the position error is corrected
 
     kNotFinite = -1,           // the target is no pose, or a joint or predicted pose not finite
     kNearSingular = -2,        // the nominal Jacobian's smallest singular value is under its limit
