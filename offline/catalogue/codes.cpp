@@ -497,9 +497,8 @@ constexpr Explanation kCodes[] = {
      "Effects of the measurement or of the procedure (drift, step, tracker, settling_lag) clean "
      "the other numbers of the fit. They are not the robot's, and are not compiled."},
     {"W-AUDIT-EFFECTS",
-     "The model has room for hardly any effect more, so that a diagnosis may have stopped there, "
-     "and "
-     "what the poses support beyond them is left out of the correction."},
+     "The model has room for hardly any effect more. A diagnosis may have stopped there, and what "
+     "the poses support beyond these effects is left out of the correction."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
     {"E-EMIT-NO-TREE",
@@ -599,10 +598,10 @@ constexpr Explanation kCodes[] = {
      "500 ms for actual and robot), a number too small for the arm, or more than 70 % of the bus "
      "at worst. Nothing was written."},
     {"E-DEPLOY-CYCLE",
-     "A step of the cycle with this model takes more than half of cycle_us on this machine (99 % "
-     "of "
-     "2000 steps were faster). The rest is needed for the bus, for waking up late and for a slower "
-     "processor. Nothing was written; --allow-slow writes all the same."},
+     "A step of the cycle with this model takes more than half of cycle_us on this machine, judged "
+     "by the slowest of 2000 steps after the slowest hundredth. The rest of the cycle is needed "
+     "for the bus, for waking up late and for a slower processor. Nothing was written; "
+     "--allow-slow writes all the same."},
     {"W-DEPLOY-CYCLE",
      "A step of the cycle with this model takes more than half of cycle_us on this machine, and "
      "--allow-slow was given."},

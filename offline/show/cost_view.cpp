@@ -20,9 +20,10 @@ Json cost_json(const bench::StepCost& cost) {
 std::string cost_text(const bench::StepCost& cost) {
   return fmt::format(
       "A step of the cycle takes at worst about {:.1f} thousand instructions (counted for "
-      "x86-64-v3), {:.1f} us on {} ({}; median {:.1f} us).\n",
-      1e-3 * cost.instructions, cost.worst_us, cost.cpu.empty() ? "this machine" : cost.cpu,
-      cost.build, cost.median_us);
+      "x86-64-v3). On {} ({}) 99 % of the steps took less than {:.1f} us, half of them less than "
+      "{:.1f} us.\n",
+      1e-3 * cost.instructions, cost.cpu.empty() ? "this machine" : cost.cpu, cost.build,
+      cost.worst_us, cost.median_us);
 }
 
 }  // namespace plumb::offline::show
