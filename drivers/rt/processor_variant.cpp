@@ -55,8 +55,10 @@ Check machine_code_check() {
           ? ", since PLUMB_RT_VARIANT=baseline is set: the processor could run x86-64-v3"
           : fmt::format(": the processor could run x86-64-v3, but there is no {}",
                         v3_program().string());
-  out.finding.remedy = baseline_is_asked_for() ? "unset PLUMB_RT_VARIANT"
-                                               : "sudo apt-get install --reinstall plumb-rt";
+  if (baseline_is_asked_for())
+    out.finding.remedy = "unset PLUMB_RT_VARIANT";
+  else if (v3_program().string().starts_with("/usr/"))  // it came as a package
+    out.finding.remedy = "sudo apt-get install --reinstall plumb-rt";
   return out;
 }
 

@@ -46,3 +46,11 @@ if(TARGET plumb_drivers)
   install(TARGETS plumb_drivers EXPORT PlumbTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   install(DIRECTORY drivers/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 endif()
+
+# The examples, with a project of their own and the model that two of them read.
+if(PROJECT_IS_TOP_LEVEL)
+  set(plumb_examples ${CMAKE_INSTALL_DATADIR}/doc/libplumb-dev/examples)
+  file(GLOB examples CONFIGURE_DEPENDS examples/*.cpp examples/*.c examples/*.hpp)
+  install(FILES ${examples} tests/format/golden/planar_2r.plumb DESTINATION ${plumb_examples} COMPONENT dev)
+  install(FILES toolchains/cmake/installed_examples.cmake DESTINATION ${plumb_examples} RENAME CMakeLists.txt COMPONENT dev)
+endif()
