@@ -10,7 +10,6 @@ set(debian ${PROJECT_SOURCE_DIR}/toolchains/debian)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME plumb)
 set(CPACK_PACKAGE_CONTACT ${PLUMB_MAINTAINER})
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "calibration and correction of industrial robot arms")
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
@@ -43,13 +42,13 @@ set(CPACK_DEBIAN_PLUMB_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PLUMB_PACKAGE_RECOMMENDS plumb-rt)
 set(CPACK_DEBIAN_PLUMB_PACKAGE_SUGGESTS "chromium")
 set(CPACK_COMPONENT_PLUMB_DESCRIPTION "calibration of robot arms, with the workbench
- Plumb reads joint angles and laser-tracker positions, calibrates the arm, finds
- which physical effect is missing, shows with held-out poses how good the result
- is, and compiles everything into one small model file.
- .
- This package holds the programs plumb (with the workbench in the browser) and
- plumb-twin, a simulated controller, arm and tracker for trying everything
- without a robot.")
+Plumb reads joint angles and laser-tracker positions, calibrates the arm, finds
+which physical effect is missing, shows with held-out poses how good the result
+is, and compiles everything into one small model file.
+
+This package holds the programs plumb (with the workbench in the browser) and
+plumb-twin, a simulated controller, arm and tracker for trying everything
+without a robot.")
 
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_NAME plumb-rt)
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_SECTION science)
@@ -60,13 +59,13 @@ set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_RECOMMENDS "iproute2, udev")
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_SUGGESTS "can-utils, prometheus")
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_CONTROL_EXTRA ${debian}/postinst ${debian}/prerm ${debian}/postrm)
 set(CPACK_COMPONENT_PLUMB-RT_DESCRIPTION "real-time correction of robot targets
- plumb-rt takes desired targets of a robot arm from CAN or Modbus and answers
- each with the corrected one, from a model that plumb has compiled. It is not a
- safety function.
- .
- This package holds the program with its systemd unit, udev rules, system user
- and folders. On processors with AVX2 it replaces itself by code compiled for
- x86-64-v3, which gives the same bits.")
+plumb-rt takes desired targets of a robot arm from CAN or Modbus and answers
+each with the corrected one, from a model that plumb has compiled. It is not a
+safety function.
+
+This package holds the program with its systemd unit, udev rules, system user
+and folders. On processors with AVX2 it replaces itself by code compiled for
+x86-64-v3, which gives the same bits.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libplumb-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
@@ -76,7 +75,7 @@ if(NOT PLUMB_MODBUS)
 endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "cmake, g++")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "correction of robot targets in your own controller
- Headers and static libraries of Plumb's hard-real-time cycle for C++ and C,
- of the reader of model files, and of the drivers for CAN and Modbus, with a
- configuration for CMake and examples.")
+Headers and static libraries of Plumb's hard-real-time cycle for C++ and C,
+of the reader of model files, and of the drivers for CAN and Modbus, with a
+configuration for CMake and examples.")
 include(CPack)
