@@ -43,6 +43,11 @@ function(finish component package)
     execute_process(COMMAND ${CPACK_PLUMB_STRIP} ${program} COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
   execute_process(COMMAND chmod -R u=rwX,go=rX ${root} COMMAND_ERROR_IS_FATAL ANY)
+  # One date for every file, so that the same sources give the same packages.
+  if(DEFINED ENV{SOURCE_DATE_EPOCH})
+    execute_process(COMMAND find ${root} -exec touch --no-dereference --date=@$ENV{SOURCE_DATE_EPOCH} {} +
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endif()
 endfunction()
 
 set(release ${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
