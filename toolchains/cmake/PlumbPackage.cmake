@@ -64,8 +64,11 @@ each with the corrected one, from a model that plumb has compiled. It is not a
 safety function.
 
 This package holds the program with its systemd unit, udev rules, system user
-and folders. On processors with AVX2 it replaces itself by code compiled for
-x86-64-v3, which gives the same bits.")
+and folders.")
+if(PLUMB_RT_V3)
+  string(APPEND CPACK_COMPONENT_PLUMB-RT_DESCRIPTION " On processors with AVX2 it replaces itself by code
+compiled for x86-64-v3, which gives the same bits.")
+endif()
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libplumb-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
