@@ -42,7 +42,13 @@ RtRequest request_of(const RtConfig& config, const int& cpu) {
 /// Tries in a child process what a real-time cycle cannot do without, so that a refusal comes
 /// before anything is opened.
 void need_rights(const RtConfig& config, Outcome& outcome) {
-  for (const RtStep& step : try_rt_process(request_of(config, config.cpu))) {
+  const auto steps = try_rt_process(request_of(config, config.cpu));
+  if (steps.empty())
+    throw Failure(Exit::kEnvironment,
+                  {.code = "E-RT-RIGHTS",
+                   .message = "what the machine grants could not be tried: no child process",
+                   .help = "ulimit -u; systemctl show plumb-rt@NAME -p SystemCallFilter"});
+  for (const RtStep& step : steps) {
     if (step.grant != Grant::kDenied) continue;
     const Finding finding = describe(step);
     const bool needed = step.kind == RtStepKind::kPriority || step.kind == RtStepKind::kAffinity;

@@ -226,7 +226,7 @@ def free_port():
 
 def controller_side(plumb):
     """plumb-twin as Modbus server, and plumb-rt as its client."""
-    plumb.run("plumb-rt", "doctor")
+    plumb.run("plumb-rt", "doctor", "--fix", "--dry-run")
     plumb.run("plumb-twin", "new", "twin", "--dry-run")
     plumb.run("plumb-twin", "new", "twin")
     plumb.run("plumb-twin", "measure", "twin")
