@@ -9,6 +9,7 @@
 #include "plumb/drivers/can_interface.hpp"
 #include "rt/doctor_report.hpp"
 #include "rt/rt_probe.hpp"
+#include "rt/signing_rules.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -18,6 +19,7 @@ constexpr int kShortest_us = 100, kLongest_us = 1'000'000;
 struct DoctorOptions {
   int cycle_us = 4000;
   std::string root = "/";
+  std::string etc = kEtc;
   bool strict = false;
 };
 
@@ -37,8 +39,11 @@ void look(const DoctorOptions& options, Outcome& outcome) {
   const bool this_machine = options.root == "/";
   const auto steps = this_machine ? try_rt_process({}) : std::vector<RtStep>{};
   const auto can = this_machine ? read_can_interfaces() : can_interfaces(files);
-  const Examination seen{
-      .cycle_us = options.cycle_us, .checks = examine(files, steps, can), .can = can};
+  Examination seen{.cycle_us = options.cycle_us, .checks = examine(files, steps, can), .can = can};
+  const std::filesystem::path etc = this_machine
+                                        ? std::filesystem::path(options.etc)
+                                        : root / std::filesystem::path(options.etc).relative_path();
+  for (Check& check : signing_checks(etc)) seen.checks.push_back(std::move(check));
   outcome.result = to_json(seen);
   outcome.text = to_text(seen);
   if (!options.strict || seen.fit()) return;
@@ -63,6 +68,7 @@ void add_doctor(Program& program) {
   verb.add_option("--root", options->root,
                   "Look at the copy of another machine's /proc and /sys in DIR; nothing is tried")
       .type_name("DIR");
+  add_etc_option(verb, options->etc);
   verb.add_flag("--strict", options->strict, "Exit code 5 when the machine is not fit");
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "program/file.hpp"
+#include "rt/place.hpp"
 #include "rt/record_files.hpp"
 #include "rt/replay.hpp"
 
@@ -52,7 +53,8 @@ std::string folder_that_ran(const ReplayOptions& options) {
   if (!options.dir.empty()) return options.dir;
   std::error_code ignored;
   const std::filesystem::path first = options.files.front();
-  return std::filesystem::exists(first / "rt.toml", ignored) ? first.string() : ".";
+  return std::filesystem::exists(first / "rt.toml", ignored) || is_place(first) ? first.string()
+                                                                                : ".";
 }
 
 void play(const ReplayOptions& options, Outcome& outcome) {
