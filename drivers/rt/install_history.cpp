@@ -79,6 +79,7 @@ std::vector<std::string> path_of(const std::vector<HistoryLine>& lines) {
       continue;
     }
     if (at != path.end()) path.erase(at);
+    if (path.empty() && !line.previous.empty()) path.push_back(line.previous);
     path.push_back(line.version);
   }
   return path;

@@ -41,7 +41,10 @@ class Flood : public testing::Test {
     run.emplace(
         std::vector<std::string>{"run", folder.folder.string(), "--etc", machine.etc().string()},
         machine.root);
-    EXPECT_TRUE(becomes([&] { return status().is_object(); }));
+    EXPECT_TRUE(becomes([&] {
+      const auto now = status();
+      return now.is_object() && now["state"] == "active";
+    }));
     for (const auto& path : drivers::rt::control_paths(folder.folder))
       if (fs::is_socket(path)) socket = path;
   }
