@@ -87,6 +87,27 @@ void refuse_older(const InstallRequest& request, const std::string& made, const 
                      : "if an older one is meant: add --older"});
 }
 
+/// A place belongs to one robot: the wrong folder in the wrong place is refused, running or not.
+void refuse_other_robot(const InstallRequest& request, const Deployment& next,
+                        const Before& before) {
+  const Place& place = request.change.place;
+  if (before.current.empty()) return;
+  std::string serial;
+  try {
+    serial = load_deployment(place.version(before.current)).model.loaded->model().serial;
+  } catch (const Failure&) {
+    return;  // the install mends what is there
+  }
+  const std::string& own = next.model.loaded->model().serial;
+  if (own == serial) return;
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-RT-SERIAL",
+       .message = fmt::format("{} was made for robot '{}', and {} is that of robot '{}'",
+                              display_name(request.from), own, display_name(place.folder), serial),
+       .help = "a place for each robot: --to ANOTHER"});
+}
+
 void warn_of_clock(const InstallRequest& request, const std::string& made, Outcome& outcome) {
   const std::int64_t now_s = utc_ns() / 1'000'000'000;
   if (made <= utc_second(now_s + kDay_s)) return;
@@ -241,6 +262,7 @@ Changed install(const InstallRequest& request, Outcome& outcome) {
   const fs::path copy = store.copy(request.from, source.sums);
   const Deployment copied = load_version(copy, rules);
   const std::string id = version_of(copied.sums);
+  refuse_other_robot(request, copied, before);
   refuse_older(request, copied.config.made, id, before);
   warn_of_clock(request, copied.config.made, outcome);
   say_origin(copied.model.origin, rules, request.from, outcome);

@@ -67,6 +67,7 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
       journal_(files == Files::kMade ? journal_file(deployment.folder, deployment.config.events)
                                      : std::filesystem::path{},
                files == Files::kMade ? Journal::Echo::kStderr : Journal::Echo::kNone) {
+  own_name_ = user_name(::geteuid());
   const RtConfig& config = deployment.config;
   facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
@@ -252,7 +253,7 @@ std::string Service::control(const std::string& request) const {
 /// Loads the model of a file on another thread; the answer follows when that is done.
 void Service::begin_swap(Asked asked) {
   const SwapRequest request = read_swap(asked.request.substr(5));
-  const std::string by = user_name(static_cast<unsigned>(asked.uid));
+  const std::string by = asked.uid == 0 ? "root" : own_name_;
   std::string why;
   if (swap_) {
     why = "another model is being loaded: " + swap_->request.file;

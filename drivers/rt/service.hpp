@@ -100,6 +100,7 @@ class Service {
   std::optional<LastRun> last_run_;  // none for targets from a file
   std::int64_t told_ns_ = 0;
   std::uint64_t told_beats_ = 0;
+  std::string own_name_;          // of the user who runs plumb-rt
   std::int64_t unsigned_ns_ = 0;  // when the journal last said that what runs is unsigned
   bool ready_ = false;
   std::atomic<bool> ended_{false};

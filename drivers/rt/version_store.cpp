@@ -40,6 +40,12 @@ bool make_shared_folder(const fs::path& folder) {
   return true;
 }
 
+/// Makes the folder of a place, and if it is the first one of the machine that of all places.
+bool make_place(const fs::path& folder) {
+  if (folder.parent_path() == kStore) make_shared_folder(kStore);
+  return make_shared_folder(folder);
+}
+
 std::string unused_suffix() {
   static std::atomic<unsigned> count{0};
   return fmt::format("{}-{}-{}", ::getpid(), MonotonicTime::now_ns(), count++);
@@ -83,7 +89,7 @@ Deployment load_version(const fs::path& folder, const SigningRules& rules) {
 
 VersionStore::VersionStore(const Place& place, Make make)
     : place_(place),
-      made_(make == Make::kYes && make_shared_folder(place.folder)),
+      made_(make == Make::kYes && make_place(place.folder)),
       made_versions_(make == Make::kYes && make_shared_folder(place.versions())),
       lock_(place.versions()) {
   const std::string name = display_name(place.folder);

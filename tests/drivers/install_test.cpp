@@ -127,6 +127,7 @@ TEST_F(Install, WhatIsInstalledIsTheCopyOfWhatWasListedReadableAndNotWritable) {
 }
 
 TEST_F(Install, APlaceRunsItsCurrentVersionAndWritesNothingInIt) {
+  write_made(first, kFirst, "[log]\nrecord = \"record.log\"\n");
   ASSERT_EQ(install(first).exit, 0);
   ASSERT_EQ(rt({"run", to(), "--check"}).exit, 0);
   const RtRan ran = rt({"run", to(), "--json"});
@@ -138,6 +139,9 @@ TEST_F(Install, APlaceRunsItsCurrentVersionAndWritesNothingInIt) {
             std::string::npos);
   EXPECT_TRUE(fs::exists(place.folder / "corrected.csv"));
   EXPECT_TRUE(fs::exists(place.folder / "events.jsonl"));
+  EXPECT_TRUE(fs::exists(place.folder / "record.log"));
+  const RtRan replayed = plumb_rt({"replay", to()}, machine.root);
+  EXPECT_EQ(replayed.exit, 0) << replayed.err;
   EXPECT_EQ(verify().exit, 0);
   const RtRan events = plumb_rt({"events", to()}, machine.root);
   EXPECT_NE(events.out.find("version " + id_of(first)), std::string::npos) << events.out;
@@ -288,6 +292,40 @@ TEST_F(Install, AnotherRobotIsRefusedByWhatRuns) {
   write_made(second, kSecond);
   refused(install(second), 3, "E-RT-SERIAL", "UR-2");
   EXPECT_EQ(current(), id_of(first));
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+  refused(install(second), 3, "E-RT-SERIAL", "was made for robot 'UR-2', and ");
+}
+
+/// Between the swap and the change of `current` the two differ. Both are sound, status says it, and
+/// the next install brings them together.
+TEST_F(Install, KilledWhileWhatRunsSwapsNothingIsLost) {
+  for (const Deployed* one : {&first, &second}) write_endless_targets(*one);
+  write_made(first, kFirst);
+  write_made(second, kSecond);
+  ASSERT_EQ(install(first).exit, 0);
+  RtProgram run({"run", to(), "--etc", machine.etc().string()}, machine.root);
+  ASSERT_TRUE(becomes([&] { return status().is_object(); }));
+  int between = 0;
+  KilledAt ran = KilledAt::kKilled;
+  for (int call = 15; ran == KilledAt::kKilled && call < 100; ++call) {
+    ran = run_killed_at(
+        {"install", second.folder.string(), "--to", to(), "--etc", machine.etc().string()}, call,
+        machine.root);
+    if (ran == KilledAt::kImpossible) GTEST_SKIP() << "this machine lets nobody trace";
+    ASSERT_EQ(verify().exit, 0);
+    const auto origin = status()["install"];
+    ASSERT_TRUE(origin["version"] == id_of(first) || origin["version"] == id_of(second));
+    ASSERT_EQ(origin["current"], current());
+    ASSERT_EQ(origin["restart_needed"], origin["version"] != current());
+    between += origin["version"] != current() ? 1 : 0;
+    const RtRan back = install(first, {"--older"});
+    ASSERT_EQ(back.exit, 0) << "call " << call << ": " << back.err;
+    ASSERT_EQ(status()["install"]["version"], id_of(first));
+    ASSERT_EQ(current(), id_of(first));
+  }
+  EXPECT_EQ(ran, KilledAt::kEnded);
+  EXPECT_GE(between, 1) << "it was killed between the two at least once";
   run.kill(SIGTERM);
   EXPECT_EQ(run.wait().exit, 0);
 }

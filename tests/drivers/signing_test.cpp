@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "rt/status_text.hpp"
 #include "tests/drivers/rights.hpp"
 #include "tests/drivers/signed_folder.hpp"
 
@@ -309,6 +310,25 @@ TEST_F(Signed, OpenSslVerifiesTheSignatureFromTheDocumentedFormatAlone) {
   std::ofstream(machine.root / "verify.sh") << command;
   EXPECT_EQ(std::system(("sh " + root + "/verify.sh > " + root + "/said 2>&1").c_str()), 0)
       << text_of(machine.root / "said");
+}
+
+TEST(Metrics, SayWhatIsUnsignedAndWhatWaitsForARestart) {
+  drivers::rt::RunFacts facts;
+  facts.origin.note = "unsigned: no keys are set up on this machine";
+  std::string text = metrics_text({}, facts);
+  EXPECT_NE(text.find("\nplumb_unsigned 1\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nplumb_restart_needed 0\n"), std::string::npos);
+  facts.origin.note.clear();
+  facts.origin.place = "/var/lib/plumb/cell4";
+  facts.origin.version = "0123456789abcdef";
+  facts.origin.current = "fedcba9876543210";
+  facts.origin.key = "an\"na";
+  text = metrics_text({}, facts);
+  EXPECT_NE(text.find("\nplumb_unsigned 0\n"), std::string::npos);
+  EXPECT_NE(text.find("\nplumb_restart_needed 1\n"), std::string::npos);
+  EXPECT_NE(text.find("version=\"0123456789abcdef\",made=\"\",signed_by=\"an\\\"na\"} 1\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(SigningKey, TheFirstExampleOfRfc8032) {
