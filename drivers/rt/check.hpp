@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ std::vector<Check> examine(const MachineFiles& files, std::span<const RtStep> st
 std::vector<Check> kernel_checks(const MachineFiles& files);
 std::vector<Check> process_checks(const MachineFiles& files, std::span<const RtStep> steps);
 std::vector<Check> processor_checks(const MachineFiles& files, std::span<const RtStep> steps);
+
+/// Whether deploy folders must be signed here, and by which keys; one check more, "key", for each
+/// file of keys that is not used. `etc`: the folder of this machine's settings.
+std::vector<Check> signing_checks(const std::filesystem::path& etc);
 
 /// One check "can:NAME" per interface: its state, frame format and bit rates. If there is no
 /// interface, a single check with Grant::kSkipped.

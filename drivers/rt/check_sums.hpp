@@ -14,13 +14,26 @@ struct SummedFile {
   enum class State { kAsListed, kOther, kMissing } state = State::kAsListed;
 };
 
-/// Reads SHA256SUMS and compares every file that it lists. Throws Failure (kInput, E-RT-SUMS) if it
-/// is missing, empty or has a line that is none of sha256sum. Slow.
-std::vector<SummedFile> read_sums(const std::filesystem::path& folder);
+/// The text of SHA256SUMS. Throws Failure (kInput, E-RT-SUMS) if it is missing.
+std::string sums_text(const std::filesystem::path& folder);
 
-/// Throws Failure (kInput, E-RT-SUMS) unless SHA256SUMS lists rt.toml and `model`, and every file
-/// that it lists is as listed. Other files of the folder are not checked. Slow.
-void verify_sums(const std::filesystem::path& folder, const std::filesystem::path& model);
+/// Compares every file that `text`, the content of SHA256SUMS, lists. Throws Failure (kInput,
+/// E-RT-SUMS) if it is empty or has a line that is none of sha256sum. Slow.
+std::vector<SummedFile> read_sums(const std::filesystem::path& folder, const std::string& text);
+
+/// Throws Failure (kInput, E-RT-SUMS) unless `text`, the content of SHA256SUMS, lists each of these
+/// files, and every file that it lists is as listed. Other files of the folder are not checked.
+/// Slow.
+void verify_sums(const std::filesystem::path& folder, const std::string& text,
+                 const std::vector<std::filesystem::path>& files);
+
+/// Throws Failure (kInput, E-RT-SUMS) unless `text` lists this file with this sum: that of what was
+/// read of it, which need not be what stands there now. Reads nothing.
+void refuse_other(const std::filesystem::path& folder, const std::string& text,
+                  const std::filesystem::path& file, const std::string& sha256);
+
+/// The name of a file in SHA256SUMS: relative to the folder.
+std::string listed_name(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 /// Writes SHA256SUMS anew with the present sum of rt.toml, all or nothing. Throws Failure (kInput,
 /// E-RT-SUMS), and writes nothing, if another file is not as listed. With kAll the present sums of

@@ -11,7 +11,9 @@
 #include "plumb/drivers/bus_content.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
+#include "program/sums_signature.hpp"
 #include "rt/check_sums.hpp"
+#include "rt/place.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -36,6 +38,24 @@ void complete(Deployment& out) {
     session.status_s = status->period_s;
   if (const auto* signature = out.layout.find(MessageKind::kSignature))
     session.signature_s = signature->period_s;
+}
+
+/// Who signed a folder; if a trusted key did, everything in it must be what was signed.
+Origin verified_origin(const std::filesystem::path& folder, const std::string& sums,
+                       const SigningRules& rules, Beside beside,
+                       const std::vector<std::filesystem::path>& written) {
+  Origin out = find_origin(folder, sums, rules);
+  if (!out.key.empty() || beside == Beside::kNothing) check_content(folder, sums, beside, written);
+  return out;
+}
+
+/// The version of the place that this folder is; empty if it is none.
+std::string version_in(const std::filesystem::path& folder, const std::filesystem::path& place) {
+  std::error_code error;
+  const auto real = std::filesystem::canonical(folder, error);
+  const auto versions = std::filesystem::canonical(Place{place}.versions(), error);
+  const std::string name = real.filename().string();
+  return !error && real.parent_path() == versions && is_version_id(name) ? name : "";
 }
 
 }  // namespace
@@ -72,19 +92,39 @@ void refuse_wider(const std::filesystem::path& file, const LoadedModel& model,
   if (!problems.empty()) throw Failure(Exit::kInput, std::move(problems));
 }
 
-Deployment load_deployment(const std::filesystem::path& folder, Sums sums) {
+Deployment load_deployment(const std::filesystem::path& folder, Sums sums,
+                           const SigningRules* rules) {
   Deployment out;
   out.folder = folder;
-  const std::filesystem::path file = folder / "rt.toml";
-  TomlSource source(display_name(file), read_file(file), "E-RT");
+  const Content content = find_content(folder);
+  out.content = content.folder;
+  const std::filesystem::path file = out.content / "rt.toml";
+  const std::string text = read_file(file);
+  TomlSource source(display_name(file), text, "E-RT");
   const toml::table parsed = source.parse();
   TomlTable top(parsed, "", source);
-  out.config = read_rt_config(top, folder);
+  out.config = read_rt_config(top, out.content, folder);
   auto bus = top.table("bus");
   top.done();
   source.stop_on_errors();
-  if (sums == Sums::kVerified) verify_sums(folder, out.config.model);
+  Origin origin;
+  if (sums == Sums::kVerified) {
+    out.sums = sums_text(out.content);
+    verify_sums(out.content, out.sums, {file, out.config.model});
+    refuse_other(out.content, out.sums, file, sha256(text));
+    if (rules != nullptr) {
+      out.etc = rules->etc;
+      out.demands_signatures = rules->demanded();
+      origin = verified_origin(out.content, out.sums, *rules,
+                               content.version.empty() ? Beside::kRunFiles : Beside::kNothing,
+                               written_files(out.config));
+    }
+  }
   out.model = load_model(out.config.model, out.config.serial);
+  if (sums == Sums::kVerified)
+    refuse_other(out.content, out.sums, out.config.model, out.model.sha256);
+  out.model.origin = std::move(origin);
+  out.model.version = content.version;
   refuse_wider(out.config.model, *out.model.loaded, out.config.ceilings, folder);
   const BusArm arm = bus_arm(out.model.loaded->model().nominal, 1e-6 * out.config.cycle_us);
   const toml::table nothing;
@@ -96,6 +136,33 @@ Deployment load_deployment(const std::filesystem::path& folder, Sums sums) {
     report_fault(table, fault);
   source.stop_on_errors();
   complete(out);
+  return out;
+}
+
+RunningModel load_next_model(const NextModel& next) {
+  const SigningRules rules = read_signing_rules(next.etc);
+  const std::filesystem::path folder = std::filesystem::absolute(next.file).parent_path();
+  const std::string version = next.place.empty() ? "" : version_in(folder, next.place);
+  if (!next.place.empty() && version.empty())
+    throw Failure(Exit::kInput,
+                  {.code = "E-RT-SWAP",
+                   .message = fmt::format("what runs is a place, and {} is in none of its versions",
+                                          display_name(next.file)),
+                   .help = "plumb-rt install DIR --to " + shell_word(display_name(next.place))});
+  RunningModel out = load_model(next.file, next.serial);
+  if (version.empty() && !rules.demanded()) {
+    out.origin.note = rules.unsigned_note();
+    return out;
+  }
+  std::error_code ignored;
+  const bool listed = std::filesystem::exists(folder / kSumsFile, ignored);
+  const std::string sums = listed ? sums_text(folder) : "";
+  out.origin = verified_origin(
+      folder, sums, rules, version.empty() ? Beside::kRunFiles : Beside::kNothing, next.written);
+  out.version = version;
+  if (out.origin.key.empty() && version.empty()) return out;
+  verify_sums(folder, sums, {next.file});
+  refuse_other(folder, sums, next.file, out.sha256);
   return out;
 }
 

@@ -12,11 +12,16 @@ namespace plumb::drivers::rt {
 
 /// The verified content of a folder that `plumb deploy` wrote: rt.toml, the model and the layout.
 struct Deployment {
-  std::filesystem::path folder;
+  std::filesystem::path folder;   // that the user named: a place, or the deploy folder itself. The
+                                  // control socket, journal and state belong to it
+  std::filesystem::path content;  // the deploy folder: a version of the place, or `folder`
+  std::string sums;               // the text of its SHA256SUMS; empty if that was not verified
   RtConfig config;
   RunningModel model;
   BusLayout layout;
-  SessionSettings session;  // from the configuration, completed from model and layout
+  SessionSettings session;          // from the configuration, completed from model and layout
+  std::filesystem::path etc;        // the folder of the machine's settings that it was judged by
+  bool demands_signatures = false;  // by those settings, although it may run without one
 };
 
 /// The quantities of this model that exceed the range of numbers on the deployment's bus. `model`:
@@ -39,8 +44,24 @@ void refuse_wider(const std::filesystem::path& file, const LoadedModel& model,
 /// Whether the files must be those that SHA256SUMS lists; `plumb-rt seal` writes the list anew.
 enum class Sums : std::uint8_t { kVerified, kIgnored };
 
-/// Reads and verifies a folder without opening a bus. Throws Failure (kInput) with everything that
-/// is wrong: codes E-RT-..., E-TOML. Slow.
-Deployment load_deployment(const std::filesystem::path& folder, Sums sums = Sums::kVerified);
+/// Reads and verifies a folder without opening a bus; of a place the version that is current. With
+/// `rules` its signature, too, and if that is good that nothing else stands in the folder; without
+/// them the origin is left empty, which is for what sends nothing, such as a replay. Throws Failure
+/// (kInput) with everything that is wrong: codes E-RT-..., E-TOML. Slow.
+Deployment load_deployment(const std::filesystem::path& folder, Sums sums = Sums::kVerified,
+                           const SigningRules* rules = nullptr);
+
+/// Reads a model that shall replace the running one. Where signatures are demanded it must be one
+/// of the files of a signed folder, its own, all of which is verified; `written` are files that
+/// plumb-rt may have written there. A model of a place must be one of its versions. Throws Failure
+/// (kInput) as load_model and load_deployment do. Slow.
+struct NextModel {
+  std::filesystem::path file;
+  std::string serial;
+  std::filesystem::path etc;
+  std::filesystem::path place;  // empty: a deploy folder runs
+  std::vector<std::filesystem::path> written;
+};
+RunningModel load_next_model(const NextModel& next);
 
 }  // namespace plumb::drivers::rt

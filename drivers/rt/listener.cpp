@@ -77,6 +77,15 @@ bool unix_address(const std::filesystem::path& path, sockaddr_un& out) {
   return true;
 }
 
+/// The user who connected, as the kernel knows him; -1 of a socket that has none.
+std::int64_t user_of(int fd) {
+  ucred peer{};
+  socklen_t size = sizeof(peer);
+  const bool known = ::getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+                     size == sizeof(peer) && peer.uid != static_cast<uid_t>(-1);
+  return known ? static_cast<std::int64_t>(peer.uid) : -1;
+}
+
 std::optional<Descriptor> listening(Descriptor fd, const sockaddr* address, socklen_t size) {
   if (!fd.open() || ::bind(fd.get(), address, size) != 0 || ::listen(fd.get(), kBacklog) != 0)
     return std::nullopt;
@@ -92,7 +101,8 @@ std::optional<Asked> take_request(int listening, const std::string& end_of_reque
   auto request =
       read_until(peer.get(), end_of_request, patience.most_bytes, Deadline(patience.within_ms));
   if (!request) return std::nullopt;
-  return Asked{std::move(peer), std::move(*request)};
+  const std::int64_t uid = user_of(peer.get());
+  return Asked{std::move(peer), std::move(*request), uid};
 }
 
 void reply_to(const Descriptor& peer, const std::string& answer, const Patience& patience) {

@@ -22,6 +22,7 @@ struct Patience {
 struct Asked {
   Descriptor peer;
   std::string request;
+  std::int64_t uid = -1;  // user of the peer's process, over a Unix domain socket; else -1
 };
 
 /// If a connection waits at `listening`: accepts it and reads a request up to `end_of_request`.

@@ -31,6 +31,13 @@ class Metrics {
         "plumb_model_info{{name=\"{}\",file=\"{}\",sha256=\"{}\",number=\"{}\"}} 1\n",
         escaped(facts.model_name), escaped(facts.model_file), facts.model_sha256, number);
   }
+  void version(const RunOrigin& origin) {
+    text_ += fmt::format(
+        "# HELP plumb_version_info What was installed, and who signed it\n"
+        "# TYPE plumb_version_info gauge\n"
+        "plumb_version_info{{place=\"{}\",version=\"{}\",made=\"{}\",signed_by=\"{}\"}} 1\n",
+        escaped(origin.place), origin.version, escaped(origin.made), escaped(origin.key));
+  }
   void histogram(const char* name, const char* help, const LatencyHistogram& of) {
     text_ += fmt::format("# HELP plumb_{0} {1}\n# TYPE plumb_{0} summary\n", name, help);
     for (const double share : {0.5, 0.99, 0.999, 1.0})
@@ -104,6 +111,11 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   out.gauge("model", "Number of the running model, as on the bus",
             static_cast<double>(snapshot.model));
   out.model(facts, snapshot.model);
+  out.version(facts.origin);
+  out.gauge("unsigned", "1: no key that this machine trusts has signed what runs",
+            facts.origin.key.empty() ? 1 : 0);
+  out.gauge("restart_needed", "1: another version is installed than runs",
+            facts.origin.restart_needed() ? 1 : 0);
   out.counter("events_lost", "Changes that the journal had no room for", facts.events_lost);
   out.gauge("link", "0 up, 1 degraded, 2 down", static_cast<double>(snapshot.link));
   out.counter("received", "Messages", port.received);

@@ -17,11 +17,10 @@ struct ModelLoading::Shared {
 };
 
 /// The thread starts with all signals blocked, so that they reach the thread that ends the program.
-ModelLoading::ModelLoading(const std::filesystem::path& file, const std::string& serial)
-    : shared_(std::make_shared<Shared>()) {
-  const auto load = [shared = shared_, file, serial] {
+ModelLoading::ModelLoading(NextModel next) : shared_(std::make_shared<Shared>()) {
+  const auto load = [shared = shared_, next = std::move(next)] {
     try {
-      shared->model = load_model(file, serial);
+      shared->model = load_next_model(next);
     } catch (...) {
       shared->error = std::current_exception();
     }

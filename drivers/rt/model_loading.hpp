@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <string>
 
-#include "rt/running_model.hpp"
+#include "rt/deployment.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -13,12 +11,12 @@ namespace plumb::drivers::rt {
 /// Nobody waits for that thread: if this object goes first, it ends by itself, or with the program.
 class ModelLoading {
  public:
-  /// As load_model. Throws std::system_error if there is no thread for it.
-  ModelLoading(const std::filesystem::path& file, const std::string& serial);
+  /// As load_next_model. Throws std::system_error if there is no thread for it.
+  explicit ModelLoading(NextModel next);
 
   bool done() const noexcept;
 
-  /// The model; or throws what load_model threw. Once, and only when done.
+  /// The model; or throws what load_next_model threw. Once, and only when done.
   RunningModel result();
 
  private:

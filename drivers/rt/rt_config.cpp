@@ -7,6 +7,7 @@
 
 #include "rt/can_source.hpp"
 #include "rt/screen_units.hpp"
+#include "rt/utc.hpp"
 #include "rt/whole_number.hpp"
 
 namespace plumb::drivers::rt {
@@ -29,6 +30,9 @@ std::filesystem::path in(const std::filesystem::path& folder, const std::string&
 void read_model(TomlTable table, const std::filesystem::path& folder, RtConfig& out) {
   out.model = in(folder, table.text_or("file", "robot.plumb"));
   out.serial = table.text_or("serial", "");
+  out.made = table.text_or("made", "");
+  if (!out.made.empty() && !is_utc_second(out.made))
+    table.out_of_range("made", "a time in UTC, such as 2026-11-25T15:00:00Z");
   table.done();
 }
 
@@ -145,7 +149,13 @@ void read_log(TomlTable table, const std::filesystem::path& folder, RtConfig& ou
 
 }  // namespace
 
-RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> written_files(const RtConfig& config) {
+  return {config.record.file, config.sink.file, config.events};
+}
+
+RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder,
+                        const std::filesystem::path& written) {
+  const std::filesystem::path& outputs = written.empty() ? folder : written;
   RtConfig out;
   out.model = folder / out.model;
   out.source = std::make_shared<CanSource>();
@@ -154,11 +164,11 @@ RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder) {
   if (auto table = top.table("model")) read_model(*table, folder, out);
   if (auto table = top.table("cycle")) read_cycle(*table, out);
   if (auto table = top.table("source")) out.source = read_source(*table, folder);
-  if (auto table = top.table("sink")) out.sink = read_sink(*table, folder);
+  if (auto table = top.table("sink")) out.sink = read_sink(*table, outputs);
   if (auto table = top.table("limits")) read_limits(*table, out.session, out.ceilings);
   if (auto table = top.table("expect")) read_expect(*table, out.session.inputs);
   if (auto table = top.table("sync")) read_sync(*table, out.session.sync);
-  if (auto table = top.table("log")) read_log(*table, folder, out);
+  if (auto table = top.table("log")) read_log(*table, outputs, out);
   if (auto table = top.table("record")) read_record(*table, out.record);
   return out;
 }

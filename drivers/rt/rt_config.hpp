@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "plumb/drivers/session.hpp"
 #include "program/toml_table.hpp"
@@ -24,6 +25,7 @@ struct SinkConfig {
 struct RtConfig {
   std::filesystem::path model = "robot.plumb";
   std::string serial;  // of the robot; empty: that of the model
+  std::string made;  // when plumb deploy made the folder, UTC; empty: not known, before all others
   int cycle_us = 4000;
   int priority = 80;       // SCHED_FIFO; 0: an ordinary thread
   int cpu = -1;            // -1: any
@@ -37,7 +39,12 @@ struct RtConfig {
   int metrics_port = 0;               // on 127.0.0.1; 0: none
 };
 
-/// Reads every table except [bus]; problems are reported to the tables' source.
-RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder);
+/// Reads every table except [bus]; problems are reported to the tables' source. `written`: the
+/// folder to which the names of files that plumb-rt writes are relative; empty: `folder`.
+RtConfig read_rt_config(TomlTable& top, const std::filesystem::path& folder,
+                        const std::filesystem::path& written = {});
+
+/// The files that plumb-rt writes by this configuration; some are empty.
+std::vector<std::filesystem::path> written_files(const RtConfig& config);
 
 }  // namespace plumb::drivers::rt

@@ -33,7 +33,7 @@ std::unique_ptr<const LoadedModel> make(const std::filesystem::path& file, std::
 RunningModel load_model(const std::filesystem::path& file, const std::string& serial) {
   const std::string bytes = read_regular_file(file, kMostModelBytes);
   const std::string sum = sha256(bytes);
-  RunningModel out{.loaded = make(file, bytes, sum), .sha256 = sum};
+  RunningModel out{.loaded = make(file, bytes, sum), .sha256 = sum, .version = {}};
   const std::string& own = out.loaded->model().serial;
   if (serial.empty() || serial == own) return out;
   throw Failure(Exit::kInput, {.code = "E-RT-SERIAL",

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "plumb/runtime/loaded_model.hpp"
+#include "rt/folder_origin.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -14,6 +15,8 @@ namespace plumb::drivers::rt {
 struct RunningModel {
   std::unique_ptr<const LoadedModel> loaded;
   std::string sha256;
+  Origin origin = {};   // of the folder that it came in, if that was looked at
+  std::string version;  // of the place that it came in; empty: none
 };
 
 /// The most that is read of a model file; the largest that the format can hold is smaller.

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
+#include "rt/install_history.hpp"
 #include "rt/model_change.hpp"
 #include "rt/screen_units.hpp"
 
@@ -20,6 +22,7 @@ namespace {
 
 constexpr int kPass_ms = 10;
 constexpr std::int64_t kSwap_ns = 2'000'000'000, kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
 constexpr std::int64_t kLoad_ns = 5'000'000'000;  // the one who asks waits ten seconds
 
 std::string reply(const Json& json) { return json.dump() + "\n"; }
@@ -64,12 +67,14 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
       journal_(files == Files::kMade ? journal_file(deployment.folder, deployment.config.events)
                                      : std::filesystem::path{},
                files == Files::kMade ? Journal::Echo::kStderr : Journal::Echo::kNone) {
+  own_name_ = user_name(::geteuid());
   const RtConfig& config = deployment.config;
   facts_.bus = config.source->name();
   facts_.model_file = config.model.string();
   facts_.model_name = name_of(deployment.model, config.model);
   facts_.model_sha256 = deployment.model.sha256;
   facts_.ceilings = config.ceilings;
+  facts_.origin = find_run_origin(deployment);
   facts_.model_limits = deployment.model.loaded->limits();
   if (files == Files::kMade)
     make_files();
@@ -107,12 +112,14 @@ Service::~Service() {
 /// The thread starts with all signals blocked, so that they reach the thread that ends the program.
 void Service::start() {
   facts_.events = journal_.file().string();
-  journal_.note("start", {{"bus", facts_.bus},
-                          {"mode", to_string(deployment_.session.mode)},
-                          {"file", facts_.model_file},
-                          {"sha256", facts_.model_sha256},
-                          {"fingerprint", deployment_.model.loaded->number()},
-                          {"acknowledge", facts_.acknowledge}});
+  Json begun{{"bus", facts_.bus},
+             {"mode", to_string(deployment_.session.mode)},
+             {"file", facts_.model_file},
+             {"sha256", facts_.model_sha256},
+             {"fingerprint", deployment_.model.loaded->number()},
+             {"acknowledge", facts_.acknowledge}};
+  begun.update(event_details(facts_.origin));
+  journal_.note("start", begun);
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -150,6 +157,7 @@ void Service::pass() {
   go_on_with_swap();
   write_down();
   remember();
+  repeat_unsigned();
   bus_.tend();
   if (bus_.finished()) shared_.stop = true;
   tell_manager();
@@ -185,6 +193,21 @@ void Service::remember() {
   if (snapshot_.session.counters.cycles > 0 && !asks) facts_.acknowledge.clear();
 }
 
+/// What the next start of the place would run.
+void Service::look_at_place() {
+  if (!facts_.origin.place.empty())
+    facts_.origin.current = current_version_if_any(Place{deployment_.folder});
+}
+
+/// Once a day, where signatures are demanded: nobody shall forget that one was waived.
+void Service::repeat_unsigned() {
+  const std::int64_t now_ns = MonotonicTime::now_ns();
+  if (unsigned_ns_ != 0 && now_ns - unsigned_ns_ < kDay_ns) return;
+  unsigned_ns_ = now_ns;
+  if (!facts_.origin.note.empty() && deployment_.demands_signatures)
+    journal_.note("unsigned", {{"note", facts_.origin.note}});
+}
+
 /// Sends the watchdog's keep-alive message only if the cycle has run since the last one.
 void Service::tell_manager() {
   const std::uint64_t beats = shared_.beats;
@@ -213,10 +236,11 @@ void Service::serve() {
 
 void Service::serve_control() {
   auto asked = take_request(control_.listening.get(), "\n", {});
-  if (!asked) return;
+  if (!asked || (asked->uid != 0 && asked->uid != static_cast<std::int64_t>(::geteuid()))) return;
   shared_.snapshots.take(snapshot_);
+  look_at_place();
   if (asked->request.starts_with("swap "))
-    begin_swap(std::move(asked->peer), read_swap(asked->request.substr(5)));
+    begin_swap(std::move(*asked));
   else
     reply_to(asked->peer, control(asked->request), {});
 }
@@ -227,15 +251,22 @@ std::string Service::control(const std::string& request) const {
 }
 
 /// Loads the model of a file on another thread; the answer follows when that is done.
-void Service::begin_swap(Descriptor peer, const SwapRequest& request) {
+void Service::begin_swap(Asked asked) {
+  const SwapRequest request = read_swap(asked.request.substr(5));
+  const std::string by = asked.uid == 0 ? "root" : own_name_;
   std::string why;
   if (swap_) {
     why = "another model is being loaded: " + swap_->request.file;
   } else {
     try {
-      ModelLoading loading(request.file, deployment_.model.loaded->model().serial);
-      swap_.emplace(Swap{.peer = std::move(peer),
+      ModelLoading loading({.file = request.file,
+                            .serial = deployment_.model.loaded->model().serial,
+                            .etc = deployment_.etc,
+                            .place = facts_.origin.place,
+                            .written = written_files(deployment_.config)});
+      swap_.emplace(Swap{.peer = std::move(asked.peer),
                          .request = request,
+                         .by = by,
                          .loading = std::move(loading),
                          .end_ns = MonotonicTime::now_ns() + kLoad_ns});
       return;
@@ -244,8 +275,8 @@ void Service::begin_swap(Descriptor peer, const SwapRequest& request) {
     }
   }
   const std::string answer = refusal("E-RT-SWAP", why);
-  note_swap(request.file, answer);
-  reply_to(peer, answer, {});
+  note_swap(request.file, by, answer);
+  reply_to(asked.peer, answer, {});
 }
 
 /// A model that comes too late is not swapped in: who asked for it was told so.
@@ -262,7 +293,7 @@ void Service::go_on_with_swap() {
 
 /// Writes down what came of the request to swap, and answers who asked.
 void Service::end_swap(const std::string& answer) {
-  note_swap(swap_->request.file, answer);
+  note_swap(swap_->request.file, swap_->by, answer);
   reply_to(swap_->peer, answer, {});
   swap_->peer = Descriptor();
 }
@@ -311,6 +342,8 @@ std::string Service::swap(const SwapRequest& request, RunningModel next) {
   facts_.model_name = name_of(deployment_.model, request.file);
   facts_.model_sha256 = deployment_.model.sha256;
   facts_.model_limits = deployment_.model.loaded->limits();
+  facts_.origin = find_run_origin(deployment_);
+  unsigned_ns_ = 0;
   return reply({{"ok", true},
                 {"result",
                  {{"file", request.file},
@@ -321,12 +354,13 @@ std::string Service::swap(const SwapRequest& request, RunningModel next) {
 }
 
 /// One line of the journal.
-void Service::note_swap(const std::string& file, const std::string& answer) {
+void Service::note_swap(const std::string& file, const std::string& by, const std::string& answer) {
   const Json said = Json::parse(answer, nullptr, false);
-  Json details{{"file", file}};
+  Json details{{"file", file}, {"by", by}};
   const bool done = said.is_object() && said.value("ok", false);
   const char* const part = done ? "result" : "error";
   if (said.is_object() && said.contains(part)) details.update(said[part]);
+  if (done) details.update(event_details(facts_.origin));
   journal_.note(done ? "swap" : "swap-refused", details);
 }
 
@@ -335,6 +369,7 @@ std::string Service::page(const std::string& request) {
   if (!line.starts_with("GET /metrics ") && line != "GET /metrics")
     return http("404 Not Found", "text/plain", "GET /metrics\n");
   shared_.snapshots.take(snapshot_);
+  look_at_place();
   return http("200 OK", "text/plain; version=0.0.4", metrics_text(snapshot_, facts_));
 }
 

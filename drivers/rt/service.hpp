@@ -65,12 +65,14 @@ class Service {
   void serve();
   void serve_control();
   std::string control(const std::string& request) const;
-  void begin_swap(Descriptor peer, const SwapRequest& request);
+  void begin_swap(Asked asked);
   void go_on_with_swap();
   std::string loaded_swap();
   std::string swap(const SwapRequest& request, RunningModel next);
   void end_swap(const std::string& answer);
-  void note_swap(const std::string& file, const std::string& answer);
+  void note_swap(const std::string& file, const std::string& by, const std::string& answer);
+  void look_at_place();
+  void repeat_unsigned();
   void remember();
   std::string page(const std::string& request);
 
@@ -90,6 +92,7 @@ class Service {
   struct Swap {
     Descriptor peer;  // who asked; closed once answered
     SwapRequest request;
+    std::string by;  // user who asked
     ModelLoading loading;
     std::int64_t end_ns;  // when the peer is answered that it takes too long
   };
@@ -97,6 +100,8 @@ class Service {
   std::optional<LastRun> last_run_;  // none for targets from a file
   std::int64_t told_ns_ = 0;
   std::uint64_t told_beats_ = 0;
+  std::string own_name_;          // of the user who runs plumb-rt
+  std::int64_t unsigned_ns_ = 0;  // when the journal last said that what runs is unsigned
   bool ready_ = false;
   std::atomic<bool> ended_{false};
   std::atomic<bool> over_{false};  // the thread has ended

@@ -155,6 +155,7 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
         {"name", facts.model_name},
         {"sha256", facts.model_sha256},
         {"fingerprint", snapshot.model}}},
+      {"install", to_json(facts.origin)},
       {"record", record_json(facts.record)},
       {"events",
        {{"file", facts.events}, {"failure", facts.events_failure}, {"lost", facts.events_lost}}}};

@@ -138,6 +138,7 @@ std::string status_text(const Json& status) {
   out += fmt::format("model       {}, {} {}\n", status["model"]["name"].get<std::string>(),
                      status["model"]["file"].get<std::string>(),
                      status["model"]["sha256"].get<std::string>().substr(0, 12));
+  out += run_origin_text(status["install"]);
   out += record_text(status["record"]);
   out += fmt::format("wake-up     {}\n{}", latency(status["wake"]), bars(status["wake"]));
   out += fmt::format("cycle       {}\n{}", latency(status["work"]), bars(status["work"]));

@@ -7,6 +7,7 @@
 #include "program/json.hpp"
 #include "rt/ceilings.hpp"
 #include "rt/recorder.hpp"
+#include "rt/run_origin.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -24,6 +25,7 @@ struct RunFacts {
   std::string events;          // file of the journal; empty: none
   std::string events_failure;  // empty: none
   std::uint64_t events_lost = 0;
+  RunOrigin origin;
 };
 
 /// Why a session came to the state that it has at this moment, in a few words: "pose-mismatch",
@@ -32,7 +34,8 @@ struct RunFacts {
 std::string cause_text(const SessionMoment& moment);
 
 /// {state, mode, cause, fault, status, lost[], has_output, correction{}, ages{}, sync{},
-/// counters{}, link{}, clock{}, latency_us{}, model{}, record{}}; times in the unit of the key.
+/// counters{}, link{}, clock{}, latency_us{}, model{}, install{}, record{}}; times in the unit of
+/// the key.
 Json status_json(const RunSnapshot& snapshot, const RunFacts& facts);
 
 /// The status for people; `status` is the result of status_json.

@@ -12,6 +12,7 @@
 #include "rt/machine_settings.hpp"
 #include "rt/processor_variant.hpp"
 #include "rt/rt_probe.hpp"
+#include "rt/signing_rules.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -21,6 +22,7 @@ constexpr int kShortest_us = 100, kLongest_us = 1'000'000;
 struct DoctorOptions {
   int cycle_us = 4000;
   std::string root = "/";
+  std::string etc = kEtc;
   bool strict = false;
   bool fix = false;
   WriteOptions write = {};
@@ -59,6 +61,10 @@ void look(const DoctorOptions& options, Outcome& outcome) {
   const auto can = this_machine ? read_can_interfaces() : can_interfaces(files);
   Examination seen{.cycle_us = options.cycle_us, .checks = examine(files, steps, can), .can = can};
   if (this_machine) seen.checks.push_back(machine_code_check());
+  const std::filesystem::path etc = this_machine
+                                        ? std::filesystem::path(options.etc)
+                                        : root / std::filesystem::path(options.etc).relative_path();
+  for (Check& check : signing_checks(etc)) seen.checks.push_back(std::move(check));
   outcome.result = to_json(seen);
   outcome.text = to_text(seen);
   if (options.fix) fix(options, files, seen, outcome);
@@ -84,6 +90,7 @@ void add_doctor(Program& program) {
   verb.add_option("--root", options->root,
                   "Look at the copy of another machine's /proc and /sys in DIR; nothing is tried")
       .type_name("DIR");
+  add_etc_option(verb, options->etc);
   verb.add_flag("--strict", options->strict, "Exit code 5 when the machine is not fit");
   verb.add_flag("--fix", options->fix,
                 "Write settings for this machine below /etc, or below DIR/etc with --root");

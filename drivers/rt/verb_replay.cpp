@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "program/file.hpp"
+#include "rt/place.hpp"
 #include "rt/record_files.hpp"
 #include "rt/replay.hpp"
 
@@ -52,7 +53,8 @@ std::string folder_that_ran(const ReplayOptions& options) {
   if (!options.dir.empty()) return options.dir;
   std::error_code ignored;
   const std::filesystem::path first = options.files.front();
-  return std::filesystem::exists(first / "rt.toml", ignored) ? first.string() : ".";
+  return std::filesystem::exists(first / "rt.toml", ignored) || is_place(first) ? first.string()
+                                                                                : ".";
 }
 
 void play(const ReplayOptions& options, Outcome& outcome) {
@@ -88,8 +90,9 @@ void add_replay(Program& program) {
       {.name = "replay",
        .summary = "A record through the same session, offline: does it decide the same?",
        .examples =
-           "  plumb-rt replay /etc/plumb/cell4        # the whole record that its rt.toml names\n"
-           "  plumb-rt replay record.log --dir /etc/plumb/cell4\n"
+           "  plumb-rt replay /var/lib/plumb/cell4        # the whole record that its rt.toml "
+           "names\n"
+           "  plumb-rt replay record.log --dir /var/lib/plumb/cell4\n"
            "  plumb-rt replay record.log --dir deployed --model better.plumb  # swapped to"},
       [options](const Globals&, Outcome& outcome) { play(*options, outcome); });
   verb.add_option("FILE", options->files,

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -27,6 +28,7 @@ struct RunOptions {
   std::string dir;
   int priority = -1;
   bool check = false;
+  std::string etc = kEtc;
 };
 
 RtRequest request_of(const RtConfig& config, const int& cpu) {
@@ -71,6 +73,18 @@ void note_sensors(const Deployment& deployment, Outcome& outcome) {
                               "its fallback",
                               fmt::join(missing, ", ")),
        .help = "plumb deploy, with [deploy.bus] temperatures = [...] in cell.toml"});
+}
+
+/// Says of a folder that no trusted key signed why it runs all the same, where that is an
+/// exception.
+void note_origin(const Deployment& deployment, const SigningRules& rules, Outcome& outcome) {
+  outcome.remark(key_warnings(rules));
+  if (!rules.demanded() || deployment.model.origin.note.empty()) return;
+  outcome.remarks.push_back({.severity = Severity::kWarning,
+                             .code = "W-RT-UNSIGNED",
+                             .message = fmt::format("{} is {}", display_name(deployment.folder),
+                                                    deployment.model.origin.note),
+                             .help = "plumb deploy --sign FILE.key"});
 }
 
 /// Prints the remarks at once, because the end of the run may be a year away.
@@ -141,7 +155,8 @@ void ask_operator(const Service& service, const Deployment& deployment) {
 /// The deploy folder, held for as long as the process lives: no second plumb-rt runs it.
 FolderLock held_alone(const std::filesystem::path& folder) {
   FolderLock lock(folder);
-  if (lock.state() == FolderLock::State::kBusy)
+  // An install looks for a moment whether somebody holds it.
+  if (lock.wait(std::chrono::milliseconds(300)) == FolderLock::State::kBusy)
     throw Failure(Exit::kEnvironment,
                   {.code = "E-RT-RUNNING",
                    .message = fmt::format("another plumb-rt runs {}, or is stopped in it",
@@ -158,8 +173,14 @@ FolderLock held_alone(const std::filesystem::path& folder) {
 
 /// Stops the service even if the cycle throws while it is set up.
 void run_folder(const RunOptions& options, Outcome& outcome) {
-  Deployment deployment = load_deployment(options.dir);
+  const SigningRules rules = read_signing_rules(options.etc);
+  Deployment deployment = load_deployment(options.dir, Sums::kVerified, &rules);
   const FolderLock alone = held_alone(options.dir);
+  // So that no install removes the version that runs; of a deploy folder there is only the one
+  // lock.
+  const FolderLock version(deployment.model.version.empty() ? std::filesystem::path{}
+                                                            : deployment.content);
+  note_origin(deployment, rules, outcome);
   if (options.priority >= 0) deployment.config.priority = options.priority;
   outcome.inputs.push_back({deployment.config.model.string(), deployment.model.sha256});
   need_rights(deployment.config, outcome);
@@ -211,15 +232,17 @@ void add_run(Program& program) {
   VerbOptions verb = program.verb(
       {.name = "run",
        .summary = "The real-time cycle with the model and the bus of a folder, until SIGTERM",
-       .examples = "  plumb-rt run /etc/plumb/cell4              # as rt.toml says\n"
+       .examples = "  plumb-rt run /var/lib/plumb/cell4              # as rt.toml says\n"
                    "  plumb-rt run deployed --check              # is all of it usable? sends "
                    "nothing"},
       [options](const Globals&, Outcome& outcome) { run(*options, outcome); });
-  verb.add_option("DIR", options->dir, "The folder that 'plumb deploy' wrote").required();
+  verb.add_option("DIR", options->dir, "The folder that 'plumb deploy' wrote, or a place")
+      .required();
   verb.add_option("--priority", options->priority,
                   "SCHED_FIFO priority instead of that in rt.toml; 0: an ordinary thread")
       .check(whole_number_between(0, 99));
   verb.add_flag("--check", options->check, "Open everything, send and write nothing, end");
+  add_etc_option(verb, options->etc);
 }
 
 }  // namespace plumb::drivers::rt

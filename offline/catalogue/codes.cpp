@@ -639,6 +639,60 @@ constexpr Explanation kCodes[] = {
      "A file of the folder is not what SHA256SUMS lists, or the list is missing or does not name "
      "rt.toml and the model. Deploy again, or find out who changed it. After editing rt.toml: "
      "plumb-rt seal FOLDER."},
+    {"E-RT-UNSIGNED",
+     "The folder has no signature, and this machine demands one: it has a folder "
+     "/etc/plumb/keys.d. Deploy again with --sign FILE.key, whose public part is trusted there. "
+     "unsigned = \"allowed\" in /etc/plumb/plumb-rt.toml lets unsigned folders run, and status, "
+     "doctor, journal and metrics keep saying so."},
+    {"W-RT-UNSIGNED",
+     "The folder has no signature, and /etc/plumb/plumb-rt.toml allows that. Whoever may write to "
+     "the folder decides what the robot does."},
+    {"E-RT-SIGNER",
+     "A key signed the folder that is not among the .pub files of /etc/plumb/keys.d. If you trust "
+     "who signed it, put his .pub there; a key file that is damaged, or that others may write, is "
+     "not used, and is named."},
+    {"E-RT-REVOKED",
+     "The key that signed the folder was revoked on this machine: its file in /etc/plumb/keys.d "
+     "was renamed to NAME.revoked. Deploy again, with a key that is trusted."},
+    {"E-RT-SIGNATURE",
+     "SHA256SUMS.sig is no signature, or belongs to another SHA256SUMS than the one beside it: the "
+     "folder was changed after it was signed. Deploy again with --sign, or plumb-rt seal FOLDER "
+     "--sign FILE.key."},
+    {"E-RT-FOLDER",
+     "In a signed or installed folder stands something that SHA256SUMS does not list, or a "
+     "symbolic link, a file with several names, a pipe or a device. All of it must be regular "
+     "files that were signed."},
+    {"E-RT-KEYS",
+     "A file or folder of /etc/plumb is not used: others than root may write to it, or it is no "
+     "key. What it says does not count; the other keys still do."},
+    {"E-KEY-RIGHTS",
+     "Others than its owner may read or write the private key, so it may be no secret. If nobody "
+     "has read it: chmod 600 FILE; else make a new pair with plumb keygen and revoke the old one."},
+    {"E-KEY", "The file is no private key of plumb keygen. The message says why."},
+    {"E-RT-PLACE",
+     "A place is a folder, by custom /var/lib/plumb/NAME, into which plumb-rt install copies "
+     "deploy folders and of which plumb-rt runs the current one. The message says what is wrong "
+     "with this one: it is none, others may write to it, or its link `current` points nowhere. "
+     "plumb-rt verify looks at all of it; the next install mends the link."},
+    {"E-RT-INSTALLING",
+     "Another install or rollback works in the same place; this one has waited for five seconds. "
+     "Nothing was changed."},
+    {"E-RT-OLDER",
+     "A folder that was made later was installed in this place before. So that an older model "
+     "never comes back by accident, that is refused: plumb-rt rollback goes back on purpose, and "
+     "install --older installs an old folder on purpose. If a clock was wrong when one of the "
+     "folders was made, the message says so: set it, and deploy again."},
+    {"W-RT-CLOCK",
+     "The folder says that it was made in the future of this machine's clock. One of the two "
+     "clocks is wrong; until that time all that is made later counts as older."},
+    {"E-RT-RESTART",
+     "The folder differs from what runs in more than the model, so a swap is not enough, and "
+     "plumb-rt does not start anew by itself: a crash at night would then change the settings. "
+     "With --at-restart it is installed, what runs runs on, and the next start takes it; status "
+     "says so until then."},
+    {"E-RT-ROLLBACK",
+     "The place has no such version any more, or none before the current one. plumb-rt list shows "
+     "what there is; install --keep says how many stay."},
     {"E-RT-CEILING",
      "The model allows itself a larger or faster correction, or a shorter ramp, than [limits] of "
      "rt.toml lets any model have. If that is meant, raise the ceiling there and seal the folder."},

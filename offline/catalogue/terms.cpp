@@ -281,6 +281,15 @@ constexpr Explanation kTerms[] = {
     {"guard",
      "The part of the runtime that keeps the correction small, slow and continuous. Its limits act "
      "on the correction, never on the target."},
+    {"place",
+     "The folder into which plumb-rt install copies deploy folders, by custom /var/lib/plumb/NAME, "
+     "and of which plumb-rt runs the current version."},
+    {"version",
+     "A copy of one deploy folder in a place, never changed again. Its name is the beginning of "
+     "the SHA-256 of its SHA256SUMS, so that other content has another name."},
+    {"signed",
+     "With an Ed25519 signature over all files of a deploy folder, made by plumb deploy --sign. "
+     "unsigned: without one, or nobody here can check it."},
     {"exit codes",
      "0 done, 1 a gate failed, 2 usage, 3 an input file is wrong, 4 the numbers say no, 5 "
      "environment, 70 bug, 130 interrupted."},

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ctime>
 #include <memory>
+#include <optional>
 
 #include "bus_text/dbc.hpp"
 #include "bus_text/modbus_map.hpp"
@@ -20,7 +23,9 @@
 #include "plumb/drivers/session_transition.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 #include "program/file.hpp"
+#include "program/key_file.hpp"
 #include "program/shell_word.hpp"
+#include "program/sums_signature.hpp"
 #include "show/audit_view.hpp"
 #include "show/cost_view.hpp"
 
@@ -32,6 +37,7 @@ namespace fs = std::filesystem;
 struct DeployArguments {
   std::string folder;
   std::string mode = "shadow";
+  std::string key;  // file of the private key; empty: the folder is not signed
   bool allow_slow = false;
   CompileOptions compile;
   WriteOptions write;
@@ -107,42 +113,54 @@ void judge_cycle(const DeployArguments& options, const bench::StepCost& cost, do
                          "costs); for a faster PC than this one: --allow-slow"});
 }
 
+/// The time of now in UTC, to the second.
+std::string made_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
 std::vector<DeployFile> files_of(const Cell& cell, const drivers::BusLayout& layout,
                                  const format::GuardLimits& guard, const std::string& model,
                                  drivers::CorrectionMode mode) {
   return {{"robot.plumb", model},
           {"bus.dbc", drivers::write_dbc(layout, about(cell))},
           {"modbus-map.md", drivers::modbus_map_markdown(layout, about(cell))},
-          {"rt.toml", write_rt_toml(cell, layout, guard, mode)}};
+          {"rt.toml", write_rt_toml(cell, layout, guard, mode, made_now())}};
 }
 
 void put_result(const DeployArguments& options, const Cell& cell, const drivers::BusLayout& layout,
                 const std::vector<DeployFile>& files, const std::string& bytes,
-                const format::Model& model, Outcome& outcome) {
+                const format::Model& model, const SecretKey* key, Outcome& outcome) {
   Json names = Json::array();
   for (const auto& file : files) names.push_back((fs::path(options.folder) / file.name).string());
-  names.push_back((fs::path(options.folder) / "SHA256SUMS").string());
+  names.push_back((fs::path(options.folder) / kSumsFile).string());
+  if (key != nullptr) names.push_back((fs::path(options.folder) / kSignatureFile).string());
   outcome.result["folder"] = options.folder;
   outcome.result["files"] = names;
   outcome.result["dry_run"] = options.write.dry_run;
   outcome.result["robot_number"] = drivers::fingerprint(cell.serial);
   outcome.result["model_number"] = drivers::fingerprint(sha256(bytes));
   outcome.result["mode"] = options.mode;
+  outcome.result["key_id"] = key == nullptr ? "" : key->public_key().id();
   outcome.result["max_correction_mm"] = 1e3 * model.guard.max_correction_m;
   put(outcome.result, "worst_bus_load_pct", 100.0 * drivers::worst_bus_load(layout));
 }
 
-std::string next_steps(const DeployArguments& options, const Cell& cell) {
+std::string next_steps(const DeployArguments& options, const Cell& cell, const SecretKey* key) {
   return fmt::format(
-      "The controller sends {} in message robot: it stands for serial {}.\n{}.\n\n{}\n\n"
+      "The controller sends {} in message robot: it stands for serial {}.\n{}.\n\n{}, {}\n\n"
       "Then, on the controller-side PC:\n  plumb-rt run {}\n",
       drivers::fingerprint(cell.serial), cell.serial.empty() ? "\"\"" : cell.serial,
-      mode_text(options), wrote(options.folder, options.write), shell_word(options.folder));
+      mode_text(options), wrote(options.folder, options.write),
+      key == nullptr ? "unsigned" : "signed by key " + key->public_key().id(),
+      shell_word(options.folder));
 }
 
 void deploy(const DeployArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   refuse_existing(options);
+  std::optional<SecretKey> secret;
+  if (!options.key.empty()) secret.emplace(read_secret_key(options.key));
+  const SecretKey* const key = secret ? &*secret : nullptr;
   const drivers::BusLayout layout = bus_of(cell, cell.deploy.link);
   const Compiled made = compiled(cell, options.compile, options.write, outcome);
   const format::Model& model = made.model;
@@ -160,11 +178,11 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
   const auto files = files_of(cell, layout, model.guard, bytes, mode_of(options));
-  put_result(options, cell, layout, files, bytes, model, outcome);
+  put_result(options, cell, layout, files, bytes, model, key, outcome);
   const auto note = folder_note(options.folder, options.write);
-  if (!options.write.dry_run) write_deploy_folder(options.folder, files);
+  if (!options.write.dry_run) write_deploy_folder(options.folder, files, key);
   if (note) outcome.remark({*note});
-  outcome.text += "\n" + next_steps(options, cell);
+  outcome.text += "\n" + next_steps(options, cell, key);
 }
 
 }  // namespace
@@ -181,6 +199,9 @@ void add_deploy(Program& program) {
   verb.add_option("--mode", options->mode, "What plumb-rt sends: nothing, a capped part, or all")
       .check(one_of({"shadow", "limited", "full"}))
       .shows_default();
+  verb.add_option("--sign", options->key,
+                  "Sign the folder with the private key in FILE.key, which plumb keygen makes")
+      .type_name("FILE");
   verb.add_flag("--allow-slow", options->allow_slow,
                 "Write although a step takes more than half of the cycle on this machine");
   options->compile.add_to(verb);

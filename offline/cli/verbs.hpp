@@ -20,6 +20,7 @@ void add_runs(Program& program);
 void add_diff(Program& program);
 void add_compile(Program& program);
 void add_export(Program& program);
+void add_keygen(Program& program);
 void add_deploy(Program& program);
 void add_dbc(Program& program);
 void add_modbus_map(Program& program);

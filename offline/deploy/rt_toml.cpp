@@ -17,15 +17,22 @@ namespace {
 
 constexpr double kMilli = 1e-3, kMicro = 1e-6, kDegree = std::numbers::pi / 180.0;
 
-std::string head(const Cell& cell) {
+/// The key by which plumb-rt install tells an older folder from a newer one; nothing if empty.
+std::string made_line(const std::string& made) {
+  return made.empty()
+             ? ""
+             : fmt::format("made = \"{}\"   # an older one is installed only on purpose\n", made);
+}
+
+std::string head(const Cell& cell, const std::string& made) {
   return fmt::format(
       "schema = \"rt/1\"   # read by plumb-rt run; after editing: plumb-rt seal FOLDER\n\n"
       "[model]\nfile = \"robot.plumb\"\nserial = {}   # the robot's; refused if the model is of "
-      "another\n\n"
+      "another\n{}\n"
       "[cycle]\ncycle_us = {:.10g}\npriority = 80   # of SCHED_FIFO; 0: an ordinary thread\n"
       "cpu = -1   # to stay on; -1: any\n"
       "give_up_s = 0   # end with exit code 6 when the bus is down for so long; 0: never\n\n",
-      toml_string(cell.serial), cell.deploy.cycle_s / kMicro);
+      toml_string(cell.serial), made_line(made), cell.deploy.cycle_s / kMicro);
 }
 
 /// Tables [source] and [sink] for the link of the cell; comments show the other kinds.
@@ -106,8 +113,9 @@ std::string checks() {
 }  // namespace
 
 std::string write_rt_toml(const Cell& cell, const drivers::BusLayout& layout,
-                          const format::GuardLimits& guard, drivers::CorrectionMode mode) {
-  return head(cell) + source(cell.deploy) + limits(guard, mode) + checks() +
+                          const format::GuardLimits& guard, drivers::CorrectionMode mode,
+                          const std::string& made) {
+  return head(cell, made) + source(cell.deploy) + limits(guard, mode) + checks() +
          drivers::write_bus(layout, "bus");
 }
 

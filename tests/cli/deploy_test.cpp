@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <cstdlib>
 #include <set>
 
+#include "program/sums_signature.hpp"
 #include "sandbox.hpp"
 
 namespace fs = std::filesystem;
@@ -41,6 +44,57 @@ TEST_F(Deploy, WritesAllThatPlumbRtNeeds) {
   EXPECT_EQ(box->plumb({"inspect", "out/cell4/robot.plumb"}).exit, 0);
   EXPECT_EQ(box->read("out/cell4/bus.dbc"), box->plumb({"-C", "cell", "dbc"}).out);
   EXPECT_EQ(box->read("out/cell4/modbus-map.md"), box->plumb({"-C", "cell", "modbus-map"}).out);
+}
+
+plumb::PublicKey public_key(const Sandbox& box, const std::string& file) {
+  return plumb::read_public_key(box.read(file));
+}
+
+TEST_F(Deploy, AKeySignsTheWholeFolder) {
+  ASSERT_EQ(box->plumb({"keygen", "anna"}).exit, 0);
+  ASSERT_EQ(box->plumb({"keygen", "berta"}).exit, 0);
+  const Ran ran = box->plumb({"-C", "cell", "deploy", "-o", "out", "--sign", "anna.key", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const auto anna = public_key(*box, "anna.pub"), berta = public_key(*box, "berta.pub");
+  EXPECT_EQ(ran.json().at("result").at("key_id"), anna.id());
+  const auto signature = plumb::read_signature(box->read("out/SHA256SUMS.sig"));
+  EXPECT_TRUE(plumb::signs(signature, anna, box->read("out/SHA256SUMS")));
+  EXPECT_FALSE(plumb::signs(signature, anna, box->read("out/SHA256SUMS") + "\n"));
+  EXPECT_FALSE(plumb::signs(signature, berta, box->read("out/SHA256SUMS")));
+  EXPECT_NE(box->read("out/rt.toml").find("\nmade = \"20"), std::string::npos);
+  EXPECT_EQ(box->plumb({"-C", "cell", "deploy", "-o", "out", "--force"}).exit, 0);
+  EXPECT_FALSE(fs::exists(box->path() / "out/SHA256SUMS.sig")) << "an old signature is not left";
+}
+
+TEST_F(Deploy, AKeyIsNeverReplacedAndAPrivateOneIsPrivate) {
+  ASSERT_EQ(box->plumb({"keygen", "carla"}).exit, 0);
+  const std::string key = box->read("carla.key");
+  for (const char* const gone : {"carla.pub", "carla.key"}) {
+    const Ran again = box->plumb({"keygen", "carla"});
+    EXPECT_EQ(again.exit, 2);
+    EXPECT_NE(again.err.find("error[E-EXISTS]"), std::string::npos) << again.err;
+    EXPECT_EQ(box->read("carla.key"), key);
+    fs::rename(box->path() / gone, box->path() / (std::string(gone) + ".aside"));
+    EXPECT_EQ(box->plumb({"keygen", "carla"}).exit, 2) << "half a pair is there";
+    fs::rename(box->path() / (std::string(gone) + ".aside"), box->path() / gone);
+  }
+  struct stat found {};
+  ASSERT_EQ(::stat((box->path() / "carla.key").c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777, 0600U);
+  const auto sign = [&](const std::string& file) {
+    return box->plumb({"-C", "cell", "deploy", "-o", "out", "--sign", file});
+  };
+  for (const mode_t mode : {0640, 0604, 0666, 0620}) {
+    ASSERT_EQ(::chmod((box->path() / "carla.key").c_str(), mode), 0);
+    const Ran open = sign("carla.key");
+    EXPECT_EQ(open.exit, 3);
+    EXPECT_NE(open.err.find("error[E-KEY-RIGHTS]"), std::string::npos) << open.err;
+  }
+  ASSERT_EQ(::chmod((box->path() / "carla.pub").c_str(), 0600), 0);
+  EXPECT_NE(sign("carla.pub").err.find("error[E-KEY]"), std::string::npos);
+  EXPECT_NE(sign("none.key").err.find("error[E-READ]"), std::string::npos);
+  EXPECT_EQ(box->plumb({"keygen", "nowhere/x"}).exit, 5);
+  EXPECT_FALSE(fs::exists(box->path() / "out")) << "nothing was written";
 }
 
 TEST_F(Deploy, TheSumsHoldAndBreakWithAByte) {

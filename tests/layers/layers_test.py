@@ -14,7 +14,7 @@ OWN_PARTS = ("include", "src")  # of a room, no rooms of their own
 GENERATED = {"model_generated.h": "model_format"}
 STANDARD_C = {"stdbool.h", "stddef.h", "stdint.h"}
 LIBRARIES = {"CLI": "CLI11", "Eigen": "Eigen", "boost": "Boost", "ceres": "Ceres", "console_bridge": "urdfdom", "fmt": "fmt",
-             "modbus": "libmodbus", "nlohmann": "JSON", "openssl": "OpenSSL", "toml++": "toml++",
+             "modbus": "libmodbus", "nlohmann": "JSON", "openssl": "OpenSSL", "sodium.h": "libsodium", "toml++": "toml++",
              "urdf_model": "urdfdom", "urdf_parser": "urdfdom"}
 
 
@@ -69,7 +69,7 @@ def header_room(source, path, name, names):
 def library_of(name):
     """"Linux" of POSIX and kernel headers; None of the C++ standard library; else who it belongs to."""
     first, _, rest = name.partition("/")
-    if rest and first in LIBRARIES:
+    if name in LIBRARIES or rest and first in LIBRARIES:
         return LIBRARIES[first]
     if name in STANDARD_C or not (rest or name.endswith(".h")):
         return None

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -224,6 +225,29 @@ def free_port():
         return one.getsockname()[1]
 
 
+def installed(plumb):
+    """A place with two versions, on a machine that demands signatures."""
+    etc = plumb.scratch / "twin/etc"
+    (etc / "keys.d").mkdir(parents=True, mode=0o755)
+    for folder in (etc, etc / "keys.d"):
+        folder.chmod(0o755)
+    here = ("--to", "./twin/place", "--etc", etc)
+    plumb.run("plumb-rt", "install", "twin/signed", *here)                        # 3: a key that nobody trusts
+    shutil.copy(plumb.scratch / "twin/anna.pub", etc / "keys.d/anna.pub")
+    (etc / "keys.d/anna.pub").chmod(0o644)
+    plumb.run("plumb-rt", "install", "twin/signed", *here)
+    toml = plumb.scratch / "twin/signed/rt.toml"
+    toml.write_text(toml.read_text().replace("target_step_mm = 50", "target_step_mm = 40"))
+    plumb.run("plumb-rt", "seal", "twin/signed", "--sign", "twin/anna.key")
+    plumb.run("plumb-rt", "install", "twin/signed", *here)
+    plumb.run("plumb-rt", "rollback", *here)
+    plumb.run("plumb-rt", "rollback", *here)                                      # 3: there is none before
+    plumb.run("plumb-rt", "list", *here[:2])
+    plumb.run("plumb-rt", "verify", *here)
+    (etc / "keys.d/anna.pub").rename(etc / "keys.d/anna.revoked")
+    plumb.run("plumb-rt", "verify", *here)                                        # 3
+
+
 def controller_side(plumb):
     """plumb-twin as Modbus server, and plumb-rt as its client."""
     plumb.run("plumb-rt", "doctor", "--fix", "--dry-run")
@@ -232,6 +256,10 @@ def controller_side(plumb):
     plumb.run("plumb-twin", "measure", "twin")
     plumb.run("plumb-twin", "run", "twin", "--correction", "off", "--stations", "3")
     plumb.run("plumb-twin", "run", "--list-faults")
+    plumb.run("plumb", "keygen", "twin/anna")
+    plumb.run("plumb", "keygen", "twin/anna")                                     # 2: never replaced
+    plumb.run("plumb", "-C", "twin", "deploy", "-o", "twin/signed", "--sign", "twin/anna.key")
+    installed(plumb)
     plumb.run("plumb", "-C", "twin", "deploy", "-o", "twin/deploy")
     toml = plumb.scratch / "twin/deploy/rt.toml"
     port = free_port()

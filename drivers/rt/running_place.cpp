@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/running_place.hpp"
+
+#include <fmt/format.h>
+
+#include "program/file.hpp"
+#include "program/folder_lock.hpp"
+#include "program/json.hpp"
+#include "program/shell_word.hpp"
+#include "rt/control_path.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+constexpr int kStatus_ms = 2000, kSwapAnswer_ms = 10'000;
+
+/// The object that a plumb-rt answers; nothing if none hears it.
+std::optional<Json> answer_of(const Place& place, const std::string& request, int within_ms) {
+  for (const auto& path : control_paths(place.folder))
+    if (const auto answer = ask(path, request + "\n", within_ms)) {
+      Json json = Json::parse(*answer, nullptr, false);
+      if (json.is_object()) return json;
+    }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_silence(const Place& place) {
+  throw Failure(
+      Exit::kEnvironment,
+      {.code = "E-RT-CONTROL",
+       .message = fmt::format("a plumb-rt runs {}, and does not answer to this user",
+                              display_name(place.folder)),
+       .help = "as root or as the user who runs it; or --at-restart, and start it again"});
+}
+
+}  // namespace
+
+/// A plumb-rt holds the lock of its place for as long as it lives, also while it is stopped.
+std::optional<RunningPlace> find_running(const Place& place) {
+  if (FolderLock(place.folder).state() != FolderLock::State::kBusy) return std::nullopt;
+  const auto json = answer_of(place, "status", kStatus_ms);
+  if (!json || !json->value("ok", false)) refuse_silence(place);
+  RunningPlace out;
+  const Json& result = (*json)["result"];
+  if (result.contains("install")) out.version = result["install"].value("version", "");
+  return out;
+}
+
+double ask_swap(const Place& place, const SwapRequest& request) {
+  const auto json = answer_of(place, swap_line(request), kSwapAnswer_ms);
+  if (!json) refuse_silence(place);
+  if (json->value("ok", false)) return (*json)["result"].value("change_mm", 0.0);
+  const Json error = json->value("error", Json::object());
+  throw Failure(Exit::kInput, {.code = error.value("code", "E-RT-SWAP"),
+                               .message = error.value("message", "the running plumb-rt refuses it"),
+                               .help = "nothing was changed; plumb-rt status " +
+                                       shell_word(display_name(place.folder))});
+}
+
+}  // namespace plumb::drivers::rt
