@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 
 #include "program/file.hpp"
+#include "program/folder_lock.hpp"
 #include "program/shell_word.hpp"
 #include "rt/install_history.hpp"
 #include "rt/running_place.hpp"
@@ -130,6 +132,8 @@ void verify_place(const VersionOptions& options, Outcome& outcome) {
       return false;
     }
   };
+  FolderLock quiet(place.versions());  // so that no install removes what is being read
+  quiet.wait(std::chrono::seconds(5));
   try_to([&] { refuse_open_place(place); });
   std::string current;
   try_to([&] { current = current_version(place).value_or(""); });
