@@ -43,7 +43,7 @@ std::string after_change(const fs::path& folder, const std::string& unsigned_hel
                                        seal_command(folder, " --all")));
 }
 
-SummedFile parse_line(const fs::path& folder, const std::string& line) {
+SummedFile parse_sum(const fs::path& folder, const std::string& line) {
   const std::size_t begin = line.find_first_not_of(" *", std::min(kDigits, line.size()));
   const bool digits = line.find_first_not_of("0123456789abcdef") == kDigits;
   if (!digits || begin == std::string::npos)
@@ -55,7 +55,7 @@ std::vector<SummedFile> parse_sums(const fs::path& folder, const std::string& te
   std::vector<SummedFile> out;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) out.push_back(parse_line(folder, line));
+    if (!line.empty()) out.push_back(parse_sum(folder, line));
   if (out.empty()) refuse_list(folder, "is empty");
   return out;
 }
@@ -142,7 +142,7 @@ void refuse_other(const fs::path& folder, const std::string& text, const fs::pat
 }
 
 std::vector<SummedFile> renew_sums(const fs::path& folder, const fs::path& model, Renew renew) {
-  const auto before =
+  auto before =
       renew == Renew::kAll ? read_sums_if_any(folder) : read_sums(folder, sums_text(folder));
   const std::string own = listed_name(folder, model);
   std::vector<std::string> names{kConfigurationFile, own};

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kDay_s = 86'400;
+constexpr std::int64_t kClockSlack_s = 86'400;
 constexpr std::size_t kMostReasons = 6;
 
 std::string to_place(const Place& place) {
@@ -53,7 +53,7 @@ Before look_at(const Place& place, Outcome& outcome) {
 /// Words on a clock that was wrong, if these times look like it.
 std::string clock_hint(const std::string& made, const std::string& newest) {
   const std::int64_t now_s = utc_ns() / 1'000'000'000;
-  const std::string tomorrow = utc_second(now_s + kDay_s);
+  const std::string tomorrow = utc_second(now_s + kClockSlack_s);
   if (newest > tomorrow)
     return fmt::format(
         "; this machine's clock says {}, so a clock was wrong when {} was made, or "
@@ -110,7 +110,7 @@ void refuse_other_robot(const InstallRequest& request, const Deployment& next,
 
 void warn_of_clock(const InstallRequest& request, const std::string& made, Outcome& outcome) {
   const std::int64_t now_s = utc_ns() / 1'000'000'000;
-  if (made <= utc_second(now_s + kDay_s)) return;
+  if (made <= utc_second(now_s + kClockSlack_s)) return;
   outcome.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-RT-CLOCK",

@@ -78,8 +78,9 @@ std::vector<std::string> Place::ids() const {
 bool is_place(const fs::path& folder) {
   std::error_code ignored;
   const Place place{folder};
-  return fs::exists(fs::symlink_status(place.link(), ignored)) ||
-         fs::is_directory(fs::symlink_status(place.versions(), ignored));
+  if (fs::exists(fs::symlink_status(place.link(), ignored))) return true;
+  return fs::is_directory(fs::symlink_status(place.versions(), ignored)) &&
+         !fs::exists(folder / "rt.toml", ignored);
 }
 
 std::optional<std::string> current_version(const Place& place) {

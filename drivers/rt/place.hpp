@@ -33,7 +33,7 @@ struct Place {
 
 bool is_version_id(const std::string& text);
 
-/// True if the folder has a `current` or a folder `versions`.
+/// True if the folder has a `current`, or a folder `versions` and no rt.toml of its own.
 bool is_place(const std::filesystem::path& folder);
 
 /// The version that `current` names; nothing if there is no `current`. Throws Failure (kInput,

@@ -86,7 +86,10 @@ SigningRules read_signing_rules(const fs::path& etc) {
 
 std::vector<Problem> key_warnings(const SigningRules& rules) {
   std::vector<Problem> out = rules.keys.problems;
-  for (Problem& one : out) one.severity = Severity::kWarning;
+  for (Problem& one : out) {
+    one.severity = Severity::kWarning;
+    one.code = "W-RT-KEYS";
+  }
   return out;
 }
 

@@ -44,7 +44,7 @@ void add_etc_option(VerbOptions& verb, std::string& etc);
 /// read: E-RT-KEYS, E-TOML, E-RT-KEY, E-RT-RANGE. Slow.
 SigningRules read_signing_rules(const std::filesystem::path& etc);
 
-/// The problems of keys.d as warnings, for a folder that may run all the same.
+/// The problems of keys.d as warnings (W-RT-KEYS), for a folder that may run all the same.
 std::vector<Problem> key_warnings(const SigningRules& rules);
 
 }  // namespace plumb::drivers::rt

@@ -59,7 +59,8 @@ void copy_file_synced(const fs::path& from, const fs::path& to) {
     copied += n;
     if (copied > kMostCopied)
       refuse_source(from, "E-RT-FOLDER", "holds more than 256 MB, the most that is installed");
-    if (const int error = write_all(out.get(), {block, static_cast<std::size_t>(n)}); error != 0)
+    if (const int error = plumb::write_all(out.get(), {block, static_cast<std::size_t>(n)});
+        error != 0)
       refuse_file_write(to, error);
   }
   if (::fchmod(out.get(), kFileMode) != 0) refuse_file_write(to, errno);
@@ -96,7 +97,7 @@ void append_synced(const fs::path& file, const std::string& line) {
   char last = '\n';
   if (before.st_size > 0 && ::pread(out.get(), &last, 1, before.st_size - 1) != 1) last = '\n';
   const std::string text = (last == '\n' ? "" : "\n") + line + "\n";
-  int error = write_all(out.get(), text);
+  int error = plumb::write_all(out.get(), text);
   if (error == 0) error = sync_to_disk(out.get());
   if (error == 0) return;
   std::ignore = ::ftruncate(out.get(), before.st_size);

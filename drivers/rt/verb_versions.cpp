@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 
 #include "program/file.hpp"
+#include "program/folder_lock.hpp"
 #include "program/shell_word.hpp"
 #include "rt/install_history.hpp"
 #include "rt/running_place.hpp"
@@ -59,14 +61,27 @@ Json version_json(const std::string& id, const HistoryLine* line, const std::str
           {"key_id", of(&HistoryLine::key_id)}};
 }
 
-std::string version_line(const Json& version) {
-  const auto word = [&](const char* key) { return version[key].get<std::string>(); };
-  const auto or_dash = [&](const char* key) { return word(key).empty() ? "-" : word(key); };
-  return fmt::format("{} {}  made {:<20}  installed {:<24} by {}, signed by {}{}\n",
-                     version["current"].get<bool>() ? "*" : " ", word("version"), or_dash("made"),
-                     or_dash("installed_at"), or_dash("installed_by"),
-                     word("signed_by").empty() ? "nobody known here" : word("signed_by"),
-                     version["running"].get<bool>() ? "; RUNS" : "");
+/// A time without the parts of a second, which nobody reads in a table.
+std::string to_the_second(const std::string& time) {
+  return time.size() > 20 ? time.substr(0, 19) + "Z" : time;
+}
+
+std::string version_table(const Json& versions) {
+  const auto row = [](const char* mark, const std::string& version, const std::string& made,
+                      const std::string& at, const std::string& by, const std::string& signer,
+                      const char* runs) {
+    const auto or_dash = [](const std::string& text) { return text.empty() ? "-" : text; };
+    return fmt::format("{} {:<16}  {:<20}  {:<20}  {:<12}  {}{}\n", mark, version, or_dash(made),
+                       or_dash(at), or_dash(by), or_dash(signer), runs);
+  };
+  std::string out = row(" ", "version", "made", "installed", "by", "signed by", "");
+  for (const Json& one : versions) {
+    const auto word = [&](const char* key) { return one[key].get<std::string>(); };
+    out += row(one["current"].get<bool>() ? "*" : " ", word("version"), word("made"),
+               to_the_second(word("installed_at")), word("installed_by"), word("signed_by"),
+               one["running"].get<bool>() ? "; runs" : "");
+  }
+  return out;
 }
 
 void list_versions(const VersionOptions& options, Outcome& outcome) {
@@ -90,7 +105,7 @@ void list_versions(const VersionOptions& options, Outcome& outcome) {
                     {"versions", versions},           {"history", lines}};
   outcome.text = fmt::format("{} has {} versions, the newest first; * is current:\n",
                              display_name(place.folder), ids.size());
-  for (const Json& version : versions) outcome.text += version_line(version);
+  outcome.text += version_table(versions);
   if (!running.empty() && running != current)
     outcome.text += "RESTART NEEDED: another version runs than is current.\n";
 }
@@ -130,6 +145,8 @@ void verify_place(const VersionOptions& options, Outcome& outcome) {
       return false;
     }
   };
+  FolderLock quiet(place.versions());  // so that no install removes what is being read
+  quiet.wait(std::chrono::seconds(5));
   try_to([&] { refuse_open_place(place); });
   std::string current;
   try_to([&] { current = current_version(place).value_or(""); });

@@ -43,7 +43,9 @@ bool make_shared_folder(const fs::path& folder) {
 /// Makes the folder of a place, and if it is the first one of the machine that of all places.
 bool make_place(const fs::path& folder) {
   if (folder.parent_path() == kStore) make_shared_folder(kStore);
-  return make_shared_folder(folder);
+  const bool made = make_shared_folder(folder);
+  if (made) sync_folder(fs::absolute(folder).lexically_normal().parent_path());
+  return made;
 }
 
 std::string unused_suffix() {

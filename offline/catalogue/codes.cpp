@@ -665,6 +665,7 @@ constexpr Explanation kCodes[] = {
     {"E-RT-KEYS",
      "A file or folder of /etc/plumb is not used: others than root may write to it, or it is no "
      "key. What it says does not count; the other keys still do."},
+    {"W-RT-KEYS", "As E-RT-KEYS, of a file that was not needed: the folder runs all the same."},
     {"E-KEY-RIGHTS",
      "Others than its owner may read or write the private key, so it may be no secret. If nobody "
      "has read it: chmod 600 FILE; else make a new pair with plumb keygen and revoke the old one."},

@@ -148,11 +148,12 @@ void put_result(const DeployArguments& options, const Cell& cell, const drivers:
 std::string next_steps(const DeployArguments& options, const Cell& cell, const SecretKey* key) {
   return fmt::format(
       "The controller sends {} in message robot: it stands for serial {}.\n{}.\n\n{}, {}\n\n"
-      "Then, on the controller-side PC:\n  plumb-rt run {}\n",
+      "Then, on the controller-side PC:\n  plumb-rt run {}\n"
+      "or, for a service there:\n  sudo plumb-rt install {} --to NAME\n",
       drivers::fingerprint(cell.serial), cell.serial.empty() ? "\"\"" : cell.serial,
       mode_text(options), wrote(options.folder, options.write),
       key == nullptr ? "unsigned" : "signed by key " + key->public_key().id(),
-      shell_word(options.folder));
+      shell_word(options.folder), shell_word(options.folder));
 }
 
 void deploy(const DeployArguments& options, const Globals& globals, Outcome& outcome) {

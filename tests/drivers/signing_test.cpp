@@ -198,6 +198,7 @@ TEST_F(Signed, ABrokenKeyFileIsOneWarningAndTheOthersCount) {
   ASSERT_EQ(::mkfifo((machine.keys() / "pipe.pub").c_str(), 0644), 0);
   const RtRan ran = check();
   EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.err.find("warning[W-RT-KEYS]"), std::string::npos) << ran.err;
   EXPECT_NE(ran.err.find("broken.pub is no public key: it has no 32 bytes in base64"),
             std::string::npos)
       << ran.err;
