@@ -158,7 +158,8 @@ void remove_stale_drafts(const fs::path& target) {
 std::string display_name(const fs::path& file) {
   std::error_code error;
   const fs::path here = fs::current_path(error);
-  if (error || !file.is_absolute()) return file.string();
+  // A service works in "/": what it says is read, and pasted, elsewhere.
+  if (error || !file.is_absolute() || here == here.root_path()) return file.string();
   const fs::path relative = file.lexically_normal().lexically_relative(here);
   const bool below = !relative.empty() && *relative.begin() != "..";
   return below ? relative.string() : file.string();

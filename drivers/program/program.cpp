@@ -18,6 +18,7 @@
 #include "program/guarded.hpp"
 #include "program/help_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/machine_code.hpp"
 #include "program/report.hpp"
 #include "program/screen.hpp"
 #include "program/shell_word.hpp"
@@ -56,7 +57,8 @@ Program::Program(ProgramText text, WorksIn place)
   app_->formatter(std::make_shared<ExamplesFirst>());
   app_->get_formatter()->label("SUBCOMMAND", "VERB");
   app_->footer(text_.examples);
-  app_->set_version_flag("--version", fmt::format("{} {}", text_.name, format::kVersion));
+  app_->set_version_flag("--version",
+                         fmt::format("{} {} ({})", text_.name, format::kVersion, machine_code()));
   app_->set_help_flag("-h,--help", "Print this help");
   app_->require_subcommand(0, 1);
   app_->allow_extras();

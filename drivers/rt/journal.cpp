@@ -136,7 +136,8 @@ std::vector<fs::path> journal_places(const fs::path& folder) {
   std::vector<fs::path> out{folder / kJournalName};
   if (const char* const state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state != '\0')
     out.push_back(fs::path(state) / name_elsewhere(folder));
-  out.push_back(fs::path("/var/lib/plumb") / name_elsewhere(folder));
+  out.push_back(fs::path("/var/lib/plumb-rt") / fs::weakly_canonical(folder).filename() /
+                name_elsewhere(folder));
   return out;
 }
 

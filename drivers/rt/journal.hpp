@@ -64,7 +64,7 @@ std::filesystem::path journal_file(const std::filesystem::path& folder,
                                    const std::filesystem::path& configured);
 
 /// Where journal_file() may have put the journal of a folder, best first: in the folder, in
-/// $STATE_DIRECTORY, and in /var/lib/plumb, the state directory of the systemd unit.
+/// $STATE_DIRECTORY, and in /var/lib/plumb-rt/NAME, the state directory of the systemd unit.
 std::vector<std::filesystem::path> journal_places(const std::filesystem::path& folder);
 
 struct ReadEvents {

@@ -9,7 +9,11 @@
 namespace plumb::drivers::rt {
 namespace {
 
+#if defined(__aarch64__)
+constexpr const char* kDebianRtKernel = "sudo apt-get install linux-image-rt-arm64";
+#else
 constexpr const char* kDebianRtKernel = "sudo apt-get install linux-image-rt-amd64";
+#endif
 
 /// Clocks that a program reads without a system call.
 constexpr std::array<std::string_view, 4> kFastClocks = {"tsc", "arch_sys_counter", "kvm-clock",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "rt/processor_variant.hpp"
 #include "rt/verb_control.hpp"
 #include "rt/verb_doctor.hpp"
 #include "rt/verb_events.hpp"
@@ -10,6 +11,7 @@
 
 int main(int argc, char** argv) {
   using namespace plumb::drivers;
+  rt::become_best_variant(argv);
   plumb::Program program(
       {.name = "plumb-rt",
        .about = "The controller-side program: the real-time cycle between a target source and the "

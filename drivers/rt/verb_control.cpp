@@ -93,8 +93,8 @@ void add_status(Program& program) {
   VerbOptions verb =
       program.verb({.name = "status",
                     .summary = "How the plumb-rt that runs a folder stands",
-                    .examples = "  plumb-rt status /etc/plumb/cell4\n"
-                                "  plumb-rt status /etc/plumb/cell4 --json"},
+                    .examples = "  plumb-rt status /var/lib/plumb/cell4\n"
+                                "  plumb-rt status /var/lib/plumb/cell4 --json"},
                    [options](const Globals&, Outcome& outcome) { show(options->dir, outcome); });
   verb.add_option("DIR", options->dir, "The folder that runs").shows_default();
 }
@@ -104,7 +104,7 @@ void add_swap(Program& program) {
   VerbOptions verb =
       program.verb({.name = "swap",
                     .summary = "Another model of the same robot, without missing a cycle",
-                    .examples = "  plumb-rt swap better.plumb --dir /etc/plumb/cell4\n"
+                    .examples = "  plumb-rt swap better.plumb --dir /var/lib/plumb/cell4\n"
                                 "  plumb-rt swap better.plumb --json"},
                    [options](const Globals&, Outcome& outcome) { swap(*options, outcome); });
   verb.add_option("FILE", options->file, "The model").required();
@@ -119,8 +119,8 @@ void add_monitor(Program& program) {
   VerbOptions verb = program.verb(
       {.name = "monitor",
        .summary = "Rates, ages, counters, correction and latency of a run, as they change",
-       .examples = "  plumb-rt monitor /etc/plumb/cell4          # until interrupted\n"
-                   "  plumb-rt monitor /etc/plumb/cell4 --once   # for a script"},
+       .examples = "  plumb-rt monitor /var/lib/plumb/cell4          # until interrupted\n"
+                   "  plumb-rt monitor /var/lib/plumb/cell4 --once   # for a script"},
       [options](const Globals&, Outcome& outcome) { watch(*options, outcome); });
   verb.add_option("DIR", options->dir, "The folder that runs").shows_default();
   verb.add_flag("--once", options->once, "Once, and end");

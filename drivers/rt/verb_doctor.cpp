@@ -7,7 +7,10 @@
 #include <memory>
 
 #include "plumb/drivers/can_interface.hpp"
+#include "program/output_files.hpp"
 #include "rt/doctor_report.hpp"
+#include "rt/machine_settings.hpp"
+#include "rt/processor_variant.hpp"
 #include "rt/rt_probe.hpp"
 #include "rt/signing_rules.hpp"
 
@@ -21,6 +24,8 @@ struct DoctorOptions {
   std::string root = "/";
   std::string etc = kEtc;
   bool strict = false;
+  bool fix = false;
+  WriteOptions write = {};
 };
 
 void refuse_root(const std::string& root, Outcome& outcome) {
@@ -28,6 +33,21 @@ void refuse_root(const std::string& root, Outcome& outcome) {
   outcome.errors = {{.code = "E-ROOT",
                      .message = fmt::format("'{}' holds no folder 'proc'", root),
                      .help = "plumb-rt doctor"}};
+}
+
+FixMode mode_of(const WriteOptions& options) {
+  if (options.dry_run) return FixMode::kDryRun;
+  return options.force ? FixMode::kForce : FixMode::kWrite;
+}
+
+/// Writes the settings, and adds to the outcome what was written and what no file can change.
+void fix(const DoctorOptions& options, const MachineFiles& files, const Examination& seen,
+         Outcome& outcome) {
+  const Fix done{
+      .files = write_settings(options.root, machine_settings(files), mode_of(options.write)),
+      .beyond = beyond_settings(files, seen.checks)};
+  outcome.result["fix"] = to_json(done);
+  outcome.text += to_text(done);
 }
 
 void look(const DoctorOptions& options, Outcome& outcome) {
@@ -40,12 +60,14 @@ void look(const DoctorOptions& options, Outcome& outcome) {
   const auto steps = this_machine ? try_rt_process({}) : std::vector<RtStep>{};
   const auto can = this_machine ? read_can_interfaces() : can_interfaces(files);
   Examination seen{.cycle_us = options.cycle_us, .checks = examine(files, steps, can), .can = can};
+  if (this_machine) seen.checks.push_back(machine_code_check());
   const std::filesystem::path etc = this_machine
                                         ? std::filesystem::path(options.etc)
                                         : root / std::filesystem::path(options.etc).relative_path();
   for (Check& check : signing_checks(etc)) seen.checks.push_back(std::move(check));
   outcome.result = to_json(seen);
   outcome.text = to_text(seen);
+  if (options.fix) fix(options, files, seen, outcome);
   if (!options.strict || seen.fit()) return;
   outcome.exit = Exit::kEnvironment;
   outcome.errors = {{.code = "E-UNFIT", .message = verdict(seen), .help = "plumb-rt doctor"}};
@@ -59,8 +81,8 @@ void add_doctor(Program& program) {
       program.verb({.name = "doctor",
                     .summary = "What this machine grants a real-time cycle, and what it denies",
                     .examples = "  plumb-rt doctor                   # every check, and a verdict\n"
-                                "  plumb-rt doctor --strict --json   # for a script: exit code 5 "
-                                "if not fit"},
+                                "  plumb-rt doctor --fix --dry-run   # and the settings that it "
+                                "would write"},
                    [options](const Globals&, Outcome& outcome) { look(*options, outcome); });
   verb.add_option("--cycle-us", options->cycle_us, "The cycle to be fit for, in microseconds")
       .check(whole_number_between(kShortest_us, kLongest_us))
@@ -70,6 +92,11 @@ void add_doctor(Program& program) {
       .type_name("DIR");
   add_etc_option(verb, options->etc);
   verb.add_flag("--strict", options->strict, "Exit code 5 when the machine is not fit");
+  verb.add_flag("--fix", options->fix,
+                "Write settings for this machine below /etc, or below DIR/etc with --root");
+  options->write.add_to(verb);
+  for (const char* name : {"--force", "--dry-run"})
+    verb.get_option(name).needs(verb.get_option("--fix"));
 }
 
 }  // namespace plumb::drivers::rt

@@ -63,8 +63,8 @@ void add_events(Program& program) {
       {.name = "events",
        .summary =
            "What happened: states, faults, lost inputs, refusals and swaps, with their times",
-       .examples = "  plumb-rt events /etc/plumb/cell4\n"
-                   "  plumb-rt events /etc/plumb/cell4 --most 20 --json"},
+       .examples = "  plumb-rt events /var/lib/plumb/cell4\n"
+                   "  plumb-rt events /var/lib/plumb/cell4 --most 20 --json"},
       [options](const Globals&, Outcome& outcome) { show_events(*options, outcome); });
   verb.add_option("DIR", options->dir, "The folder that runs or ran").shows_default();
   verb.add_option("--file", options->file, "The journal, if [log] events of rt.toml names another")

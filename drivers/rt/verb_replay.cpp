@@ -90,8 +90,9 @@ void add_replay(Program& program) {
       {.name = "replay",
        .summary = "A record through the same session, offline: does it decide the same?",
        .examples =
-           "  plumb-rt replay /etc/plumb/cell4        # the whole record that its rt.toml names\n"
-           "  plumb-rt replay record.log --dir /etc/plumb/cell4\n"
+           "  plumb-rt replay /var/lib/plumb/cell4        # the whole record that its rt.toml "
+           "names\n"
+           "  plumb-rt replay record.log --dir /var/lib/plumb/cell4\n"
            "  plumb-rt replay record.log --dir deployed --model better.plumb  # swapped to"},
       [options](const Globals&, Outcome& outcome) { play(*options, outcome); });
   verb.add_option("FILE", options->files,

@@ -44,7 +44,13 @@ RtRequest request_of(const RtConfig& config, const int& cpu) {
 /// Tries in a child process what a real-time cycle cannot do without, so that a refusal comes
 /// before anything is opened.
 void need_rights(const RtConfig& config, Outcome& outcome) {
-  for (const RtStep& step : try_rt_process(request_of(config, config.cpu))) {
+  const auto steps = try_rt_process(request_of(config, config.cpu));
+  if (steps.empty())
+    throw Failure(Exit::kEnvironment,
+                  {.code = "E-RT-RIGHTS",
+                   .message = "what the machine grants could not be tried: no child process",
+                   .help = "ulimit -u; systemctl show plumb-rt@NAME -p SystemCallFilter"});
+  for (const RtStep& step : steps) {
     if (step.grant != Grant::kDenied) continue;
     const Finding finding = describe(step);
     const bool needed = step.kind == RtStepKind::kPriority || step.kind == RtStepKind::kAffinity;
@@ -226,7 +232,7 @@ void add_run(Program& program) {
   VerbOptions verb = program.verb(
       {.name = "run",
        .summary = "The real-time cycle with the model and the bus of a folder, until SIGTERM",
-       .examples = "  plumb-rt run /etc/plumb/cell4              # as rt.toml says\n"
+       .examples = "  plumb-rt run /var/lib/plumb/cell4              # as rt.toml says\n"
                    "  plumb-rt run deployed --check              # is all of it usable? sends "
                    "nothing"},
       [options](const Globals&, Outcome& outcome) { run(*options, outcome); });

@@ -90,12 +90,12 @@ void seal(const SealOptions& options, Outcome& outcome) {
 
 void add_seal(Program& program) {
   const auto options = std::make_shared<SealOptions>();
-  VerbOptions verb = program.verb(
-      {.name = "seal",
-       .summary = "Accept an edited rt.toml: check the folder and renew SHA256SUMS",
-       .examples = "  plumb-rt seal /etc/plumb/cell4         # after rt.toml was edited\n"
-                   "  plumb-rt seal /etc/plumb/cell4 --all   # the model was replaced, too"},
-      [options](const Globals&, Outcome& outcome) { seal(*options, outcome); });
+  VerbOptions verb =
+      program.verb({.name = "seal",
+                    .summary = "Accept an edited rt.toml: check the folder and renew SHA256SUMS",
+                    .examples = "  plumb-rt seal deploy         # after rt.toml was edited\n"
+                                "  plumb-rt seal deploy --all   # the model was replaced, too"},
+                   [options](const Globals&, Outcome& outcome) { seal(*options, outcome); });
   verb.add_option("DIR", options->dir, "The folder that 'plumb deploy' wrote").required();
   verb.add_flag("--all", options->all,
                 "Renew the sums of all files, not of rt.toml alone, and make a list that is lost");

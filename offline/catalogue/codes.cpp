@@ -616,6 +616,9 @@ constexpr Explanation kCodes[] = {
     {"E-UNFIT",
      "plumb-rt doctor --strict: the machine denies something that a cycle of this period needs. "
      "Without --strict the checks are listed with what to change."},
+    {"E-FIX-RIGHTS",
+     "plumb-rt doctor --fix writes files below /etc, which only root may. Nothing was written. Run "
+     "it with sudo, or look first with --dry-run, which needs no rights."},
     {"E-RT-KEY",
      "rt.toml has a key that plumb-rt does not know; nothing was sent. Rename it as proposed."},
     {"E-RT-TYPE", "A value of rt.toml is of the wrong type. The message says what is expected."},

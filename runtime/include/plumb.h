@@ -39,6 +39,13 @@
 extern "C" {
 #endif
 
+/* What the DLL exports on Windows; nothing elsewhere, and nothing for who calls it. */
+#if defined(_WIN32) && defined(PLUMB_BUILDS_DLL)
+#define PLUMB_API __declspec(dllexport)
+#else
+#define PLUMB_API
+#endif
+
 #define PLUMB_MAX_JOINTS 9
 #define PLUMB_MAX_TEMPERATURES 8
 
@@ -171,23 +178,23 @@ typedef struct plumb_counters {
  * a 0 within `capacity` bytes; may be null.
  * Returns OK, NULL, MISALIGNED, UNREADABLE, UNKNOWN_EFFECT, OTHER_ROBOT, NO_MEMORY.
  */
-plumb_result plumb_load_file(const char* path, const char* serial, plumb_robot** robot,
-                             char* message, size_t capacity);
+PLUMB_API plumb_result plumb_load_file(const char* path, const char* serial, plumb_robot** robot,
+                                       char* message, size_t capacity);
 /* The same from memory of any alignment, which may be freed afterwards. */
-plumb_result plumb_load_bytes(const void* bytes, size_t count, const char* serial,
-                              plumb_robot** robot, char* message, size_t capacity);
+PLUMB_API plumb_result plumb_load_bytes(const void* bytes, size_t count, const char* serial,
+                                        plumb_robot** robot, char* message, size_t capacity);
 
 /* Fills in the settings that every robot is loaded with, and the size. OK, NULL, MISALIGNED. */
-plumb_result plumb_settings_init(plumb_settings* settings);
+PLUMB_API plumb_result plumb_settings_init(plumb_settings* settings);
 
 /*
  * Changes the settings before the first cycle; they remain when models are swapped. After an error
  * nothing has changed. OK, NULL, MISALIGNED, BAD_SIZE, NOT_A_ROBOT, BAD_NUMBER, RUNNING.
  */
-plumb_result plumb_configure(plumb_robot* robot, const plumb_settings* settings);
+PLUMB_API plumb_result plumb_configure(plumb_robot* robot, const plumb_settings* settings);
 
 /* Frees the robot; no thread may use it any more. Null is allowed. OK, MISALIGNED, NOT_A_ROBOT. */
-plumb_result plumb_unload(plumb_robot* robot);
+PLUMB_API plumb_result plumb_unload(plumb_robot* robot);
 
 /* ---- swap: slow, uses the heap; one loader thread beside the running cycle ---- */
 
@@ -198,53 +205,55 @@ plumb_result plumb_unload(plumb_robot* robot);
  * same order. After an error the running model stays in use. Returns what plumb_load_file returns,
  * and also NOT_A_ROBOT and BUSY.
  */
-plumb_result plumb_swap_file(plumb_robot* robot, const char* path, char* message, size_t capacity);
-plumb_result plumb_swap_bytes(plumb_robot* robot, const void* bytes, size_t count, char* message,
-                              size_t capacity);
+PLUMB_API plumb_result plumb_swap_file(plumb_robot* robot, const char* path, char* message,
+                                       size_t capacity);
+PLUMB_API plumb_result plumb_swap_bytes(plumb_robot* robot, const void* bytes, size_t count,
+                                        char* message, size_t capacity);
 
 /*
  * Frees the previous model. Returns OK once the cycle has taken the last one, and BUSY until then.
  * It need not be called before another swap, which does the same first.
  */
-plumb_result plumb_collect(plumb_robot* robot);
+PLUMB_API plumb_result plumb_collect(plumb_robot* robot);
 
 /* ---- cycle: no heap, no lock, no system call; one thread ---- */
 
 /* Sets the size, marks all inputs as not arrived and all numbers as unknown. OK, NULL, MISALIGNED.
  */
-plumb_result plumb_input_init(plumb_input* input);
+PLUMB_API plumb_result plumb_input_init(plumb_input* input);
 
 /*
  * Steps the cycle once. `output` is written whenever it can be; after an error has_output is 0 and
  * the cycle did not step. Input and output may overlap: the input is read first.
  * OK, NULL, MISALIGNED, BAD_SIZE, NOT_A_ROBOT.
  */
-plumb_result plumb_correct(plumb_robot* robot, const plumb_input* input, plumb_output* output);
+PLUMB_API plumb_result plumb_correct(plumb_robot* robot, const plumb_input* input,
+                                     plumb_output* output);
 
 /* Ramps the correction out (on = 0) or in again. OK, NULL, MISALIGNED, NOT_A_ROBOT. */
-plumb_result plumb_enable(plumb_robot* robot, int on);
+PLUMB_API plumb_result plumb_enable(plumb_robot* robot, int on);
 
 /* Predicts the tool's pose at q with the context of the last cycle. Errors as plumb_correct. */
-plumb_result plumb_predict(const plumb_robot* robot, const plumb_joints* joints,
-                           plumb_prediction* prediction);
+PLUMB_API plumb_result plumb_predict(const plumb_robot* robot, const plumb_joints* joints,
+                                     plumb_prediction* prediction);
 
 /* Reads the counters. Errors as plumb_correct. */
-plumb_result plumb_read_counters(const plumb_robot* robot, plumb_counters* counters);
+PLUMB_API plumb_result plumb_read_counters(const plumb_robot* robot, plumb_counters* counters);
 
 /* ---- any thread, constant ---- */
 
 /* Number of joints; 0 if this is no robot. */
-int plumb_joint_count(const plumb_robot* robot);
+PLUMB_API int plumb_joint_count(const plumb_robot* robot);
 /* Serial of the robot, from its first model; empty if it has none or this is no robot. */
-const char* plumb_serial(const plumb_robot* robot);
+PLUMB_API const char* plumb_serial(const plumb_robot* robot);
 /* Name of sensor k of the first model; null after the last, or if this is no robot. */
-const char* plumb_temperature_name(const plumb_robot* robot, int k);
+PLUMB_API const char* plumb_temperature_name(const plumb_robot* robot, int k);
 /* Lower-case text, for example "near-singular"; "unknown" for numbers that are no status. */
-const char* plumb_status_text(int32_t status);
+PLUMB_API const char* plumb_status_text(int32_t status);
 /* Plain English, for example "made for another robot"; "unknown" for numbers that are no result. */
-const char* plumb_result_text(int32_t result);
+PLUMB_API const char* plumb_result_text(int32_t result);
 /* Version of the library, for example "0.1.0". */
-const char* plumb_version(void);
+PLUMB_API const char* plumb_version(void);
 
 #ifdef __cplusplus
 }

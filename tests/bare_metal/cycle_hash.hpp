@@ -16,7 +16,7 @@ inline constexpr std::uint64_t kSeed = 13;
 
 /// Of the predictions and corrections of tests::cycle_model(). All machines agree on
 /// it; it changes when the cycle's arithmetic does, and test_bare_metal_hash prints the new one.
-inline constexpr std::uint64_t kHash = 0xc0cbfe528d0312c5U;
+inline constexpr std::uint64_t kHash = 0x2c3290270efc1ba3U;
 
 struct Input {
   std::array<double, 6> q{};     // [rad]

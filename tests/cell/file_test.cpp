@@ -246,6 +246,10 @@ TEST(File, IsNamedShortlyBelowTheWorkingDirectory) {
   EXPECT_EQ(display_name(fs::current_path() / "a" / "b.csv"), "a/b.csv");
   EXPECT_EQ(display_name("/elsewhere/b.csv"), "/elsewhere/b.csv");
   EXPECT_EQ(display_name("b.csv"), "b.csv");
+  const fs::path here = fs::current_path();
+  fs::current_path("/");
+  EXPECT_EQ(display_name("/elsewhere/b.csv"), "/elsewhere/b.csv");
+  fs::current_path(here);
 }
 
 TEST(File, AFolderThatWritingMakesIsNamed) {

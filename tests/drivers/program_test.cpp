@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plumb/format/version.hpp"
+#include "program/machine_code.hpp"
 #include "tests/drivers/child.hpp"
 #include "tests/drivers/fake_machine.hpp"
 
@@ -132,8 +133,9 @@ TEST(PlumbRt, EndsWithFiveWhenThereIsNothingToLookAt) {
   EXPECT_EQ(ran.json()["error"]["code"], "E-ROOT");
 }
 
-TEST(PlumbRt, SaysItsVersion) {
-  EXPECT_EQ(plumb_rt({"--version"}).out, std::string("plumb-rt ") + format::kVersion + "\n");
+TEST(PlumbRt, SaysItsVersionAndForWhichProcessorsItIsCompiled) {
+  EXPECT_EQ(plumb_rt({"--version"}).out,
+            std::string("plumb-rt ") + format::kVersion + " (" + machine_code() + ")\n");
 }
 
 TEST(PlumbRt, EndsWithFiveWhenItsOutputCannotBeWritten) {

@@ -91,6 +91,14 @@ TEST_F(RecordFiles, FollowEachOtherWithinTheTotalAndTheOldestGo) {
     EXPECT_EQ(parts[i].number, parts[i - 1].number + 1) << "none is missing between them";
 }
 
+TEST_F(RecordFiles, AFileOfAnotherNameIsNoneOfThem) {
+  for (const char* end : {"", ".1", ".10", ".01", ".1x", ".x", "-1", ".-1"})
+    std::ofstream(settings.file.string() + end) << "(0.000000) tick 000#\n";
+  const auto parts = record_parts(settings.file);
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[2].number, 10U);
+}
+
 TEST_F(RecordFiles, WhatIsTooOldGoesAndThePresentFileStays) {
   settings.max_age_days = 30;
   for (const char* const old : {"record.log", "record.log.1"}) std::ofstream(folder / old) << "a\n";

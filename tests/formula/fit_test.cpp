@@ -163,7 +163,7 @@ TEST(FormulaFit, EveryTargetIsFittedAndRunsInTheModelFileAsItWasFitted) {
       EXPECT_LT((p - fitted.row(i).transpose()).norm(), 1e-9) << target;
       const Transformd X_BD = corrector.nominal().forward(q);
       const Correction c = corrector.solve(X_BD, q, SeedKind::kMeasured);
-      if (refused(c.status)) continue;
+      if (refused(c.status) || c.status == Status::kPartial) continue;
       ++solved;
       EXPECT_LT((arm.predict(std::span(c.q).first(6)).X_BT.p - X_BD.p).norm(), 1e-9) << target;
     }

@@ -13,7 +13,7 @@ unset(ENV{CXXFLAGS})
 set(how -DPLUMB_SOURCE=${SOURCE})
 if(WAY STREQUAL package)
   # Moved after the installation: a package that only works where it was installed fails here.
-  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed --component runtime)
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed --component dev)
   file(RENAME ${WORK}/installed ${WORK}/prefix)
   set(how -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 endif()

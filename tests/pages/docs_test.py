@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tables of the README and of the pages agree with the folders and with themselves."""
+import json
 import pathlib
 import re
 import unittest
@@ -43,6 +44,27 @@ class Pages(unittest.TestCase):
             words = re.sub(r"(?ms)^```.*?^```", "", page.read_text())  # code has no links
             for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", words):
                 self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+
+
+class AtNight(unittest.TestCase):
+    """docs/operate.md has an answer to every alarm, every fault and every input that may be missing."""
+    PAGE = (SOURCE / "docs/operate.md").read_text()
+
+    def rows_of(self, heading):
+        section = self.PAGE.partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
+        first = re.findall(r"(?m)^\| ([^|]+) \|", section)
+        return {word for cell in first for word in re.findall(r"`?([\w-]+)`?", cell)}
+
+    def test_of_every_alert(self):
+        alerts = re.findall(r"alert: (\w+)", (SOURCE / "docs/examples/plumb-rt-alerts.yml").read_text())
+        self.assertGreater(len(alerts), 5)
+        self.assertLessEqual(set(alerts), self.rows_of("Alarms"))
+
+    def test_of_every_fault_and_missing_input(self):
+        status = json.loads((SOURCE / "docs/schemas/rt-status.json").read_text())
+        words = status["properties"]["result"]["properties"]
+        self.assertLessEqual(set(words["fault"]["enum"]) - {"none", "unknown"}, self.rows_of("Faults"))
+        self.assertLessEqual(set(words["lost"]["items"]["enum"]), self.rows_of("Missing inputs"))
 
 
 class BlindStudy(unittest.TestCase):

@@ -250,7 +250,7 @@ def installed(plumb):
 
 def controller_side(plumb):
     """plumb-twin as Modbus server, and plumb-rt as its client."""
-    plumb.run("plumb-rt", "doctor")
+    plumb.run("plumb-rt", "doctor", "--fix", "--dry-run")
     plumb.run("plumb-twin", "new", "twin", "--dry-run")
     plumb.run("plumb-twin", "new", "twin")
     plumb.run("plumb-twin", "measure", "twin")

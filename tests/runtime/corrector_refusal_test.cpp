@@ -89,7 +89,8 @@ void tally(const test::ArmKind& kind, const format::Model& model, test::RandomAr
     const Status due = judge.due(wanted, seed, margin);
     if (correction.status == Status::kPartial) {
       const Joints found(correction.q.begin(), correction.q.begin() + static_cast<long>(n));
-      const auto without = arm.pose(seed).p - test::NominalController(model.nominal).pose(seed).p;
+      const Vector3 without =
+          arm.pose(seed).p - test::NominalController(model.nominal).pose(seed).p;
       bool near_limit = false;
       ++out.partial;
       out.wrong_in_part += (arm.pose(found).p - X_BD.p).norm() > without.norm() + 1e-6 ||

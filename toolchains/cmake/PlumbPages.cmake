@@ -2,8 +2,8 @@
 # Manual pages and shell completions: each program prints its own, from the tables that its help comes from. The target
 # "man" writes them into the folder share of the build folder. Where the programs cannot be run, there are none.
 
-# plumb_pages(PROGRAM): the pages of one program, and where they are installed.
-function(plumb_pages program)
+# plumb_pages(PROGRAM COMPONENT): the pages of one program, and where they are installed.
+function(plumb_pages program component)
   set(share ${PROJECT_BINARY_DIR}/share)
   set(man ${share}/man/man1/${program}.1)
   set(bash ${share}/bash-completion/completions/${program})
@@ -21,20 +21,24 @@ function(plumb_pages program)
     DEPENDS ${program} COMMENT "Manual page and completions of ${program}" VERBATIM)
   set_property(GLOBAL APPEND PROPERTY plumb_pages ${man} ${bash} ${zsh} ${fish})
   # Optional: a build of some targets only can be installed too.
-  install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools OPTIONAL)
+  install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component} OPTIONAL)
   foreach(page ${bash} ${zsh} ${fish})
     cmake_path(GET page PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${share})
-    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder} COMPONENT tools OPTIONAL)
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder} COMPONENT ${component} OPTIONAL)
   endforeach()
 endfunction()
 
-if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING AND NOT PLUMB_SANITIZE)
-  foreach(program plumb plumb-twin plumb-rt)
+# A cross build runs its programs in the emulator of its toolchain file, if that names one.
+if(PROJECT_IS_TOP_LEVEL AND NOT PLUMB_SANITIZE AND (CMAKE_CROSSCOMPILING_EMULATOR OR NOT CMAKE_CROSSCOMPILING))
+  foreach(program plumb plumb-twin)
     if(TARGET ${program})
-      plumb_pages(${program})
+      plumb_pages(${program} plumb)
     endif()
   endforeach()
+  if(TARGET plumb-rt)
+    plumb_pages(plumb-rt plumb-rt)
+  endif()
   get_property(pages GLOBAL PROPERTY plumb_pages)
   if(PLUMB_NUMERIC_TESTS)
     add_custom_target(man ALL DEPENDS ${pages})

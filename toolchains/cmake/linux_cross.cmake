@@ -18,6 +18,10 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(ENV{PKG_CONFIG_LIBDIR} ${cross_root}/usr/lib/${cross_triple}/pkgconfig:${cross_root}/usr/share/pkgconfig)
 set(ENV{PKG_CONFIG_SYSROOT_DIR} ${cross_root})
 
+# Headers that differ between machines, such as a part of OpenSSL's.
+string(APPEND CMAKE_C_FLAGS_INIT " -isystem ${cross_root}/usr/include/${cross_triple}")
+string(APPEND CMAKE_CXX_FLAGS_INIT " -isystem ${cross_root}/usr/include/${cross_triple}")
+
 set(cross_libraries ${cross_root}/usr/lib/${cross_triple})
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-L${cross_libraries} -Wl,-rpath-link,${cross_libraries}")
 set(CMAKE_CROSSCOMPILING_EMULATOR
