@@ -6,35 +6,15 @@
 #include <vector>
 
 #include "program/outcome.hpp"
-#include "rt/install_history.hpp"
-#include "rt/place.hpp"
+#include "rt/version_change.hpp"
 
 namespace plumb::drivers::rt {
-
-/// How the version of a place that is current is changed.
-struct ChangeRequest {
-  Place place;
-  std::string etc;        // folder of the machine's settings
-  double change_m = 0.0;  // the change of corrections that the operator allows; 0: that of rt.toml
-  enum class Running : std::uint8_t {
-    kSwap,    // a plumb-rt that runs goes on with the new model at once, or nothing changes
-    kRestart  // it runs on as it is until it is started again
-  } running = Running::kSwap;
-};
 
 struct InstallRequest {
   ChangeRequest change;
   std::filesystem::path from;  // the deploy folder
   int keep = 5;                // versions that stay at least
   enum class Older : std::uint8_t { kRefused, kAllowed } older = Older::kRefused;
-};
-
-/// What an install or a rollback has done.
-struct Changed {
-  HistoryLine line;
-  bool nothing = false;              // the version was current, and runs if anything does
-  double change_mm = 0.0;            // by which the swap changes corrections; 0 without one
-  std::vector<std::string> removed;  // versions that were too old to keep
 };
 
 /// Copies a deploy folder into the place, verifies the copy as `run` would, and makes it current.

@@ -130,7 +130,12 @@ CurrentLink::~CurrentLink() {
 void CurrentLink::commit() {
   if (::rename(draft_.c_str(), link_.c_str()) != 0) refuse_file_write(link_, errno);
   draft_.clear();
-  sync_folder(link_.parent_path());
+  // From here on the change has taken effect, so a failure would be told of something that was
+  // done.
+  try {
+    sync_folder(link_.parent_path());
+  } catch (const Failure&) {
+  }
 }
 
 void refuse_open_place(const Place& place) {
