@@ -30,8 +30,8 @@ std::set<std::string> codes_in(const fs::path& folder) {
 TEST(Codes, AreAllExplainedAndAllEmitted) {
   auto emitted = codes_in(fs::path(PLUMB_SOURCE_DIR) / "offline" / "cell");
   emitted.merge(codes_in(fs::path(PLUMB_SOURCE_DIR) / "drivers" / "program"));
-  for (const char* elsewhere : {"E-USAGE", "E-USAGE-VERB", "E-INTERRUPTED", "E-FILES", "E-MEMORY",
-                                "E-KEY", "E-KEY-RIGHTS"})
+  for (const char* elsewhere :
+       {"E-USAGE", "E-USAGE-VERB", "E-INTERRUPTED", "E-FILES", "E-MEMORY", "E-KEY", "E-KEY-RIGHTS"})
     emitted.erase(elsewhere);  // of the verbs, explained in the catalogue
   std::set<std::string> explained;
   for (const auto& help : cell_codes()) explained.emplace(help.code);
