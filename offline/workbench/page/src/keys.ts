@@ -24,9 +24,12 @@ function press(id: string): void {
   if (button instanceof HTMLButtonElement && !button.disabled) button.click();
 }
 
+/** Asked of the page itself: a signal would hear of a closed dialog one key too late. */
+const dialogIsOpen = (): boolean => document.querySelector("dialog[open]") !== null;
+
 export function listenToKeys(undo: () => void): void {
   window.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || isWriting(event.target) || helpIsOpen.value) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isWriting(event.target) || dialogIsOpen()) return;
     const number = Number(event.key);
     if (number >= 1 && number <= kScreens.length) goTo(kScreens[number - 1]);
     else if (event.key === "j") step(1);
