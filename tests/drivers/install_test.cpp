@@ -20,6 +20,12 @@
 namespace plumb::tests {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 namespace fs = std::filesystem;
 using drivers::rt::Place;
 
@@ -300,6 +306,7 @@ TEST_F(Install, AnotherRobotIsRefusedByWhatRuns) {
 /// Between the swap and the change of `current` the two differ. Both are sound, status says it, and
 /// the next install brings them together.
 TEST_F(Install, KilledWhileWhatRunsSwapsNothingIsLost) {
+  if (kSanitized) GTEST_SKIP() << "hundreds of starts, each of which a sanitizer makes slow";
   for (const Deployed* one : {&first, &second}) write_endless_targets(*one);
   write_made(first, kFirst);
   write_made(second, kSecond);
@@ -530,6 +537,7 @@ TEST_F(Install, WhoeverMayNotWriteThePlaceMayNotInstall) {
 /// Killed before each system call that changes a file, one after the other, the place is whole and
 /// at the old version or at the new one, and the next install works.
 TEST_F(Install, KilledBeforeEveryCallThatChangesAFileThePlaceIsWhole) {
+  if (kSanitized) GTEST_SKIP() << "hundreds of starts, each of which a sanitizer makes slow";
   const auto words = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"--to", to(), "--etc", machine.etc().string()});
     return more;
@@ -570,6 +578,7 @@ TEST_F(Install, KilledBeforeEveryCallThatChangesAFileThePlaceIsWhole) {
 
 /// The same at moments by chance, of installs and rollbacks in a row.
 TEST_F(Install, KilledAnywhereThePlaceIsWhole) {
+  if (kSanitized) GTEST_SKIP() << "hundreds of starts, each of which a sanitizer makes slow";
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(install(first).exit, 0);
   const auto usual = std::chrono::duration_cast<std::chrono::microseconds>(
