@@ -147,7 +147,7 @@ void recheck_cell(const RecheckArguments& options, const Globals& globals, Outco
                                   .words = show::recheck_sentence(cell, found, parent),
                                   .before = found.before,
                                   .expected_m = found.expected_m,
-                                  .limit_m = found.limit_m});
+                                  .limit_m = found.control_m});
     outcome.result["run"] = run.number;
     outcome.text +=
         fmt::format("\nkept as run {}, a recheck of run {}\n", run.number, parent.number);

@@ -83,6 +83,7 @@ const std::vector<Entry>& entries() {
       {{"waterfall", "Held-out error as effects are added, over the runs of these data",
         FigureRow::Needs::kEarlierRuns},
        waterfall_of},
+      {{"history", "Mean error at every recheck, with its control limit"}, of_run(history_figure)},
       {{"order", "What is left in the order of measuring, with jumps and drifts"},
        of_run(order_figure)},
       {{"context-temperature", "What is left over each temperature that was measured"},
@@ -162,6 +163,7 @@ std::string why_empty(const std::string& name, const RunResults& results) {
     return unless(context_varies(results, Quantity::kPayload), "the payload never changed");
   if (name == "context-time")
     return unless(context_varies(results, Quantity::kTime), "no time was recorded");
+  if (name == "history") return unless(!results.rechecks.empty(), "the run was never rechecked");
   if (name == "formulas") return unless(has_formula(results), "the model has no formula");
   if (name == "leaf-map") {
     const auto& trees = results.run.fit.calibration.state.arm.trees;

@@ -34,4 +34,8 @@ std::vector<WaterfallStep> waterfall_steps(const RunResults& results,
 std::string waterfall(const RunResults& results, const std::vector<WaterfallStep>& steps,
                       double width);
 
+/// The mean error of the run's rechecks one after the other, before and after what had changed was
+/// refitted, with the control limit: what a check exceeds by chance once in some hundred.
+std::string history_figure(const RunResults& results, double width);
+
 }  // namespace plumb::offline::figures

@@ -5,6 +5,7 @@
 
 #include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/earlier_runs.hpp"
 
 namespace plumb::offline::figures {
 
@@ -17,7 +18,8 @@ RunResults results_of(const Cell& cell, const Measurements& measured, const Run&
                  .before_M = residuals(measured, predict_points(nominal, measured)),
                  .after_M = residuals(measured, run.fit.predicted_M),
                  .held = held_rows(split),
-                 .fit = {}};
+                 .fit = {},
+                 .rechecks = rechecks_of(run, cell)};
   std::vector<bool> is_held(split.used.size(), false);
   for (const int row : out.held) is_held[static_cast<std::size_t>(row)] = true;
   for (int row = 0; row < measured.size(); ++row)

@@ -22,6 +22,7 @@ struct RunResults {
   Rows3 after_M;          // of the run; where a pose was held out, by a model that never saw it
   std::vector<int> held;  // rows with a held-out error, ascending
   std::vector<int> fit;   // rows in use that have none
+  std::vector<Run> rechecks = {};  // of this run, and of its rechecks, oldest first
 
   const std::string& pose(int row) const { return measured.pose[static_cast<std::size_t>(row)]; }
   double before(int row) const { return before_M.row(row).norm(); }
@@ -31,8 +32,8 @@ struct RunResults {
   const std::vector<int>& judged() const { return held.empty() ? fit : held; }
 };
 
-/// Cost: one small fit of tracker frame and target. Throws as `place_nominal`. `measured` must
-/// stand on the base of the run.
+/// Cost: one small fit of tracker frame and target; later runs are read. Throws as `place_nominal`.
+/// `measured` must stand on the base of the run.
 RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run);
 
 /// What each row of the covariance of the run is a number of; nothing for frame and target, which

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/earlier_runs.hpp"
 
+#include <algorithm>
+
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -21,6 +23,24 @@ std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const Measureme
       if (is_of_data(run, measured)) out.push_back(std::move(run));
     } catch (const Failure&) {
       continue;  // damaged: no step of this model
+    }
+  }
+  return out;
+}
+
+std::vector<Run> rechecks_of(const Run& calibrated, const Cell& cell) {
+  std::vector<Run> out;
+  std::vector<int> line{calibrated.number};
+  for (const int number : list_runs(cell)) {
+    if (number <= calibrated.number) continue;
+    try {
+      Run run = load_run(cell, number);
+      if (!run.recheck || std::find(line.begin(), line.end(), run.recheck->parent) == line.end())
+        continue;
+      line.push_back(number);
+      out.push_back(std::move(run));
+    } catch (const Failure&) {
+      continue;  // damaged: it cannot be drawn
     }
   }
   return out;

@@ -14,4 +14,8 @@ bool is_of_data(const Run& run, const MeasurementFiles& measured);
 /// a model may have grown. Cost: every run before it is read.
 std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured);
 
+/// Rechecks of this calibration, and of its rechecks, that can be read, oldest first. Cost: every
+/// run after it is read.
+std::vector<Run> rechecks_of(const Run& calibrated, const Cell& cell);
+
 }  // namespace plumb::offline

@@ -20,7 +20,7 @@ struct RecheckOf {
   std::string words;        // the same as one sentence
   ErrorStats before;        // error of the parent at the readings
   double expected_m = 0.0;  // mean error that the parent promised there
-  double limit_m = 0.0;     // above it a mean error is no accident, see recheck.hpp
+  double limit_m = 0.0;     // control limit: three standard deviations above that
 };
 
 /// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made; a

@@ -185,17 +185,18 @@ Judged Judge::judge(const std::vector<Change>& given) const {
 void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
                       const Eigen::VectorXd& in_state, Judged& out) const {
   out.B = columns_at(state, changes);
-  out.J = derivatives(readings_.rows, state, known_.parameters);
-  const Eigen::MatrixXd uncertain = out.J * known_.covariance * out.J.transpose();
+  const Eigen::MatrixXd J = derivatives(readings_.rows, state, known_.parameters);
   const Eigen::VectorXd missed = residual_at(state) + out.B * in_state;
   std::vector<double> views;
   for (const auto& view : readings_.expected) {
-    const Eigen::MatrixXd S = view.covariance + uncertain;
+    const Eigen::MatrixXd J_view = view.share.asDiagonal() * J;
+    const Eigen::MatrixXd S = view.covariance + J_view * known_.covariance * J_view.transpose();
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
     views.push_back(ln_evidence(llt, missed - view.mean, out.B, changes));
     if (views.back() < *std::max_element(views.begin(), views.end())) continue;
     out.E = view.covariance;
     out.S = S;
+    out.J = J_view;
     out.r = missed - view.mean;
     out.mean = view.mean;
   }

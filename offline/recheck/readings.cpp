@@ -100,14 +100,18 @@ Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurem
   const double lacks = out.lacks_m * out.lacks_m, noise = out.noise_m * out.noise_m;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(out.lines());
   const Eigen::VectorXd anew = Eigen::VectorXd::Constant(out.poses, lacks);
-  out.expected.push_back({zero, covariance_of(out, noise_m, pose, anew)});
+  out.expected.push_back(
+      {zero, covariance_of(out, noise_m, pose, anew), Eigen::VectorXd::Ones(out.lines())});
 
-  // Where a pose was measured before, what the model lacks there has been seen.
+  // What the run gets wrong at one of its poses, f, is J e + g: e is the error of its numbers,
+  // whose covariance is C = (J^T J)^-1 (s^2 + n^2), and g what the model lacks, of variance s^2.
+  // Seen there with noise n, it left the residual r. Given all residuals, f has the mean (1 - k) r
+  // and the covariance k s^2 I + k^2 J C J^T with k = n^2 / (s^2 + n^2).
   const bool whole = out.axes == 3 && own.has_axis == out.rows.has_axis;
   if (!whole || lacks <= 0.0) return out;
   const Rows3 error_B = to_base(fitted, own, error_M);
   const Matrix3 R_MB = from_pose(state.X_MB).R;
-  Rows3 mean = Rows3::Zero(out.rows.size(), 3);
+  Rows3 mean = Rows3::Zero(out.rows.size(), 3), share = Rows3::Ones(out.rows.size(), 3);
   Eigen::VectorXd left = anew;
   bool repeats = false;
   for (int i = 0; i < out.rows.size(); ++i) {
@@ -120,13 +124,15 @@ Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurem
       }
     if (times == 0) continue;
     repeats = true;
-    const double variance = 1.0 / (1.0 / lacks + times / noise);
-    left(pose[static_cast<std::size_t>(i)]) = variance;
-    mean.row(i) = (R_MB * (variance / noise * sum)).transpose();
+    const double k = noise / (times * lacks + noise);
+    left(pose[static_cast<std::size_t>(i)]) = k * lacks;
+    share.row(i).setConstant(k);
+    mean.row(i) = (R_MB * ((1.0 - k) / times * sum)).transpose();
   }
   if (repeats)
-    out.expected.push_back(
-        {lines_of(mean, out.rows, out.axes), covariance_of(out, noise_m, pose, left)});
+    out.expected.push_back({lines_of(mean, out.rows, out.axes),
+                            covariance_of(out, noise_m, pose, left),
+                            lines_of(share, out.rows, out.axes)});
   return out;
 }
 

@@ -16,6 +16,9 @@ namespace plumb::offline::recheck {
 struct ExpectedError {
   Eigen::VectorXd mean;        // (lines,) [m], measurement frame
   Eigen::MatrixXd covariance;  // (lines, lines) [m^2]
+  /// Which share of the uncertainty of the run's numbers counts, shape (lines,): where a pose is
+  /// measured again, what the numbers get wrong there has been seen already.
+  Eigen::VectorXd share;
 };
 
 /// The new readings, with what is expected of them. Lines stand pose by pose, `axes` lines each.

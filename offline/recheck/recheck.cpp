@@ -365,7 +365,11 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
   // The mean length of a vector of `axes` normal numbers, of the covariance that is expected.
   const double mean_of_unit =
       std::sqrt(2.0) * std::exp(std::lgamma(0.5 * (axes + 1.0)) - std::lgamma(0.5 * axes));
-  out.expected_m = mean_of_unit * std::sqrt(search.nothing().S.diagonal().mean());
+  const Judged& nothing = search.nothing();
+  out.expected_m = mean_of_unit *
+                   std::sqrt((nothing.S.diagonal().array() + nothing.mean.array().square()).mean());
+  out.control_m = out.expected_m *
+                  (1.0 + 3.0 * std::sqrt((axes / (mean_of_unit * mean_of_unit) - 1.0) / out.poses));
 
   const Changes only_assumed(search.found().begin(),
                              search.found().begin() + static_cast<long>(search.assumed()));

@@ -52,6 +52,7 @@ struct Recheck {
   ErrorStats before;            // its error at the readings; frame and target as assumed
   ErrorStats after;             // each reading predicted by a refit without it
   double expected_m = 0.0;      // mean error that the run promises at these readings
+  double control_m = 0.0;       // three standard deviations of that mean above it
   Rows3 predicted_M;            // of the readings, each by a refit without it [m]
   Calibration calibration;      // of the run, with what has changed refitted
 };

@@ -35,8 +35,9 @@ constexpr std::array kPlaces{
     Place{"observability", Page::kMissing}, Place{"waterfall", Page::kAdded},
     Place{"leaf-map", Page::kAdded},        Place{"formulas", Page::kAdded},
     Place{"parameters", Page::kParameters}, Place{"correlation", Page::kParameters},
-    Place{"cost", Page::kController},       Place{"latency", Page::kController},
-    Place{"uncertainty", Page::kLimits},    Place{"refusals", Page::kLimits}};
+    Place{"history", Page::kVerdict},       Place{"cost", Page::kController},
+    Place{"latency", Page::kController},    Place{"uncertainty", Page::kLimits},
+    Place{"refusals", Page::kLimits}};
 
 /// Joints whose own position explains something of the error, the one that explains most first.
 std::vector<std::string> joints_that_matter(const ReportData& data) {
