@@ -63,7 +63,7 @@ Fit fit_of(const Run& parent, const Recheck& found) {
   out.split.held.assign(static_cast<std::size_t>(found.readings), false);
   out.split.used.assign(static_cast<std::size_t>(found.readings), true);
   out.held = out.held_without_outliers = out.geometry_held = found.after;
-  out.fit.n = found.after.n;
+  out.fit = found.fitted;
   out.floor = parent.fit.floor;
   out.unavoidable_ratio = parent.fit.unavoidable_ratio;
   out.still = parent.fit.still;
@@ -85,9 +85,9 @@ void note_few(const MeasurementFiles& rows, const Recheck& found, Outcome& outco
   outcome.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-RECHECK-ODD",
-       .message = fmt::format("{} contradict{} all other readings and {} not used",  // names below
-                              fmt::join(names, ", "), names.size() == 1 ? "s" : "",
-                              names.size() == 1 ? "was" : "were"),
+       .message =
+           fmt::format("{} contradict{} all other readings and {} not used", fmt::join(names, ", "),
+                       names.size() == 1 ? "s" : "", names.size() == 1 ? "was" : "were"),
        .help = "measure there again"});
 }
 

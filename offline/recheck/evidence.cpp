@@ -154,7 +154,7 @@ Judged Judge::judge(const std::vector<Change>& given) const {
     for (Eigen::Index k = 0; k < count_of(change); ++k, ++count)
       if (change.part != Part::kReading) of_state.push_back(count);
   }
-  const Eigen::VectorXd wide = spread_of(changes, widest);
+  out.prior = spread_of(changes, widest);
   out.change = Eigen::VectorXd::Zero(count);
   Eigen::VectorXd in_state = out.change;  // how far `state` has gone
   for (int step = 0;; ++step) {
@@ -162,13 +162,13 @@ Judged Judge::judge(const std::vector<Change>& given) const {
     const Eigen::LLT<Eigen::MatrixXd> S(out.S);
     const Eigen::MatrixXd SB = S.solve(out.B);
     Eigen::MatrixXd information = out.B.transpose() * SB;
-    information.diagonal() += wide.array().square().inverse().matrix();
+    information.diagonal() += out.prior.array().square().inverse().matrix();
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(information);
     out.gain = ldlt.solve(SB.transpose());
     out.x_covariance = ldlt.solve(Eigen::MatrixXd::Identity(count, count));
     out.change = out.gain * out.r;
     const Eigen::VectorXd left = out.r - out.B * out.change;
-    out.chi2 = left.dot(S.solve(left)) + out.change.cwiseQuotient(wide).squaredNorm();
+    out.chi2 = left.dot(S.solve(left)) + out.change.cwiseQuotient(out.prior).squaredNorm();
     const Eigen::VectorXd more = (out.change - in_state)(of_state);
     const Eigen::VectorXd std = out.x_covariance.diagonal().cwiseSqrt()(of_state);
     const bool settled =

@@ -35,6 +35,7 @@ struct Judged {
   Eigen::VectorXd mean;             // (lines,) [m], expected, of the likelier view
   Eigen::MatrixXd S;                // (lines, lines) [m^2], of the likelier view
   Eigen::MatrixXd E;                // the same without the uncertainty of the run
+  Eigen::VectorXd prior;            // 1 sigma of each number beforehand, SI
   Eigen::MatrixXd gain;             // (numbers, lines): x = gain r
   double chi2 = 0.0;                // of what is left, (r - B x)^T S^-1 (r - B x), prior counted
 };

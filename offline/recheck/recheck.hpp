@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "recheck/evidence.hpp"
+#include "recheck/search.hpp"
 #include "recheck/visible.hpp"
 
 namespace plumb::offline::recheck {
@@ -34,11 +34,6 @@ struct Found {
 /// Behind by less than this, an explanation is not ruled out [nats].
 inline constexpr double kUndecided = 3.0;
 
-/// How often at most a check finds something although nothing has changed, for as long as the noise
-/// is what the run says. By Markov's inequality a Bayes factor exceeds 50 in at most one of 50 such
-/// checks.
-inline constexpr double kFalseAlarm = 0.02;
-
 struct Recheck {
   enum class Verdict { kTrue, kChanged, kUndecidable } verdict = Verdict::kUndecidable;
   std::vector<Found> found;       // the strongest first; single readings are not among them
@@ -51,6 +46,7 @@ struct Recheck {
   ErrorStats then;              // held-out error of the run that is rechecked
   ErrorStats before;            // its error at the readings; frame and target as assumed
   ErrorStats after;             // each reading predicted by a refit without it
+  ErrorStats fitted;            // of the readings by the refit itself: never accuracy
   double expected_m = 0.0;      // mean error that the run promises at these readings
   double control_m = 0.0;       // three standard deviations of that mean above it
   Rows3 predicted_M;            // of the readings, each by a refit without it [m]

@@ -85,15 +85,13 @@ std::string verdict_of(const Run& a, const Run& b) {
                          : "");
 }
 
-Json recheck_of_json(const Run& run) {
-  if (!run.recheck) return nullptr;
-  const RecheckOf& recheck = *run.recheck;
+Json recheck_of_json(const RecheckOf& recheck) {
   return {{"parent_run", recheck.parent},
           {"verdict", recheck.verdict},
           {"verdict_text", recheck.words},
           {"before", stats_json(recheck.before)},
           {"expected_mean_mm", to_mm(recheck.expected_m)},
-          {"limit_mean_mm", to_mm(recheck.limit_m)}};
+          {"control_limit_mm", to_mm(recheck.limit_m)}};
 }
 
 /// What the last column says of a run.
@@ -108,16 +106,17 @@ std::string content_of(const Run& run) {
 
 Json runs_json(const std::vector<ListedRun>& runs) {
   Json list = Json::array();
-  for (const auto& [run, state] : runs)
+  for (const auto& [run, state] : runs) {
     list.push_back({{"run", run.number},
                     {"created", run.created},
                     {"effects", run.effects},
                     {"base", name_of(run.fit.base)},
                     {"current", state == ListedRun::State::kCurrent},
-                    {"recheck", recheck_of_json(run)},
                     {"held_out", stats_json(run.fit.held)},
                     {"fit", stats_json(run.fit.fit)},
                     {"cell_sha256", run.cell_sha256}});
+    if (run.recheck) list.back()["recheck"] = recheck_of_json(*run.recheck);
+  }
   return {{"runs", list}};
 }
 

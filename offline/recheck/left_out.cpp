@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/left_out.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace plumb::offline::recheck {
+namespace {
+
+/// The numbers of the changes by all lines but those of one reading.
+Eigen::VectorXd refitted_without(const Judged& judged, int reading, int axes) {
+  if (judged.change.size() == 0) return judged.change;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index line = 0; line < judged.r.size(); ++line)
+    if (line / axes != reading) kept.push_back(line);
+  const Eigen::LLT<Eigen::MatrixXd> S(judged.S(kept, kept));
+  const Eigen::MatrixXd B = judged.B(kept, Eigen::all);
+  Eigen::MatrixXd information = B.transpose() * S.solve(B);
+  information.diagonal() += judged.prior.array().square().inverse().matrix();
+  return information.ldlt().solve(B.transpose() * S.solve(judged.r(kept)));
+}
+
+}  // namespace
+
+Rows3 errors_of(const Readings& readings, const Eigen::VectorXd& lines) {
+  Rows3 out = Rows3::Zero(readings.rows.size(), 3);
+  Eigen::Index line = 0;
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (readings.rows.has_axis[static_cast<std::size_t>(k)]) out(i, k) = lines(line++);
+  return out;
+}
+
+Rows3 left_out_errors(const Readings& readings, const std::vector<Change>& changes,
+                      const Judged& judged) {
+  const int axes = readings.axes;
+  Eigen::VectorXd errors = judged.r + judged.mean;
+  for (int i = 0; i < readings.rows.size(); ++i) {
+    Eigen::VectorXd x = refitted_without(judged, i, axes);
+    for (std::size_t c = 0; c < changes.size(); ++c)
+      if (changes[c].part == Part::kReading) x.segment(judged.begin[c], axes).setZero();
+    errors.segment(i * axes, axes) -= judged.B.middleRows(i * axes, axes) * x;
+  }
+  return errors_of(readings, errors);
+}
+
+ErrorStats stats_of(const Rows3& errors, const std::vector<int>& leave_out) {
+  std::vector<double> norms;
+  for (int i = 0; i < errors.rows(); ++i)
+    if (std::find(leave_out.begin(), leave_out.end(), i) == leave_out.end())
+      norms.push_back(errors.row(i).norm());
+  return summarise(std::move(norms));
+}
+
+}  // namespace plumb::offline::recheck

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace plumb::offline::recheck {
+namespace {
+
+const double kFound = -std::log(kFalseAlarm);
+constexpr int kMostChanges = 3;
+constexpr double kOddShare = 0.2;  // of the readings; more are no accident
+
+bool same(const Change& a, const Change& b) {
+  return a.part == b.part && a.joint == b.joint && a.effect == b.effect && a.row == b.row;
+}
+
+bool is_reading(const Change& change) { return change.part == Part::kReading; }
+
+std::vector<Change> with(std::vector<Change> all, const Change& more) {
+  all.push_back(more);
+  return all;
+}
+
+std::vector<Change> without(std::vector<Change> all, std::size_t k) {
+  all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+  return all;
+}
+
+}  // namespace
+
+Search::Search(const Judge& judge, const Readings& readings, std::vector<Change> possible,
+               std::vector<Change> assumed)
+    : judge_(judge),
+      possible_(std::move(possible)),
+      found_(std::move(assumed)),
+      assumed_(found_.size()) {
+  // Of three readings none can be said to be the wrong one.
+  if (readings.poses < 4) return;
+  for (int i = 0; i < readings.rows.size(); ++i)
+    possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
+  most_odd_ = static_cast<int>(kOddShare * readings.rows.size());
+}
+
+void Search::run() {
+  last_ = nothing_ = judge_.judge(found_);
+  while (changes() < kMostChanges && add_best()) {
+    exchange();
+    drop_needless();
+  }
+}
+
+bool Search::holds(const Change& change) const {
+  return std::any_of(found_.begin(), found_.end(),
+                     [&](const Change& other) { return same(other, change); });
+}
+
+int Search::changes() const {
+  return static_cast<int>(std::count_if(found_.begin() + static_cast<std::ptrdiff_t>(assumed_),
+                                        found_.end(),
+                                        [](const Change& change) { return !is_reading(change); }));
+}
+
+bool Search::may_be_odd() const {
+  return std::count_if(found_.begin(), found_.end(), is_reading) < most_odd_;
+}
+
+bool Search::add_best() {
+  std::vector<double> ln;
+  std::optional<Judged> best;
+  const Change* which = nullptr;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const auto& change : possible_) {
+    if (holds(change) || (is_reading(change) && !may_be_odd())) continue;
+    Judged judged = judge_.judge(with(found_, change));
+    ln.push_back(judged.ln_evidence - last_.ln_evidence + std::log(change.chance));
+    if (ln.back() <= most) continue;
+    most = ln.back();
+    best = std::move(judged);
+    which = &change;
+  }
+  double sum = 0.0;
+  for (const double one : ln) sum += std::exp(one - most);
+  if (which == nullptr || most + std::log(sum) < kFound) return false;
+  found_.push_back(*which);
+  last_ = std::move(*best);
+  return true;
+}
+
+/// A change that was found first may be the shadow of another one, once more is known.
+void Search::exchange() {
+  for (std::size_t k = assumed_; k < found_.size(); ++k)
+    for (const auto& change : possible_) {
+      if (holds(change)) continue;
+      std::vector<Change> other = found_;
+      other[k] = change;
+      Judged judged = judge_.judge(other);
+      if (judged.ln_evidence + std::log(change.chance) <=
+          last_.ln_evidence + std::log(found_[k].chance))
+        continue;
+      found_ = std::move(other);
+      last_ = std::move(judged);
+    }
+}
+
+void Search::drop_needless() {
+  for (std::size_t k = found_.size(); k-- > assumed_;) {
+    if (found_.size() - assumed_ < 2) return;
+    Judged judged = judge_.judge(without(found_, k));
+    if (last_.ln_evidence - judged.ln_evidence + std::log(found_[k].chance) >= kFound) continue;
+    found_ = without(found_, k);
+    last_ = std::move(judged);
+  }
+}
+
+}  // namespace plumb::offline::recheck

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "recheck/evidence.hpp"
+
+namespace plumb::offline::recheck {
+
+/// How often at most a check finds something although nothing has changed, for as long as the noise
+/// is what the run says. By Markov's inequality a Bayes factor exceeds 50 in at most one of 50 such
+/// checks.
+inline constexpr double kFalseAlarm = 0.02;
+
+/// The changes that explain some readings best, found one by one: a change is added if all possible
+/// ones together are 50 times as likely as nothing more; then each that was found is exchanged for
+/// a better one, and dropped if the others do without it.
+class Search {
+ public:
+  /// Keeps references to `judge` and `readings`. assumed: there from the beginning, and kept.
+  Search(const Judge& judge, const Readings& readings, std::vector<Change> possible,
+         std::vector<Change> assumed);
+
+  void run();
+
+  const std::vector<Change>& found() const { return found_; }  // assumed ones first
+  std::size_t assumed() const { return assumed_; }
+  const std::vector<Change>& possible() const { return possible_; }  // single readings, too
+  bool holds(const Change& change) const;
+  const Judged& last() const { return last_; }        // of what was found
+  const Judged& nothing() const { return nothing_; }  // of what was assumed
+
+ private:
+  int changes() const;
+  bool may_be_odd() const;
+  bool add_best();
+  void exchange();
+  void drop_needless();
+
+  const Judge& judge_;
+  std::vector<Change> possible_, found_;
+  std::size_t assumed_ = 0;
+  Judged last_, nothing_;
+  int most_odd_ = 0;
+};
+
+}  // namespace plumb::offline::recheck
