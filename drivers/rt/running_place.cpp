@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "program/file.hpp"
 #include "program/folder_lock.hpp"
 #include "program/json.hpp"
@@ -13,6 +16,8 @@ namespace plumb::drivers::rt {
 namespace {
 
 constexpr int kStatus_ms = 2000, kSwapAnswer_ms = 10'000;
+constexpr int kAttempts = 3;
+constexpr std::chrono::milliseconds kBetweenAttempts{300};
 
 /// The object that a plumb-rt answers; nothing if none hears it.
 std::optional<Json> answer_of(const Place& place, const std::string& request, int within_ms) {
@@ -35,10 +40,15 @@ std::optional<Json> answer_of(const Place& place, const std::string& request, in
 
 }  // namespace
 
-/// A plumb-rt holds the lock of its place for as long as it lives, also while it is stopped.
+/// A plumb-rt holds the lock of its place for as long as it lives, also while it is stopped. One
+/// that starts, or whose machine is busy, answers a little later.
 std::optional<RunningPlace> find_running(const Place& place) {
-  if (FolderLock(place.folder).state() != FolderLock::State::kBusy) return std::nullopt;
-  const auto json = answer_of(place, "status", kStatus_ms);
+  std::optional<Json> json;
+  for (int attempt = 0; !json && attempt < kAttempts; ++attempt) {
+    if (attempt > 0) std::this_thread::sleep_for(kBetweenAttempts);
+    if (FolderLock(place.folder).state() != FolderLock::State::kBusy) return std::nullopt;
+    json = answer_of(place, "status", kStatus_ms);
+  }
   if (!json || !json->value("ok", false)) refuse_silence(place);
   RunningPlace out;
   const Json& result = (*json)["result"];

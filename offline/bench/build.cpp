@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/build.hpp"
 
+#include "program/machine_code.hpp"
+
 namespace plumb::offline::bench {
 namespace {
-
-const char* instructions() {
-#if defined(__AVX2__) && defined(__FMA__) && defined(__BMI2__)
-  return "x86-64-v3";
-#elif defined(__x86_64__)
-  return "x86-64";
-#elif defined(__aarch64__)
-  return "aarch64";
-#elif defined(__arm__)
-  return "arm";
-#else
-  return "unknown";
-#endif
-}
 
 constexpr bool optimised() {
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -37,7 +25,7 @@ std::string compiler() {
 }  // namespace
 
 Build this_build() {
-  return {.instructions = instructions(), .compiler = compiler(), .optimised = optimised()};
+  return {.instructions = machine_code(), .compiler = compiler(), .optimised = optimised()};
 }
 
 }  // namespace plumb::offline::bench

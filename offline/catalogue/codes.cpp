@@ -42,6 +42,28 @@ constexpr Explanation kCodes[] = {
      "cell.toml was edited, by hand perhaps, after this plumb had read it. What was written there "
      "would have been lost, so nothing was changed. Give the command again."},
     {"E-RUN-MISSING", "There is no run of that number under runs/. plumb runs lists them."},
+    {"E-RECHECK-OWN",
+     "recheck compares new readings with the calibration, and was given the calibration's own "
+     "file. "
+     "Measure some of its poses again: plumb plan --recheck proposes them."},
+    {"E-RECHECK-NONE",
+     "Every reading of the file has 'ignore' in its column set, so there is nothing to compare."},
+    {"E-RECHECK-RUN",
+     "This run cannot be rechecked: cell.toml no longer has the numbers that it fitted, or it "
+     "stands "
+     "on the controller's own positions (fit --base controller). Fit again."},
+    {"N-RECHECK-SOME",
+     "A recheck is for 8 to 30 readings. Of a larger file 100 are taken, evenly spread; with that "
+     "many, a new calibration says more."},
+    {"W-RECHECK-ODD",
+     "A single reading contradicts all others: no part of the arm or the measurement could have "
+     "moved so that one pose alone sees it. It was left out; at most a fifth of the readings can "
+     "be."},
+    {"N-COMPILE-RECHECK",
+     "The arm has been rechecked since it was calibrated, so what is compiled is the latest "
+     "recheck: "
+     "the calibration with what had changed refitted. Its held-out error is that of the recheck's "
+     "few readings, each predicted by a refit without it."},
     {"E-PLOT-NAME",
      "plumb plot draws the figures that plumb plot --list names. Where a name ends with JN, a "
      "joint "

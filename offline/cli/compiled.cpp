@@ -69,6 +69,21 @@ void note_what_is_left(const Run& run, const format::Model& model, Outcome& outc
        .help = "plumb explain " + names.front()});
 }
 
+/// The run as it is known since its last recheck.
+Run rechecked(const Cell& cell, Run run, Outcome& outcome) {
+  if (run.number == 0) return run;
+  const int calibrated = run.number;
+  run = latest_recheck(cell, std::move(run));
+  if (run.recheck)
+    outcome.remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-COMPILE-RECHECK",
+         .message = fmt::format("this is run {}, a recheck of run {}: {}", run.number, calibrated,
+                                run.recheck->words),
+         .help = "plumb runs; the calibration alone, on all its poses: --refit-all"});
+  return run;
+}
+
 }  // namespace
 
 void CompileOptions::add_to(VerbOptions& verb) {
@@ -94,6 +109,7 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
       current_or_new_run(cell, measured, write.dry_run ? Keep::kNothing : Keep::kRun, outcome);
   stand_on_base_of(run, cell, measured);
   check_known_to_runtime(run, measured);
+  if (!options.refit_all) run = rechecked(cell, std::move(run), outcome);
   const int number = run.number;
   const std::string kept = number > 0 ? fmt::format("{:04}", number) : "not kept";
   if (options.refit_all) {
@@ -109,7 +125,7 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
   return {.model = std::move(model),
           .run = number,
           .refit_all = options.refit_all,
-          .folds = run.fit.split.folds};
+          .folds = run.recheck ? 0 : run.fit.split.folds};
 }
 
 void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,

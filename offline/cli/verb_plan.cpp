@@ -15,18 +15,23 @@
 #include "plan/pose_plan.hpp"
 #include "program/output_files.hpp"
 #include "program/shell_word.hpp"
+#include "recheck/recheck_plan.hpp"
 #include "show/plan_view.hpp"
+#include "show/recheck_view.hpp"
 
 namespace plumb::offline::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kUsualPoses = 30, kRecheckPoses = 12;
+
 struct PlanArguments {
-  int n = 30, pool = 5000;
+  int n = 0, pool = 5000;  // n = 0: the usual number
   std::uint64_t seed = 1;
   std::string limits, separate, payloads, output = "plan.csv";
   std::vector<std::string> boxes;
+  bool recheck = false;
   WriteOptions write;
 };
 
@@ -91,8 +96,8 @@ std::vector<double> loads_of(const std::string& text) {
 
 PlanRequest request_of(const PlanArguments& options, const Cell& cell) {
   PlanRequest out;
-  out.n = options.n;
-  out.rules.pool = std::max(options.pool, options.n);
+  out.n = options.n > 0 ? options.n : kUsualPoses;
+  out.rules.pool = std::max(options.pool, out.n);
   out.rules.seed = options.seed;
   out.rules.joint_share = share_of(options.limits);
   for (const auto& box : options.boxes) out.rules.boxes.push_back(box_of(box));
@@ -120,7 +125,33 @@ fs::path new_measurements(const Cell& cell) {
       return file;
 }
 
+/// Poses of the calibration that tell best what has changed since.
+void plan_the_recheck(const PlanArguments& options, const Globals& globals, Outcome& outcome) {
+  if (!options.separate.empty() || !options.boxes.empty() || !options.limits.empty())
+    usage("--recheck chooses among the poses of the calibration",
+          "leave out --separate, --box and --joint-limits: plumb plan --recheck --n 12");
+  const Cell cell = open_cell(globals, outcome);
+  const MeasurementFiles measured = open_measurements(cell, outcome);
+  const Run run = latest_recheck(cell, current_or_new_run(cell, measured, Keep::kRun, outcome));
+  const Run calibrated = calibrated_run(cell, run);
+  const int n = options.n > 0 ? options.n : kRecheckPoses;
+  const recheck::RecheckPlan found = recheck::plan_recheck(cell, calibrated, run, measured, n);
+  outcome.result = show::recheck_plan_json(cell, found, run, measured);
+  OutputFiles files;
+  files.add(options.output, show::recheck_plan_csv(cell, found, measured));
+  files.commit(options.write, outcome);
+  outcome.text =
+      show::recheck_plan_text(cell, found, run) + "\n" + wrote(options.output, options.write) +
+      "\nMeasure these poses, then join what the tracker wrote with their joint angles.\n";
+  say_next(
+      globals,
+      {fmt::format("import tracker.txt {} --join order -o recheck.csv", shell_word(options.output)),
+       "recheck --data recheck.csv"},
+      outcome);
+}
+
 void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome) {
+  if (options.recheck) return plan_the_recheck(options, globals, outcome);
   const Cell cell = open_cell(globals, outcome);
   const PlanRequest request = request_of(options, cell);
   const MeasurementFiles measured = measured_already(cell)
@@ -152,7 +183,10 @@ void add_plan(Program& program) {
        .examples = "  plumb plan --n 30 -o plan.csv     # what these poses leave uncertain\n"
                    "  plumb plan --separate reversal:J2,settling_lag:J2 --n 40"},
       [options](const Globals& g, Outcome& o) { plan(*options, g, o); });
-  verb.add_option("--n", options->n, "Measurements (30)").check(whole_number_between(1, 1000));
+  verb.add_option("--n", options->n, "Measurements (30; for --recheck 12)")
+      .check(whole_number_between(1, 1000));
+  verb.add_flag("--recheck", options->recheck,
+                "Poses of the calibration that tell best, measured again, what has changed");
   verb.add_option("--separate", options->separate,
                   "Two effects, as NAME[:JOINT+JOINT...][@KEY=NUMBER],NAME...")
       .type_name("A,B");

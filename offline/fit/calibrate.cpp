@@ -32,24 +32,6 @@ constexpr int kEnoughRows = 4000;      // tell the scatter of a model, and a sta
 constexpr double kNearlyAsGood = 1.5;  // times the scatter of the best start
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
-std::vector<Estimate> estimates(const ArmState& state, const ArmState& nominal,
-                                const std::vector<Parameter>& parameters,
-                                const Eigen::MatrixXd& covariance) {
-  std::vector<Estimate> out;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto& p = parameters[i];
-    out.push_back(
-        {.name = p.name,
-         .is_length = p.is_length(),
-         .of_robot = p.of_robot(),
-         .unit = p.of_effect() ? effect_parameter(state.arm, p.joint, p.component).unit : "",
-         .value = value_of(state, p),
-         .nominal = value_of(nominal, p),
-         .std = std::sqrt(std::max(0.0, covariance(i, i)))});
-  }
-  return out;
-}
-
 /// (J^T J)^-1 by QR of the scaled Jacobian.
 Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
   const Eigen::VectorXd scale = J.colwise().norm().cwiseMax(1e-300).cwiseInverse();
@@ -173,7 +155,7 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   out.covariance = inverse_information(J) * std::pow(std::max(1.0, out.sigma0), 2);
   out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
   out.state = solution.state;
-  out.estimates = estimates(solution.state, nominal, subset.kept, out.covariance);
+  out.estimates = estimates_of(solution.state, nominal, subset.kept, out.covariance);
   out.parameters = subset.kept;
   out.held = subset.held;
   out.series_dof = solution.series_dof;
@@ -346,6 +328,24 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   out.outliers.insert(out.outliers.end(), outliers.begin(), outliers.end());
   out.rank = from.rank;
   out.iterations = solution.iterations;
+  return out;
+}
+
+std::vector<Estimate> estimates_of(const ArmState& state, const ArmState& nominal,
+                                   const std::vector<Parameter>& parameters,
+                                   const Eigen::MatrixXd& covariance) {
+  std::vector<Estimate> out;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    out.push_back(
+        {.name = p.name,
+         .is_length = p.is_length(),
+         .of_robot = p.of_robot(),
+         .unit = p.of_effect() ? effect_parameter(state.arm, p.joint, p.component).unit : "",
+         .value = value_of(state, p),
+         .nominal = value_of(nominal, p),
+         .std = std::sqrt(std::max(0.0, covariance(i, i)))});
+  }
   return out;
 }
 

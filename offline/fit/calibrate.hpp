@@ -59,6 +59,11 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start,
                            const Calibration& from);
 
+/// These parameters as they stand in `state` and in `nominal`, with 1 sigma from their covariance.
+std::vector<Estimate> estimates_of(const ArmState& state, const ArmState& nominal,
+                                   const std::vector<Parameter>& parameters,
+                                   const Eigen::MatrixXd& covariance);
+
 /// Every number that a calibration ending in `state` could have fitted, in order of preference:
 /// geometry, frame and target, and the parameters of the effects that `state` carries.
 std::vector<Parameter> calibration_candidates(const Cell& cell, const Measurements& measured,

@@ -137,6 +137,14 @@ std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::
   return std::nullopt;
 }
 
+std::optional<Parameter> placing_parameter(const std::string& name) {
+  for (int k = 0; k < 6; ++k)
+    if (name == std::string("frame.") + kPoseNames[k]) return Parameter{Kind::kFrame, 0, k, name};
+  for (int k = 0; k < 3; ++k)
+    if (name == std::string("target.") + kPoseNames[k]) return Parameter{Kind::kTarget, 0, k, name};
+  return std::nullopt;
+}
+
 std::vector<Parameter> effect_parameters(const format::Model& arm) {
   std::vector<Parameter> out;
   for (std::size_t e = 0; e < arm.effects.size(); ++e)

@@ -51,4 +51,8 @@ std::vector<Parameter> effect_parameters(const format::Model& arm);
 /// The robot parameter of that name ("J2.d", "J3.post.ex"), if the chain has it.
 std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name);
 
+/// The number of frame or target of the only set-up: "frame.x" to "frame.rz", "target.x" to
+/// "target.z".
+std::optional<Parameter> placing_parameter(const std::string& name);
+
 }  // namespace plumb::offline

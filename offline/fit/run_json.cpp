@@ -171,6 +171,19 @@ TreeChoice tree_from(const Json& j) {
   return t;
 }
 
+Json to_json(const RecheckOf& r) {
+  return {{"parent", r.parent},          {"verdict", r.verdict},       {"words", r.words},
+          {"before", to_json(r.before)}, {"expected_m", r.expected_m}, {"limit_m", r.limit_m}};
+}
+RecheckOf recheck_from(const Json& j) {
+  return {.parent = j.at("parent"),
+          .verdict = j.at("verdict"),
+          .words = j.at("words"),
+          .before = stats_from(j.at("before")),
+          .expected_m = j.at("expected_m"),
+          .limit_m = j.at("limit_m")};
+}
+
 const Column& column(const Table& table, const char* name) {
   if (const Column* found = table.find(name)) return *found;
   throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
@@ -204,6 +217,7 @@ Json run_to_json(const Run& run) {
   out["unavoidable_ratio"] = fit.unavoidable_ratio;
   out["still_joints"] = fit.still;
   if (fit.tree) out["tree"] = to_json(*fit.tree);
+  if (run.recheck) out["recheck"] = to_json(*run.recheck);
   return out;
 }
 
@@ -240,6 +254,7 @@ Run run_from_json(const Json& j) {
   fit.unavoidable_ratio = j.value("unavoidable_ratio", 1.0);
   fit.still = j.value("still_joints", std::vector<std::string>());
   fit.floor = floor_from(j.at("noise_floor"));
+  if (j.contains("recheck")) run.recheck = recheck_from(j.at("recheck"));
   return run;
 }
 

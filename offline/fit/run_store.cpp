@@ -164,8 +164,9 @@ Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   return run;
 }
 
-Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
-  Run run = draft_run(cell, measured, std::move(fit));
+namespace {
+
+Run saved(const Cell& cell, const MeasurementFiles& measured, Run run) {
   const Draft draft(cell);
   const std::string predictions = predictions_to_csv(measured, run.fit);
   std::error_code error;
@@ -181,6 +182,18 @@ Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
     if (!fs::exists(run.directory)) break;
   }
   cannot_write(run.directory, error.message(), runs_folder(cell));
+}
+
+}  // namespace
+
+Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
+  return saved(cell, measured, draft_run(cell, measured, std::move(fit)));
+}
+
+Run save_recheck(const Cell& cell, const MeasurementFiles& measured, Fit fit, RecheckOf recheck) {
+  Run run = draft_run(cell, measured, std::move(fit));
+  run.recheck = std::move(recheck);
+  return saved(cell, measured, std::move(run));
 }
 
 void save_floor(const Run& run, const NoiseFloor& floor) {
@@ -205,8 +218,12 @@ std::vector<Parameter> parameters_by_name(const Cell& cell, const Calibration& c
   for (const Estimate& estimate : c.estimates) {
     const auto at = std::find_if(known.begin(), known.end(),
                                  [&](const Parameter& p) { return p.name == estimate.name; });
-    if (at == known.end()) return {};
-    out.push_back(*at);
+    // A recheck may have found a bent link, or that a tracker moved whose place the cell gives.
+    auto number = at == known.end() ? robot_parameter(cell.nominal, estimate.name)
+                                    : std::optional<Parameter>(*at);
+    if (!number) number = placing_parameter(estimate.name);
+    if (!number) return {};
+    out.push_back(*number);
   }
   return out;
 }
@@ -261,9 +278,27 @@ std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measure
   const auto inputs = inputs_of(measured);
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
     Run run = load_run(cell, *it);
-    if (run.cell_sha256 == hash && run.inputs == inputs) return run;
+    if (!run.recheck && run.cell_sha256 == hash && run.inputs == inputs) return run;
   }
   return std::nullopt;
+}
+
+Run latest_recheck(const Cell& cell, Run run) {
+  std::vector<int> line{run.number};
+  for (const int number : list_runs(cell)) {
+    if (number <= line.front()) continue;
+    Run later = load_run(cell, number);
+    if (!later.recheck) continue;
+    if (std::find(line.begin(), line.end(), later.recheck->parent) == line.end()) continue;
+    line.push_back(number);
+    run = std::move(later);
+  }
+  return run;
+}
+
+Run calibrated_run(const Cell& cell, Run run) {
+  while (run.recheck) run = load_run(cell, run.recheck->parent);
+  return run;
 }
 
 }  // namespace plumb::offline

@@ -12,6 +12,17 @@
 
 namespace plumb::offline {
 
+/// What a run is that `plumb recheck` made: an earlier run with what had changed since refitted.
+/// Its `fit` is of the new readings alone, each predicted by a refit without it.
+struct RecheckOf {
+  int parent = 0;           // number of the run that was rechecked
+  std::string verdict;      // "true", "changed", "undecidable"
+  std::string words;        // the same as one sentence
+  ErrorStats before;        // error of the parent at the readings
+  double expected_m = 0.0;  // mean error that the parent promised there
+  double limit_m = 0.0;     // above it a mean error is no accident, see recheck.hpp
+};
+
 /// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made; a
 /// diagnosis of its model adds noise_floor.json and diagnosis.json, and a later one replaces them.
 struct Run {
@@ -22,6 +33,7 @@ struct Run {
   std::vector<format::InputHash> inputs;
   std::vector<std::string> effects;
   Fit fit;
+  std::optional<RecheckOf> recheck;  // none: it was made by `plumb fit`, or a verb that fits
 };
 
 /// The run that `save_run` would keep, not kept: number 0.
@@ -29,6 +41,9 @@ Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
 /// Writes the next run; all or nothing.
 Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
+
+/// The same of a recheck; `measured` are its readings.
+Run save_recheck(const Cell& cell, const MeasurementFiles& measured, Fit fit, RecheckOf recheck);
 
 /// Keeps the noise floor that a diagnosis of the model of a kept run found, with the scatter of the
 /// joints in it: from then on it is the floor of this run.
@@ -43,7 +58,15 @@ std::vector<int> list_runs(const Cell& cell);
 /// Throws Failure (kInput) if there is no such run or a file of it was edited or cut off.
 Run load_run(const Cell& cell, int number);
 
-/// The latest run of the present cell and data. Throws on a damaged later one: was it that?
+/// The latest run of the present cell and data, rechecks not counted. Throws on a damaged later
+/// one: was it that?
 std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured);
+
+/// What is known of the arm now: the latest recheck that goes back to this run, or the run itself.
+/// Throws on a damaged later one.
+Run latest_recheck(const Cell& cell, Run run);
+
+/// The calibration that a recheck goes back to; a run that is no recheck is returned as it is.
+Run calibrated_run(const Cell& cell, Run run);
 
 }  // namespace plumb::offline

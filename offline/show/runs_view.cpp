@@ -85,6 +85,25 @@ std::string verdict_of(const Run& a, const Run& b) {
                          : "");
 }
 
+Json recheck_of_json(const Run& run) {
+  if (!run.recheck) return nullptr;
+  const RecheckOf& recheck = *run.recheck;
+  return {{"parent_run", recheck.parent},
+          {"verdict", recheck.verdict},
+          {"verdict_text", recheck.words},
+          {"before", stats_json(recheck.before)},
+          {"expected_mean_mm", to_mm(recheck.expected_m)},
+          {"limit_mean_mm", to_mm(recheck.limit_m)}};
+}
+
+/// What the last column says of a run.
+std::string content_of(const Run& run) {
+  if (run.recheck)
+    return fmt::format("recheck of run {}: {}", run.recheck->parent, run.recheck->verdict);
+  return fmt::format("{}{}", counted(run.effects),
+                     run.fit.base == Base::kController ? ", on the controller's positions" : "");
+}
+
 }  // namespace
 
 Json runs_json(const std::vector<ListedRun>& runs) {
@@ -95,6 +114,7 @@ Json runs_json(const std::vector<ListedRun>& runs) {
                     {"effects", run.effects},
                     {"base", name_of(run.fit.base)},
                     {"current", state == ListedRun::State::kCurrent},
+                    {"recheck", recheck_of_json(run)},
                     {"held_out", stats_json(run.fit.held)},
                     {"fit", stats_json(run.fit.fit)},
                     {"cell_sha256", run.cell_sha256}});
@@ -108,11 +128,9 @@ std::string runs_text(const std::vector<ListedRun>& runs) {
   table.left_from(7);
   for (const auto& [run, state] : runs) {
     const auto& s = run.fit.held;
-    table.add(
-        {fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
-         run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
-         fmt::format("{}{}", counted(run.effects),
-                     run.fit.base == Base::kController ? ", on the controller's positions" : "")});
+    table.add({fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
+               run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
+               content_of(run)});
   }
   return fmt::format("{} run{}, held-out error in mm (* of the present cell and data):\n\n",
                      runs.size(), runs.size() == 1 ? "" : "s") +

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cell_data.hpp"
+#include "cli/cell_lock.hpp"
+#include "cli/next_line.hpp"
+#include "cli/progress.hpp"
+#include "cli/run_number.hpp"
+#include "cli/verbs.hpp"
+#include "fit/cell_data.hpp"
+#include "program/file.hpp"
+#include "program/interrupt.hpp"
+#include "program/shell_word.hpp"
+#include "recheck/recheck.hpp"
+#include "show/recheck_view.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+using recheck::Recheck;
+
+struct RecheckArguments {
+  std::string data, run;
+  bool new_frame = false, new_target = false, dry_run = false;
+};
+
+/// The new readings; not those of the calibration.
+MeasurementFiles new_readings(const std::string& file, const Cell& cell,
+                              const MeasurementFiles& own, Outcome& outcome) {
+  MeasurementFiles out = read_measurements({file}, joint_is_angle(cell), Needs::kJointsAndPosition);
+  const Table& table = out.tables.front();
+  outcome.inputs.push_back({table.file, table.sha256});
+  outcome.remark(table.remarks);
+  for (const auto& mine : own.tables)
+    if (mine.sha256 == table.sha256)
+      throw Failure(Exit::kInput,
+                    {.code = "E-RECHECK-OWN",
+                     .message = fmt::format("{} holds the readings of the calibration itself",
+                                            display_name(file)),
+                     .help = "measure again: plumb plan --recheck -o plan.csv"});
+  std::vector<int> used;
+  for (int i = 0; i < out.size(); ++i)
+    if (out.set[static_cast<std::size_t>(i)] != SetMark::kIgnore) used.push_back(i);
+  if (used.empty())
+    throw Failure(Exit::kInput, {.code = "E-RECHECK-NONE",
+                                 .message = fmt::format("every reading of {} is marked 'ignore'",
+                                                        display_name(file)),
+                                 .help = "leave column set empty for those that count"});
+  return pick(out, used);
+}
+
+/// The readings as measurements of the run that a recheck keeps: each held out once.
+Fit fit_of(const Run& parent, const Recheck& found) {
+  Fit out;
+  out.calibration = found.calibration;
+  out.tree = parent.fit.tree;
+  out.base = parent.fit.base;
+  out.predicted_M = found.predicted_M;
+  out.split.folds = found.readings;
+  for (int i = 0; i < found.readings; ++i) out.split.fold.push_back(i);
+  out.split.held.assign(static_cast<std::size_t>(found.readings), false);
+  out.split.used.assign(static_cast<std::size_t>(found.readings), true);
+  out.held = out.held_without_outliers = out.geometry_held = found.after;
+  out.fit.n = found.after.n;
+  out.floor = parent.fit.floor;
+  out.unavoidable_ratio = parent.fit.unavoidable_ratio;
+  out.still = parent.fit.still;
+  return out;
+}
+
+void note_few(const MeasurementFiles& rows, const Recheck& found, Outcome& outcome) {
+  if (rows.size() > found.readings)
+    outcome.remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-RECHECK-SOME",
+         .message = fmt::format("{} of {} readings are judged, evenly spread: a recheck is for few",
+                                found.readings, rows.size()),
+         .help = "to calibrate with all of them: name the file in cell.toml, then plumb fit"});
+  if (found.odd_readings.empty()) return;
+  std::vector<std::string> names;
+  for (const int row : found.odd_readings)
+    names.push_back(rows.pose[static_cast<std::size_t>(row)]);
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-RECHECK-ODD",
+       .message = fmt::format("{} contradict{} all other readings and {} not used",  // names below
+                              fmt::join(names, ", "), names.size() == 1 ? "s" : "",
+                              names.size() == 1 ? "was" : "were"),
+       .help = "measure there again"});
+}
+
+std::string next_step(const Recheck& found) {
+  switch (found.verdict) {
+    case Recheck::Verdict::kTrue:
+      return "runs   # its history";
+    case Recheck::Verdict::kUndecidable:
+      return "plan --recheck -o plan.csv --force   # poses that can tell";
+    case Recheck::Verdict::kChanged:
+      break;
+  }
+  return found.something_else ? "plan --n 30   # measure anew, then fit"
+                              : "compile --force   # the model with what has changed";
+}
+
+void recheck_cell(const RecheckArguments& options, const Globals& globals, Outcome& outcome) {
+  const Cell cell = open_cell(globals, outcome);
+  MeasurementFiles own = open_measurements(cell, outcome);
+  const MeasurementFiles rows = new_readings(options.data, cell, own, outcome);
+  const Run parent =
+      options.run.empty()
+          ? latest_recheck(
+                cell, current_or_new_run(cell, own, options.dry_run ? Keep::kNothing : Keep::kRun,
+                                         outcome))
+          : load_run(cell, run_number(options.run));
+  const Run calibrated = parent.recheck ? calibrated_run(cell, parent) : parent;
+  check_same_data(calibrated, own);
+  if (calibrated.fit.base == Base::kController)
+    throw Failure(Exit::kInput,
+                  {.code = "E-RECHECK-RUN",
+                   .message = fmt::format("run {} stands on the controller's own positions, which "
+                                          "recheck does not judge",
+                                          calibrated.number),
+                   .help = "calibrate the arm of the cell: plumb fit"});
+  Recheck found;
+  {
+    const Progress progress(fmt::format("looking for what changed, {} readings", rows.size()));
+    found =
+        recheck::recheck_run(cell, calibrated, parent, own, rows,
+                             {.new_frame = options.new_frame, .new_target = options.new_target});
+  }
+  note_few(rows, found, outcome);
+  outcome.result = show::recheck_json(cell, found, parent);
+  outcome.text = show::recheck_text(cell, found, parent);
+  if (options.dry_run || found.verdict == Recheck::Verdict::kUndecidable) {
+    const char* const why =
+        options.dry_run ? "--dry-run keeps nothing" : "nothing is known that a run could keep";
+    show::put_null(outcome.result, "run", why);
+    outcome.text += fmt::format("\nno run was kept: {}\n", why);
+  } else {
+    lock_cell(cell.directory);
+    const Writing writing;
+    const Run run = save_recheck(cell, rows, fit_of(parent, found),
+                                 {.parent = parent.number,
+                                  .verdict = name_of(found.verdict),
+                                  .words = show::recheck_sentence(cell, found, parent),
+                                  .before = found.before,
+                                  .expected_m = found.expected_m,
+                                  .limit_m = found.limit_m});
+    outcome.result["run"] = run.number;
+    outcome.text +=
+        fmt::format("\nkept as run {}, a recheck of run {}\n", run.number, parent.number);
+  }
+  say_next(globals, next_step(found), outcome);
+}
+
+}  // namespace
+
+void add_recheck(Program& program) {
+  const auto options = std::make_shared<RecheckArguments>();
+  VerbOptions verb = program.verb(
+      {.name = "recheck",
+       .summary = "Few poses later: is the calibration still true, or what has changed?",
+       .examples = "  plumb plan --recheck --n 12 -o plan.csv     # poses to measure again\n"
+                   "  plumb recheck --data today.csv"},
+      [options](const Globals& g, Outcome& o) { recheck_cell(*options, g, o); });
+  verb.add_option("--data", options->data, "Readings of 8 to 30 poses, as in measurements.csv")
+      .type_name("FILE")
+      .required();
+  verb.add_option("--run", options->run, "Run to recheck; else the latest, or its latest recheck")
+      .type_name("N");
+  verb.add_flag("--new-frame", options->new_frame,
+                "The tracker stands elsewhere on purpose: fit its frame anew, it is no change");
+  verb.add_flag("--new-target", options->new_target,
+                "The reflector sits elsewhere on purpose: fit its place anew, it is no change");
+  verb.add_flag("--dry-run", options->dry_run, "Judge and show, but keep no run");
+}
+
+}  // namespace plumb::offline::cli

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/change.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/arm_change.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/solver.hpp"
+
+namespace plumb::offline::recheck {
+namespace {
+
+using Kind = Parameter::Kind;
+
+// How far something moves when it moves: a millimetre and a milliradian, times one of the scales.
+constexpr double kShift_m = 1e-3, kTurn_rad = 1e-3;
+const std::vector<double> kScales{0.1, 1.0, 10.0, 100.0};
+const std::vector<double> kScalesOfPlacing{0.1, 1.0, 10.0, 100.0, 1000.0};
+
+// Chances of the parts; within the joints, of what may happen to one.
+constexpr double kTool = 0.25, kBase = 0.25, kJoints = 0.4, kReadings = 0.1;
+constexpr double kEffect_m = 1e-4;  // RMS motion of the point by a usual change of an effect
+constexpr double kNoMotion = 1e-9;  // [m/SI]: no pose shows it
+constexpr double kOffset = 0.4, kSpring = 0.2, kBacklash = 0.2, kBent = 0.2;
+
+Eigen::VectorXd filled(std::size_t lengths, std::size_t angles) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(lengths + angles));
+  out.head(static_cast<Eigen::Index>(lengths)).setConstant(kShift_m);
+  out.tail(static_cast<Eigen::Index>(angles)).setConstant(kTurn_rad);
+  return out;
+}
+
+bool slides(const Cell& cell, int joint) {
+  return cell.nominal.joints[static_cast<std::size_t>(joint)].type == format::JointType::kPrismatic;
+}
+
+Change tool_change() {
+  Change out{.part = Part::kTool, .effect = "target"};
+  for (const char* name : {"target.x", "target.y", "target.z"})
+    out.parameters.push_back(*placing_parameter(name));
+  out.typical = filled(3, 0);
+  out.scales = kScalesOfPlacing;
+  out.chance = kTool;
+  return out;
+}
+
+Change base_change() {
+  Change out{.part = Part::kBase, .effect = "frame"};
+  for (const char* name : {"frame.x", "frame.y", "frame.z", "frame.rx", "frame.ry", "frame.rz"})
+    out.parameters.push_back(*placing_parameter(name));
+  out.typical = filled(3, 3);
+  out.scales = kScalesOfPlacing;
+  out.chance = kBase;
+  return out;
+}
+
+Change joint_change(int joint, const char* effect) {
+  Change out{.part = Part::kJoint, .joint = joint, .effect = effect};
+  out.scales = kScales;
+  return out;
+}
+
+Change offset_change(const Cell& cell, int joint) {
+  Change out = joint_change(joint, "offset");
+  const bool slide = slides(cell, joint);
+  out.parameters.push_back(*robot_parameter(
+      cell.nominal,
+      cell.nominal.joints[static_cast<std::size_t>(joint)].name + (slide ? ".d" : ".theta")));
+  out.typical = slide ? filled(1, 0) : filled(0, 1);
+  out.chance = kOffset;
+  return out;
+}
+
+Change bent_link(const Cell& cell, int joint) {
+  Change out = joint_change(joint, "link");
+  for (const char* name : {"dx", "dy", "dz", "ex", "ey", "ez"})
+    out.parameters.push_back(*robot_parameter(
+        cell.nominal, cell.nominal.joints[static_cast<std::size_t>(joint)].name + ".post." + name));
+  out.typical = filled(3, 3);
+  out.chance = kBent;
+  return out;
+}
+
+/// The place of the effect of that name and joint in the model; -1: there is none.
+int effect_at(const ArmState& state, const std::string& name, int joint) {
+  const auto& all = state.arm.effects;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].name == name &&
+        std::find(all[i].joints.begin(), all[i].joints.end(), joint) != all[i].joints.end())
+      return static_cast<int>(i);
+  return -1;
+}
+
+Change effect_change(const ArmState& state, const Measurements& poses, int joint, const char* name,
+                     double chance) {
+  Change out = joint_change(joint, name);
+  const int place = effect_at(state, name, joint);
+  if (place < 0) return out;
+  const auto& joints = state.arm.effects[static_cast<std::size_t>(place)].joints;
+  const auto count = state.arm.effects[static_cast<std::size_t>(place)].parameters.size();
+  const auto among = std::find(joints.begin(), joints.end(), joint) - joints.begin();
+  const auto each = count / joints.size();
+  for (std::size_t k = 0; k < each; ++k) {
+    const int component = static_cast<int>(static_cast<std::size_t>(among) * each + k);
+    out.parameters.push_back(
+        {Kind::kEffect, place, component, effect_parameter_name(state.arm, place, component)});
+  }
+  // A tenth of a millimetre, or half of what the arm has, is a usual change of it.
+  const Eigen::MatrixXd motion = derivatives(poses, state, out.parameters);
+  out.typical = kEffect_m * std::sqrt(static_cast<double>(poses.size())) *
+                motion.colwise().norm().transpose().cwiseMax(1e-12).cwiseInverse();
+  for (std::size_t k = 0; k < each; ++k) {
+    double& typical = out.typical(static_cast<Eigen::Index>(k));
+    typical = std::max(typical, 0.5 * std::abs(value_of(state, out.parameters[k])));
+  }
+  if (motion.cwiseAbs().maxCoeff() < kNoMotion) out.parameters.clear();
+  out.scales = {0.1, 1.0, 10.0};
+  out.chance = chance;
+  return out;
+}
+
+}  // namespace
+
+const char* name_of(Part part) {
+  switch (part) {
+    case Part::kTool:
+      return "tool";
+    case Part::kBase:
+      return "base";
+    case Part::kJoint:
+      return "joint";
+    case Part::kReading:
+      return "reading";
+    case Part::kOther:
+      break;
+  }
+  return "other";
+}
+
+std::string words_of(const Change& change, const Cell& cell) {
+  if (change.part == Part::kTool) return "the tool or the reflector";
+  if (change.part == Part::kBase) return "the base or the tracker";
+  if (change.part == Part::kReading) return fmt::format("reading {} alone", change.row + 1);
+  if (change.part == Part::kOther) return "something else";
+  const std::string& joint = cell.nominal.joints[static_cast<std::size_t>(change.joint)].name;
+  if (change.effect == "offset") return fmt::format("the encoder offset of {}", joint);
+  if (change.effect == "joint_compliance") return fmt::format("the stiffness of {}", joint);
+  if (change.effect == "reversal") return fmt::format("the backlash of {}", joint);
+  return fmt::format("the link behind {}", joint);
+}
+
+ArmState with_room_for_changes(const Cell& cell, const Measurements& of_arm,
+                               const Measurements& rows, const ArmState& state) {
+  ArmState out = state;
+  const bool arrives = rows.context.has_direction() && of_arm.context.has_direction();
+  for (int j = 0; j < cell.joints(); ++j)
+    for (const char* name : {"joint_compliance", "reversal"}) {
+      if (effect_at(out, name, j) >= 0) continue;
+      if (std::string_view(name) == "reversal" && !arrives) continue;
+      if (std::string_view(name) == "joint_compliance" && slides(cell, j)) continue;
+      EffectEntry entry;
+      entry.name = name;
+      entry.joints = {j};
+      out.arm.effects.push_back(bind_effect(cell, of_arm, entry));
+    }
+  return out;
+}
+
+std::vector<Change> possible_changes(const Cell& cell, const ArmState& extended,
+                                     const Measurements& poses, int readings) {
+  std::vector<Change> joints;
+  for (int j = 0; j < cell.joints(); ++j) {
+    joints.push_back(offset_change(cell, j));
+    // Behind the last joint stands the tool.
+    if (j + 1 < cell.joints()) joints.push_back(bent_link(cell, j));
+    joints.push_back(effect_change(extended, poses, j, "joint_compliance", kSpring));
+    joints.push_back(effect_change(extended, poses, j, "reversal", kBacklash));
+  }
+  std::erase_if(joints, [](const Change& change) { return change.parameters.empty(); });
+  double sum = 0.0;
+  for (const auto& change : joints) sum += change.chance;
+  for (auto& change : joints) change.chance *= kJoints / sum;
+  std::vector<Change> out{tool_change(), base_change()};
+  out.insert(out.end(), joints.begin(), joints.end());
+  if (readings < 4)  // too few to say that one of them is wrong
+    for (auto& change : out) change.chance /= 1.0 - kReadings;
+  return out;
+}
+
+Eigen::MatrixXd derivatives(const Measurements& rows, const ArmState& state,
+                            const std::vector<Parameter>& parameters) {
+  FitData data;
+  data.measured = &rows;
+  for (int i = 0; i < rows.size(); ++i) data.rows.push_back(i);
+  data.sigma_m = Rows3::Ones(rows.size(), 3);
+  return evaluate(data, state, parameters).jacobian;
+}
+
+Change odd_reading(int row, int readings, double sigma_m) {
+  Change out{.part = Part::kReading, .row = row};
+  out.typical = Eigen::VectorXd::Constant(3, sigma_m);
+  out.scales = {10.0, 100.0, 1000.0};
+  out.chance = kReadings / readings;
+  return out;
+}
+
+}  // namespace plumb::offline::recheck

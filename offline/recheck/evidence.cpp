@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/arm_change.hpp"
+#include "fit/frame_start.hpp"
+#include "fit/solver.hpp"
+
+namespace plumb::offline::recheck {
+namespace {
+
+constexpr int kSteps = 6;             // of Gauss and Newton
+constexpr double kSettled = 1e-3;     // of a standard deviation: a smaller step is the last one
+constexpr double kFarAway = 2e-3;     // [m]: a base that moved farther is placed anew first
+constexpr double kAnyPlace = 1000.0;  // times a millimetre: a tracker put somewhere else
+
+FitData data_of(const Measurements& rows) {
+  FitData out;
+  out.measured = &rows;
+  for (int i = 0; i < rows.size(); ++i) out.rows.push_back(i);
+  out.sigma_m = Rows3::Ones(rows.size(), 3);
+  return out;
+}
+
+std::vector<Parameter> parameters_of(const std::vector<Change>& changes) {
+  std::vector<Parameter> out;
+  for (const auto& change : changes)
+    out.insert(out.end(), change.parameters.begin(), change.parameters.end());
+  return out;
+}
+
+Eigen::Index count_of(const Change& change) { return change.typical.size(); }
+
+double ln_sum(const std::vector<double>& ln) {
+  const double most = *std::max_element(ln.begin(), ln.end());
+  double sum = 0.0;
+  for (const double one : ln) sum += std::exp(one - most);
+  return most + std::log(sum);
+}
+
+double ln_determinant(const Eigen::LLT<Eigen::MatrixXd>& llt) {
+  return 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+}
+
+/// 1 sigma of each number, for one choice of scales.
+Eigen::VectorXd spread_of(const std::vector<Change>& changes, const std::vector<std::size_t>& at) {
+  Eigen::Index count = 0;
+  for (const auto& change : changes) count += count_of(change);
+  Eigen::VectorXd out(count);
+  Eigen::Index begin = 0;
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    out.segment(begin, count_of(changes[k])) = changes[k].scales[at[k]] * changes[k].typical;
+    begin += count_of(changes[k]);
+  }
+  return out;
+}
+
+/// The next choice of scales, one of each change; false behind the last.
+bool advance(const std::vector<Change>& changes, std::vector<std::size_t>& at) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if (++at[k] < changes[k].scales.size()) return true;
+    at[k] = 0;
+  }
+  return false;
+}
+
+/// ln of the evidence of r for one view, averaged over the scales.
+double ln_evidence(const Eigen::LLT<Eigen::MatrixXd>& S, const Eigen::VectorXd& r,
+                   const Eigen::MatrixXd& B, const std::vector<Change>& changes) {
+  const Eigen::VectorXd w = S.matrixL().solve(r);
+  const Eigen::MatrixXd V = S.matrixL().solve(B);
+  const Eigen::MatrixXd VV = V.transpose() * V;
+  const Eigen::VectorXd Vw = V.transpose() * w;
+  const double n = static_cast<double>(r.size()), square = w.squaredNorm();
+  const double base = -0.5 * ln_determinant(S);
+  std::vector<double> ln;
+  std::vector<std::size_t> at(changes.size(), 0);
+  do {
+    const Eigen::VectorXd t = spread_of(changes, at);
+    const Eigen::MatrixXd A = t.asDiagonal() * VV * t.asDiagonal();
+    const Eigen::LLT<Eigen::MatrixXd> llt(A + Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+    const Eigen::VectorXd tv = t.cwiseProduct(Vw);
+    const double Q = square - (t.size() > 0 ? tv.dot(llt.solve(tv)) : 0.0);
+    ln.push_back(base - (t.size() > 0 ? 0.5 * ln_determinant(llt) : 0.0) -
+                 0.5 * (Judge::kTrusted + n) * std::log1p(std::max(0.0, Q) / Judge::kTrusted));
+  } while (advance(changes, at));
+  return ln_sum(ln) - std::log(static_cast<double>(ln.size()));
+}
+
+}  // namespace
+
+/// Where the Gauss-Newton steps begin, and the changes with their scales from there.
+struct Judge::Start {
+  ArmState state;
+  std::vector<Change> changes;
+};
+
+Judge::Judge(const Readings& readings, const ArmState& extended, const KnownNumbers& known)
+    : readings_(readings), extended_(extended), known_(known) {}
+
+Eigen::VectorXd Judge::residual_at(const ArmState& state) const {
+  return evaluate(data_of(readings_.rows), state, {}).residual;
+}
+
+Eigen::MatrixXd Judge::columns_at(const ArmState& state, const std::vector<Change>& changes) const {
+  const Eigen::MatrixXd J = derivatives(readings_.rows, state, parameters_of(changes));
+  Eigen::Index count = 0;
+  for (const auto& change : changes)
+    count += change.part == Part::kReading ? readings_.axes : count_of(change);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(readings_.lines(), count);
+  Eigen::Index to = 0, from = 0;
+  for (const auto& change : changes)
+    if (change.part == Part::kReading) {
+      out.block(change.row * readings_.axes, to, readings_.axes, readings_.axes).setIdentity();
+      to += readings_.axes;
+    } else {
+      out.middleCols(to, count_of(change)) = J.middleCols(from, count_of(change));
+      to += count_of(change), from += count_of(change);
+    }
+  return out;
+}
+
+/// A tracker that was put somewhere else is metres and half a turn away: no linear step leads
+/// there.
+Judge::Start Judge::start_of(const std::vector<Change>& changes) const {
+  Start out{extended_, changes};
+  for (auto& change : out.changes)
+    if (change.part == Part::kReading) change.typical.conservativeResize(readings_.axes);
+  const auto base = std::find_if(out.changes.begin(), out.changes.end(),
+                                 [](const Change& c) { return c.part == Part::kBase; });
+  if (base == out.changes.end() || readings_.poses < 3) return out;
+  const Eigen::VectorXd miss = residual_at(extended_);
+  if (std::sqrt(miss.squaredNorm() / readings_.rows.size()) < kFarAway) return out;
+  ArmState in_base = extended_;
+  in_base.X_MB = format::Pose{};
+  out.state.X_MB = align(predict_points(in_base, readings_.rows), readings_.rows.p_M);
+  base->scales = {kAnyPlace};
+  return out;
+}
+
+Judged Judge::judge(const std::vector<Change>& given) const {
+  auto [state, changes] = start_of(given);
+  const std::vector<Parameter> parameters = parameters_of(changes);
+  std::vector<std::size_t> widest;
+  Judged out;
+  std::vector<Eigen::Index> of_state;  // numbers that are of the state, not of a single reading
+  Eigen::Index count = 0;
+  for (const auto& change : changes) {
+    widest.push_back(change.scales.size() - 1);
+    out.begin.push_back(count);
+    for (Eigen::Index k = 0; k < count_of(change); ++k, ++count)
+      if (change.part != Part::kReading) of_state.push_back(count);
+  }
+  const Eigen::VectorXd wide = spread_of(changes, widest);
+  out.change = Eigen::VectorXd::Zero(count);
+  Eigen::VectorXd in_state = out.change;  // how far `state` has gone
+  for (int step = 0;; ++step) {
+    linearise(state, changes, in_state, out);
+    const Eigen::LLT<Eigen::MatrixXd> S(out.S);
+    const Eigen::MatrixXd SB = S.solve(out.B);
+    Eigen::MatrixXd information = out.B.transpose() * SB;
+    information.diagonal() += wide.array().square().inverse().matrix();
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(information);
+    out.gain = ldlt.solve(SB.transpose());
+    out.x_covariance = ldlt.solve(Eigen::MatrixXd::Identity(count, count));
+    out.change = out.gain * out.r;
+    const Eigen::VectorXd left = out.r - out.B * out.change;
+    out.chi2 = left.dot(S.solve(left)) + out.change.cwiseQuotient(wide).squaredNorm();
+    const Eigen::VectorXd more = (out.change - in_state)(of_state);
+    const Eigen::VectorXd std = out.x_covariance.diagonal().cwiseSqrt()(of_state);
+    const bool settled =
+        more.size() == 0 || more.cwiseQuotient(std).cwiseAbs().maxCoeff() < kSettled;
+    state = moved(state, parameters, more);
+    in_state(of_state) = out.change(of_state);
+    if (settled || step == kSteps) break;
+  }
+  out.state = std::move(state);
+  return out;
+}
+
+/// What is missed at a state, its derivatives, and the evidence for these changes.
+void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
+                      const Eigen::VectorXd& in_state, Judged& out) const {
+  out.B = columns_at(state, changes);
+  out.J = derivatives(readings_.rows, state, known_.parameters);
+  const Eigen::MatrixXd uncertain = out.J * known_.covariance * out.J.transpose();
+  const Eigen::VectorXd missed = residual_at(state) + out.B * in_state;
+  std::vector<double> views;
+  for (const auto& view : readings_.expected) {
+    const Eigen::MatrixXd S = view.covariance + uncertain;
+    const Eigen::LLT<Eigen::MatrixXd> llt(S);
+    views.push_back(ln_evidence(llt, missed - view.mean, out.B, changes));
+    if (views.back() < *std::max_element(views.begin(), views.end())) continue;
+    out.E = view.covariance;
+    out.S = S;
+    out.r = missed - view.mean;
+    out.mean = view.mean;
+  }
+  out.ln_evidence = ln_sum(views) - std::log(static_cast<double>(views.size()));
+}
+
+}  // namespace plumb::offline::recheck

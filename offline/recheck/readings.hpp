@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/arm_state.hpp"
+#include "fit/run_store.hpp"
+
+namespace plumb::offline::recheck {
+
+/// What a run leaves of readings that it was not fitted to, if nothing has changed: noise of the
+/// instrument, and what the model lacks, which is the same whenever one pose is measured.
+struct ExpectedError {
+  Eigen::VectorXd mean;        // (lines,) [m], measurement frame
+  Eigen::MatrixXd covariance;  // (lines, lines) [m^2]
+};
+
+/// The new readings, with what is expected of them. Lines stand pose by pose, `axes` lines each.
+struct Readings {
+  Measurements rows;
+  int axes = 3;
+  int poses = 0;         // different ones
+  double noise_m = 0.0;  // 1 sigma of a coordinate, of the instrument
+  double lacks_m = 0.0;  // 1 sigma of a coordinate, of what the model of the run lacks
+  /// Two views: what the model lacks is independent of the earlier poses, or where a pose is
+  /// repeated it is what was seen there.
+  std::vector<ExpectedError> expected;
+
+  int lines() const { return rows.size() * axes; }
+  double sigma_m() const;  // both together
+};
+
+/// At most this many readings are judged; of more, so many are taken, evenly spread.
+inline constexpr int kMostReadings = 100;
+
+/// @param calibrated  The calibration, made from `own`, the cell's measurements.
+/// @param state       Of the run that is rechecked, in the set-up that is compared with.
+/// @param rows        The new readings.
+Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurements& own,
+                         const ArmState& state, Measurements rows);
+
+/// Whether two readings are of one pose: encoders differ by a little when it is driven to again.
+bool same_pose(const Measurements& a, int row_a, const Measurements& b, int row_b);
+
+}  // namespace plumb::offline::recheck

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/recheck.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fit/arm_change.hpp"
+#include "recheck/refit.hpp"
+
+namespace plumb::offline::recheck {
+namespace {
+
+constexpr double kFound = 3.912;  // ln 50, see kFalseAlarm
+constexpr double kListed = 10.0;  // nats behind the found one; farther ones are not mentioned
+constexpr int kMostChanges = 3;
+constexpr double kTooMuch = 1e-4;        // probability of so large a remainder by chance
+constexpr double kOddShare = 0.2;        // of the readings; more are no accident
+constexpr double kSameCorrection = 0.5;  // of the tolerance: two explanations that differ by less
+                                         // correct the arm alike
+
+using Changes = std::vector<Change>;
+
+bool same(const Change& a, const Change& b) {
+  return a.part == b.part && a.joint == b.joint && a.effect == b.effect && a.row == b.row;
+}
+bool holds(const Changes& all, const Change& one) {
+  return std::any_of(all.begin(), all.end(), [&](const Change& c) { return same(c, one); });
+}
+Changes with(Changes all, const Change& more) {
+  all.push_back(more);
+  return all;
+}
+Changes without(Changes all, std::size_t k) {
+  all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+  return all;
+}
+
+/// Readings are taken right after the last one of the calibration: what has moved stays moved, and
+/// a drift has come to its end.
+void place_at_the_end(const Measurements& own, Measurements& rows) {
+  rows.context.order = Eigen::VectorXd::Constant(rows.size(), static_cast<double>(own.size()));
+  rows.context.time_s = own.context.time_s.size() > 0
+                            ? Eigen::VectorXd::Constant(rows.size(), own.context.time_s.maxCoeff())
+                            : Eigen::VectorXd();
+}
+
+Measurements few(const Measurements& rows) {
+  if (rows.size() <= kMostReadings) return rows;
+  std::vector<int> some;
+  for (int i = 0; i < kMostReadings; ++i)
+    some.push_back(static_cast<int>(static_cast<long>(i) * rows.size() / kMostReadings));
+  return pick(rows, some);
+}
+
+/// The changes that explain the readings best, found one by one.
+class Search {
+ public:
+  Search(const Judge& judge, const Readings& readings, Changes possible, Changes assumed)
+      : judge_(judge),
+        possible_(std::move(possible)),
+        assumed_(std::move(assumed)),
+        found_(assumed_) {
+    // Of three readings none can be said to be the wrong one.
+    if (readings.poses < 4) return;
+    for (int i = 0; i < readings.rows.size(); ++i)
+      possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
+    most_odd_ = static_cast<int>(kOddShare * readings.rows.size());
+  }
+
+  void run() {
+    last_ = judge_.judge(found_);
+    nothing_ = last_;
+    while (changes() < kMostChanges && add_best()) {
+      exchange();
+      drop_needless();
+    }
+  }
+
+  const Changes& found() const { return found_; }  // assumed ones first
+  std::size_t assumed() const { return assumed_.size(); }
+  const Changes& possible() const { return possible_; }
+  const Judged& last() const { return last_; }
+  const Judged& nothing() const { return nothing_; }
+
+ private:
+  int changes() const {
+    return static_cast<int>(
+        std::count_if(found_.begin() + static_cast<std::ptrdiff_t>(assumed_.size()), found_.end(),
+                      [](const Change& c) { return c.part != Part::kReading; }));
+  }
+  bool may_be_odd() const {
+    return std::count_if(found_.begin(), found_.end(),
+                         [](const Change& c) { return c.part == Part::kReading; }) < most_odd_;
+  }
+
+  /// All together must be more likely than nothing by so much that it happens by chance in one of
+  /// 50 checks only.
+  bool add_best() {
+    double most = -std::numeric_limits<double>::infinity(), sum = 0.0;
+    std::optional<Judged> best;
+    const Change* which = nullptr;
+    std::vector<double> all;
+    for (const auto& change : possible_) {
+      if (holds(found_, change) || (change.part == Part::kReading && !may_be_odd())) continue;
+      Judged judged = judge_.judge(with(found_, change));
+      const double ln = judged.ln_evidence - last_.ln_evidence + std::log(change.chance);
+      all.push_back(ln);
+      if (ln > most) most = ln, best = std::move(judged), which = &change;
+    }
+    for (const double ln : all) sum += std::exp(ln - most);
+    if (which == nullptr || most + std::log(sum) < kFound) return false;
+    found_.push_back(*which);
+    last_ = std::move(*best);
+    return true;
+  }
+
+  /// A change that was found first may be the shadow of another one, once more is known.
+  void exchange() {
+    for (std::size_t k = assumed_.size(); k < found_.size(); ++k)
+      for (const auto& change : possible_) {
+        if (holds(found_, change)) continue;
+        Changes other = found_;
+        other[k] = change;
+        Judged judged = judge_.judge(other);
+        if (judged.ln_evidence + std::log(change.chance) <=
+            last_.ln_evidence + std::log(found_[k].chance))
+          continue;
+        found_ = std::move(other);
+        last_ = std::move(judged);
+      }
+  }
+
+  void drop_needless() {
+    for (std::size_t k = found_.size(); k-- > assumed_.size();) {
+      if (found_.size() - assumed_.size() < 2) return;
+      Judged judged = judge_.judge(without(found_, k));
+      if (last_.ln_evidence - judged.ln_evidence + std::log(found_[k].chance) >= kFound) continue;
+      found_ = without(found_, k);
+      last_ = std::move(judged);
+    }
+  }
+
+  const Judge& judge_;
+  Changes possible_, assumed_, found_;
+  Judged last_, nothing_;
+  int most_odd_ = 0;
+};
+
+/// ln of the probability that F(n, trusted) exceeds chi2 / n, by the Wilson-Hilferty cube root of
+/// both parts [Paulson 1942].
+double ln_chance_of(double chi2, double n) {
+  const double f = chi2 / n, a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * Judge::kTrusted);
+  const double root = std::cbrt(f);
+  const double z = ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
+  return z < 0.0 ? std::log(0.5) : std::log(0.5 * std::erfc(z / std::sqrt(2.0)) + 1e-300);
+}
+
+/// Errors of the readings, each predicted by a refit without it; [m], shape (readings, 3), zero
+/// where an axis is missing.
+Rows3 left_out_errors(const Readings& readings, const Changes& changes, const Judged& judged) {
+  const int n = readings.rows.size(), axes = readings.axes;
+  Rows3 out = Rows3::Zero(n, 3);
+  Eigen::VectorXd wide(judged.change.size());
+  for (std::size_t c = 0; c < changes.size(); ++c)
+    for (Eigen::Index k = 0; k < changes[c].typical.size(); ++k)
+      if (judged.begin[c] + k < wide.size())
+        wide(judged.begin[c] + k) = changes[c].scales.back() * changes[c].typical(k);
+  for (int i = 0; i < n; ++i) {
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index line = 0; line < judged.r.size(); ++line)
+      if (line / axes != i) kept.push_back(line);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(judged.change.size());
+    if (x.size() > 0) {
+      const Eigen::LLT<Eigen::MatrixXd> S(judged.S(kept, kept));
+      const Eigen::MatrixXd B = judged.B(kept, Eigen::all);
+      Eigen::MatrixXd information = B.transpose() * S.solve(B);
+      information.diagonal() += wide.array().square().inverse().matrix();
+      x = information.ldlt().solve(B.transpose() * S.solve(judged.r(kept)));
+    }
+    // A reading that was off is judged as it is.
+    for (std::size_t c = 0; c < changes.size(); ++c)
+      if (changes[c].part == Part::kReading) x.segment(judged.begin[c], axes).setZero();
+    const Eigen::VectorXd error =
+        (judged.r + judged.mean).segment(i * axes, axes) - judged.B.middleRows(i * axes, axes) * x;
+    for (int k = 0, line = 0; k < 3; ++k)
+      if (readings.rows.has_axis[static_cast<std::size_t>(k)]) out(i, k) = error(line++);
+  }
+  return out;
+}
+
+ErrorStats stats_of(const Rows3& errors, const std::vector<int>& leave_out) {
+  std::vector<double> norms;
+  for (int i = 0; i < errors.rows(); ++i)
+    if (std::find(leave_out.begin(), leave_out.end(), i) == leave_out.end())
+      norms.push_back(errors.row(i).norm());
+  return summarise(std::move(norms));
+}
+
+/// RMS distance of the points that two states predict of an arm, over its poses. `placed` states
+/// share the frame and the target of the first, because those are none of the arm.
+double arms_apart(const Measurements& own, const ArmState& a, const ArmState& b) {
+  ArmState placed = b;
+  placed.X_MB = a.X_MB;
+  placed.X_TG = a.X_TG;
+  const Rows3 difference = predict_points(a, own) - predict_points(placed, own);
+  return std::sqrt(difference.squaredNorm() / own.size());
+}
+
+double motion_of(const Measurements& own, const ArmState& a, const ArmState& b) {
+  return std::sqrt((predict_points(a, own) - predict_points(b, own)).squaredNorm() / own.size());
+}
+
+/// The poses of the calibration as poses of the set-up that is compared with.
+Measurements poses_of(const Measurements& own, const Run& run) {
+  std::vector<int> used;
+  for (int i = 0; i < own.size(); ++i)
+    if (run.fit.split.used[i]) used.push_back(i);
+  Measurements out = pick(own, used);
+  out.setup.clear();
+  return few(out);
+}
+
+}  // namespace
+
+const char* name_of(Recheck::Verdict verdict) {
+  switch (verdict) {
+    case Recheck::Verdict::kTrue:
+      return "true";
+    case Recheck::Verdict::kChanged:
+      return "changed";
+    case Recheck::Verdict::kUndecidable:
+      break;
+  }
+  return "undecidable";
+}
+
+namespace {
+
+Changes assumed_changes(const Assumed& assumed, Changes& possible) {
+  Changes out;
+  for (auto change = possible.begin(); change != possible.end();) {
+    const bool is_new = (change->part == Part::kBase && assumed.new_frame) ||
+                        (change->part == Part::kTool && assumed.new_target);
+    if (is_new) {
+      out.push_back(*change);
+      out.back().scales = {out.back().scales.back()};
+      change = possible.erase(change);
+    } else {
+      ++change;
+    }
+  }
+  return out;
+}
+
+std::vector<Alternative> alternatives_to(const Judge& judge, const Search& search, std::size_t k,
+                                         const Measurements& own, double tolerance_m) {
+  std::vector<Alternative> out;
+  const Change& found = search.found()[k];
+  for (const auto& change : search.possible()) {
+    if (change.part == Part::kReading || holds(search.found(), change)) continue;
+    Changes other = search.found();
+    other[k] = change;
+    const Judged judged = judge.judge(other);
+    const double behind = search.last().ln_evidence + std::log(found.chance) - judged.ln_evidence -
+                          std::log(change.chance);
+    if (behind > kListed) continue;
+    out.push_back(
+        {change, behind,
+         arms_apart(own, search.last().state, judged.state) > kSameCorrection * tolerance_m});
+  }
+  std::sort(out.begin(), out.end(),
+            [](const auto& a, const auto& b) { return a.behind_nats < b.behind_nats; });
+  return out;
+}
+
+Found described(const Judge& judge, const Search& search, std::size_t k, const ArmState& extended,
+                const Measurements& own, double tolerance_m) {
+  const Judged& last = search.last();
+  Found out{.change = search.found()[k]};
+  const Judged without_it = judge.judge(without(search.found(), k));
+  out.ln_bayes = last.ln_evidence - without_it.ln_evidence;
+  const auto count = static_cast<Eigen::Index>(out.change.parameters.size());
+  const Eigen::VectorXd std =
+      last.x_covariance.diagonal().segment(last.begin[k], count).cwiseMax(0.0).cwiseSqrt();
+  out.before = estimates_of(out.change, extended, Eigen::VectorXd::Zero(count));
+  out.after = estimates_of(out.change, last.state, std);
+  ArmState back = last.state;
+  if (out.change.part == Part::kBase) back.X_MB = extended.X_MB;
+  if (out.change.part == Part::kTool) back.X_TG = extended.X_TG;
+  if (out.change.part == Part::kJoint)
+    back = moved(last.state, out.change.parameters, -last.change.segment(last.begin[k], count));
+  out.motion_m = motion_of(own, last.state, back);
+  out.alternatives = alternatives_to(judge, search, k, own, tolerance_m);
+  return out;
+}
+
+/// What these readings could not have shown, though it would matter. What is fitted anew on
+/// purpose hides the joints next to it.
+std::vector<Visibility> blind_spots(const Search& search, const Readings& readings,
+                                    const ArmState& extended, const Measurements& own,
+                                    const Assumed& assumed, int joints, double limit_m) {
+  Eigen::MatrixXd S = search.nothing().S;
+  Changes asked;
+  for (const auto& change : search.possible()) {
+    const bool placed = (assumed.new_frame && change.joint == 0) ||
+                        (assumed.new_target && change.joint == joints - 1);
+    const bool wanted = change.part == Part::kTool || change.part == Part::kBase ||
+                        (change.part == Part::kJoint && change.effect == "offset");
+    if (wanted && !placed) asked.push_back(change);
+  }
+  if (search.assumed() > 0) {
+    const auto& B = search.nothing().B;
+    S += 1e2 * B * B.transpose();  // anything that frame or target can make of it is no evidence
+  }
+  auto out = visibility(asked, readings.rows, own, extended, S);
+  std::erase_if(out, [&](const Visibility& v) { return v.unseen_m <= limit_m; });
+  return out;
+}
+
+bool undecided(const std::vector<Found>& found) {
+  return std::any_of(found.begin(), found.end(), [](const Found& f) {
+    return std::any_of(f.alternatives.begin(), f.alternatives.end(), [](const Alternative& a) {
+      return a.behind_nats < kUndecided && a.matters;
+    });
+  });
+}
+
+}  // namespace
+
+Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
+                    const Measurements& own, Measurements rows, const Assumed& assumed) {
+  const LastSetup setup = last_setup(run);
+  place_at_the_end(own, rows);
+  const Readings readings = expect_readings(cell, calibrated, own, setup.state, few(rows));
+  const ArmState extended = with_room_for_changes(cell, own, readings.rows, setup.state);
+  const Measurements poses = poses_of(own, calibrated);
+  Changes possible = possible_changes(cell, extended, poses, readings.poses);
+  Changes always = assumed_changes(assumed, possible);
+  const Judge judge(readings, extended, setup.known);
+  Search search(judge, readings, std::move(possible), std::move(always));
+  search.run();
+
+  Recheck out;
+  out.readings = readings.rows.size();
+  out.poses = readings.poses;
+  out.then = run.fit.held;
+  for (std::size_t k = search.assumed(); k < search.found().size(); ++k)
+    if (search.found()[k].part == Part::kReading)
+      out.odd_readings.push_back(search.found()[k].row);
+    else
+      out.found.push_back(described(judge, search, k, extended, poses, cell.tolerance_m));
+  std::sort(out.found.begin(), out.found.end(),
+            [](const Found& a, const Found& b) { return a.ln_bayes > b.ln_bayes; });
+
+  const Judged& last = search.last();
+  const double lines = static_cast<double>(last.r.size());
+  out.excess = std::sqrt(last.chi2 / lines);
+  out.something_else = ln_chance_of(last.chi2, lines) < std::log(kTooMuch);
+  const double axes = static_cast<double>(readings.axes);
+  out.limit_m = std::max(cell.tolerance_m, 2.0 * std::sqrt(axes) * readings.sigma_m());
+  out.blind = blind_spots(search, readings, extended, poses, assumed, cell.joints(), out.limit_m);
+  // The mean length of a vector of `axes` normal numbers, of the covariance that is expected.
+  const double mean_of_unit =
+      std::sqrt(2.0) * std::exp(std::lgamma(0.5 * (axes + 1.0)) - std::lgamma(0.5 * axes));
+  out.expected_m = mean_of_unit * std::sqrt(search.nothing().S.diagonal().mean());
+
+  const Changes only_assumed(search.found().begin(),
+                             search.found().begin() + static_cast<long>(search.assumed()));
+  out.before =
+      stats_of(left_out_errors(readings, only_assumed, search.nothing()), out.odd_readings);
+  const Rows3 left = left_out_errors(readings, search.found(), last);
+  out.after = stats_of(left, out.odd_readings);
+  out.predicted_M = readings.rows.p_M - left;
+  if (undecided(out.found) || (out.found.empty() && !out.something_else && !out.blind.empty()))
+    out.verdict = Recheck::Verdict::kUndecidable;
+  else if (out.found.empty() && !out.something_else)
+    out.verdict = Recheck::Verdict::kTrue;
+  else
+    out.verdict = Recheck::Verdict::kChanged;
+  out.calibration = refitted(cell, run.fit.calibration, setup, search.found(), last);
+  return out;
+}
+
+}  // namespace plumb::offline::recheck

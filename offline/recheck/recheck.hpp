@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recheck/evidence.hpp"
+#include "recheck/visible.hpp"
+
+namespace plumb::offline::recheck {
+
+/// Which part of the measurement is another one on purpose: it is fitted anew and is no change.
+struct Assumed {
+  bool new_frame = false;   // the tracker stands elsewhere
+  bool new_target = false;  // another reflector, or another place of it on the tool
+};
+
+/// Something that explains the readings nearly as well as what was found in its place.
+struct Alternative {
+  Change change;
+  double behind_nats = 0.0;
+  bool matters = false;  // the two would correct the arm differently
+};
+
+/// A change that was found.
+struct Found {
+  Change change;
+  double ln_bayes = 0.0;  // for it over its absence, the other changes being there
+  std::vector<Estimate> before = {}, after = {};  // its numbers
+  double motion_m = 0.0;  // RMS motion of the measured point over the poses of the calibration
+  std::vector<Alternative> alternatives = {};  // within kUndecided of it, of another part or joint
+};
+
+/// Behind by less than this, an explanation is not ruled out [nats].
+inline constexpr double kUndecided = 3.0;
+
+/// How often at most a check finds something although nothing has changed, for as long as the noise
+/// is what the run says. By Markov's inequality a Bayes factor exceeds 50 in at most one of 50 such
+/// checks.
+inline constexpr double kFalseAlarm = 0.02;
+
+struct Recheck {
+  enum class Verdict { kTrue, kChanged, kUndecidable } verdict = Verdict::kUndecidable;
+  std::vector<Found> found;       // the strongest first; single readings are not among them
+  std::vector<int> odd_readings;  // rows that contradict all others and were not used
+  bool something_else = false;    // the readings are missed by more than the changes explain
+  double excess = 1.0;            // RMS of what is left, in expected ones
+  std::vector<Visibility> blind;  // what these poses would not have shown within `limit_m`
+  double limit_m = 0.0;
+  int readings = 0, poses = 0;  // used; different ones
+  ErrorStats then;              // held-out error of the run that is rechecked
+  ErrorStats before;            // its error at the readings; frame and target as assumed
+  ErrorStats after;             // each reading predicted by a refit without it
+  double expected_m = 0.0;      // mean error that the run promises at these readings
+  Rows3 predicted_M;            // of the readings, each by a refit without it [m]
+  Calibration calibration;      // of the run, with what has changed refitted
+};
+
+/// "true", "changed", "undecidable"
+const char* name_of(Recheck::Verdict verdict);
+
+/// Judges few readings of an arm against a run: is it still true, and if not, which part has
+/// changed? Only that part is refitted. The numbers of the run enter with their covariance.
+///
+/// @param calibrated  The calibration that `run` goes back to, which may be `run` itself.
+/// @param own         The cell's measurements, on the base of the run.
+/// @param rows        The new readings, with contexts.
+/// Throws Failure (kInput, E-RECHECK-RUN) if the numbers of the run are not known any more.
+/// Cost: some 40 judgements a change found (Judge::judge), 0.1 s for 12 readings.
+Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
+                    const Measurements& own, Measurements rows, const Assumed& assumed);
+
+}  // namespace plumb::offline::recheck

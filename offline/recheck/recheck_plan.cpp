@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/recheck_plan.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/outliers.hpp"
+#include "recheck/refit.hpp"
+
+namespace plumb::offline::recheck {
+namespace {
+
+/// One row of every pose that the calibration was made or judged with.
+std::vector<int> different_poses(const Run& calibrated, const Measurements& own) {
+  std::vector<int> out;
+  std::vector<bool> seen(static_cast<std::size_t>(own.size()), false);
+  for (int i = 0; i < own.size(); ++i) {
+    const auto group = static_cast<std::size_t>(own.replicate_group[i]);
+    if (!calibrated.fit.split.used[i] || seen[group]) continue;
+    seen[group] = true;
+    out.push_back(i);
+  }
+  return without_outliers(std::move(out), calibrated.fit.calibration.outliers);
+}
+
+/// Derivatives by the numbers of all changes, per typical size and noise, row by row.
+Eigen::MatrixXd all_columns(const std::vector<Change>& changes, const Measurements& rows,
+                            const ArmState& state, double sigma_m) {
+  std::vector<Parameter> parameters;
+  std::vector<double> typical;
+  for (const auto& change : changes)
+    for (std::size_t k = 0; k < change.parameters.size(); ++k) {
+      parameters.push_back(change.parameters[k]);
+      typical.push_back(change.typical(static_cast<Eigen::Index>(k)) / sigma_m);
+    }
+  return derivatives(rows, state, parameters) *
+         Eigen::Map<Eigen::VectorXd>(typical.data(), static_cast<Eigen::Index>(typical.size()))
+             .asDiagonal();
+}
+
+/// The rows that add most to ln det(information), one after the other.
+std::vector<int> best_rows(const Eigen::MatrixXd& columns, int axes, int n) {
+  const int rows = static_cast<int>(columns.rows()) / axes;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
+  std::vector<bool> taken(static_cast<std::size_t>(rows), false);
+  std::vector<int> out;
+  while (static_cast<int>(out.size()) < std::min(n, rows)) {
+    int best = -1;
+    double most = 0.0;
+    for (int i = 0; i < rows; ++i) {
+      if (taken[static_cast<std::size_t>(i)]) continue;
+      const auto B = columns.middleRows(i * axes, axes);
+      const double gain =
+          (Eigen::MatrixXd::Identity(axes, axes) + B * covariance * B.transpose()).determinant();
+      if (best < 0 || gain > most) best = i, most = gain;
+    }
+    const Eigen::MatrixXd B = columns.middleRows(best * axes, axes);
+    const Eigen::MatrixXd CB = covariance * B.transpose();
+    covariance -=
+        CB * (Eigen::MatrixXd::Identity(axes, axes) + B * CB).ldlt().solve(CB.transpose());
+    taken[static_cast<std::size_t>(best)] = true;
+    out.push_back(best);
+  }
+  return out;
+}
+
+}  // namespace
+
+RecheckPlan plan_recheck(const Cell& cell, const Run& calibrated, const Run& run,
+                         const Measurements& own, int n) {
+  const LastSetup setup = last_setup(run);
+  const std::vector<int> known = different_poses(calibrated, own);
+  Measurements poses = pick(own, known);
+  poses.setup.clear();
+  const ArmState extended = with_room_for_changes(cell, own, poses, setup.state);
+  const auto changes = possible_changes(cell, extended, poses, n);
+  const Readings all = expect_readings(cell, calibrated, own, setup.state, poses);
+  RecheckPlan out;
+  std::vector<int> chosen =
+      best_rows(all_columns(changes, poses, extended, all.sigma_m()), all.axes, n);
+  std::sort(chosen.begin(), chosen.end());
+  for (const int i : chosen) out.rows.push_back(known[static_cast<std::size_t>(i)]);
+  const Measurements few = pick(poses, chosen);
+  const Readings readings = expect_readings(cell, calibrated, own, setup.state, few);
+  const Judge judge(readings, extended, setup.known);
+  out.visible = visibility(changes, few, poses, extended, judge.judge({}).S);
+  return out;
+}
+
+}  // namespace plumb::offline::recheck

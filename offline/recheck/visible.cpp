@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/visible.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace plumb::offline::recheck {
+namespace {
+
+constexpr double kNoticed = 20.0;  // chi^2 of a change that is found nearly always
+constexpr double kWidest = 10.0;   // typical sizes: a change is hardly ever larger
+
+}  // namespace
+
+std::vector<Visibility> visibility(const std::vector<Change>& changes, const Measurements& rows,
+                                   const Measurements& own, const ArmState& state,
+                                   const Eigen::MatrixXd& S) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  std::vector<Visibility> out;
+  for (const auto& change : changes) {
+    if (change.part == Part::kReading) continue;
+    const Eigen::MatrixXd seen = llt.matrixL().solve(derivatives(rows, state, change.parameters) *
+                                                     change.typical.asDiagonal());
+    const Eigen::MatrixXd motion =
+        derivatives(own, state, change.parameters) * change.typical.asDiagonal();
+    const Eigen::MatrixXd square = motion.transpose() * motion / own.size();
+    Eigen::MatrixXd information = seen.transpose() * seen;
+    information.diagonal().array() += kNoticed / (kWidest * kWidest);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(square, information,
+                                                                          Eigen::EigenvaluesOnly);
+    out.push_back({change, std::sqrt(kNoticed * std::max(0.0, eigen.eigenvalues().maxCoeff()))});
+  }
+  return out;
+}
+
+}  // namespace plumb::offline::recheck

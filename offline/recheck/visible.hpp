@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "recheck/evidence.hpp"
+
+namespace plumb::offline::recheck {
+
+/// How well some readings would show a change.
+struct Visibility {
+  Change change;
+  /// RMS motion [m] of the measured point over the poses of the calibration that the change may
+  /// have without being noticed, in the direction in which it is seen worst.
+  double unseen_m = 0.0;
+};
+
+/// Of every change but those of single readings. `S`: as in Judged, of the readings with nothing
+/// changed; `own`: poses over which the arm works.
+std::vector<Visibility> visibility(const std::vector<Change>& changes, const Measurements& rows,
+                                   const Measurements& own, const ArmState& state,
+                                   const Eigen::MatrixXd& S);
+
+}  // namespace plumb::offline::recheck

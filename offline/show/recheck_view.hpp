@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "recheck/recheck.hpp"
+#include "recheck/recheck_plan.hpp"
+#include "show/json.hpp"
+
+namespace plumb::offline::show {
+
+/// The answer in one sentence. `run`: the run that was rechecked.
+std::string recheck_sentence(const Cell& cell, const recheck::Recheck& found, const Run& run);
+
+/// `result` of `plumb recheck` but for `run`.
+Json recheck_json(const Cell& cell, const recheck::Recheck& found, const Run& run);
+
+/// The sentence, errors before and after, what has changed, and what the poses would not show.
+std::string recheck_text(const Cell& cell, const recheck::Recheck& found, const Run& run);
+
+/// `result` of `plumb plan --recheck`, its table, and its CSV file.
+Json recheck_plan_json(const Cell& cell, const recheck::RecheckPlan& plan, const Run& run,
+                       const Measurements& own);
+std::string recheck_plan_text(const Cell& cell, const recheck::RecheckPlan& plan, const Run& run);
+std::string recheck_plan_csv(const Cell& cell, const recheck::RecheckPlan& plan,
+                             const Measurements& own);
+
+}  // namespace plumb::offline::show
