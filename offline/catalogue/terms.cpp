@@ -15,6 +15,13 @@ constexpr Explanation kTerms[] = {
      "What is assumed before anything is measured: that arms are built within 0.5 mm and 0.5 "
      "mrad of nominal ([fit] prior_mm, prior_mrad). It decides only where the poses say next "
      "to nothing."},
+    {"recheck",
+     "A few poses, measured again after some time, judged against the calibration: still true, or "
+     "which part has changed. plumb recheck makes a run that names its parent; compile takes the "
+     "latest one."},
+    {"control limit",
+     "Of a recheck: what its mean error exceeds by chance about once in a thousand times, three "
+     "standard deviations above what is expected. plumb plot history draws it."},
     {"audit",
      "What compile tries over 2000 poses of the trained range: the largest correction, where "
      "it is, how well the tool point is known, and whether the guard would cut anything."},

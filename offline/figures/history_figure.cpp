@@ -17,6 +17,8 @@ using draw::Tone;
 constexpr double kHistoryHeight = 320.0;  // [px]
 constexpr double kHalfStep = 0.4;         // of the way between two checks: its control limit
 
+constexpr double kHistoryLogSteps = 15.0;  // times the smallest error: a logarithmic axis
+
 const draw::LineStyle kControl{.paint = Tone::kVermilion, .width = 1.4, .dashes = "6 3"};
 const draw::LineStyle kExpected{.paint = Tone::kMuted, .width = 1.2};
 
@@ -69,11 +71,19 @@ std::string history_figure(const RunResults& results, double width) {
                        results.run.number, results.run.fit.held.n),
            "Control limit: three standard deviations of the mean above what is expected."}});
   double most = std::max(results.cell.tolerance_m, results.run.fit.held.mean);
-  for (const Run& run : results.rechecks)
+  double least = most;
+  for (const Run& run : results.rechecks) {
     most = std::max({most, run.recheck->before.mean, run.recheck->limit_m, run.fit.held.mean});
+    least = std::min({least, run.recheck->before.mean, run.recheck->expected_m, run.fit.held.mean});
+  }
   ErrorAxis axis{.unit = unit_for(most), .axis = {}};
   axis.axis.title = "mean error [" + axis.unit.name + "]";
   axis.axis.high = 1.1 * most * axis.unit.per_m;
+  if (most > kHistoryLogSteps * least &&
+      least > 0.0) {  // a tracker at another station is metres off
+    axis.axis.scale = draw::Axis::Scale::kLog;
+    axis.axis.low = 0.5 * least * axis.unit.per_m;
+  }
   draw::Axis runs{.title = "run", .low = -0.6, .high = 0.6, .ticks = {}};
   runs.high += static_cast<double>(results.rechecks.size());
   runs.ticks.push_back({0.0, fmt::format("{}", results.run.number)});
@@ -81,7 +91,6 @@ std::string history_figure(const RunResults& results, double width) {
     runs.ticks.push_back(
         {static_cast<double>(i + 1), fmt::format("{}", results.rechecks[i].number)});
   draw::Panel panel(sheet.svg(), sheet.room(kHistoryHeight), runs, axis.axis);
-  draw_limits(results, axis, Along::kY, panel);
   panel.mark(0.0, axis.of(results.run.fit.held.mean),
              {.shape = draw::Shape::kSquare, .paint = Tone::kInk, .size = 5.0});
   for (std::size_t i = 0; i < results.rechecks.size(); ++i) {
@@ -100,6 +109,7 @@ std::string history_figure(const RunResults& results, double width) {
     }
     panel.mark(x, axis.of(run.recheck->before.mean), before_mark(run));
   }
+  draw_limits(results, axis, Along::kY, panel);
   return sheet.file();
 }
 

@@ -56,6 +56,24 @@ class Runner:
         return path
 
 
+def few_readings(plumb, cell):
+    """few.csv: every twentieth measurement; moved.csv: the same half a millimetre along x."""
+    few, moved, rows, at = [], [], 0, None
+    for line in (plumb.scratch / cell / "measurements.csv").read_text().splitlines():
+        cells = line.split(",")
+        if line.startswith("#") or at is None:
+            at = cells.index("x_mm") if "x_mm" in cells else at
+        else:
+            rows += 1
+            if rows % 20:
+                continue
+            cells[at] = str(float(cells[at]) + 0.5)
+        few.append(line)
+        moved.append(",".join(cells))
+    plumb.write(f"{cell}/few.csv", "\n".join(few) + "\n")
+    plumb.write(f"{cell}/moved.csv", "\n".join(moved) + "\n")
+
+
 def in_cell(plumb, cell):
     """Every verb that works in a cell, before and after an effect was added."""
     at = ("plumb", "-C", cell)
@@ -66,6 +84,12 @@ def in_cell(plumb, cell):
     plumb.run(*at, "compare")
     plumb.run(*at, "diagnose")
     plumb.run(*at, "plan", "--n", "6", "-o", f"{cell}/plan.csv")
+    plumb.run(*at, "plan", "--recheck", "-o", f"{cell}/again.csv")
+    few_readings(plumb, cell)
+    plumb.run(*at, "recheck", "--data", f"{cell}/few.csv")
+    plumb.run(*at, "recheck", "--data", f"{cell}/moved.csv", "--new-target", "--dry-run")
+    plumb.run(*at, "recheck", "--data", f"{cell}/moved.csv")
+    plumb.run(*at, "recheck", "--data", f"{cell}/measurements.csv")                # 3: the calibration itself
     plumb.run(*at, "compile")
     plumb.run(*at, "compile", "--refit-all", "-o", f"{cell}/all.plumb")
     plumb.run(*at, "export", "-o", f"{cell}/arm.urdf")
