@@ -8,6 +8,7 @@
 #include "fit/arm_change.hpp"
 #include "fit/frame_start.hpp"
 #include "fit/solver.hpp"
+#include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -98,8 +99,25 @@ struct Judge::Start {
   std::vector<Change> changes;
 };
 
+/// What the error of the run's numbers has taught of what it lacks, W J of the old readings: shape
+/// (3 readings, numbers), base frame.
+Eigen::MatrixXd Judge::learnt_derivatives(const ExpectedError& view) const {
+  if (view.weights.size() == 0) return {};
+  const Eigen::MatrixXd J = derivatives(view.near, extended_, known_.parameters);
+  const Matrix3 R_BM = from_pose(extended_.X_MB).R.transpose();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * view.weights.rows(), J.cols());
+  for (Eigen::Index old = 0; old < view.weights.cols(); ++old) {
+    const Eigen::MatrixXd J_B = R_BM * J.middleRows(3 * old, 3);
+    for (Eigen::Index i = 0; i < view.weights.rows(); ++i)
+      out.middleRows(3 * i, 3) += view.weights(i, old) * J_B;
+  }
+  return out;
+}
+
 Judge::Judge(const Readings& readings, const ArmState& extended, const KnownNumbers& known)
-    : readings_(readings), extended_(extended), known_(known) {}
+    : readings_(readings), extended_(extended), known_(known) {
+  for (const auto& view : readings.expected) learnt_.push_back(learnt_derivatives(view));
+}
 
 Eigen::VectorXd Judge::residual_at(const ArmState& state) const {
   return evaluate(data_of(readings_.rows), state, {}).residual;
@@ -188,17 +206,25 @@ void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
   const Eigen::MatrixXd J = derivatives(readings_.rows, state, known_.parameters);
   const Eigen::VectorXd missed = residual_at(state) + out.B * in_state;
   std::vector<double> views;
-  for (const auto& view : readings_.expected) {
-    const Eigen::MatrixXd J_view = view.share.asDiagonal() * J;
+  const Matrix3 R_MB = from_pose(state.X_MB).R;
+  for (std::size_t v = 0; v < readings_.expected.size(); ++v) {
+    const ExpectedError& view = readings_.expected[v];
+    Eigen::MatrixXd J_view = J;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(missed.size());
+    if (learnt_[v].size() > 0)
+      for (Eigen::Index i = 0; i < readings_.rows.size(); ++i) {
+        J_view.middleRows(3 * i, 3) -= R_MB * learnt_[v].middleRows(3 * i, 3);
+        mean.segment(3 * i, 3) = R_MB * view.mean_B.row(i).transpose();
+      }
     const Eigen::MatrixXd S = view.covariance + J_view * known_.covariance * J_view.transpose();
     const Eigen::LLT<Eigen::MatrixXd> llt(S);
-    views.push_back(ln_evidence(llt, missed - view.mean, out.B, changes));
+    views.push_back(ln_evidence(llt, missed - mean, out.B, changes));
     if (views.back() < *std::max_element(views.begin(), views.end())) continue;
     out.E = view.covariance;
     out.S = S;
     out.J = J_view;
-    out.r = missed - view.mean;
-    out.mean = view.mean;
+    out.r = missed - mean;
+    out.mean = mean;
   }
   out.ln_evidence = ln_sum(views) - std::log(static_cast<double>(views.size()));
 }

@@ -61,9 +61,12 @@ class Judge {
   Eigen::VectorXd residual_at(const ArmState& state) const;
   Eigen::MatrixXd columns_at(const ArmState& state, const std::vector<Change>& changes) const;
 
+  Eigen::MatrixXd learnt_derivatives(const ExpectedError& view) const;
+
   const Readings& readings_;
   const ArmState& extended_;
   const KnownNumbers& known_;
+  std::vector<Eigen::MatrixXd> learnt_;  // view by view
 };
 
 }  // namespace plumb::offline::recheck

@@ -7,12 +7,14 @@
 #include "fit/outliers.hpp"
 #include "fit/series_solver.hpp"
 #include "fit/weights.hpp"
-#include "plumb/runtime/transform.hpp"
+#include "recheck/misfit.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
 
-constexpr double kSamePose = 2e-3;  // [rad] or [m]
+constexpr double kSamePose = 2e-3;      // [rad] or [m]
+constexpr double kLeastNoise_m = 1e-7;  // of any instrument
+constexpr double kSmallShare = 0.1;     // of the noise: what the model lacks does not matter
 
 /// Rows of the cell's own measurements that the run was fitted to.
 std::vector<int> fitted_rows(const Run& run, const Measurements& own) {
@@ -59,20 +61,57 @@ std::vector<int> pose_numbers(const Measurements& rows, int& count) {
   return out;
 }
 
-/// Noise of each line, and `shared` [m^2] of what the model lacks at each pose.
-Eigen::MatrixXd covariance_of(const Readings& r, const Rows3& noise_m, const std::vector<int>& pose,
-                              const Eigen::VectorXd& shared) {
+/// Noise of each line, and what the model lacks, of one axis, shape (readings, readings) [m^2].
+Eigen::MatrixXd covariance_of(const Readings& r, const Rows3& noise_m,
+                              const Eigen::MatrixXd& lacks) {
   const Eigen::VectorXd noise = lines_of(noise_m, r.rows, r.axes);
   Eigen::MatrixXd out = noise.array().square().matrix().asDiagonal();
   for (int a = 0; a < r.rows.size(); ++a)
     for (int b = 0; b < r.rows.size(); ++b)
-      if (pose[static_cast<std::size_t>(a)] == pose[static_cast<std::size_t>(b)])
-        out.block(a * r.axes, b * r.axes, r.axes, r.axes).diagonal().array() +=
-            shared(pose[static_cast<std::size_t>(a)]);
+      out.block(a * r.axes, b * r.axes, r.axes, r.axes).diagonal().array() += lacks(a, b);
+  return out;
+}
+
+/// The same thing at every reading of a pose, another one at every pose.
+Eigen::MatrixXd anew_at_each_pose(const std::vector<int>& pose, double lacks) {
+  const auto n = static_cast<Eigen::Index>(pose.size());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = 0; b < n; ++b)
+      if (pose[static_cast<std::size_t>(a)] == pose[static_cast<std::size_t>(b)]) out(a, b) = lacks;
+  return out;
+}
+
+/// What the calibration leaves of its own readings.
+struct OldErrors {
+  Rows3 error_M;          // of all rows [m]
+  std::vector<int> rows;  // that were fitted or held out, without outliers
+  double noise_m = 0.0, lacks_m = 0.0;
+};
+
+OldErrors old_errors(const Run& calibrated, const Measurements& own) {
+  OldErrors out;
+  out.error_M = residuals(own, predict_points(calibrated.fit.calibration.state, own));
+  const double scatter = scatter_of(calibrated, own, out.error_M, fitted_rows(calibrated, own));
+  for (int i = 0; i < own.size(); ++i)
+    if (calibrated.fit.split.used[i]) out.rows.push_back(i);
+  out.rows = without_outliers(
+      without_outliers(std::move(out.rows), calibrated.fit.calibration.outliers),
+      calibrated.fit.held_outliers);
+  const NoiseFloor& floor = calibrated.fit.floor;
+  out.noise_m =
+      floor.source != NoiseFloor::Source::kNone ? std::min(floor.sigma_m, scatter) : scatter;
+  out.noise_m = std::max(out.noise_m, kLeastNoise_m);
+  out.lacks_m = std::sqrt(std::max(0.0, scatter * scatter - out.noise_m * out.noise_m));
   return out;
 }
 
 }  // namespace
+
+double expected_sigma(const Run& calibrated, const Measurements& own) {
+  const OldErrors old = old_errors(calibrated, own);
+  return std::hypot(old.noise_m, old.lacks_m);
+}
 
 double Readings::sigma_m() const { return std::hypot(noise_m, lacks_m); }
 
@@ -81,58 +120,29 @@ bool same_pose(const Measurements& a, int row_a, const Measurements& b, int row_
 }
 
 Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurements& own,
-                         const ArmState& state, Measurements rows) {
+                         Measurements rows) {
   Readings out;
   out.axes = static_cast<int>(std::count(rows.has_axis.begin(), rows.has_axis.end(), true));
-  const ArmState& fitted = calibrated.fit.calibration.state;
-  const Rows3 error_M = residuals(own, predict_points(fitted, own));
-  const auto known = fitted_rows(calibrated, own);
-  const double scatter = scatter_of(calibrated, own, error_M, known);
-  const bool floor_known = calibrated.fit.floor.source != NoiseFloor::Source::kNone;
-  out.noise_m = floor_known ? std::min(calibrated.fit.floor.sigma_m, scatter) : scatter;
-  out.noise_m = std::max(out.noise_m, 1e-7);
-  out.lacks_m = std::sqrt(std::max(0.0, scatter * scatter - out.noise_m * out.noise_m));
+  const OldErrors old = old_errors(calibrated, own);
+  out.noise_m = old.noise_m;
+  out.lacks_m = old.lacks_m;
   out.rows = std::move(rows);
   const std::vector<int> pose = pose_numbers(out.rows, out.poses);
 
   Rows3 noise_m = Rows3::Constant(out.rows.size(), 3, out.noise_m);
   if (out.rows.sigma_m.rows() > 0) noise_m = stated_sigma(cell, out.rows);
-  const double lacks = out.lacks_m * out.lacks_m, noise = out.noise_m * out.noise_m;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(out.lines());
-  const Eigen::VectorXd anew = Eigen::VectorXd::Constant(out.poses, lacks);
-  out.expected.push_back(
-      {zero, covariance_of(out, noise_m, pose, anew), Eigen::VectorXd::Ones(out.lines())});
-
-  // What the run gets wrong at one of its poses, f, is J e + g: e is the error of its numbers,
-  // whose covariance is C = (J^T J)^-1 (s^2 + n^2), and g what the model lacks, of variance s^2.
-  // Seen there with noise n, it left the residual r. Given all residuals, f has the mean (1 - k) r
-  // and the covariance k s^2 I + k^2 J C J^T with k = n^2 / (s^2 + n^2).
+  const Rows3 nothing = Rows3::Zero(out.rows.size(), 3);
+  const Eigen::MatrixXd anew = anew_at_each_pose(pose, out.lacks_m * out.lacks_m);
+  out.expected.push_back({nothing, covariance_of(out, noise_m, anew)});
   const bool whole = out.axes == 3 && own.has_axis == out.rows.has_axis;
-  if (!whole || lacks <= 0.0) return out;
-  const Rows3 error_B = to_base(fitted, own, error_M);
-  const Matrix3 R_MB = from_pose(state.X_MB).R;
-  Rows3 mean = Rows3::Zero(out.rows.size(), 3), share = Rows3::Ones(out.rows.size(), 3);
-  Eigen::VectorXd left = anew;
-  bool repeats = false;
-  for (int i = 0; i < out.rows.size(); ++i) {
-    int times = 0;
-    Vector3 sum = Vector3::Zero();
-    for (const int other : known)
-      if (same_pose(out.rows, i, own, other)) {
-        sum += error_B.row(other).transpose();
-        ++times;
-      }
-    if (times == 0) continue;
-    repeats = true;
-    const double k = noise / (times * lacks + noise);
-    left(pose[static_cast<std::size_t>(i)]) = k * lacks;
-    share.row(i).setConstant(k);
-    mean.row(i) = (R_MB * ((1.0 - k) / times * sum)).transpose();
-  }
-  if (repeats)
-    out.expected.push_back({lines_of(mean, out.rows, out.axes),
-                            covariance_of(out, noise_m, pose, left),
-                            lines_of(share, out.rows, out.axes)});
+  if (!whole || out.lacks_m <= kSmallShare * out.noise_m || old.rows.empty()) return out;
+  const Rows3 error_B = to_base(calibrated.fit.calibration.state, own, old.error_M);
+  const Misfit misfit = expected_misfit(own, old.rows, error_B, out.rows, out.lacks_m, out.noise_m);
+  Measurements near = pick(own, misfit.near);
+  near.setup.clear();
+  out.expected.push_back({misfit.weights * error_B(misfit.near, Eigen::all),
+                          covariance_of(out, noise_m, misfit.covariance), std::move(near),
+                          misfit.weights});
   return out;
 }
 

@@ -12,13 +12,15 @@
 namespace plumb::offline::recheck {
 
 /// What a run leaves of readings that it was not fitted to, if nothing has changed: noise of the
-/// instrument, and what the model lacks, which is the same whenever one pose is measured.
+/// instrument, and what the model lacks.
 struct ExpectedError {
-  Eigen::VectorXd mean;        // (lines,) [m], measurement frame
+  Rows3 mean_B;                // (readings, 3) [m], base frame
   Eigen::MatrixXd covariance;  // (lines, lines) [m^2]
-  /// Which share of the uncertainty of the run's numbers counts, shape (lines,): where a pose is
-  /// measured again, what the numbers get wrong there has been seen already.
-  Eigen::VectorXd share;
+  /// The error of the run's numbers moves its predictions at the new readings by J e; but what the
+  /// model lacks was learnt from residuals that hold J e of the old readings, so that J less W J of
+  /// those counts (misfit.hpp). Empty: no old reading says anything.
+  Measurements near = {};
+  Eigen::MatrixXd weights = {};
 };
 
 /// The new readings, with what is expected of them. Lines stand pose by pose, `axes` lines each.
@@ -28,8 +30,8 @@ struct Readings {
   int poses = 0;         // different ones
   double noise_m = 0.0;  // 1 sigma of a coordinate, of the instrument
   double lacks_m = 0.0;  // 1 sigma of a coordinate, of what the model of the run lacks
-  /// Two views: what the model lacks is independent of the earlier poses, or where a pose is
-  /// repeated it is what was seen there.
+  /// Two views: what the model lacks is another thing at every pose, or it is what the earlier
+  /// readings there and nearby have shown.
   std::vector<ExpectedError> expected;
 
   int lines() const { return rows.size() * axes; }
@@ -40,10 +42,12 @@ struct Readings {
 inline constexpr int kMostReadings = 100;
 
 /// @param calibrated  The calibration, made from `own`, the cell's measurements.
-/// @param state       Of the run that is rechecked, in the set-up that is compared with.
 /// @param rows        The new readings.
 Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurements& own,
-                         const ArmState& state, Measurements rows);
+                         Measurements rows);
+
+/// 1 sigma of a coordinate of a reading: noise of the instrument and what the model lacks.
+double expected_sigma(const Run& calibrated, const Measurements& own);
 
 /// Whether two readings are of one pose: encoders differ by a little when it is driven to again.
 bool same_pose(const Measurements& a, int row_a, const Measurements& b, int row_b);

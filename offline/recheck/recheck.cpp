@@ -181,7 +181,7 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
                     const Measurements& own, Measurements rows, const Assumed& assumed) {
   const LastSetup setup = last_setup(run);
   place_at_the_end(own, rows);
-  const Readings readings = expect_readings(cell, calibrated, own, setup.state, few(rows));
+  const Readings readings = expect_readings(cell, calibrated, own, few(rows));
   const ArmState extended = with_room_for_changes(cell, own, readings.rows, setup.state);
   const Measurements poses = poses_of(own, calibrated);
   std::vector<Change> possible = possible_changes(cell, extended, poses, readings.poses);

@@ -7,12 +7,15 @@
 #include <cmath>
 
 #include "fit/outliers.hpp"
+#include "fit/parameter_subset.hpp"
 #include "recheck/refit.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
 
-/// One row of every pose that the calibration was made or judged with.
+constexpr int kMostPoses = 2000;  // to choose from; more would add next to nothing
+
+/// One row of every pose that the calibration was made or judged with; some of very many.
 std::vector<int> different_poses(const Run& calibrated, const Measurements& own) {
   std::vector<int> out;
   std::vector<bool> seen(static_cast<std::size_t>(own.size()), false);
@@ -22,7 +25,8 @@ std::vector<int> different_poses(const Run& calibrated, const Measurements& own)
     seen[group] = true;
     out.push_back(i);
   }
-  return without_outliers(std::move(out), calibrated.fit.calibration.outliers);
+  out = without_outliers(std::move(out), calibrated.fit.calibration.outliers);
+  return thinned(out, kMostPoses);
 }
 
 /// Derivatives by the numbers of all changes, per typical size and noise, row by row.
@@ -76,14 +80,14 @@ RecheckPlan plan_recheck(const Cell& cell, const Run& calibrated, const Run& run
   poses.setup.clear();
   const ArmState extended = with_room_for_changes(cell, own, poses, setup.state);
   const auto changes = possible_changes(cell, extended, poses, n);
-  const Readings all = expect_readings(cell, calibrated, own, setup.state, poses);
+  const int axes = static_cast<int>(std::count(own.has_axis.begin(), own.has_axis.end(), true));
   RecheckPlan out;
   std::vector<int> chosen =
-      best_rows(all_columns(changes, poses, extended, all.sigma_m()), all.axes, n);
+      best_rows(all_columns(changes, poses, extended, expected_sigma(calibrated, own)), axes, n);
   std::sort(chosen.begin(), chosen.end());
   for (const int i : chosen) out.rows.push_back(known[static_cast<std::size_t>(i)]);
   const Measurements few = pick(poses, chosen);
-  const Readings readings = expect_readings(cell, calibrated, own, setup.state, few);
+  const Readings readings = expect_readings(cell, calibrated, own, few);
   const Judge judge(readings, extended, setup.known);
   out.visible = visibility(changes, few, poses, extended, judge.judge({}).S);
   return out;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recheck/misfit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace plumb::offline::recheck {
+namespace {
+
+// Of the length [rad], or metres of a sliding joint; the first only joins repeats of a pose.
+constexpr double kLengths[] = {1e-3, 0.1, 0.2, 0.4, 0.8, 1.6};
+constexpr double kEncoder = 2e-3;  // a pose that is driven to again differs by no more
+constexpr std::size_t kMostNear = 500;
+
+double distance(const Measurements& a, int i, const Measurements& b, int j) {
+  const double d = (a.q.row(i) - b.q.row(j)).norm();
+  return d < kEncoder ? 0.0 : d;
+}
+
+/// Fitted rows, or of many those nearest to each of the new ones.
+std::vector<int> nearest(const Measurements& own, const std::vector<int>& known,
+                         const Measurements& rows) {
+  if (known.size() <= kMostNear) return known;
+  const std::size_t each =
+      std::max<std::size_t>(1, kMostNear / static_cast<std::size_t>(rows.size()));
+  std::vector<int> out;
+  std::vector<std::pair<double, int>> by_distance(known.size());
+  for (int i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < known.size(); ++k)
+      by_distance[k] = {distance(rows, i, own, known[k]), known[k]};
+    std::partial_sort(by_distance.begin(), by_distance.begin() + static_cast<std::ptrdiff_t>(each),
+                      by_distance.end());
+    for (std::size_t k = 0; k < each; ++k) out.push_back(by_distance[k].second);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+Eigen::MatrixXd distances(const Measurements& a, const std::vector<int>& rows_a,
+                          const Measurements& b, const std::vector<int>& rows_b) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows_a.size()),
+                      static_cast<Eigen::Index>(rows_b.size()));
+  for (Eigen::Index i = 0; i < out.rows(); ++i)
+    for (Eigen::Index j = 0; j < out.cols(); ++j)
+      out(i, j) =
+          distance(a, rows_a[static_cast<std::size_t>(i)], b, rows_b[static_cast<std::size_t>(j)]);
+  return out;
+}
+
+Eigen::MatrixXd correlation(const Eigen::MatrixXd& distance, double length) {
+  return (-distance / length).array().exp().matrix();
+}
+
+/// Of the readings' residuals, without what is common to all lengths.
+double ln_likelihood(const Eigen::LLT<Eigen::MatrixXd>& llt, const Eigen::MatrixXd& error,
+                     double lacks) {
+  const Eigen::MatrixXd white = llt.matrixL().solve(error);
+  return -3.0 * llt.matrixLLT().diagonal().array().log().sum() - 0.5 * white.squaredNorm() / lacks;
+}
+
+}  // namespace
+
+Misfit expected_misfit(const Measurements& own, const std::vector<int>& known, const Rows3& error_B,
+                       const Measurements& rows, double lacks_m, double noise_m) {
+  Misfit out;
+  out.near = nearest(own, known, rows);
+  std::vector<int> all(static_cast<std::size_t>(rows.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::MatrixXd among = distances(own, out.near, own, out.near);
+  const Eigen::MatrixXd across = distances(rows, all, own, out.near);
+  const Eigen::MatrixXd error = error_B(out.near, Eigen::all);
+  const double lacks = lacks_m * lacks_m, noise = noise_m * noise_m / lacks;
+  double best = -std::numeric_limits<double>::infinity(), length = kLengths[0];
+  Eigen::LLT<Eigen::MatrixXd> chosen;
+  for (const double one : kLengths) {
+    Eigen::MatrixXd K = correlation(among, one);
+    K.diagonal().array() += noise;
+    Eigen::LLT<Eigen::MatrixXd> llt(K);
+    const double ln = ln_likelihood(llt, error, lacks);
+    if (ln <= best) continue;
+    best = ln;
+    length = one;
+    chosen = std::move(llt);
+  }
+  const Eigen::MatrixXd K = correlation(across, length);
+  out.weights = chosen.solve(K.transpose()).transpose();
+  out.covariance =
+      lacks * (correlation(distances(rows, all, rows, all), length) - out.weights * K.transpose());
+  return out;
+}
+
+}  // namespace plumb::offline::recheck
