@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <tuple>
 
 #include "cli/cell_data.hpp"
 #include "cli/cell_lock.hpp"
@@ -10,6 +11,8 @@
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/known_inputs.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
 #include "program/shell_word.hpp"
@@ -91,6 +94,17 @@ void note_few(const MeasurementFiles& rows, const Recheck& found, Outcome& outco
        .help = "measure there again"});
 }
 
+/// Readings where the run was never fitted: what it misses there is no change.
+void note_outside(const Run& parent, const MeasurementFiles& rows, Outcome& outcome) {
+  const format::Model& model = parent.fit.calibration.state.arm;
+  const auto sensors = temperature_names(model);
+  KnownInputs inputs(model);
+  for (int i = 0; i < rows.size(); ++i)
+    std::ignore = inputs.mark({rows.q.row(i).data(), static_cast<std::size_t>(rows.q.cols())},
+                              context_at(rows.context, i, sensors), true, Status::kOk);
+  outcome.remark(inputs.remarks());
+}
+
 std::string next_step(const Recheck& found) {
   switch (found.verdict) {
     case Recheck::Verdict::kTrue:
@@ -131,9 +145,12 @@ void recheck_cell(const RecheckArguments& options, const Globals& globals, Outco
                              {.new_frame = options.new_frame, .new_target = options.new_target});
   }
   note_few(rows, found, outcome);
+  note_outside(parent, rows, outcome);
   outcome.result = show::recheck_json(cell, found, parent);
   outcome.text = show::recheck_text(cell, found, parent);
-  if (options.dry_run || found.verdict == Recheck::Verdict::kUndecidable) {
+  const bool decided =
+      found.verdict != Recheck::Verdict::kUndecidable || (found.keeps && !found.found.empty());
+  if (options.dry_run || !decided) {
     const char* const why =
         options.dry_run ? "--dry-run keeps nothing" : "nothing is known that a run could keep";
     show::put_null(outcome.result, "run", why);

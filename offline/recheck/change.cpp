@@ -140,6 +140,10 @@ const char* name_of(Part part) {
   return "other";
 }
 
+bool same(const Change& a, const Change& b) {
+  return a.part == b.part && a.joint == b.joint && a.effect == b.effect && a.row == b.row;
+}
+
 std::string words_of(const Change& change, const Cell& cell) {
   if (change.part == Part::kTool) return "the tool or the reflector";
   if (change.part == Part::kBase) return "the base or the tracker";

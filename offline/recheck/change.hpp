@@ -31,6 +31,9 @@ struct Change {
   double chance = 0.0;                     // that it is this one, before anything is measured
 };
 
+/// Whether two are of the same part, joint and effect.
+bool same(const Change& a, const Change& b);
+
 /// "the tool or the reflector", "the base or the tracker", "J3: encoder offset".
 std::string words_of(const Change& change, const Cell& cell);
 

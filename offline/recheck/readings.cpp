@@ -95,9 +95,9 @@ OldErrors old_errors(const Run& calibrated, const Measurements& own) {
   const double scatter = scatter_of(calibrated, own, out.error_M, fitted_rows(calibrated, own));
   for (int i = 0; i < own.size(); ++i)
     if (calibrated.fit.split.used[i]) out.rows.push_back(i);
-  out.rows = without_outliers(
-      without_outliers(std::move(out.rows), calibrated.fit.calibration.outliers),
-      calibrated.fit.held_outliers);
+  out.rows =
+      without_outliers(without_outliers(std::move(out.rows), calibrated.fit.calibration.outliers),
+                       calibrated.fit.held_outliers);
   const NoiseFloor& floor = calibrated.fit.floor;
   out.noise_m =
       floor.source != NoiseFloor::Source::kNone ? std::min(floor.sigma_m, scatter) : scatter;

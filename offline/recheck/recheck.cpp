@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "fit/arm_change.hpp"
 #include "recheck/left_out.hpp"
@@ -12,10 +13,10 @@
 namespace plumb::offline::recheck {
 namespace {
 
-constexpr double kListed = 10.0;   // nats behind the found one; farther ones are not mentioned
-constexpr double kTooMuch = 1e-4;  // probability of so large a remainder by chance
-constexpr double kSameCorrection = 0.5;  // of the tolerance: two explanations that differ by less
-                                         // correct the arm alike
+constexpr double kListed = 10.0;     // nats behind the found one; farther ones are not mentioned
+constexpr double kTooMuch = 1e-4;    // probability of so large a remainder by chance
+constexpr double kSamePoints = 0.5;  // of the tolerance: two explanations whose points differ by
+                                     // less are one motion
 
 /// Readings are taken right after the last one of the calibration: what has moved stays moved, and
 /// a drift has come to its end.
@@ -43,17 +44,7 @@ double ln_chance_of(double chi2, double n) {
   return z < 0.0 ? std::log(0.5) : std::log(0.5 * std::erfc(z / std::sqrt(2.0)) + 1e-300);
 }
 
-/// RMS distance of the points that two arms reach, over some poses. Both get the frame and the
-/// target of the first, because those are none of the arm.
-double arms_apart(const Measurements& own, const ArmState& a, const ArmState& b) {
-  ArmState placed = b;
-  placed.X_MB = a.X_MB;
-  placed.X_TG = a.X_TG;
-  const Rows3 difference = predict_points(a, own) - predict_points(placed, own);
-  return std::sqrt(difference.squaredNorm() / own.size());
-}
-
-/// The same of the points as measured.
+/// RMS distance of the measured points that two states predict, over some poses.
 double motion_of(const Measurements& own, const ArmState& a, const ArmState& b) {
   return std::sqrt((predict_points(a, own) - predict_points(b, own)).squaredNorm() / own.size());
 }
@@ -69,6 +60,11 @@ Measurements poses_of(const Measurements& own, const Run& run) {
 }
 
 }  // namespace
+
+bool undecided(const Found& found) {
+  return std::any_of(found.alternatives.begin(), found.alternatives.end(),
+                     [](const Alternative& a) { return a.behind_nats < kUndecided && a.matters; });
+}
 
 const char* name_of(Recheck::Verdict verdict) {
   switch (verdict) {
@@ -112,9 +108,8 @@ std::vector<Alternative> alternatives_to(const Judge& judge, const Search& searc
     const double behind = search.last().ln_evidence + std::log(found.chance) - judged.ln_evidence -
                           std::log(change.chance);
     if (behind > kListed) continue;
-    out.push_back(
-        {change, behind,
-         arms_apart(own, search.last().state, judged.state) > kSameCorrection * tolerance_m});
+    out.push_back({change, behind,
+                   motion_of(own, search.last().state, judged.state) > kSamePoints * tolerance_m});
   }
   std::sort(out.begin(), out.end(),
             [](const auto& a, const auto& b) { return a.behind_nats < b.behind_nats; });
@@ -167,12 +162,28 @@ std::vector<Visibility> blind_spots(const Search& search, const Readings& readin
   return out;
 }
 
-bool undecided(const std::vector<Found>& found) {
-  return std::any_of(found.begin(), found.end(), [](const Found& f) {
-    return std::any_of(f.alternatives.begin(), f.alternatives.end(), [](const Alternative& a) {
-      return a.behind_nats < kUndecided && a.matters;
-    });
-  });
+/// Where a joint, and the tool or the base, are one motion of the measured point, the arm is left
+/// as it is known: the numbers of the measurement are refitted, and the joint is told as not ruled
+/// out.
+void prefer_placing(const Judge& judge, const Measurements& own, double tolerance_m,
+                    Search& search) {
+  for (std::size_t k = search.assumed(); k < search.found().size(); ++k) {
+    if (search.found()[k].part != Part::kJoint) continue;
+    for (const auto& other : alternatives_to(judge, search, k, own, tolerance_m)) {
+      const bool placing = other.change.part == Part::kTool || other.change.part == Part::kBase;
+      if (!placing || other.behind_nats >= kUndecided || other.matters) continue;
+      search.replace(k, other.change);
+      break;
+    }
+  }
+}
+
+/// The changes that a run can keep: assumed ones, single readings, and those that are decided.
+std::vector<Change> kept_changes(const Search& search, const std::vector<Found>& found) {
+  std::vector<Change> out = search.found();
+  for (const auto& one : found)
+    if (undecided(one)) std::erase_if(out, [&](const Change& c) { return same(c, one.change); });
+  return out;
 }
 
 }  // namespace
@@ -189,6 +200,7 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
   const Judge judge(readings, extended, setup.known);
   Search search(judge, readings, std::move(possible), std::move(always));
   search.run();
+  prefer_placing(judge, poses, cell.tolerance_m, search);
 
   Recheck out;
   out.readings = readings.rows.size();
@@ -222,18 +234,22 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
       search.found().begin(), search.found().begin() + static_cast<long>(search.assumed()));
   out.before =
       stats_of(left_out_errors(readings, only_assumed, search.nothing()), out.odd_readings);
-  const Rows3 left = left_out_errors(readings, search.found(), last);
+  const bool open = std::any_of(out.found.begin(), out.found.end(), undecided);
+  const std::vector<Change> kept = kept_changes(search, out.found);
+  const Judged refit = open ? judge.judge(kept) : last;
+  out.keeps = !open || std::any_of(out.found.begin(), out.found.end(), std::not_fn(undecided));
+  const Rows3 left = left_out_errors(readings, kept, refit);
   out.after = stats_of(left, out.odd_readings);
-  out.fitted =
-      stats_of(errors_of(readings, last.r + last.mean - last.B * last.change), out.odd_readings);
+  out.fitted = stats_of(errors_of(readings, refit.r + refit.mean - refit.B * refit.change),
+                        out.odd_readings);
   out.predicted_M = readings.rows.p_M - left;
-  if (undecided(out.found) || (out.found.empty() && !out.something_else && !out.blind.empty()))
+  out.calibration = refitted(cell, run.fit.calibration, setup, kept, refit);
+  if (open || (out.found.empty() && !out.something_else && !out.blind.empty()))
     out.verdict = Recheck::Verdict::kUndecidable;
   else if (out.found.empty() && !out.something_else)
     out.verdict = Recheck::Verdict::kTrue;
   else
     out.verdict = Recheck::Verdict::kChanged;
-  out.calibration = refitted(cell, run.fit.calibration, setup, search.found(), last);
   return out;
 }
 

@@ -19,7 +19,7 @@ struct Assumed {
 struct Alternative {
   Change change;
   double behind_nats = 0.0;
-  bool matters = false;  // the two would correct the arm differently
+  bool matters = false;  // the two move the measured point differently over the arm's poses
 };
 
 /// A change that was found.
@@ -33,6 +33,9 @@ struct Found {
 
 /// Behind by less than this, an explanation is not ruled out [nats].
 inline constexpr double kUndecided = 3.0;
+
+/// Whether another explanation is not ruled out and differs from this one.
+bool undecided(const Found& found);
 
 struct Recheck {
   enum class Verdict { kTrue, kChanged, kUndecidable } verdict = Verdict::kUndecidable;
@@ -50,6 +53,7 @@ struct Recheck {
   double expected_m = 0.0;      // mean error that the run promises at these readings
   double control_m = 0.0;       // three standard deviations of that mean above it
   Rows3 predicted_M;            // of the readings, each by a refit without it [m]
+  bool keeps = true;            // something is decided: the verdict, or a part beside what is open
   Calibration calibration;      // of the run, with what has changed refitted
 };
 

@@ -13,10 +13,6 @@ const double kFound = -std::log(kFalseAlarm);
 constexpr int kMostChanges = 3;
 constexpr double kOddShare = 0.2;  // of the readings; more are no accident
 
-bool same(const Change& a, const Change& b) {
-  return a.part == b.part && a.joint == b.joint && a.effect == b.effect && a.row == b.row;
-}
-
 bool is_reading(const Change& change) { return change.part == Part::kReading; }
 
 std::vector<Change> with(std::vector<Change> all, const Change& more) {
@@ -50,6 +46,11 @@ void Search::run() {
     exchange();
     drop_needless();
   }
+}
+
+void Search::replace(std::size_t k, const Change& change) {
+  found_[k] = change;
+  last_ = judge_.judge(found_);
 }
 
 bool Search::holds(const Change& change) const {

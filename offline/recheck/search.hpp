@@ -23,6 +23,9 @@ class Search {
 
   void run();
 
+  /// Puts another change in the place of a found one.
+  void replace(std::size_t k, const Change& change);
+
   const std::vector<Change>& found() const { return found_; }  // assumed ones first
   std::size_t assumed() const { return assumed_; }
   const std::vector<Change>& possible() const { return possible_; }  // single readings, too

@@ -99,16 +99,20 @@ std::string undecidable_sentence(const Cell& cell, const Recheck& found, const R
         "moves the measured point by {} mm.",
         poses_words(found), run.number, words_of(found.blind.front().change, cell),
         mm(found.blind.front().unseen_m));
-  const Found& first = found.found.front();
-  std::vector<std::string> open{words_of(first.change, cell)};
-  for (const auto& words : open_words(cell, first)) open.push_back(words);
+  const auto open_one = std::find_if(found.found.begin(), found.found.end(), recheck::undecided);
+  std::vector<std::string> open{words_of(open_one->change, cell)}, known;
+  for (const auto& words : open_words(cell, *open_one)) open.push_back(words);
+  for (const auto& one : found.found)
+    if (!recheck::undecided(one)) known.push_back(what_happened(cell, one));
   constexpr std::size_t kNamed = 4;
   const std::size_t more = open.size() > kNamed ? open.size() - kNamed : 0;
   open.resize(std::min(open.size(), kNamed));
   return fmt::format(
-      "Something changed since run {} (mean error {} mm), but these {} cannot tell what: {}{}.",
-      run.number, mm(found.before.mean), poses_words(found), fmt::join(open, ", or "),
-      more > 0 ? fmt::format(", or one of {} others", more) : "");
+      "{} changed since run {} (mean error {} mm), but these {} cannot tell what: {}{}.{}",
+      known.empty() ? "Something" : "Something more", run.number, mm(found.before.mean),
+      poses_words(found), fmt::join(open, ", or "),
+      more > 0 ? fmt::format(", or one of {} others", more) : "",
+      known.empty() ? "" : fmt::format(" Refitted: {}.", fmt::join(known, "; ")));
 }
 
 std::string recheck_errors_text(const Recheck& found, const Run& run) {
@@ -269,9 +273,9 @@ std::string recheck_text(const Cell& cell, const Recheck& found, const Run& run)
   for (const auto& one : found.found)
     if (const auto open = open_words(cell, one);
         !open.empty() && found.verdict == Recheck::Verdict::kChanged)
-      out +=
-          fmt::format("\nNot ruled out instead of {}: {}. Either way the arm is corrected alike.\n",
-                      words_of(one.change, cell), fmt::join(open, ", "));
+      out += fmt::format(
+          "\nNot ruled out instead of {}: {}. The measured point moves alike either way.\n",
+          words_of(one.change, cell), fmt::join(open, ", "));
   return out + blind_text(cell, found.blind) +
          fmt::format(
              "\nA check like this finds a change where there is none in at most {:.0f} of 100 "
