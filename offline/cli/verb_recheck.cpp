@@ -29,11 +29,19 @@ struct RecheckArguments {
   bool new_frame = false, new_target = false, dry_run = false;
 };
 
-/// The new readings; not those of the calibration.
-MeasurementFiles new_readings(const std::string& file, const Cell& cell,
-                              const MeasurementFiles& own, Outcome& outcome) {
-  MeasurementFiles out = read_measurements({file}, joint_is_angle(cell), Needs::kJointsAndPosition);
-  const Table& table = out.tables.front();
+/// New readings, and which rows of their file they are.
+struct NewReadings {
+  MeasurementFiles rows;
+  std::vector<int> row;
+  int in_file = 0;  // that are not marked 'ignore'
+};
+
+/// Refuses (E-RECHECK-OWN) the readings of the calibration itself.
+NewReadings new_readings(const std::string& file, const Cell& cell, const MeasurementFiles& own,
+                         Outcome& outcome) {
+  const MeasurementFiles all =
+      read_measurements({file}, joint_is_angle(cell), Needs::kJointsAndPosition);
+  const Table& table = all.tables.front();
   outcome.inputs.push_back({table.file, table.sha256});
   outcome.remark(table.remarks);
   for (const auto& mine : own.tables)
@@ -44,14 +52,19 @@ MeasurementFiles new_readings(const std::string& file, const Cell& cell,
                                             display_name(file)),
                      .help = "measure again: plumb plan --recheck -o plan.csv"});
   std::vector<int> used;
-  for (int i = 0; i < out.size(); ++i)
-    if (out.set[static_cast<std::size_t>(i)] != SetMark::kIgnore) used.push_back(i);
+  for (int i = 0; i < all.size(); ++i)
+    if (all.set[static_cast<std::size_t>(i)] != SetMark::kIgnore) used.push_back(i);
   if (used.empty())
     throw Failure(Exit::kInput, {.code = "E-RECHECK-NONE",
                                  .message = fmt::format("every reading of {} is marked 'ignore'",
                                                         display_name(file)),
                                  .help = "leave column set empty for those that count"});
-  return pick(out, used);
+  NewReadings out;
+  out.in_file = static_cast<int>(used.size());
+  for (const int i : recheck::judged_rows(out.in_file))
+    out.row.push_back(used[static_cast<std::size_t>(i)]);
+  out.rows = pick(all, out.row);
+  return out;
 }
 
 /// The readings as measurements of the run that a recheck keeps: each held out once.
@@ -73,18 +86,18 @@ Fit fit_of(const Run& parent, const Recheck& found) {
   return out;
 }
 
-void note_few(const MeasurementFiles& rows, const Recheck& found, Outcome& outcome) {
-  if (rows.size() > found.readings)
+void note_few(const NewReadings& readings, const Recheck& found, Outcome& outcome) {
+  if (readings.in_file > found.readings)
     outcome.remarks.push_back(
         {.severity = Severity::kNote,
          .code = "N-RECHECK-SOME",
          .message = fmt::format("{} of {} readings are judged, evenly spread: a recheck is for few",
-                                found.readings, rows.size()),
+                                found.readings, readings.in_file),
          .help = "to calibrate with all of them: name the file in cell.toml, then plumb fit"});
   if (found.odd_readings.empty()) return;
   std::vector<std::string> names;
   for (const int row : found.odd_readings)
-    names.push_back(rows.pose[static_cast<std::size_t>(row)]);
+    names.push_back(readings.rows.pose[static_cast<std::size_t>(row)]);
   outcome.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-RECHECK-ODD",
@@ -121,7 +134,8 @@ std::string next_step(const Recheck& found) {
 void recheck_cell(const RecheckArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
   MeasurementFiles own = open_measurements(cell, outcome);
-  const MeasurementFiles rows = new_readings(options.data, cell, own, outcome);
+  const NewReadings readings = new_readings(options.data, cell, own, outcome);
+  const MeasurementFiles& rows = readings.rows;
   const Run parent =
       options.run.empty()
           ? latest_recheck(
@@ -144,7 +158,8 @@ void recheck_cell(const RecheckArguments& options, const Globals& globals, Outco
         recheck::recheck_run(cell, calibrated, parent, own, rows,
                              {.new_frame = options.new_frame, .new_target = options.new_target});
   }
-  note_few(rows, found, outcome);
+  note_few(readings, found, outcome);
+  for (int& row : found.odd_readings) row = readings.row[static_cast<std::size_t>(row)];
   note_outside(parent, rows, outcome);
   outcome.result = show::recheck_json(cell, found, parent);
   outcome.text = show::recheck_text(cell, found, parent);

@@ -38,7 +38,7 @@ struct Readings {
   double sigma_m() const;  // both together
 };
 
-/// At most this many readings are judged; of more, so many are taken, evenly spread.
+/// At most this many readings are judged.
 inline constexpr int kMostReadings = 100;
 
 /// @param calibrated  The calibration, made from `own`, the cell's measurements.

@@ -22,17 +22,11 @@ constexpr double kSamePoints = 0.5;  // of the tolerance: two explanations whose
 /// a drift has come to its end.
 void place_at_the_end(const Measurements& own, Measurements& rows) {
   rows.context.order = Eigen::VectorXd::Constant(rows.size(), static_cast<double>(own.size()));
-  rows.context.time_s = own.context.time_s.size() > 0
-                            ? Eigen::VectorXd::Constant(rows.size(), own.context.time_s.maxCoeff())
-                            : Eigen::VectorXd();
-}
-
-Measurements few(const Measurements& rows) {
-  if (rows.size() <= kMostReadings) return rows;
-  std::vector<int> some;
-  for (int i = 0; i < kMostReadings; ++i)
-    some.push_back(static_cast<int>(static_cast<long>(i) * rows.size() / kMostReadings));
-  return pick(rows, some);
+  rows.context.time_s.resize(0);
+  double last = -HUGE_VAL;
+  for (const double t : own.context.time_s)
+    if (std::isfinite(t)) last = std::max(last, t);
+  if (std::isfinite(last)) rows.context.time_s = Eigen::VectorXd::Constant(rows.size(), last);
 }
 
 /// ln of the probability that F(n, trusted) exceeds chi2 / n, by the Wilson-Hilferty cube root of
@@ -56,10 +50,18 @@ Measurements poses_of(const Measurements& own, const Run& run) {
     if (run.fit.split.used[i]) used.push_back(i);
   Measurements out = pick(own, used);
   out.setup.clear();
-  return few(out);
+  return pick(out, judged_rows(out.size()));
 }
 
 }  // namespace
+
+std::vector<int> judged_rows(int size) {
+  std::vector<int> out;
+  const int count = std::min(size, kMostReadings);
+  for (int i = 0; i < count; ++i)
+    out.push_back(static_cast<int>(static_cast<long>(i) * size / count));
+  return out;
+}
 
 bool undecided(const Found& found) {
   return std::any_of(found.alternatives.begin(), found.alternatives.end(),
@@ -192,7 +194,7 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
                     const Measurements& own, Measurements rows, const Assumed& assumed) {
   const LastSetup setup = last_setup(run);
   place_at_the_end(own, rows);
-  const Readings readings = expect_readings(cell, calibrated, own, few(rows));
+  const Readings readings = expect_readings(cell, calibrated, own, std::move(rows));
   const ArmState extended = with_room_for_changes(cell, own, readings.rows, setup.state);
   const Measurements poses = poses_of(own, calibrated);
   std::vector<Change> possible = possible_changes(cell, extended, poses, readings.poses);

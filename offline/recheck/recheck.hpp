@@ -57,6 +57,9 @@ struct Recheck {
   Calibration calibration;      // of the run, with what has changed refitted
 };
 
+/// Rows of a file of `size` readings that are judged: all, or of many kMostReadings, evenly spread.
+std::vector<int> judged_rows(int size);
+
 /// "true", "changed", "undecidable"
 const char* name_of(Recheck::Verdict verdict);
 
@@ -65,7 +68,7 @@ const char* name_of(Recheck::Verdict verdict);
 ///
 /// @param calibrated  The calibration that `run` goes back to, which may be `run` itself.
 /// @param own         The cell's measurements, on the base of the run.
-/// @param rows        The new readings, with contexts.
+/// @param rows        The new readings, with contexts; at most kMostReadings.
 /// Throws Failure (kInput, E-RECHECK-RUN) if the numbers of the run are not known any more.
 /// Cost: some 40 judgements a change found (Judge::judge), 0.1 s for 12 readings.
 Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,

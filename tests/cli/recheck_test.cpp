@@ -191,6 +191,20 @@ TEST_F(RecheckVerb, TwoPosesAreTooFewToSayThatItIsTrue) {
   EXPECT_FALSE(result["not_shown"].empty());
 }
 
+TEST_F(RecheckVerb, OfALargeFileSomeReadingsAreJudgedAndKept) {
+  std::vector<std::string> many;
+  while (many.size() < 130) many.insert(many.end(), rows.begin(), rows.end());
+  box->write("now.csv", readings(many, as_is));
+  const Ran ran = recheck();
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.json()["result"]["readings"], 100);
+  EXPECT_EQ(ran.json()["result"]["verdict"], "true");
+  EXPECT_NE(ran.out.find("N-RECHECK-SOME"), std::string::npos);
+  const auto listed = box->plumb({"-C", "cell", "runs", "--json"}).json()["result"];
+  EXPECT_TRUE(listed["damaged"].empty());
+  EXPECT_EQ(listed["runs"].back()["held_out"]["n"], 100);
+}
+
 TEST_F(RecheckVerb, CompileTakesTheLatestRecheck) {
   box->write("now.csv", readings(some(14), as_is));
   ASSERT_EQ(recheck().exit, 0);
