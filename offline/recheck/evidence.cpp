@@ -91,6 +91,15 @@ double ln_evidence(const Eigen::LLT<Eigen::MatrixXd>& S, const Eigen::VectorXd& 
   return ln_sum(ln) - std::log(static_cast<double>(ln.size()));
 }
 
+/// What of a vector in the base frame is measured, shape (axes, 3).
+Eigen::MatrixXd lines_of_base(const ArmState& state, const Measurements& rows) {
+  std::vector<int> measured;
+  for (int k = 0; k < 3; ++k)
+    if (rows.has_axis[static_cast<std::size_t>(k)]) measured.push_back(k);
+  const Eigen::Matrix3d R_MB = from_pose(state.X_MB).R;
+  return R_MB(measured, Eigen::all);
+}
+
 }  // namespace
 
 /// Where the Gauss-Newton steps begin, and the changes with their scales from there.
@@ -104,10 +113,11 @@ struct Judge::Start {
 Eigen::MatrixXd Judge::learnt_derivatives(const ExpectedError& view) const {
   if (view.weights.size() == 0) return {};
   const Eigen::MatrixXd J = derivatives(view.near, extended_, known_.parameters);
-  const Matrix3 R_BM = from_pose(extended_.X_MB).R.transpose();
+  const Eigen::MatrixXd to_base = lines_of_base(extended_, view.near).transpose();
+  const int axes = readings_.axes;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * view.weights.rows(), J.cols());
   for (Eigen::Index old = 0; old < view.weights.cols(); ++old) {
-    const Eigen::MatrixXd J_B = R_BM * J.middleRows(3 * old, 3);
+    const Eigen::MatrixXd J_B = to_base * J.middleRows(axes * old, axes);
     for (Eigen::Index i = 0; i < view.weights.rows(); ++i)
       out.middleRows(3 * i, 3) += view.weights(i, old) * J_B;
   }
@@ -206,15 +216,16 @@ void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
   const Eigen::MatrixXd J = derivatives(readings_.rows, state, known_.parameters);
   const Eigen::VectorXd missed = residual_at(state) + out.B * in_state;
   std::vector<double> views;
-  const Matrix3 R_MB = from_pose(state.X_MB).R;
+  const Eigen::MatrixXd to_lines = lines_of_base(state, readings_.rows);
+  const int axes = readings_.axes;
   for (std::size_t v = 0; v < readings_.expected.size(); ++v) {
     const ExpectedError& view = readings_.expected[v];
     Eigen::MatrixXd J_view = J;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(missed.size());
     if (learnt_[v].size() > 0)
       for (Eigen::Index i = 0; i < readings_.rows.size(); ++i) {
-        J_view.middleRows(3 * i, 3) -= R_MB * learnt_[v].middleRows(3 * i, 3);
-        mean.segment(3 * i, 3) = R_MB * view.mean_B.row(i).transpose();
+        J_view.middleRows(axes * i, axes) -= to_lines * learnt_[v].middleRows(3 * i, 3);
+        mean.segment(axes * i, axes) = to_lines * view.mean_B.row(i).transpose();
       }
     const Eigen::MatrixXd S = view.covariance + J_view * known_.covariance * J_view.transpose();
     const Eigen::LLT<Eigen::MatrixXd> llt(S);

@@ -57,15 +57,15 @@ Eigen::MatrixXd correlation(const Eigen::MatrixXd& distance, double length) {
 
 /// Of the readings' residuals, without what is common to all lengths.
 double ln_likelihood(const Eigen::LLT<Eigen::MatrixXd>& llt, const Eigen::MatrixXd& error,
-                     double lacks) {
+                     double lacks, int axes) {
   const Eigen::MatrixXd white = llt.matrixL().solve(error);
-  return -3.0 * llt.matrixLLT().diagonal().array().log().sum() - 0.5 * white.squaredNorm() / lacks;
+  return -axes * llt.matrixLLT().diagonal().array().log().sum() - 0.5 * white.squaredNorm() / lacks;
 }
 
 }  // namespace
 
 Misfit expected_misfit(const Measurements& own, const std::vector<int>& known, const Rows3& error_B,
-                       const Measurements& rows, double lacks_m, double noise_m) {
+                       const Measurements& rows, const MisfitSize& size) {
   Misfit out;
   out.near = nearest(own, known, rows);
   std::vector<int> all(static_cast<std::size_t>(rows.size()));
@@ -73,14 +73,15 @@ Misfit expected_misfit(const Measurements& own, const std::vector<int>& known, c
   const Eigen::MatrixXd among = distances(own, out.near, own, out.near);
   const Eigen::MatrixXd across = distances(rows, all, own, out.near);
   const Eigen::MatrixXd error = error_B(out.near, Eigen::all);
-  const double lacks = lacks_m * lacks_m, noise = noise_m * noise_m / lacks;
+  const double lacks = size.lacks_m * size.lacks_m;
+  const double noise = size.noise_m * size.noise_m / lacks;
   double best = -std::numeric_limits<double>::infinity(), length = kLengths[0];
   Eigen::LLT<Eigen::MatrixXd> chosen;
   for (const double one : kLengths) {
     Eigen::MatrixXd K = correlation(among, one);
     K.diagonal().array() += noise;
     Eigen::LLT<Eigen::MatrixXd> llt(K);
-    const double ln = ln_likelihood(llt, error, lacks);
+    const double ln = ln_likelihood(llt, error, lacks, size.axes);
     if (ln <= best) continue;
     best = ln;
     length = one;

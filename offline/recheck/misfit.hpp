@@ -21,12 +21,18 @@ struct Misfit {
   Eigen::MatrixXd covariance;  // (readings, readings) [m^2], of one axis
 };
 
+/// Of a coordinate, 1 sigma.
+struct MisfitSize {
+  double lacks_m = 0.0;  // s
+  double noise_m = 0.0;  // of a reading
+  int axes = 3;          // that are measured
+};
+
 /// @param own      The calibration's measurements; `known`: its fitted rows.
 /// @param error_B  What the model leaves of them, base frame [m].
 /// @param rows     New readings.
-/// @param lacks_m  s, and `noise_m` of a reading, 1 sigma of a coordinate.
 /// The length is the likeliest one of a few. Cost: near^3 a length, with at most 500 near rows.
 Misfit expected_misfit(const Measurements& own, const std::vector<int>& known, const Rows3& error_B,
-                       const Measurements& rows, double lacks_m, double noise_m);
+                       const Measurements& rows, const MisfitSize& size);
 
 }  // namespace plumb::offline::recheck

@@ -134,10 +134,12 @@ Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurem
   const Rows3 nothing = Rows3::Zero(out.rows.size(), 3);
   const Eigen::MatrixXd anew = anew_at_each_pose(pose, out.lacks_m * out.lacks_m);
   out.expected.push_back({nothing, covariance_of(out, noise_m, anew)});
-  const bool whole = out.axes == 3 && own.has_axis == out.rows.has_axis;
-  if (!whole || out.lacks_m <= kSmallShare * out.noise_m || old.rows.empty()) return out;
+  const bool same_axes = own.has_axis == out.rows.has_axis;
+  if (!same_axes || out.lacks_m <= kSmallShare * out.noise_m || old.rows.empty()) return out;
   const Rows3 error_B = to_base(calibrated.fit.calibration.state, own, old.error_M);
-  const Misfit misfit = expected_misfit(own, old.rows, error_B, out.rows, out.lacks_m, out.noise_m);
+  const Misfit misfit =
+      expected_misfit(own, old.rows, error_B, out.rows,
+                      {.lacks_m = out.lacks_m, .noise_m = out.noise_m, .axes = out.axes});
   Measurements near = pick(own, misfit.near);
   near.setup.clear();
   out.expected.push_back({misfit.weights * error_B(misfit.near, Eigen::all),

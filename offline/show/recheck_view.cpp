@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/runtime/transform.hpp"
+#include "fit/verdict.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
@@ -69,10 +69,15 @@ std::string poses_words(const Recheck& found) {
                                                      found.poses, found.poses == 1 ? "" : "s");
 }
 
-std::string true_sentence(const Recheck& found, const Run& run) {
+/// "true" means as good as it was, which need not be good enough.
+std::string true_sentence(const Cell& cell, const Recheck& found, const Run& run) {
+  const std::string head =
+      found.then.n == 0 || keeps(found.then, cell.tolerance_m)
+          ? "Still true:"
+          : fmt::format("Nothing has changed, but run {} never kept the tolerance of {} mm:",
+                        run.number, mm(cell.tolerance_m));
   return fmt::format(
-      "Still true: run {} predicts {} with a mean error of {} mm, of which {} mm were to be "
-      "expected.",
+      "{} run {} predicts {} with a mean error of {} mm, of which {} mm were to be expected.", head,
       run.number, poses_words(found), mm(found.before.mean), mm(found.expected_m));
 }
 
@@ -222,7 +227,7 @@ std::vector<Column> circumstances_of(const Cell& cell, const ContextRows& rows) 
 std::string recheck_sentence(const Cell& cell, const Recheck& found, const Run& run) {
   switch (found.verdict) {
     case Recheck::Verdict::kTrue:
-      return true_sentence(found, run);
+      return true_sentence(cell, found, run);
     case Recheck::Verdict::kChanged:
       return changed_sentence(cell, found, run);
     case Recheck::Verdict::kUndecidable:

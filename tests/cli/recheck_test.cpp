@@ -266,4 +266,27 @@ TEST_F(RecheckVerb, ThePlanRepeatsPosesOfTheCalibration) {
   EXPECT_EQ(box->plumb({"-C", "cell", "plan", "--recheck", "--separate", "drift,step"}).exit, 2);
 }
 
+/// Its model is far from good, and misses alike at neighbouring poses: no sign of a change.
+TEST(RecheckOfAPlanarArm, TakesWhatTheModelNeverKnewForNoChange) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "planar-published", "cell"}).exit, 0);
+  std::istringstream in(box.read("cell/measurements.csv"));
+  std::string kept, now;
+  int row = -1;
+  for (std::string line; std::getline(in, line);) {
+    const bool above = line.front() == '#' || row < 0;
+    if (above || row % 20 != 5) kept += line + "\n";
+    if (above || row % 20 == 5) now += line + "\n";
+    row += line.front() != '#' ? 1 : 0;
+  }
+  box.write("cell/measurements.csv", kept);
+  box.write("now.csv", now);
+  const Ran ran = box.plumb({"-C", "cell", "recheck", "--data", "now.csv", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const auto result = ran.json()["result"];
+  EXPECT_EQ(result["verdict"], "true") << result["verdict_text"];
+  EXPECT_NE(std::string(result["verdict_text"]).find("never kept the tolerance"),
+            std::string::npos);
+}
+
 }  // namespace
