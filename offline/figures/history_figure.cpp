@@ -46,6 +46,19 @@ std::string history_sentence(const RunResults& results) {
                    length_text(last.recheck->limit_m));
 }
 
+double calibration_error(const Run& run) {
+  return run.fit.held.n > 0 ? run.fit.held.mean : run.fit.fit.mean;
+}
+
+std::string calibration_note(const Run& run) {
+  return run.fit.held.n > 0
+             ? fmt::format("Calibration: run {}, {} held-out readings.", run.number, run.fit.held.n)
+             : fmt::format(
+                   "Calibration: run {}; no pose was held out, so its error is in-sample and "
+                   "no accuracy.",
+                   run.number);
+}
+
 }  // namespace
 
 std::string history_figure(const RunResults& results, double width) {
@@ -53,7 +66,7 @@ std::string history_figure(const RunResults& results, double width) {
       width,
       {.title = "Is the calibration still true?",
        .sentence = history_sentence(results),
-       .legend = {{.words = "held-out error of the calibration",
+       .legend = {{.words = "error of the calibration",
                    .mark = draw::Mark{.shape = draw::Shape::kSquare, .paint = Tone::kInk}},
                   {.words = "recheck: nothing changed",
                    .mark = draw::Mark{.shape = draw::Shape::kCircle, .paint = Tone::kBlue}},
@@ -66,11 +79,11 @@ std::string history_figure(const RunResults& results, double width) {
                   {.words = "to be expected", .line = kExpected},
                   {.words = "control limit", .line = kControl}},
        .notes = {
-           fmt::format("Mean error of the readings of each recheck, predicted by the run before "
-                       "it. Calibration: run {}, {} held-out readings.",
-                       results.run.number, results.run.fit.held.n),
+           "Mean length of e = measured - predicted over the readings of each recheck, by the run "
+           "before it.",
+           calibration_note(results.run),
            "Control limit: three standard deviations of the mean above what is expected."}});
-  double most = std::max(results.cell.tolerance_m, results.run.fit.held.mean);
+  double most = std::max(results.cell.tolerance_m, calibration_error(results.run));
   double least = most;
   for (const Run& run : results.rechecks) {
     most = std::max({most, run.recheck->before.mean, run.recheck->limit_m, run.fit.held.mean});
@@ -91,7 +104,7 @@ std::string history_figure(const RunResults& results, double width) {
     runs.ticks.push_back(
         {static_cast<double>(i + 1), fmt::format("{}", results.rechecks[i].number)});
   draw::Panel panel(sheet.svg(), sheet.room(kHistoryHeight), runs, axis.axis);
-  panel.mark(0.0, axis.of(results.run.fit.held.mean),
+  panel.mark(0.0, axis.of(calibration_error(results.run)),
              {.shape = draw::Shape::kSquare, .paint = Tone::kInk, .size = 5.0});
   for (std::size_t i = 0; i < results.rechecks.size(); ++i) {
     const Run& run = results.rechecks[i];

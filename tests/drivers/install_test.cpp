@@ -308,8 +308,9 @@ TEST_F(Install, AnotherRobotIsRefusedByWhatRuns) {
 TEST_F(Install, KilledWhileWhatRunsSwapsNothingIsLost) {
   if (kSanitized) GTEST_SKIP() << "hundreds of starts, each of which a sanitizer makes slow";
   for (const Deployed* one : {&first, &second}) write_endless_targets(*one);
-  write_made(first, kFirst);
-  write_made(second, kSecond);
+  // On a busy machine these installs take half a minute.
+  write_made_slow(first, kFirst);
+  write_made_slow(second, kSecond);
   ASSERT_EQ(install(first).exit, 0);
   RtProgram run({"run", to(), "--etc", machine.etc().string()}, machine.root);
   ASSERT_TRUE(becomes([&] { return status().is_object(); }));

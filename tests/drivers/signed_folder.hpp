@@ -80,6 +80,14 @@ inline void write_made(const Deployed& folder, const std::string& made,
   folder.write("rt.toml", Deployed::csv(more) + "[model]\nmade = \"" + made + "\"\n");
 }
 
+/// The same with a cycle four times as long, so that the targets last four times longer.
+inline void write_made_slow(const Deployed& folder, const std::string& made) {
+  std::string text = Deployed::csv("") + "[model]\nmade = \"" + made + "\"\n";
+  const std::string usual = "cycle_us = 1000";
+  text.replace(text.find(usual), usual.size(), "cycle_us = 4000");
+  folder.write("rt.toml", text);
+}
+
 /// Targets that go on for longer than a test.
 inline void write_endless_targets(const Deployed& folder, int rows = 30'000) {
   const std::string first = folder.text("targets.csv");
