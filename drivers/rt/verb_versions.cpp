@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <system_error>
+#include <tuple>
 
 #include "program/file.hpp"
 #include "program/folder_lock.hpp"
@@ -27,6 +29,14 @@ struct VersionOptions {
 /// The place that was named, which must be one.
 Place named_place(const VersionOptions& options) {
   Place out = find_place(options.to, kStore);
+  std::error_code error;
+  std::ignore = std::filesystem::status(out.folder, error);
+  if (error == std::errc::permission_denied)
+    throw Failure(
+        Exit::kEnvironment,
+        {.code = "E-RT-PLACE",
+         .message = fmt::format("{} may not be opened by this user", display_name(out.folder)),
+         .help = "as root, or as a member of its group: adduser NAME plumb"});
   if (!is_place(out.folder))
     throw Failure(Exit::kInput,
                   {.code = "E-RT-PLACE",
