@@ -15,7 +15,6 @@
 #include "fit/known_inputs.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
-#include "program/shell_word.hpp"
 #include "recheck/recheck.hpp"
 #include "show/recheck_view.hpp"
 
@@ -133,7 +132,7 @@ std::string next_step(const Recheck& found) {
 
 void recheck_cell(const RecheckArguments& options, const Globals& globals, Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
-  MeasurementFiles own = open_measurements(cell, outcome);
+  const MeasurementFiles own = open_measurements(cell, outcome);
   const NewReadings readings = new_readings(options.data, cell, own, outcome);
   const MeasurementFiles& rows = readings.rows;
   const Run parent =
@@ -142,7 +141,7 @@ void recheck_cell(const RecheckArguments& options, const Globals& globals, Outco
                 cell, current_or_new_run(cell, own, options.dry_run ? Keep::kNothing : Keep::kRun,
                                          outcome))
           : load_run(cell, run_number(options.run));
-  const Run calibrated = parent.recheck ? calibrated_run(cell, parent) : parent;
+  const Run calibrated = calibrated_run(cell, parent);
   check_same_data(calibrated, own);
   if (calibrated.fit.base == Base::kController)
     throw Failure(Exit::kInput,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/earlier_runs.hpp"
 
-#include <algorithm>
-
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -35,10 +33,7 @@ std::vector<Run> rechecks_of(const Run& calibrated, const Cell& cell) {
     if (number <= calibrated.number) continue;
     try {
       Run run = load_run(cell, number);
-      if (!run.recheck || std::find(line.begin(), line.end(), run.recheck->parent) == line.end())
-        continue;
-      line.push_back(number);
-      out.push_back(std::move(run));
+      if (joins_line(run, line)) out.push_back(std::move(run));
     } catch (const Failure&) {
       continue;  // damaged: it cannot be drawn
     }

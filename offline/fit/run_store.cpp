@@ -283,15 +283,19 @@ std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measure
   return std::nullopt;
 }
 
+bool joins_line(const Run& later, std::vector<int>& line) {
+  if (!later.recheck) return false;
+  if (std::find(line.begin(), line.end(), later.recheck->parent) == line.end()) return false;
+  line.push_back(later.number);
+  return true;
+}
+
 Run latest_recheck(const Cell& cell, Run run) {
   std::vector<int> line{run.number};
   for (const int number : list_runs(cell)) {
     if (number <= line.front()) continue;
     Run later = load_run(cell, number);
-    if (!later.recheck) continue;
-    if (std::find(line.begin(), line.end(), later.recheck->parent) == line.end()) continue;
-    line.push_back(number);
-    run = std::move(later);
+    if (joins_line(later, line)) run = std::move(later);
   }
   return run;
 }

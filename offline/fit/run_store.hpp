@@ -62,6 +62,9 @@ Run load_run(const Cell& cell, int number);
 /// one: was it that?
 std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured);
 
+/// Whether a run is a recheck of one of these; then its number is added to them.
+bool joins_line(const Run& later, std::vector<int>& line);
+
 /// What is known of the arm now: the latest recheck that goes back to this run, or the run itself.
 /// Throws on a damaged later one.
 Run latest_recheck(const Cell& cell, Run run);

@@ -8,7 +8,6 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
-#include "fit/solver.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -194,13 +193,18 @@ std::vector<Change> possible_changes(const Cell& cell, const ArmState& extended,
   return out;
 }
 
-Eigen::MatrixXd derivatives(const Measurements& rows, const ArmState& state,
-                            const std::vector<Parameter>& parameters) {
+Solution linearised(const Measurements& rows, const ArmState& state,
+                    const std::vector<Parameter>& parameters) {
   FitData data;
   data.measured = &rows;
   for (int i = 0; i < rows.size(); ++i) data.rows.push_back(i);
   data.sigma_m = Rows3::Ones(rows.size(), 3);
-  return evaluate(data, state, parameters).jacobian;
+  return evaluate(data, state, parameters);
+}
+
+Eigen::MatrixXd derivatives(const Measurements& rows, const ArmState& state,
+                            const std::vector<Parameter>& parameters) {
+  return linearised(rows, state, parameters).jacobian;
 }
 
 Change odd_reading(int row, int readings, double sigma_m) {

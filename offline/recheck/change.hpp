@@ -9,6 +9,7 @@
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
+#include "fit/solver.hpp"
 
 namespace plumb::offline::recheck {
 
@@ -54,6 +55,11 @@ ArmState with_room_for_changes(const Cell& cell, const Measurements& of_arm,
 /// @param readings  How many different poses are judged.
 std::vector<Change> possible_changes(const Cell& cell, const ArmState& extended,
                                      const Measurements& poses, int readings);
+
+/// Residuals of all rows, measured - predicted [m], and derivatives of the predicted points; no
+/// priors, and every coordinate counts alike.
+Solution linearised(const Measurements& rows, const ArmState& state,
+                    const std::vector<Parameter>& parameters);
 
 /// Derivatives of the predicted points, shape (lines, parameters) [m/SI]; lines stand pose by pose.
 Eigen::MatrixXd derivatives(const Measurements& rows, const ArmState& state,

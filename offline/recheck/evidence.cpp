@@ -7,7 +7,6 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/frame_start.hpp"
-#include "fit/solver.hpp"
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline::recheck {
@@ -17,14 +16,6 @@ constexpr int kSteps = 6;             // of Gauss and Newton
 constexpr double kSettled = 1e-3;     // of a standard deviation: a smaller step is the last one
 constexpr double kFarAway = 2e-3;     // [m]: a base that moved farther is placed anew first
 constexpr double kAnyPlace = 1000.0;  // times a millimetre: a tracker put somewhere else
-
-FitData data_of(const Measurements& rows) {
-  FitData out;
-  out.measured = &rows;
-  for (int i = 0; i < rows.size(); ++i) out.rows.push_back(i);
-  out.sigma_m = Rows3::Ones(rows.size(), 3);
-  return out;
-}
 
 std::vector<Parameter> parameters_of(const std::vector<Change>& changes) {
   std::vector<Parameter> out;
@@ -130,7 +121,7 @@ Judge::Judge(const Readings& readings, const ArmState& extended, const KnownNumb
 }
 
 Eigen::VectorXd Judge::residual_at(const ArmState& state) const {
-  return evaluate(data_of(readings_.rows), state, {}).residual;
+  return linearised(readings_.rows, state, {}).residual;
 }
 
 Eigen::MatrixXd Judge::columns_at(const ArmState& state, const std::vector<Change>& changes) const {

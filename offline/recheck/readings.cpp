@@ -27,7 +27,7 @@ std::vector<int> fitted_rows(const Run& run, const Measurements& own) {
 /// 1 sigma of a coordinate of what the run leaves of its own readings.
 double scatter_of(const Run& run, const Measurements& own, const Rows3& error,
                   const std::vector<int>& rows) {
-  const int axes = static_cast<int>(std::count(own.has_axis.begin(), own.has_axis.end(), true));
+  const int axes = axes_of(own);
   // A tree, or a series of waves, fits its own readings better than others.
   if ((run.fit.tree || has_series(run.fit.calibration.state)) && run.fit.held.n > 0)
     return run.fit.held.rms / std::sqrt(static_cast<double>(axes));
@@ -48,12 +48,17 @@ Eigen::VectorXd lines_of(const Rows3& values, const Measurements& rows, int axes
   return out;
 }
 
+/// Whether two readings are of one pose: encoders differ by a little when it is driven to again.
+bool same_pose(const Measurements& rows, int a, int b) {
+  return (rows.q.row(a) - rows.q.row(b)).cwiseAbs().maxCoeff() < kSamePose;
+}
+
 /// Numbers the poses of the readings; readings of one pose get one number.
 std::vector<int> pose_numbers(const Measurements& rows, int& count) {
   std::vector<int> out, first;
   for (int i = 0; i < rows.size(); ++i) {
     const auto at = std::find_if(first.begin(), first.end(),
-                                 [&](int other) { return same_pose(rows, i, rows, other); });
+                                 [&](int other) { return same_pose(rows, i, other); });
     out.push_back(static_cast<int>(at - first.begin()));
     if (at == first.end()) first.push_back(i);
   }
@@ -115,14 +120,14 @@ double expected_sigma(const Run& calibrated, const Measurements& own) {
 
 double Readings::sigma_m() const { return std::hypot(noise_m, lacks_m); }
 
-bool same_pose(const Measurements& a, int row_a, const Measurements& b, int row_b) {
-  return (a.q.row(row_a) - b.q.row(row_b)).cwiseAbs().maxCoeff() < kSamePose;
+int axes_of(const Measurements& rows) {
+  return static_cast<int>(std::count(rows.has_axis.begin(), rows.has_axis.end(), true));
 }
 
 Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurements& own,
                          Measurements rows) {
   Readings out;
-  out.axes = static_cast<int>(std::count(rows.has_axis.begin(), rows.has_axis.end(), true));
+  out.axes = axes_of(rows);
   const OldErrors old = old_errors(calibrated, own);
   out.noise_m = old.noise_m;
   out.lacks_m = old.lacks_m;

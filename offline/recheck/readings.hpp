@@ -49,7 +49,7 @@ Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurem
 /// 1 sigma of a coordinate of a reading: noise of the instrument and what the model lacks.
 double expected_sigma(const Run& calibrated, const Measurements& own);
 
-/// Whether two readings are of one pose: encoders differ by a little when it is driven to again.
-bool same_pose(const Measurements& a, int row_a, const Measurements& b, int row_b);
+/// How many axes were measured.
+int axes_of(const Measurements& rows);
 
 }  // namespace plumb::offline::recheck

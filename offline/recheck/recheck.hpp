@@ -28,7 +28,7 @@ struct Found {
   double ln_bayes = 0.0;  // for it over its absence, the other changes being there
   std::vector<Estimate> before = {}, after = {};  // its numbers
   double motion_m = 0.0;  // RMS motion of the measured point over the poses of the calibration
-  std::vector<Alternative> alternatives = {};  // within kUndecided of it, of another part or joint
+  std::vector<Alternative> alternatives = {};  // at most 10 nats behind it
 };
 
 /// Behind by less than this, an explanation is not ruled out [nats].

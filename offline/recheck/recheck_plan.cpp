@@ -80,10 +80,9 @@ RecheckPlan plan_recheck(const Cell& cell, const Run& calibrated, const Run& run
   poses.setup.clear();
   const ArmState extended = with_room_for_changes(cell, own, poses, setup.state);
   const auto changes = possible_changes(cell, extended, poses, n);
-  const int axes = static_cast<int>(std::count(own.has_axis.begin(), own.has_axis.end(), true));
   RecheckPlan out;
-  std::vector<int> chosen =
-      best_rows(all_columns(changes, poses, extended, expected_sigma(calibrated, own)), axes, n);
+  std::vector<int> chosen = best_rows(
+      all_columns(changes, poses, extended, expected_sigma(calibrated, own)), axes_of(own), n);
   std::sort(chosen.begin(), chosen.end());
   for (const int i : chosen) out.rows.push_back(known[static_cast<std::size_t>(i)]);
   const Measurements few = pick(poses, chosen);

@@ -74,15 +74,20 @@ inline void sign(const std::filesystem::path& folder, const SecretKey& key) {
   std::ofstream(folder / kSignatureFile) << sign_sums(key, text_of(folder / kSumsFile));
 }
 
-/// Writes rt.toml with a time at which it was made, and the sums.
+/// rt.toml with a time at which it was made.
+inline std::string made_text(const std::string& made, const std::string& more = "") {
+  return Deployed::csv(more) + "[model]\nmade = \"" + made + "\"\n";
+}
+
+/// Writes it, and the sums.
 inline void write_made(const Deployed& folder, const std::string& made,
                        const std::string& more = "") {
-  folder.write("rt.toml", Deployed::csv(more) + "[model]\nmade = \"" + made + "\"\n");
+  folder.write("rt.toml", made_text(made, more));
 }
 
 /// The same with a cycle four times as long, so that the targets last four times longer.
 inline void write_made_slow(const Deployed& folder, const std::string& made) {
-  std::string text = Deployed::csv("") + "[model]\nmade = \"" + made + "\"\n";
+  std::string text = made_text(made);
   const std::string usual = "cycle_us = 1000";
   text.replace(text.find(usual), usual.size(), "cycle_us = 4000");
   folder.write("rt.toml", text);
