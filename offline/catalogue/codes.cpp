@@ -42,6 +42,17 @@ constexpr Explanation kCodes[] = {
      "cell.toml was edited, by hand perhaps, after this plumb had read it. What was written there "
      "would have been lost, so nothing was changed. Give the command again."},
     {"E-RUN-MISSING", "There is no run of that number under runs/. plumb runs lists them."},
+    {"E-FLEET-NONE",
+     "plumb fleet takes a folder whose subfolders are cells, each with a cell.toml. There is none, "
+     "or "
+     "none of them could be fitted."},
+    {"W-FLEET-CELL",
+     "A cell of a fleet could not be fitted. The others are not affected; it is in the table with "
+     "its "
+     "reason, and is tried again as soon as its files change."},
+    {"E-CELL-PRIOR",
+     "[fit] prior_from names the fleet.json that plumb fleet writes, which must hold at least five "
+     "arms with the DH values of this cell."},
     {"E-RECHECK-OWN",
      "recheck compares new readings with the calibration, and was given the calibration's own "
      "file. "

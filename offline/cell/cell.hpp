@@ -77,15 +77,19 @@ struct MeasurementSettings {
   std::vector<Setup> setups;  // none: one, as above
 };
 
-/// What is known of a parameter beforehand: its nominal value, give or take.
+/// What is known of a parameter beforehand: its nominal value and what arms differ from it, give or
+/// take.
 struct Prior {
-  std::string name;    // "J2.d"
-  double sigma = 0.0;  // 1 sigma, SI
+  std::string name;       // "J2.d", "joint_compliance.J2.c"
+  double sigma = 0.0;     // 1 sigma, SI
+  double mean = 0.0;      // difference from nominal, or size of an effect, SI
+  bool of_fleet = false;  // learnt from other arms: this one may nevertheless be unlike them
 };
 
 struct FitSettings {
   std::vector<std::string> fixed;  // parameters held at nominal, "J2.d"
   std::vector<Prior> priors;
+  std::string prior_from;     // a file of plumb fleet, as the cell file names it; empty: none
   double prior_m = 0.5e-3;    // 1 sigma of how far arms are built from nominal
   double prior_rad = 0.5e-3;  // the same of angles
   enum class Model { kDh, kComplete } model = Model::kDh;

@@ -207,13 +207,19 @@ class CellWriter {
     const FitSettings usual;
     const bool usual_prior =
         cell_.fit.prior_m == usual.prior_m && cell_.fit.prior_rad == usual.prior_rad;
-    if (!complete && cell_.fit.fixed.empty() && cell_.fit.priors.empty() && usual_prior) return;
+    if (!complete && cell_.fit.fixed.empty() && cell_.fit.priors.empty() &&
+        cell_.fit.prior_from.empty() && usual_prior)
+      return;
     line("[fit]\nmodel = \"{}\"", complete ? "complete" : "dh");
     if (!cell_.fit.fixed.empty()) line("fixed = {}", toml_list(cell_.fit.fixed));
     std::string priors;
-    for (const auto& [name, sigma] : cell_.fit.priors)
-      priors += fmt::format("{}{} = {}", priors.empty() ? "" : ", ", toml_string(name),
-                            is_length_parameter(name) ? length(sigma) : angle(sigma));
+    for (const auto& [name, sigma, mean, of_fleet] : cell_.fit.priors)
+      if (!of_fleet)
+        priors += fmt::format("{}{} = {}", priors.empty() ? "" : ", ", toml_string(name),
+                              is_length_parameter(name) ? length(sigma) : angle(sigma));
+    if (!cell_.fit.prior_from.empty())
+      line("prior_from = {}   # what other arms of the model taught",
+           toml_string(cell_.fit.prior_from));
     if (!priors.empty()) line("prior = {{ {} }}   # 1 sigma around nominal", priors);
     if (!usual_prior)
       line(

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cell/cell_sections.hpp"
+#include "cell/fleet_priors.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -60,9 +61,30 @@ void read_priors(TomlTable& t, CellDraft& draft) {
     const auto sigma = table->positive(name);
     if (sigma)
       draft.cell.fit.priors.push_back(
-          {name, (is_length_parameter(name) ? draft.length : draft.angle).to_si(*sigma)});
+          {.name = name,
+           .sigma = (is_length_parameter(name) ? draft.length : draft.angle).to_si(*sigma)});
   }
   table->done();
+}
+
+/// prior_from = "../fleet/fleet.json": what other arms of the model taught. What the cell says of a
+/// number itself goes before.
+void read_fleet_priors(TomlTable& t, CellDraft& draft) {
+  const auto name = t.text("prior_from");
+  if (!name) return;
+  draft.cell.fit.prior_from = *name;
+  auto& priors = draft.cell.fit.priors;
+  const std::vector<Prior> own = priors;
+  try {
+    for (auto& prior : fleet_priors(draft.cell.directory / *name, draft.cell.nominal)) {
+      const bool stated =
+          std::any_of(own.begin(), own.end(), [&](const Prior& p) { return p.name == prior.name; });
+      if (!stated) priors.push_back(std::move(prior));
+    }
+  } catch (const Failure& failure) {
+    const Problem& problem = failure.problems().front();
+    t.error(problem.code, problem.message, *t.node("prior_from"), "named here", problem.help);
+  }
 }
 
 }  // namespace
@@ -77,6 +99,7 @@ void read_fit(TomlTable& t, CellDraft& draft) {
                              ? FitSettings::Model::kComplete
                              : FitSettings::Model::kDh;
   read_priors(t, draft);
+  read_fleet_priors(t, draft);
   if (const auto length_mm = t.not_negative("prior_mm")) draft.cell.fit.prior_m = *length_mm * 1e-3;
   if (const auto angle_mrad = t.not_negative("prior_mrad"))
     draft.cell.fit.prior_rad = *angle_mrad * 1e-3;

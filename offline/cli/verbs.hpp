@@ -17,6 +17,7 @@ void add_add(Program& program);
 void add_drop(Program& program);
 void add_plan(Program& program);
 void add_recheck(Program& program);
+void add_fleet(Program& program);
 void add_runs(Program& program);
 void add_diff(Program& program);
 void add_compile(Program& program);

@@ -9,6 +9,15 @@
 #include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
+namespace {
+
+bool has_own_prior(const Parameter& p, const FitSettings& settings) {
+  return std::any_of(settings.priors.begin(), settings.priors.end(),
+                     [&](const Prior& prior) { return prior.name == p.name; });
+}
+
+}  // namespace
+
 /// What a distance of u sigma from the mean adds to the residuals, and its slope. Heavy: Huber's,
 ///
 ///   u^2 / 2 up to one sigma, |u| - 1/2 beyond
@@ -31,7 +40,7 @@ std::vector<PriorLines::KnownParameter> PriorLines::known(
   std::vector<KnownParameter> out;
   if (data.cell == nullptr) return out;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].of_effect()) continue;
+    if (!parameters[i].of_effect() || has_own_prior(parameters[i], data.cell->fit)) continue;
     const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
     const double typical = effect_parameter(start.arm, joint, component).typical;
     const format::Effect& effect = start.arm.effects[joint];
@@ -45,11 +54,15 @@ std::vector<PriorLines::KnownParameter> PriorLines::known(
   }
   ArmState nominal;
   nominal.arm.calibrated = data.cell->nominal;
-  for (const auto& [name, sigma] : data.cell->fit.priors)
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      if (parameters[i].name == name)
-        out.push_back({static_cast<Eigen::Index>(i), value_of(nominal, parameters[i]), sigma,
-                       KnownParameter::Tail::kNormal});
+  for (const auto& prior : data.cell->fit.priors)
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (parameters[i].name != prior.name) continue;
+      const double nominal_value =
+          parameters[i].of_effect() ? 0.0 : value_of(nominal, parameters[i]);
+      out.push_back(
+          {static_cast<Eigen::Index>(i), nominal_value + prior.mean, prior.sigma,
+           prior.of_fleet ? KnownParameter::Tail::kHeavy : KnownParameter::Tail::kNormal});
+    }
   return out;
 }
 

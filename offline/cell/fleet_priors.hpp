@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+
+namespace plumb::offline {
+
+/// A name of the nominal chain: equal for arms of one model, whatever they are called.
+std::string model_key(const format::Chain& nominal);
+
+/// What a fleet file (plumb fleet) knows of arms of this chain. Throws Failure (kInput) if the file
+/// cannot be read (E-READ), is none of plumb fleet, or knows nothing of such arms (E-CELL-PRIOR).
+std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format::Chain& nominal);
+
+}  // namespace plumb::offline

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fleet/cell_summary.hpp"
+
+namespace plumb::offline::fleet {
+namespace {
+
+constexpr const char* kSchema = "fleet.cell/1";
+
+Json stats_to(const ErrorStats& s) {
+  return {{"n", s.n}, {"mean_m", s.mean}, {"rms_m", s.rms}, {"p95_m", s.p95}, {"max_m", s.max}};
+}
+ErrorStats stats_from(const Json& j) {
+  return {.n = j.at("n"),
+          .mean = j.at("mean_m"),
+          .rms = j.at("rms_m"),
+          .p95 = j.at("p95_m"),
+          .max = j.at("max_m")};
+}
+
+/// Lower triangle, row by row.
+Json packed(const Eigen::MatrixXd& m) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    for (Eigen::Index k = 0; k <= i; ++k) out.push_back(m(i, k));
+  return out;
+}
+Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
+  Eigen::MatrixXd m(size, size);
+  std::size_t next = 0;
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index k = 0; k <= i; ++k) m(i, k) = m(k, i) = j.at(next++).get<double>();
+  return m;
+}
+
+}  // namespace
+
+Json to_json(const CellSummary& s) {
+  Json inputs = Json::array(), numbers = Json::array();
+  for (const auto& input : s.inputs)
+    inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
+  for (const auto& n : s.numbers)
+    numbers.push_back({{"name", n.name},
+                       {"effect", n.effect},
+                       {"unit", n.unit},
+                       {"value", n.value},
+                       {"std", n.std}});
+  return {{"schema", kSchema},
+          {"name", s.name},
+          {"inputs", inputs},
+          {"ok", s.ok},
+          {"error_code", s.error_code},
+          {"error", s.error},
+          {"robot", s.robot},
+          {"serial", s.serial},
+          {"model", s.model},
+          {"tolerance_m", s.tolerance_m},
+          {"held_out", stats_to(s.held)},
+          {"noise_floor_m", s.floor_m},
+          {"verdict", s.verdict},
+          {"good", s.good},
+          {"effects", s.effects},
+          {"numbers", numbers},
+          {"covariance", packed(s.covariance)}};
+}
+
+CellSummary summary_from(const Json& j) {
+  CellSummary out;
+  if (j.at("schema") != kSchema) j.at("a summary of this version");
+  j.at("name").get_to(out.name);
+  for (const auto& input : j.at("inputs"))
+    out.inputs.push_back({input.at("file"), input.at("sha256")});
+  j.at("ok").get_to(out.ok);
+  j.at("error_code").get_to(out.error_code);
+  j.at("error").get_to(out.error);
+  j.at("robot").get_to(out.robot);
+  j.at("serial").get_to(out.serial);
+  j.at("model").get_to(out.model);
+  j.at("tolerance_m").get_to(out.tolerance_m);
+  out.held = stats_from(j.at("held_out"));
+  j.at("noise_floor_m").get_to(out.floor_m);
+  j.at("verdict").get_to(out.verdict);
+  j.at("good").get_to(out.good);
+  j.at("effects").get_to(out.effects);
+  for (const auto& n : j.at("numbers"))
+    out.numbers.push_back({.name = n.at("name"),
+                           .effect = n.at("effect"),
+                           .unit = n.at("unit"),
+                           .value = n.at("value"),
+                           .std = n.at("std")});
+  out.covariance = unpacked(j.at("covariance"), static_cast<Eigen::Index>(out.numbers.size()));
+  return out;
+}
+
+}  // namespace plumb::offline::fleet

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/fleet_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "show/counted.hpp"
+#include "show/heads.hpp"
+#include "show/parameter_unit.hpp"
+#include "show/text_table.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::show {
+namespace {
+
+using fleet::CellSummary;
+using fleet::Fleet;
+using fleet::Model;
+using fleet::OddArm;
+using fleet::Typical;
+
+constexpr std::size_t kAllShown = 40;      // cells; of more only those that need attention
+constexpr std::size_t kTypicalShown = 12;  // numbers of a model
+
+/// "mm", "deg", "um", "urad" of a number in SI.
+ParameterUnit unit_of_number(const std::string& effect, const std::string& si) {
+  const bool geometry = effect == "geometry";
+  return unit_of({.name = {}, .is_length = si == "m", .unit = geometry ? "" : si});
+}
+
+const OddArm* odd_arm(const Fleet& all, const std::string& cell) {
+  for (const Model& model : all.models)
+    for (const OddArm& odd : model.sisters.odd)
+      if (odd.cell == cell) return &odd;
+  return nullptr;
+}
+
+std::string effect_of(const Fleet& all, const OddArm& odd) {
+  for (const Model& model : all.models)
+    for (const Typical& t : model.sisters.typical)
+      if (t.name == odd.number) return t.effect;
+  return "geometry";
+}
+
+std::string odd_words(const Fleet& all, const OddArm& odd) {
+  const ParameterUnit unit = unit_of_number(effect_of(all, odd), odd.unit);
+  return fmt::format("{} is {} {} away from nominal, its sisters {} {}", odd.number,
+                     unit.text(odd.value), unit.name, unit.text(odd.mean), unit.name);
+}
+
+Json cell_json(const Fleet& all, const CellSummary& cell) {
+  Json out{{"name", cell.name}, {"ok", cell.ok}};
+  out["held_out"] = stats_json(cell.held);
+  out["verdict"] = cell.verdict;
+  out["good"] = cell.good;
+  out["effects"] = cell.effects;
+  out["robot"] = cell.robot;
+  out["model"] = cell.model;
+  const OddArm* const odd = odd_arm(all, cell.name);
+  out["unlike_sisters"] = odd != nullptr;
+  if (odd != nullptr) out["unlike_text"] = odd_words(all, *odd);
+  if (cell.ok)
+    put_null(out, "error", "it could be fitted");
+  else
+    out["error"] = {{"code", cell.error_code}, {"message", cell.error}};
+  return out;
+}
+
+Json typical_json(const Typical& t) {
+  const ParameterUnit unit = unit_of_number(t.effect, t.unit);
+  return {{"name", t.name},
+          {"effect", t.effect},
+          {"parameter", t.name},
+          {"unit", unit.name},
+          {"mean", t.mean * unit.per_si},
+          {"sd", t.sd * unit.per_si},
+          {"mean_si", t.mean},
+          {"sd_si", t.sd},
+          {"shrinkage", t.shrinkage},
+          {"arms", t.arms}};
+}
+
+std::string verdict_of(const Fleet& all) {
+  const auto count = [&](auto&& which) {
+    return std::count_if(all.cells.begin(), all.cells.end(), which);
+  };
+  const auto good = count([](const CellSummary& c) { return c.good; });
+  const auto failed = count([](const CellSummary& c) { return !c.ok; });
+  std::string out = fmt::format("{} of {} arms keep{} {} tolerance", good, all.cells.size(),
+                                good == 1 ? "s" : "", good == 1 ? "its" : "their");
+  std::vector<std::string> odd;
+  for (const Model& model : all.models)
+    for (const OddArm& one : model.sisters.odd) odd.push_back(one.cell);
+  if (!odd.empty())
+    out += fmt::format("; {} {} unlike {} sisters: {}", odd.size(), odd.size() == 1 ? "is" : "are",
+                       odd.size() == 1 ? "its" : "their", counted(odd));
+  if (failed > 0) out += fmt::format("; {} could not be fitted", failed);
+  return out + ".";
+}
+
+std::string state_of(const Fleet& all, const CellSummary& cell) {
+  if (!cell.ok) return cell.error_code + ": " + cell.error;
+  if (const OddArm* odd = odd_arm(all, cell.name)) return odd_words(all, *odd);
+  return cell.good ? "good" : "not good enough";
+}
+
+std::string cells_text(const Fleet& all) {
+  TextTable table({"cell", head::kMean, head::kP95, head::kEffects, "state"});
+  table.left_from(3);
+  std::size_t left_out = 0;
+  for (const auto& cell : all.cells) {
+    const bool fine = cell.good && odd_arm(all, cell.name) == nullptr;
+    if (fine && all.cells.size() > kAllShown) {
+      ++left_out;
+      continue;
+    }
+    table.add({cell.name, cell.ok ? mm(cell.held.mean) : "-", cell.ok ? mm(cell.held.p95) : "-",
+               counted(cell.effects), state_of(all, cell)});
+  }
+  std::string out = "Held-out error in mm:\n\n" + table.text();
+  if (left_out > 0) out += fmt::format("  and {} good ones\n", left_out);
+  return out;
+}
+
+std::string typical_text(const Model& model) {
+  if (model.sisters.typical.empty())
+    return fmt::format("\n{} ({} arm{}): {} arms of one model are needed to learn from them.\n",
+                       model.robot, model.arms, model.arms == 1 ? "" : "s", fleet::kFewestArms);
+  std::vector<const Typical*> sorted;
+  for (const auto& t : model.sisters.typical) sorted.push_back(&t);
+  // What arms differ in most, against what is learnt of them.
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Typical* a, const Typical* b) { return a->shrinkage < b->shrinkage; });
+  TextTable table({"number", "mean", "from arm to arm", "", "arms", "shrinkage"});
+  for (std::size_t i = 0; i < std::min(kTypicalShown, sorted.size()); ++i) {
+    const Typical& t = *sorted[i];
+    const ParameterUnit unit = unit_of_number(t.effect, t.unit);
+    table.add({t.name, unit.text(t.mean * 1.0), unit.text(t.sd), unit.name,
+               fmt::format("{}", t.arms), fmt::format("{:.0f} %", 100.0 * t.shrinkage)});
+  }
+  std::string out =
+      fmt::format("\n{}, {} arms: differences from nominal\n\n", model.robot, model.arms) +
+      table.text();
+  if (sorted.size() > kTypicalShown)
+    out += fmt::format("  and {} more in fleet.json\n", sorted.size() - kTypicalShown);
+  return out;
+}
+
+}  // namespace
+
+Json fleet_json(const Fleet& all) {
+  Json out{{"verdict_text", verdict_of(all)}};
+  out["cells"] = Json::array();
+  for (const auto& cell : all.cells) out["cells"].push_back(cell_json(all, cell));
+  out["models"] = Json::array();
+  out["typical"] = Json::array();
+  for (const auto& model : all.models) {
+    Json typical = Json::array();
+    for (const auto& t : model.sisters.typical) {
+      typical.push_back(typical_json(t));
+      Json row = typical.back();
+      row["model"] = model.key;
+      out["typical"].push_back(std::move(row));
+    }
+    out["models"].push_back({{"key", model.key},
+                             {"robot", model.robot},
+                             {"arms", model.arms},
+                             {"unlike_sisters", model.sisters.odd.size()},
+                             {"typical", std::move(typical)}});
+  }
+  return out;
+}
+
+std::string fleet_text(const Fleet& all) {
+  std::string out = verdict_of(all) + "\n\n" + cells_text(all);
+  for (const auto& model : all.models) out += typical_text(model);
+  return out;
+}
+
+}  // namespace plumb::offline::show
