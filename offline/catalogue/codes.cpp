@@ -46,13 +46,25 @@ constexpr Explanation kCodes[] = {
      "plumb fleet takes a folder whose subfolders are cells, each with a cell.toml. There is none, "
      "or "
      "none of them could be fitted."},
+    {"N-FLEET-OTHER",
+     "plumb fleet takes the folders that hold a cell.toml. Others are left out, which is a mistake "
+     "only if one of them was meant to be a cell."},
+    {"E-FLEET-CELL",
+     "The process that fitted this cell ended without a result: it was killed, ran out of memory, "
+     "or gave numbers that are not finite. The other cells are not affected. plumb -C CELL fit "
+     "says "
+     "more."},
     {"W-FLEET-CELL",
      "A cell of a fleet could not be fitted. The others are not affected; it is in the table with "
      "its "
      "reason, and is tried again as soon as its files change."},
     {"E-CELL-PRIOR",
-     "[fit] prior_from names the fleet.json that plumb fleet writes, which must hold at least five "
-     "arms with the DH values of this cell."},
+     "[fit] prior_from names the fleet.json that plumb fleet writes, which must hold arms with the "
+     "DH values of this cell."},
+    {"W-CELL-PRIOR",
+     "Fewer than five arms of this model could be fitted when plumb fleet wrote the file that "
+     "[fit] "
+     "prior_from names, so nothing typical is known of them. The cell is fitted as without it."},
     {"E-RECHECK-OWN",
      "recheck compares new readings with the calibration, and was given the calibration's own "
      "file. "

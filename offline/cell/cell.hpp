@@ -132,6 +132,10 @@ Cell read_cell(const std::filesystem::path& cell_toml);
 /// The same for a text that is, or will be, the content of that file.
 Cell parse_cell(std::string text, const std::filesystem::path& cell_toml);
 
+/// sha256 of the file, and of what it takes over from a fleet: two cells of one hash and one set of
+/// measurements are fitted alike.
+std::string hash_of(const Cell& cell);
+
 /// cell.toml in `start` or the nearest folder above it. Throws Failure (kInput) with help if none.
 std::filesystem::path find_cell(const std::filesystem::path& start);
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cell/cell_sections.hpp"
+#include "cell/fleet_priors.hpp"
 #include "effects/registry.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
@@ -93,6 +94,11 @@ Cell parse_cell(std::string text, const fs::path& cell_toml) {
 
 Cell read_cell(const fs::path& cell_toml) {
   return parse_cell(read_file_up_to(cell_toml, kMostCellBytes), cell_toml);
+}
+
+std::string hash_of(const Cell& cell) {
+  const std::string priors = fleet_priors_text(cell.fit.priors);
+  return sha256(cell.text + priors);
 }
 
 fs::path find_cell(const fs::path& start) {

@@ -76,7 +76,12 @@ void read_fleet_priors(TomlTable& t, CellDraft& draft) {
   auto& priors = draft.cell.fit.priors;
   const std::vector<Prior> own = priors;
   try {
-    for (auto& prior : fleet_priors(draft.cell.directory / *name, draft.cell.nominal)) {
+    auto learnt = fleet_priors(draft.cell.directory / *name, draft.cell.nominal);
+    if (learnt.empty())
+      t.warning("W-CELL-PRIOR",
+                "the fleet holds too few arms of this model to learn from: nothing is taken over",
+                *t.node("prior_from"), "named here", "plumb fleet needs five arms of one model");
+    for (auto& prior : learnt) {
       const bool stated =
           std::any_of(own.begin(), own.end(), [&](const Prior& p) { return p.name == prior.name; });
       if (!stated) priors.push_back(std::move(prior));

@@ -27,12 +27,14 @@ std::string model_key(const format::Chain& nominal) {
 
 std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format::Chain& nominal) {
   std::vector<Prior> out;
+  bool known = false;
   try {
     const Json json = Json::parse(read_file(file));
     if (json.at("schema") != "fleet/1") refuse(file, "is of another schema than fleet/1");
     const std::string key = model_key(nominal);
     for (const auto& model : json.at("models")) {
       if (model.at("key") != key) continue;
+      known = true;
       for (const auto& t : model.at("typical"))
         out.push_back({.name = t.at("name"),
                        .sigma = t.at("sd_si"),
@@ -42,7 +44,14 @@ std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format:
   } catch (const nlohmann::json::exception&) {
     refuse(file, "is no file of plumb fleet, or was cut off");
   }
-  if (out.empty()) refuse(file, "knows nothing of arms with these DH values");
+  if (!known) refuse(file, "holds no arm with these DH values");
+  return out;
+}
+
+std::string fleet_priors_text(const std::vector<Prior>& priors) {
+  std::string out;
+  for (const auto& prior : priors)
+    if (prior.of_fleet) out += fmt::format("{} {} {}\n", prior.name, prior.mean, prior.sigma);
   return out;
 }
 

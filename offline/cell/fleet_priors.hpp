@@ -12,8 +12,13 @@ namespace plumb::offline {
 /// A name of the nominal chain: equal for arms of one model, whatever they are called.
 std::string model_key(const format::Chain& nominal);
 
-/// What a fleet file (plumb fleet) knows of arms of this chain. Throws Failure (kInput) if the file
-/// cannot be read (E-READ), is none of plumb fleet, or knows nothing of such arms (E-CELL-PRIOR).
+/// What a fleet file (plumb fleet) knows of arms of this chain; nothing if it holds too few of them
+/// to learn from. Throws Failure (kInput) if the file cannot be read (E-READ), is none of plumb
+/// fleet, or holds no such arm (E-CELL-PRIOR).
 std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format::Chain& nominal);
+
+/// Those of `priors` that a fleet taught, as a text: equal for equal numbers. Empty if there are
+/// none.
+std::string fleet_priors_text(const std::vector<Prior>& priors);
 
 }  // namespace plumb::offline

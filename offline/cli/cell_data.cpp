@@ -44,6 +44,10 @@ fs::path cell_file(const Globals& globals) {
 Cell open_cell(const Globals& globals, Outcome& outcome) {
   Cell cell = read_cell(cell_file(globals));
   outcome.inputs.push_back({cell.file.string(), sha256(cell.text)});
+  if (!cell.fit.prior_from.empty()) {
+    const fs::path fleet = cell.directory / cell.fit.prior_from;
+    outcome.inputs.push_back({fleet.string(), sha256(read_file(fleet))});
+  }
   outcome.remark(cell.remarks);
   return cell;
 }
@@ -121,7 +125,7 @@ void check_known_to_runtime(const Run& run, const MeasurementFiles& measured) {
 
 show::ListedRun::State state_of(const Run& run, const Cell& cell,
                                 const MeasurementFiles& measured) {
-  const bool current = run.cell_sha256 == sha256(cell.text) && is_of_data(run, measured);
+  const bool current = run.cell_sha256 == hash_of(cell) && is_of_data(run, measured);
   return current ? show::ListedRun::State::kCurrent : show::ListedRun::State::kOther;
 }
 

@@ -11,6 +11,7 @@
 #include "fleet/fleet.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
+#include "report/fleet_report.hpp"
 #include "show/fleet_view.hpp"
 
 namespace plumb::offline::cli {
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 
 struct FleetArguments {
   std::string folder, output, share;
+  bool diagnose = false;
   int jobs = 0;  // 0: as many as there are processors
 };
 
@@ -42,6 +44,20 @@ Share share_of_text(const std::string& text) {
                                  .message = fmt::format("--share: '{}' is no share", text),
                                  .help = "I/N with I from 0 to N - 1: --share 0/8"});
   return out;
+}
+
+void note_others(const std::vector<fs::path>& others, Outcome& outcome) {
+  if (others.empty()) return;
+  const std::string first = display_name(others.front());
+  outcome.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-FLEET-OTHER",
+       .message =
+           others.size() == 1
+               ? first + " holds no cell.toml and is left out"
+               : fmt::format("{} folders hold no cell.toml and are left out, the first is {}",
+                             others.size(), first),
+       .help = ""});
 }
 
 void warn_of_broken(const std::vector<fleet::CellSummary>& cells, Outcome& outcome) {
@@ -69,7 +85,11 @@ void gather(const FleetArguments& options, const fs::path& results,
   const fs::path name = results / "fleet.json";
   write_file_atomically(name, to_text(file));
   outcome.result["file"] = name.string();
-  outcome.text = show::fleet_text(all) + fmt::format("\nwrote {}\n", display_name(name));
+  const fs::path page = results / "fleet.html";
+  write_file_atomically(page, report::fleet_report(all));
+  outcome.result["report"] = page.string();
+  outcome.text = show::fleet_text(all) +
+                 fmt::format("\nwrote {} and {}\n", display_name(name), display_name(page));
   if (std::none_of(all.cells.begin(), all.cells.end(),
                    [](const fleet::CellSummary& cell) { return cell.ok; }))
     throw Failure(
@@ -86,16 +106,25 @@ void run_fleet(const FleetArguments& options, const Globals&, Outcome& outcome) 
   const Share share = share_of_text(options.share);
   const fs::path results =
       options.output.empty() ? fs::path(options.folder) / "fleet" : fs::path(options.output);
-  const auto cells = fleet::share_of(fleet::cells_of(options.folder), share.index, share.of);
+  fleet::Folders folders = fleet::folders_in(options.folder);
+  std::erase_if(folders.others, [&](const fs::path& other) {
+    std::error_code ignored;
+    return fs::equivalent(other, results, ignored);
+  });
+  note_others(folders.others, outcome);
+  const auto cells = fleet::share_of(folders.cells, share.index, share.of);
+  const auto asked = options.diagnose ? fleet::Asked::kDiagnosis : fleet::Asked::kFit;
   const int jobs = options.jobs > 0
                        ? options.jobs
                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::vector<fleet::CellSummary> summaries;
   {
-    Progress progress(fmt::format("fitting {} cells", cells.size()));
-    summaries = fleet::summaries_of(cells, fleet::ResultsFolder(results), jobs, [&](int done) {
-      progress.at(fmt::format("{} done, {} left", done, static_cast<int>(cells.size()) - done));
-    });
+    Progress progress(
+        fmt::format("{} {} cells", options.diagnose ? "diagnosing" : "fitting", cells.size()));
+    summaries =
+        fleet::summaries_of(cells, fleet::ResultsFolder(results), asked, jobs, [&](int done) {
+          progress.at(fmt::format("{} done, {} left", done, static_cast<int>(cells.size()) - done));
+        });
   }
   warn_of_broken(summaries, outcome);
   if (options.share.empty()) return gather(options, results, std::move(summaries), outcome);
@@ -121,6 +150,8 @@ void add_fleet(Program& program) {
       .required();
   verb.add_option("-o,--output", options->output, "Folder for the results; else FOLDER/fleet")
       .type_name("DIR");
+  verb.add_flag("--diagnose", options->diagnose,
+                "Also search every cell for the effect that its model lacks; takes longer");
   verb.add_option("--jobs", options->jobs, "Cells at a time; else as many as there are processors")
       .check(whole_number_between(1, 1024));
   verb.add_option("--share", options->share,

@@ -27,6 +27,19 @@ enum class Finding {
   kUndecidable  // too few poses, no noise floor, an exact tie, or a law that they cannot show
 };
 
+constexpr const char* name_of(Finding finding) {
+  switch (finding) {
+    case Finding::kMissing:
+      return "missing";
+    case Finding::kUnknown:
+      return "unknown";
+    case Finding::kUndecidable:
+      return "undecidable";
+    default:
+      return "complete";
+  }
+}
+
 /// A fitted number of a candidate. SI.
 struct CandidateNumber {
   std::string name, unit;

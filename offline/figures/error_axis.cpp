@@ -7,7 +7,6 @@
 namespace plumb::offline::figures {
 namespace {
 
-constexpr double kLogBeyond = 15.0;
 constexpr double kSmallestShown_m = 1e-9;
 
 }  // namespace

@@ -7,6 +7,9 @@
 
 namespace plumb::offline::figures {
 
+/// Times the usual error: beyond it an axis of errors is logarithmic.
+inline constexpr double kLogBeyond = 15.0;
+
 /// The axis on which errors before and after are both seen: linear, or logarithmic if the largest
 /// is more than 15 times the median after.
 struct ErrorAxis {

@@ -17,8 +17,6 @@ using draw::Tone;
 constexpr double kHistoryHeight = 320.0;  // [px]
 constexpr double kHalfStep = 0.4;         // of the way between two checks: its control limit
 
-constexpr double kHistoryLogSteps = 15.0;  // times the smallest error: a logarithmic axis
-
 const draw::LineStyle kControl{.paint = Tone::kVermilion, .width = 1.4, .dashes = "6 3"};
 const draw::LineStyle kExpected{.paint = Tone::kMuted, .width = 1.2};
 
@@ -92,8 +90,7 @@ std::string history_figure(const RunResults& results, double width) {
   ErrorAxis axis{.unit = unit_for(most), .axis = {}};
   axis.axis.title = "mean error [" + axis.unit.name + "]";
   axis.axis.high = 1.1 * most * axis.unit.per_m;
-  if (most > kHistoryLogSteps * least &&
-      least > 0.0) {  // a tracker at another station is metres off
+  if (most > kLogBeyond * least && least > 0.0) {  // a tracker at another station is metres off
     axis.axis.scale = draw::Axis::Scale::kLog;
     axis.axis.low = 0.5 * least * axis.unit.per_m;
   }

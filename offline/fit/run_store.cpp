@@ -155,7 +155,7 @@ void write_part(const fs::path& draft, const fs::path& run, const char* name,
 Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   Run run;
   run.created = iso_utc(std::time(nullptr));
-  run.cell_sha256 = sha256(cell.text);
+  run.cell_sha256 = hash_of(cell);
   run.inputs = inputs_of(measured);
   for (const auto& effect : cell.effects)
     run.effects.push_back(
@@ -274,7 +274,7 @@ Run load_run(const Cell& cell, int number) {
 
 std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured) {
   const auto numbers = list_runs(cell);
-  const std::string hash = sha256(cell.text);
+  const std::string hash = hash_of(cell);
   const auto inputs = inputs_of(measured);
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
     Run run = load_run(cell, *it);

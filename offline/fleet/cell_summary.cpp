@@ -32,6 +32,19 @@ Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
   return m;
 }
 
+Json diagnosis_to(const std::optional<CellDiagnosis>& d) {
+  if (!d) return nullptr;
+  return {
+      {"finding", d->finding}, {"effect", d->effect}, {"joints", d->joints}, {"words", d->words}};
+}
+std::optional<CellDiagnosis> diagnosis_from(const Json& j) {
+  if (j.is_null()) return std::nullopt;
+  return CellDiagnosis{.finding = j.at("finding"),
+                       .effect = j.at("effect"),
+                       .joints = j.at("joints"),
+                       .words = j.at("words")};
+}
+
 }  // namespace
 
 Json to_json(const CellSummary& s) {
@@ -59,6 +72,7 @@ Json to_json(const CellSummary& s) {
           {"verdict", s.verdict},
           {"good", s.good},
           {"effects", s.effects},
+          {"diagnosis", diagnosis_to(s.diagnosis)},
           {"numbers", numbers},
           {"covariance", packed(s.covariance)}};
 }
@@ -81,6 +95,7 @@ CellSummary summary_from(const Json& j) {
   j.at("verdict").get_to(out.verdict);
   j.at("good").get_to(out.good);
   j.at("effects").get_to(out.effects);
+  out.diagnosis = diagnosis_from(j.at("diagnosis"));
   for (const auto& n : j.at("numbers"))
     out.numbers.push_back({.name = n.at("name"),
                            .effect = n.at("effect"),

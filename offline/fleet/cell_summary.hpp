@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,20 +11,29 @@
 
 namespace plumb::offline::fleet {
 
-/// A file that a summary was made from.
+/// Something that a summary was made from.
 struct SummaryInput {
-  std::string file;  // relative to the cell's folder
+  std::string file;  // relative to the cell's folder; "plumb": the version of the program
   std::string sha256;
   bool operator==(const SummaryInput&) const = default;
 };
 
-/// A number of the arm as fitted: its difference from nominal, or the size of an effect. SI.
+/// A number of the arm as the readings alone show it, with hardly any prior: its difference from
+/// nominal, or the size of an effect. SI.
 struct ArmNumber {
   std::string name;    // "J2.d", "joint_compliance.J2.c"
   std::string effect;  // "geometry", or the effect that it belongs to
   std::string unit;    // SI
   double value = 0.0;
   double std = 0.0;  // 1 sigma
+};
+
+/// What a diagnosis of a cell says.
+struct CellDiagnosis {
+  std::string finding;              // "complete", "missing", "unknown", "undecidable"
+  std::string effect;               // of "missing": the first one
+  std::vector<std::string> joints;  // and where
+  std::string words;                // one sentence
 };
 
 /// What is known of one cell of a fleet: the result of fitting it as it stands.
@@ -40,6 +50,7 @@ struct CellSummary {
   std::string verdict;   // one sentence
   bool good = false;     // the held-out error keeps the tolerance
   std::vector<std::string> effects;
+  std::optional<CellDiagnosis> diagnosis;  // none: it was not asked for
   std::vector<ArmNumber> numbers;
   Eigen::MatrixXd covariance;  // of the numbers, SI
 };

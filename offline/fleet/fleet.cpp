@@ -21,13 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes and keeps the summary of one cell; the exit code of a child process.
-int summarise_and_keep(const fs::path& cell, const ResultsFolder& results) {
+/// What the process that fits one cell ends with.
+enum ChildExit : int { kKept = 0, kNotKept = 1 };
+
+/// Makes and keeps the summary of one cell.
+ChildExit summarise_and_keep(const fs::path& cell, const ResultsFolder& results, Asked asked) {
   try {
-    results.keep(summarise(cell));
-    return 0;
+    results.keep(summarise(cell, asked));
+    return kKept;
   } catch (...) {
-    return 1;
+    return kNotKept;
   }
 }
 
@@ -40,36 +43,65 @@ CellSummary unfinished(const fs::path& cell) {
   return out;
 }
 
-/// Waits for any child; its process number, or -1.
-pid_t any_child() {
+/// A child process that has ended.
+struct Ended {
+  pid_t child = -1;
+  bool kept = false;  // false as well of one that was killed
+  bool killed = false;
+};
+
+Ended any_child() {
   int status = 0;
   pid_t child = 0;
   do child = ::waitpid(-1, &status, 0);
   while (child < 0 && errno == EINTR);
-  return child;
+  return {.child = child,
+          .kept = WIFEXITED(status) && WEXITSTATUS(status) == kKept,
+          .killed = WIFSIGNALED(status)};
+}
+
+/// Whether a folder holds a cell.toml, readable or not: only what is certainly absent is none.
+bool has_cell_file(const fs::path& folder) {
+  std::error_code error;
+  const auto status = fs::symlink_status(folder / "cell.toml", error);
+  return fs::exists(status) || (error && status.type() != fs::file_type::not_found);
+}
+
+/// Thrown when results could not be kept: with the reason of the system, if it still is one.
+[[noreturn]] void results_lost(const ResultsFolder& results, int lost) {
+  results.check_writable();
+  throw Failure(Exit::kEnvironment,
+                {.code = "E-WRITE",
+                 .message = fmt::format("{} results could not be kept in {}", lost,
+                                        display_name(results.folder())),
+                 .help = "look for room on its disk, and give the command again"});
 }
 
 }  // namespace
 
-std::vector<fs::path> cells_of(const fs::path& folder) {
-  std::vector<fs::path> out;
+Folders folders_in(const fs::path& folder) {
+  Folders out;
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
-    if (fs::exists(at->path() / "cell.toml", ignored)) out.push_back(at->path());
+    if (has_cell_file(at->path()))
+      out.cells.push_back(at->path());
+    else if (at->is_directory(ignored))
+      out.others.push_back(at->path());
   }
   if (error)
     throw Failure(Exit::kInput, {.code = "E-READ",
                                  .message = fmt::format("cannot read {}: {}", display_name(folder),
                                                         error.message()),
                                  .help = "ls -ld " + shell_word(display_name(folder))});
-  if (out.empty())
+  if (out.cells.empty())
     throw Failure(
         Exit::kInput,
         {.code = "E-FLEET-NONE",
          .message = fmt::format("no folder in {} holds a cell.toml", display_name(folder)),
          .help = "name the folder that holds the cells: plumb fleet cells"});
-  std::sort(out.begin(), out.end());
+  std::sort(out.cells.begin(), out.cells.end());
+  std::sort(out.others.begin(), out.others.end());
   return out;
 }
 
@@ -82,42 +114,66 @@ std::vector<fs::path> share_of(const std::vector<fs::path>& cells, int index, in
 }
 
 std::vector<CellSummary> summaries_of(const std::vector<fs::path>& cells,
-                                      const ResultsFolder& results, int jobs,
+                                      const ResultsFolder& results, Asked asked, int jobs,
                                       const std::function<void(int)>& tell) {
   std::vector<std::optional<CellSummary>> made(cells.size());
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    made[i] = results.kept(cells[i].filename().string(), inputs_of(cells[i]));
+    made[i] = results.kept(cells[i].filename().string(), inputs_of(cells[i]), asked);
     if (!made[i]) missing.push_back(i);
   }
-  int done = static_cast<int>(cells.size() - missing.size());
+  int done = static_cast<int>(cells.size() - missing.size()), lost = 0;
   tell(done);
+  if (!missing.empty()) results.check_writable();
   std::map<pid_t, std::size_t> running;
   std::size_t next = 0;
   while (next < missing.size() || !running.empty()) {
     if (next < missing.size() && running.size() < static_cast<std::size_t>(jobs)) {
       const std::size_t i = missing[next++];
       const pid_t child = ::fork();
-      if (child == 0) ::_exit(summarise_and_keep(cells[i], results));
+      if (child == 0) ::_exit(summarise_and_keep(cells[i], results, asked));
       if (child > 0) {
         running.emplace(child, i);
         continue;
       }
       // No more processes: wait for one of ours, or do it here.
       if (running.empty()) {
-        summarise_and_keep(cells[i], results);
+        if (summarise_and_keep(cells[i], results, asked) != kKept) ++lost;
         tell(++done);
         continue;
       }
       --next;
     }
-    const pid_t ended = any_child();
-    if (running.erase(ended) > 0) tell(++done);
+    const Ended ended = any_child();
+    if (running.erase(ended.child) == 0) continue;
+    if (!ended.kept && !ended.killed) ++lost;
+    tell(++done);
   }
+  if (lost > 0) results_lost(results, lost);
   std::vector<CellSummary> out;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!made[i]) made[i] = results.kept(cells[i].filename().string(), inputs_of(cells[i]));
+    if (!made[i]) made[i] = results.kept(cells[i].filename().string(), inputs_of(cells[i]), asked);
     out.push_back(made[i] ? std::move(*made[i]) : unfinished(cells[i]));
+  }
+  return out;
+}
+
+std::vector<EffectUse> effect_uses(const Fleet& fleet) {
+  std::map<std::string, EffectUse> uses;
+  int diagnosed = 0;
+  for (const auto& cell : fleet.cells) {
+    if (!cell.ok) continue;
+    for (const auto& effect : std::set(cell.effects.begin(), cell.effects.end()))
+      ++uses[effect].modelled;
+    if (!cell.diagnosis) continue;
+    ++diagnosed;
+    if (!cell.diagnosis->effect.empty()) ++uses[cell.diagnosis->effect].missing;
+  }
+  std::vector<EffectUse> out;
+  for (auto& [name, use] : uses) {
+    use.effect = name;
+    use.diagnosed = diagnosed;
+    out.push_back(use);
   }
   return out;
 }

@@ -23,9 +23,14 @@ struct Fleet {
   std::vector<Model> models;       // the one with the most arms first
 };
 
-/// Every folder in `folder` with a cell.toml, by name. Throws Failure (kInput, E-FLEET-NONE) if
-/// there is none.
-std::vector<std::filesystem::path> cells_of(const std::filesystem::path& folder);
+/// What a folder of cells holds, each by name.
+struct Folders {
+  std::vector<std::filesystem::path> cells;   // with a cell.toml, readable or not
+  std::vector<std::filesystem::path> others;  // folders without one
+};
+
+/// Throws Failure (kInput): E-READ if it cannot be read, E-FLEET-NONE if it holds no cell.
+Folders folders_in(const std::filesystem::path& folder);
 
 /// A share of them: those whose place is `index` modulo `of`.
 std::vector<std::filesystem::path> share_of(const std::vector<std::filesystem::path>& cells,
@@ -34,10 +39,21 @@ std::vector<std::filesystem::path> share_of(const std::vector<std::filesystem::p
 /// Summaries of these cells, made where none of the present inputs is kept, `jobs` at a time, each
 /// by a process of its own: a cell that brings its process down costs that cell alone. `tell` is
 /// called with how many are done. What could be made is kept at once, so that a run that is
-/// interrupted goes on where it was.
+/// interrupted goes on where it was. Throws Failure (kEnvironment) if results cannot be kept.
 std::vector<CellSummary> summaries_of(const std::vector<std::filesystem::path>& cells,
-                                      const ResultsFolder& results, int jobs,
+                                      const ResultsFolder& results, Asked asked, int jobs,
                                       const std::function<void(int done)>& tell);
+
+/// An effect in the cells that could be fitted.
+struct EffectUse {
+  std::string effect;
+  int modelled = 0;   // cells whose model has it
+  int missing = 0;    // cells whose diagnosis names it as the first thing that is missing
+  int diagnosed = 0;  // cells that were diagnosed
+};
+
+/// Every effect that a model has or a diagnosis names, by name.
+std::vector<EffectUse> effect_uses(const Fleet& fleet);
 
 /// What the cells teach, model by model.
 Fleet fleet_of(std::vector<CellSummary> cells);

@@ -68,7 +68,7 @@ Sisters learn_sisters(std::vector<const CellSummary*> arms) {
       OddArm one = oddness(*arms[i], out.typical, all);
       // Against the others alone only where it may matter, since each takes as long as learning.
       if (one.chance < 100.0 * kOddByChance)
-        if (const auto sisters = learn_typical(others); !sisters.empty())
+        if (const auto sisters = learn_typical(others, out.typical); !sisters.empty())
           one = oddness(*arms[i], sisters, all);
       if (one.chance >= oddest.chance) continue;
       oddest = one;

@@ -1,25 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/results_folder.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "program/shell_word.hpp"
 
 namespace plumb::offline::fleet {
+namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLongestName = 200;  // bytes; file systems end at 255, endings included
+
+/// The name as a file of JSON keeps it: bytes that are no UTF-8 are replaced.
+std::string as_kept(const std::string& name) {
+  return Json::parse(to_text(Json(name))).get<std::string>();
+}
+
+}  // namespace
+
 fs::path ResultsFolder::file_of(const std::string& name) const {
-  return folder_ / "cells" / (name + ".json");
+  const std::string hash = sha256(name);
+  const std::string file = name.size() <= kLongestName ? name : hash;
+  return folder_ / "cells" / hash.substr(0, 2) / (file + ".json");
 }
 
 std::optional<CellSummary> ResultsFolder::kept(const std::string& name,
-                                               const std::vector<SummaryInput>& inputs) const {
+                                               const std::vector<SummaryInput>& inputs,
+                                               Asked asked) const {
   std::error_code ignored;
-  if (!fs::exists(file_of(name), ignored)) return std::nullopt;
+  if (!fs::is_regular_file(file_of(name), ignored)) return std::nullopt;
   try {
-    CellSummary out = summary_from(Json::parse(read_file(file_of(name))));
-    if (out.inputs == inputs) return out;
+    Json json = Json::parse(read_file(file_of(name)));
+    const Json sum = json.at("sha256");
+    json.erase("sha256");
+    if (sum != sha256(to_text(json))) return std::nullopt;
+    CellSummary out = summary_from(json);
+    const bool holds = asked == Asked::kFit || out.diagnosis || !out.ok;
+    if (holds && out.inputs == inputs && out.name == as_kept(name)) return out;
   } catch (const nlohmann::json::exception&) {
     // Cut off, edited, or of another version: it is made anew.
   } catch (const Failure&) {
@@ -28,14 +49,25 @@ std::optional<CellSummary> ResultsFolder::kept(const std::string& name,
 }
 
 void ResultsFolder::keep(const CellSummary& summary) const {
+  const fs::path file = file_of(summary.name);
   std::error_code error;
-  fs::create_directories(folder_ / "cells", error);
+  fs::create_directories(file.parent_path(), error);
   if (error)
     throw Failure(Exit::kEnvironment,
                   {.code = "E-WRITE",
                    .message = "cannot write " + display_name(folder_) + ": " + error.message(),
                    .help = "another folder for the results: -o DIR"});
-  write_file_atomically(file_of(summary.name), to_text(to_json(summary)));
+  Json json = to_json(summary);
+  json["sha256"] = sha256(to_text(json));
+  write_file_atomically(file, to_text(json));
+}
+
+void ResultsFolder::check_writable() const {
+  const fs::path probe = folder_ / fmt::format(".probe-{}", ::getpid());
+  std::error_code error;
+  fs::create_directories(folder_, error);  // what fails here fails below, with its reason
+  write_file_atomically(probe, "results can be kept here\n");
+  fs::remove(probe, error);
 }
 
 }  // namespace plumb::offline::fleet

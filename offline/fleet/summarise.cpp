@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/summarise.hpp"
 
+#include <cmath>
+
 #include "cell/fleet_priors.hpp"
 #include "cell/setups.hpp"
+#include "diagnose/diagnosis.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit.hpp"
 #include "fit/verdict.hpp"
+#include "plumb/format/version.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 
@@ -23,32 +27,64 @@ std::string sum_of(const fs::path& file) {
   }
 }
 
-void put_numbers(const Fit& fit, CellSummary& out) {
-  const Calibration& c = fit.calibration;
+/// Times the usual prior: as good as none, and the numbers stay finite.
+constexpr double kWide = 20.0;
+
+/// The cell without what it takes for known of its arm: what is learnt from an arm must not be what
+/// was assumed of it.
+Cell with_hardly_any_prior(Cell cell) {
+  cell.fit.priors.clear();
+  cell.fit.prior_m *= kWide;
+  cell.fit.prior_rad *= kWide;
+  return cell;
+}
+
+EffectDomain domain_of_parameter(const Calibration& c, const Parameter& p) {
+  if (!p.of_effect()) return EffectDomain::kRobot;
+  return domain_of(c.state.arm.effects[static_cast<std::size_t>(p.joint)]);
+}
+
+void put_numbers(const Calibration& c, CellSummary& out) {
   std::vector<Eigen::Index> of_arm;
   for (std::size_t i = 0; i < c.estimates.size(); ++i) {
     const Estimate& e = c.estimates[i];
     const Parameter& p = c.parameters[i];
-    if (!e.of_robot) continue;
-    const bool of_effect = p.of_effect();
-    if (of_effect &&
-        domain_of(c.state.arm.effects[static_cast<std::size_t>(p.joint)]) != EffectDomain::kRobot)
-      continue;
+    if (!e.of_robot || domain_of_parameter(c, p) != EffectDomain::kRobot) continue;
     of_arm.push_back(static_cast<Eigen::Index>(i));
-    out.numbers.push_back(
-        {.name = e.name,
-         .effect =
-             of_effect ? c.state.arm.effects[static_cast<std::size_t>(p.joint)].name : "geometry",
-         .unit = of_effect     ? e.unit
-                 : e.is_length ? "m"
-                               : "rad",
-         .value = e.value - e.nominal,
-         .std = e.std});
+    ArmNumber number{.name = e.name, .effect = "geometry", .unit = e.is_length ? "m" : "rad"};
+    if (p.of_effect()) {
+      number.effect = c.state.arm.effects[static_cast<std::size_t>(p.joint)].name;
+      number.unit = e.unit;
+    }
+    number.value = e.value - e.nominal;
+    number.std = e.std;
+    out.numbers.push_back(std::move(number));
   }
   out.covariance = c.covariance(of_arm, of_arm);
 }
 
-void fit_into(const fs::path& folder, CellSummary& out) {
+void check_finite(const CellSummary& summary) {
+  bool finite = summary.covariance.allFinite() && std::isfinite(summary.held.max);
+  for (const auto& n : summary.numbers) finite = finite && std::isfinite(n.value);
+  if (finite) return;
+  throw Failure(Exit::kNumbersSayNo, {.code = "E-FLEET-CELL",
+                                      .message = "its fit gave numbers that are not finite",
+                                      .help = "see it by itself: plumb -C CELL fit"});
+}
+
+CellDiagnosis diagnosis_of(const Cell& cell, const MeasurementFiles& measured) {
+  const Diagnosis found = diagnose(cell, measured, {});
+  CellDiagnosis out{
+      .finding = name_of(found.finding), .effect = {}, .joints = {}, .words = found.text};
+  if (found.finding == Finding::kMissing && !found.candidates.empty()) {
+    out.effect = found.candidates.front().entry.name;
+    for (const int joint : found.candidates.front().entry.joints)
+      out.joints.push_back(cell.nominal.joints[static_cast<std::size_t>(joint)].name);
+  }
+  return out;
+}
+
+void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   const Cell cell = read_cell(folder / "cell.toml");
   out.robot = cell.robot_name;
   out.serial = cell.serial;
@@ -61,31 +97,40 @@ void fit_into(const fs::path& folder, CellSummary& out) {
   out.floor_m = fit.floor.mean_m;
   out.good = fit.held.n > 0 && keeps(fit.held, cell.tolerance_m);
   out.verdict = verdict(fit, cell.tolerance_m);
-  put_numbers(fit, out);
+  put_numbers(calibrate_from(with_hardly_any_prior(cell), measured, fit_rows(fit.split),
+                             fit.calibration.state),
+              out);
+  check_finite(out);
+  if (asked == Asked::kDiagnosis) out.diagnosis = diagnosis_of(cell, measured);
   out.ok = true;
 }
 
 }  // namespace
 
 std::vector<SummaryInput> inputs_of(const fs::path& folder) {
-  std::vector<SummaryInput> out{{"cell.toml", sum_of(folder / "cell.toml")}};
+  std::vector<SummaryInput> out{{"plumb", format::kVersion},
+                                {"cell.toml", sum_of(folder / "cell.toml")}};
   try {
     const Cell cell = read_cell(folder / "cell.toml");
     for (const auto& file : measurement_files(cell.measurement))
       out.push_back({file.lexically_proximate(cell.directory).generic_string(), sum_of(file)});
+    if (!cell.fit.prior_from.empty())
+      out.push_back({"priors", sha256(fleet_priors_text(cell.fit.priors))});
   } catch (const std::exception&) {
     // Its summary will say why.
   }
   return out;
 }
 
-CellSummary summarise(const fs::path& folder) {
+CellSummary summarise(const fs::path& folder, Asked asked) {
   CellSummary out;
   out.name = folder.filename().string();
   out.inputs = inputs_of(folder);
   try {
-    fit_into(folder, out);
+    fit_into(folder, asked, out);
   } catch (const Failure& failure) {
+    out.numbers.clear();
+    out.covariance.resize(0, 0);
     out.error_code = failure.problems().front().code;
     out.error = failure.problems().front().message;
   } catch (const fs::filesystem_error& failure) {

@@ -57,7 +57,8 @@ Arm arm_of(const CellSummary& summary, const std::vector<Typical>& numbers) {
 
 }  // namespace
 
-std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms) {
+std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms,
+                                   const std::vector<Typical>& start) {
   if (static_cast<int>(arms.size()) < kFewestArms) return {};
   std::vector<Typical> out = all_numbers(arms);
   const auto count = static_cast<Eigen::Index>(out.size());
@@ -79,6 +80,12 @@ std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms) 
     }
   const Eigen::VectorXd least = kLeastShare * (spread.cwiseQuotient(told)).cwiseSqrt();
   Eigen::VectorXd sd = (spread.cwiseQuotient(told)).cwiseSqrt().cwiseMax(1e-300);
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (const Typical& t : start)
+      if (t.name == out[static_cast<std::size_t>(k)].name) {
+        mu(k) = t.mean;
+        sd(k) = t.sd;
+      }
   Eigen::VectorXd shrinkage = Eigen::VectorXd::Zero(count);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(count), square = sum, of_mean = sum;

@@ -24,7 +24,9 @@ inline constexpr int kFewestArms = 5;
 /// and its fit says x_i ~ N(theta_i, C_i) with the whole covariance of its numbers. mu and sd by
 /// expectation maximisation [Dempster, Laird & Rubin 1977] over all arms; a number that a fit held
 /// at nominal says nothing. Empty if there are fewer than kFewestArms.
+/// `start`: of nearly the same arms, from where it settles in a few iterations; or none.
 /// Cost: iterations * arms * numbers^3.
-std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms);
+std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms,
+                                   const std::vector<Typical>& start = {});
 
 }  // namespace plumb::offline::fleet

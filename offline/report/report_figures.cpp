@@ -17,7 +17,6 @@
 namespace plumb::offline::report {
 namespace {
 
-constexpr double kWide_px = 760.0, kNarrow_px = 368.0;
 constexpr std::size_t kMostJoints = 2;  // drawn large
 constexpr unsigned kMostThreads = 4;
 

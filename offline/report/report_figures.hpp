@@ -9,6 +9,8 @@
 
 namespace plumb::offline::report {
 
+inline constexpr double kWide_px = 760.0, kNarrow_px = 368.0;  // widths of every figure
+
 /// The page of the report on which a figure stands.
 enum class Page {
   kVerdict,

@@ -17,7 +17,7 @@ Html reproduce_page(const ReportData& data) {
   HtmlTable table{.caption = "Input files", .head = {"file", "sha256"}, .left_from = 1};
   const std::string cell_sum = sha256(data.cell.text);
   table.rows.push_back({"cell.toml", cell_sum});
-  if (data.run.cell_sha256 != cell_sum)
+  if (data.run.cell_sha256 != hash_of(data.cell))
     table.rows.push_back({"cell.toml of the run", data.run.cell_sha256});
   for (const auto& input : data.run.inputs) table.rows.push_back({input.name, input.sha256});
   html.table(table);

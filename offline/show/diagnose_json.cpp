@@ -9,19 +9,6 @@
 namespace plumb::offline::show {
 namespace {
 
-const char* name_of(Finding finding) {
-  switch (finding) {
-    case Finding::kMissing:
-      return "missing";
-    case Finding::kUnknown:
-      return "unknown";
-    case Finding::kUndecidable:
-      return "undecidable";
-    default:
-      return "complete";
-  }
-}
-
 /// The mean under the key, its RMS beside it.
 void put_error(Json& out, const std::string& key, const ErrorStats& stats) {
   put(out, key + "_mm", stats.n > 0 ? to_mm(stats.mean) : NAN, "no pose was held out");

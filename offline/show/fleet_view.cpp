@@ -29,13 +29,6 @@ ParameterUnit unit_of_number(const std::string& effect, const std::string& si) {
   return unit_of({.name = {}, .is_length = si == "m", .unit = geometry ? "" : si});
 }
 
-const OddArm* odd_arm(const Fleet& all, const std::string& cell) {
-  for (const Model& model : all.models)
-    for (const OddArm& odd : model.sisters.odd)
-      if (odd.cell == cell) return &odd;
-  return nullptr;
-}
-
 std::string effect_of(const Fleet& all, const OddArm& odd) {
   for (const Model& model : all.models)
     for (const Typical& t : model.sisters.typical)
@@ -64,6 +57,23 @@ Json cell_json(const Fleet& all, const CellSummary& cell) {
     put_null(out, "error", "it could be fitted");
   else
     out["error"] = {{"code", cell.error_code}, {"message", cell.error}};
+  if (cell.diagnosis)
+    out["diagnosis"] = {{"verdict", cell.diagnosis->finding},
+                        {"verdict_text", cell.diagnosis->words},
+                        {"effect", cell.diagnosis->effect},
+                        {"joints", cell.diagnosis->joints}};
+  else
+    put_null(out, "diagnosis", "--diagnose was not given");
+  return out;
+}
+
+Json use_json(const fleet::EffectUse& use) {
+  Json out{{"effect", use.effect}, {"modelled", use.modelled}};
+  if (use.diagnosed > 0)
+    out["missing"] = use.missing;
+  else
+    put_null(out, "missing", "--diagnose was not given");
+  out["diagnosed"] = use.diagnosed;
   return out;
 }
 
@@ -79,30 +89,6 @@ Json typical_json(const Typical& t) {
           {"sd_si", t.sd},
           {"shrinkage", t.shrinkage},
           {"arms", t.arms}};
-}
-
-std::string verdict_of(const Fleet& all) {
-  const auto count = [&](auto&& which) {
-    return std::count_if(all.cells.begin(), all.cells.end(), which);
-  };
-  const auto good = count([](const CellSummary& c) { return c.good; });
-  const auto failed = count([](const CellSummary& c) { return !c.ok; });
-  std::string out = fmt::format("{} of {} arms keep{} {} tolerance", good, all.cells.size(),
-                                good == 1 ? "s" : "", good == 1 ? "its" : "their");
-  std::vector<std::string> odd;
-  for (const Model& model : all.models)
-    for (const OddArm& one : model.sisters.odd) odd.push_back(one.cell);
-  if (!odd.empty())
-    out += fmt::format("; {} {} unlike {} sisters: {}", odd.size(), odd.size() == 1 ? "is" : "are",
-                       odd.size() == 1 ? "its" : "their", counted(odd));
-  if (failed > 0) out += fmt::format("; {} could not be fitted", failed);
-  return out + ".";
-}
-
-std::string state_of(const Fleet& all, const CellSummary& cell) {
-  if (!cell.ok) return cell.error_code + ": " + cell.error;
-  if (const OddArm* odd = odd_arm(all, cell.name)) return odd_words(all, *odd);
-  return cell.good ? "good" : "not good enough";
 }
 
 std::string cells_text(const Fleet& all) {
@@ -123,34 +109,88 @@ std::string cells_text(const Fleet& all) {
   return out;
 }
 
+std::string effects_text(const Fleet& all) {
+  TextTable table({head::kEffect, "modelled in", "missing in"});
+  for (const auto& use : fleet::effect_uses(all))
+    table.add({use.effect, fmt::format("{}", use.modelled),
+               use.diagnosed > 0 ? fmt::format("{} of {}", use.missing, use.diagnosed) : "-"});
+  return "\nEffects, and in how many arms:\n\n" + table.text();
+}
+
 std::string typical_text(const Model& model) {
-  if (model.sisters.typical.empty())
-    return fmt::format("\n{} ({} arm{}): {} arms of one model are needed to learn from them.\n",
-                       model.robot, model.arms, model.arms == 1 ? "" : "s", fleet::kFewestArms);
+  if (model.sisters.typical.empty()) return "\n" + too_few_words(model) + "\n";
   std::vector<const Typical*> sorted;
   for (const auto& t : model.sisters.typical) sorted.push_back(&t);
-  // What arms differ in most, against what is learnt of them.
+  // What the arms themselves show best first.
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Typical* a, const Typical* b) { return a->shrinkage < b->shrinkage; });
-  TextTable table({"number", "mean", "from arm to arm", "", "arms", "shrinkage"});
-  for (std::size_t i = 0; i < std::min(kTypicalShown, sorted.size()); ++i) {
-    const Typical& t = *sorted[i];
-    const ParameterUnit unit = unit_of_number(t.effect, t.unit);
-    table.add({t.name, unit.text(t.mean * 1.0), unit.text(t.sd), unit.name,
-               fmt::format("{}", t.arms), fmt::format("{:.0f} %", 100.0 * t.shrinkage)});
-  }
+  TextTable table({"number", "mean", "from arm to arm", "unit", "arms", "shrinkage"});
+  const std::size_t shown = std::min(kTypicalShown, sorted.size());
+  for (std::size_t i = 0; i < shown; ++i) table.add(typical_row(*sorted[i]));
   std::string out =
-      fmt::format("\n{}, {} arms: differences from nominal\n\n", model.robot, model.arms) +
-      table.text();
-  if (sorted.size() > kTypicalShown)
-    out += fmt::format("  and {} more in fleet.json\n", sorted.size() - kTypicalShown);
+      fmt::format("\n{}: differences from nominal\n\n", model_name(model)) + table.text();
+  if (sorted.size() > shown)
+    out += fmt::format("  and {} more in fleet.json\n", sorted.size() - shown);
   return out;
 }
 
 }  // namespace
 
+const OddArm* odd_arm(const Fleet& all, const std::string& cell) {
+  for (const Model& model : all.models)
+    for (const OddArm& odd : model.sisters.odd)
+      if (odd.cell == cell) return &odd;
+  return nullptr;
+}
+
+std::string state_of(const Fleet& all, const CellSummary& cell) {
+  if (!cell.ok) return cell.error_code + ": " + cell.error;
+  const std::string good = cell.good          ? "good"
+                           : cell.held.n == 0 ? "cannot be judged: no pose was held out"
+                                              : "not good enough";
+  const OddArm* const odd = odd_arm(all, cell.name);
+  return odd == nullptr ? good : good + "; " + odd_words(all, *odd);
+}
+
+std::string fleet_verdict(const Fleet& all) {
+  const auto count = [&](auto&& which) {
+    return std::count_if(all.cells.begin(), all.cells.end(), which);
+  };
+  const auto good = count([](const CellSummary& c) { return c.good; });
+  const auto failed = count([](const CellSummary& c) { return !c.ok; });
+  std::string out = fmt::format("{} of {} arm{} keep{} {} tolerance", good, all.cells.size(),
+                                all.cells.size() == 1 ? "" : "s", good == 1 ? "s" : "",
+                                good == 1 ? "its" : "their");
+  std::vector<std::string> odd;
+  for (const Model& model : all.models)
+    for (const OddArm& one : model.sisters.odd) odd.push_back(one.cell);
+  if (!odd.empty())
+    out += fmt::format("; {} {} unlike {} sisters: {}", odd.size(), odd.size() == 1 ? "is" : "are",
+                       odd.size() == 1 ? "its" : "their", counted(odd));
+  if (failed > 0) out += fmt::format("; {} could not be fitted", failed);
+  return out + ".";
+}
+
+std::string model_name(const Model& model) {
+  return fmt::format("{}, {} arm{}", model.robot.empty() ? "robot without a name" : model.robot,
+                     model.arms, model.arms == 1 ? "" : "s");
+}
+
+std::string too_few_words(const Model& model) {
+  return fmt::format("{}: too few to learn from, which takes {} of one model.", model_name(model),
+                     fleet::kFewestArms);
+}
+
+std::vector<std::string> typical_row(const Typical& t) {
+  const ParameterUnit unit = unit_of_number(t.effect, t.unit);
+  return {t.name,    unit.text(t.mean),         unit.text(t.sd),
+          unit.name, fmt::format("{}", t.arms), fmt::format("{:.0f} %", 100.0 * t.shrinkage)};
+}
+
 Json fleet_json(const Fleet& all) {
-  Json out{{"verdict_text", verdict_of(all)}};
+  Json out{{"verdict_text", fleet_verdict(all)}};
+  out["effects"] = Json::array();
+  for (const auto& use : fleet::effect_uses(all)) out["effects"].push_back(use_json(use));
   out["cells"] = Json::array();
   for (const auto& cell : all.cells) out["cells"].push_back(cell_json(all, cell));
   out["models"] = Json::array();
@@ -173,7 +213,7 @@ Json fleet_json(const Fleet& all) {
 }
 
 std::string fleet_text(const Fleet& all) {
-  std::string out = verdict_of(all) + "\n\n" + cells_text(all);
+  std::string out = fleet_verdict(all) + "\n\n" + cells_text(all) + effects_text(all);
   for (const auto& model : all.models) out += typical_text(model);
   return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fleet/fleet.hpp"
 #include "show/json.hpp"
@@ -11,6 +12,25 @@ namespace plumb::offline::show {
 /// fleet.json, and `result` of `plumb fleet`: cells and, model by model, what is typical. Numbers
 /// in the units of the screen, and in SI for `[fit] prior_from`.
 Json fleet_json(const fleet::Fleet& fleet);
+
+/// One sentence: how many arms are good, which are unlike their sisters, what failed.
+std::string fleet_verdict(const fleet::Fleet& fleet);
+
+/// What is to be said of a cell: "good", "not good enough", why it is unlike its sisters, or why it
+/// could not be fitted.
+std::string state_of(const fleet::Fleet& fleet, const fleet::CellSummary& cell);
+
+/// The arm as one that is unlike its sisters; null if it is not.
+const fleet::OddArm* odd_arm(const fleet::Fleet& fleet, const std::string& cell);
+
+/// "UR10, 34 arms"
+std::string model_name(const fleet::Model& model);
+
+/// Why nothing was learnt of a model.
+std::string too_few_words(const fleet::Model& model);
+
+/// A row of a table: number, mean, from arm to arm, unit, arms, shrinkage.
+std::vector<std::string> typical_row(const fleet::Typical& typical);
 
 /// The verdict, a table of the cells (of many only those that need attention), what is typical.
 std::string fleet_text(const fleet::Fleet& fleet);

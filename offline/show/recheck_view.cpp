@@ -18,7 +18,6 @@ namespace {
 
 using recheck::Alternative;
 using recheck::Found;
-using recheck::Part;
 using recheck::Recheck;
 using recheck::RecheckPlan;
 using recheck::Visibility;
@@ -35,9 +34,9 @@ std::string signed_number(double si, const ParameterUnit& unit) {
 std::string what_happened(const Cell& cell, const Found& found) {
   const recheck::Change& change = found.change;
   const std::string motion = mm(found.motion_m);
-  if (change.part == Part::kTool)
+  if (change.part == recheck::Part::kTool)
     return fmt::format("the tool or the reflector moved: {} mm at the measured point", motion);
-  if (change.part == Part::kBase)
+  if (change.part == recheck::Part::kBase)
     return fmt::format("the base or the tracker moved: {} mm at the measured point (RMS)", motion);
   const std::string& joint = changed_joint(cell, change);
   const Estimate &was = found.before.front(), &now = found.after.front();
@@ -157,7 +156,7 @@ std::string blind_text(const Cell& cell, const std::vector<Visibility>& blind) {
 
 Json changed_part_json(const Cell& cell, const recheck::Change& change) {
   Json out{{"part", name_of(change.part)}};
-  if (change.part == Part::kJoint)
+  if (change.part == recheck::Part::kJoint)
     out["joint"] = changed_joint(cell, change);
   else
     put_null(out, "joint", "it is no joint");

@@ -119,7 +119,7 @@ void LiveCell::read_cell_again() {
     text_ = read_file_up_to(file_, kMostCellBytes);
     cell_ = std::make_shared<const Cell>(parse_cell(text_, file_));
   });
-  cell_sha256_ = sha256(text_);
+  cell_sha256_ = cell_ ? hash_of(*cell_) : sha256(text_);
 }
 
 void LiveCell::read_data_again() {

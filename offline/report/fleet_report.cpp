@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/fleet_report.hpp"
+
+#include <fmt/format.h>
+
+#include "draw/svg.hpp"
+#include "report/document.hpp"
+#include "report/fleet_figures.hpp"
+#include "report/page_words.hpp"
+#include "report/report_figures.hpp"
+#include "show/counted.hpp"
+#include "show/fleet_view.hpp"
+#include "show/heads.hpp"
+#include "show/units.hpp"
+
+namespace plumb::offline::report {
+namespace {
+
+using fleet::CellSummary;
+using fleet::Fleet;
+using fleet::Model;
+
+template <typename Figure>
+void put_figure(Html& html, const Figure& figure) {
+  const std::string wide = figure(kWide_px);
+  if (!wide.empty()) html.figure(wide, figure(kNarrow_px));
+}
+
+Html verdict_section(const Fleet& fleet) {
+  Html html;
+  html.paragraph(show::fleet_verdict(fleet));
+  put_figure(html, [&](double width) { return fleet_errors_figure(fleet, width); });
+  HtmlTable effects{.caption = "Effects, and in how many of the arms",
+                    .head = {"effect", "modelled", "missing"}};
+  for (const auto& use : fleet::effect_uses(fleet))
+    effects.rows.push_back({use.effect, fmt::format("{}", use.modelled),
+                            use.diagnosed ? fmt::format("{}", use.missing) : "not asked"});
+  html.table(effects);
+  return html;
+}
+
+Html cells_section(const Fleet& fleet) {
+  Html html;
+  HtmlTable table{.caption = "Held-out errors, measured - predicted [mm]",
+                  .head = {"cell", "robot", show::head::kMean, show::head::kP95, show::head::kMax,
+                           show::head::kEffects, "state"},
+                  .left_from = 5};
+  for (const auto& cell : fleet.cells) {
+    const auto mm = [&](double error_m) { return cell.ok ? show::mm(error_m) : "-"; };
+    table.rows.push_back({cell.name, cell.robot, mm(cell.held.mean), mm(cell.held.p95),
+                          mm(cell.held.max), show::counted(cell.effects),
+                          show::state_of(fleet, cell)});
+  }
+  html.table(table);
+  return html;
+}
+
+Html model_section(const Fleet& fleet, const Model& model) {
+  Html html;
+  if (model.sisters.typical.empty()) {
+    html.paragraph(show::too_few_words(model));
+    return html;
+  }
+  put_figure(html, [&](double width) { return sisters_figure(fleet, model, width); });
+  HtmlTable table{.caption = "What is typical: differences from nominal, and sizes of effects",
+                  .head = {"number", "mean", "from arm to arm", "unit", "arms", "shrinkage"}};
+  for (const auto& t : model.sisters.typical) table.rows.push_back(show::typical_row(t));
+  html.table(table);
+  html.paragraph(
+      "Shrinkage: how much of an arm's own estimate gives way to the mean of its sisters, 0 % "
+      "where "
+      "its readings show the number well, 100 % where they do not show it. In a cell, [fit] "
+      "prior_from = \"fleet.json\" makes use of it.");
+  return html;
+}
+
+}  // namespace
+
+std::string fleet_report(const Fleet& fleet) {
+  std::vector<Section> sections;
+  sections.push_back({"verdict", "Verdict", verdict_section(fleet)});
+  sections.push_back({"cells", "The cells", cells_section(fleet)});
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < fleet.models.size(); ++i)
+    ids.push_back(fmt::format("model-{}", i + 1));
+  for (std::size_t i = 0; i < fleet.models.size(); ++i) {
+    const Model& model = fleet.models[i];
+    sections.push_back(
+        {ids[i].c_str(), draw::escaped(show::model_name(model)), model_section(fleet, model)});
+  }
+  return document("Fleet of " + counted_words(fleet.cells.size(), "arm", "arms"), sections);
+}
+
+}  // namespace plumb::offline::report
