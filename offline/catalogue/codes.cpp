@@ -46,6 +46,9 @@ constexpr Explanation kCodes[] = {
      "plumb fleet takes a folder whose subfolders are cells, each with a cell.toml. There is none, "
      "or "
      "none of them could be fitted."},
+    {"W-FLEET-COPY",
+     "Two cells of the fleet have the same measurements, so they are one arm. Counted twice, it "
+     "would make arms look alike that are not. Were the files of another arm meant?"},
     {"N-FLEET-OTHER",
      "plumb fleet takes the folders that hold a cell.toml. Others are left out, which is a mistake "
      "only if one of them was meant to be a cell."},

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/json.hpp"
 
@@ -29,7 +30,7 @@ std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format:
   std::vector<Prior> out;
   bool known = false;
   try {
-    const Json json = Json::parse(read_file(file));
+    const Json json = Json::parse(read_regular_file(file, kMostFileBytes));
     if (json.at("schema") != "fleet/1") refuse(file, "is of another schema than fleet/1");
     const std::string key = model_key(nominal);
     for (const auto& model : json.at("models")) {

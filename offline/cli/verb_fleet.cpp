@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "fleet/fleet.hpp"
@@ -76,7 +77,43 @@ void warn_of_broken(const std::vector<fleet::CellSummary>& cells, Outcome& outco
        .help = "see each by itself: plumb -C CELL fit"});
 }
 
-void gather(const FleetArguments& options, const fs::path& results,
+void warn_of_copies(const fleet::Fleet& all, Outcome& outcome) {
+  if (all.copies.empty()) return;
+  const auto& [copy, first] = *all.copies.begin();
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-FLEET-COPY",
+       .message = all.copies.size() == 1
+                      ? fmt::format("{} has the same measurements as {}, so only one of the two "
+                                    "teaches",
+                                    copy, first)
+                      : fmt::format("{} cells have the measurements of another one, so they teach "
+                                    "nothing; the first is {}, as {}",
+                                    all.copies.size(), copy, first),
+       .help = "one folder for each arm; several days of one arm belong into one cell"});
+}
+
+/// The worst arm that is not good; null if all are.
+const fleet::CellSummary* worst_of(const fleet::Fleet& all) {
+  const fleet::CellSummary* out = nullptr;
+  for (const auto& cell : all.cells)
+    if (cell.ok && !cell.good && (out == nullptr || cell.held.mean > out->held.mean)) out = &cell;
+  return out;
+}
+
+std::string next_of(const FleetArguments& options, const fleet::Fleet& all) {
+  const auto in_cell = [&](const std::string& name, const char* verb) {
+    return fmt::format("-C {} {}", shell_word((fs::path(options.folder) / name).string()), verb);
+  };
+  for (const auto& model : all.models)
+    if (!model.sisters.odd.empty())
+      return in_cell(model.sisters.odd.front().cell, "check   # are its data right?");
+  if (const auto* worst = worst_of(all))
+    return in_cell(worst->name, "diagnose   # what does the worst one lack?");
+  return in_cell(all.cells.front().name, "compile   # and so every one");
+}
+
+void gather(const FleetArguments& options, const Globals& globals, const fs::path& results,
             std::vector<fleet::CellSummary> cells, Outcome& outcome) {
   const fleet::Fleet all = fleet::fleet_of(std::move(cells));
   outcome.result = show::fleet_json(all);
@@ -90,6 +127,7 @@ void gather(const FleetArguments& options, const fs::path& results,
   outcome.result["report"] = page.string();
   outcome.text = show::fleet_text(all) +
                  fmt::format("\nwrote {} and {}\n", display_name(name), display_name(page));
+  warn_of_copies(all, outcome);
   if (std::none_of(all.cells.begin(), all.cells.end(),
                    [](const fleet::CellSummary& cell) { return cell.ok; }))
     throw Failure(
@@ -100,9 +138,10 @@ void gather(const FleetArguments& options, const fs::path& results,
          .help = "see one by itself: plumb -C " +
                  shell_word((fs::path(options.folder) / all.cells.front().name).string()) +
                  " fit"});
+  say_next(globals, next_of(options, all), outcome);
 }
 
-void run_fleet(const FleetArguments& options, const Globals&, Outcome& outcome) {
+void run_fleet(const FleetArguments& options, const Globals& globals, Outcome& outcome) {
   const Share share = share_of_text(options.share);
   const fs::path results =
       options.output.empty() ? fs::path(options.folder) / "fleet" : fs::path(options.output);
@@ -127,7 +166,8 @@ void run_fleet(const FleetArguments& options, const Globals&, Outcome& outcome) 
         });
   }
   warn_of_broken(summaries, outcome);
-  if (options.share.empty()) return gather(options, results, std::move(summaries), outcome);
+  if (options.share.empty())
+    return gather(options, globals, results, std::move(summaries), outcome);
   outcome.result = {{"share", options.share}, {"done", summaries.size()}};
   outcome.text = fmt::format("{} cells of share {} are done; when all shares are: plumb fleet {}\n",
                              summaries.size(), options.share, shell_word(options.folder));

@@ -50,7 +50,8 @@ std::optional<CellDiagnosis> diagnosis_from(const Json& j) {
 Json to_json(const CellSummary& s) {
   Json inputs = Json::array(), numbers = Json::array();
   for (const auto& input : s.inputs)
-    inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
+    inputs.push_back(
+        {{"file", input.file}, {"sha256", input.sha256}, {"of_measurement", input.of_measurement}});
   for (const auto& n : s.numbers)
     numbers.push_back({{"name", n.name},
                        {"effect", n.effect},
@@ -82,7 +83,7 @@ CellSummary summary_from(const Json& j) {
   if (j.at("schema") != kSchema) j.at("a summary of this version");
   j.at("name").get_to(out.name);
   for (const auto& input : j.at("inputs"))
-    out.inputs.push_back({input.at("file"), input.at("sha256")});
+    out.inputs.push_back({input.at("file"), input.at("sha256"), input.at("of_measurement")});
   j.at("ok").get_to(out.ok);
   j.at("error_code").get_to(out.error_code);
   j.at("error").get_to(out.error);

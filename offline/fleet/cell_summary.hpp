@@ -15,6 +15,7 @@ namespace plumb::offline::fleet {
 struct SummaryInput {
   std::string file;  // relative to the cell's folder; "plumb": the version of the program
   std::string sha256;
+  bool of_measurement = false;
   bool operator==(const SummaryInput&) const = default;
 };
 

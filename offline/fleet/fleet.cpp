@@ -77,6 +77,24 @@ bool has_cell_file(const fs::path& folder) {
                  .help = "look for room on its disk, and give the command again"});
 }
 
+/// Equal for two cells with the same measurements.
+std::string measurements_of(const CellSummary& cell) {
+  std::string out;
+  for (const auto& input : cell.inputs)
+    if (input.of_measurement) out += input.sha256 + "\n";
+  return out;
+}
+
+std::map<std::string, std::string> copies_among(const std::vector<CellSummary>& cells) {
+  std::map<std::string, std::string> first, out;
+  for (const auto& cell : cells) {
+    if (!cell.ok) continue;
+    const auto [at, is_first] = first.emplace(measurements_of(cell), cell.name);
+    if (!is_first) out.emplace(cell.name, at->second);
+  }
+  return out;
+}
+
 }  // namespace
 
 Folders folders_in(const fs::path& folder) {
@@ -183,6 +201,7 @@ Fleet fleet_of(std::vector<CellSummary> cells) {
   out.cells = std::move(cells);
   std::sort(out.cells.begin(), out.cells.end(),
             [](const CellSummary& a, const CellSummary& b) { return a.name < b.name; });
+  out.copies = copies_among(out.cells);
   std::set<std::string> keys;
   for (const auto& cell : out.cells)
     if (cell.ok) keys.insert(cell.model);
@@ -190,7 +209,7 @@ Fleet fleet_of(std::vector<CellSummary> cells) {
     std::vector<const CellSummary*> arms;
     std::map<std::string, int> names;
     for (const auto& cell : out.cells)
-      if (cell.ok && cell.model == key) {
+      if (cell.ok && cell.model == key && !out.copies.contains(cell.name)) {
         arms.push_back(&cell);
         ++names[cell.robot];
       }

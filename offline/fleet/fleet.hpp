@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,15 @@ namespace plumb::offline::fleet {
 /// Arms of one nominal chain.
 struct Model {
   std::string key, robot;  // robot: as most of its cells call it
-  int arms = 0;            // that could be fitted
+  int arms = 0;            // that could be fitted, copies not counted
   Sisters sisters;
 };
 
 struct Fleet {
   std::vector<CellSummary> cells;  // by name
-  std::vector<Model> models;       // the one with the most arms first
+  /// Cells that have the measurements of another one, by name, and that one: they teach nothing.
+  std::map<std::string, std::string> copies;
+  std::vector<Model> models;  // the one with the most arms first
 };
 
 /// What a folder of cells holds, each by name.

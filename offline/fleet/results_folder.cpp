@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "program/shell_word.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 200;  // bytes; file systems end at 255, endings included
+constexpr std::size_t kLongestName = 150;  // bytes; file systems end at 255, endings included
 
 /// The name as a file of JSON keeps it: bytes that are no UTF-8 are replaced.
 std::string as_kept(const std::string& name) {
@@ -34,7 +35,7 @@ std::optional<CellSummary> ResultsFolder::kept(const std::string& name,
   std::error_code ignored;
   if (!fs::is_regular_file(file_of(name), ignored)) return std::nullopt;
   try {
-    Json json = Json::parse(read_file(file_of(name)));
+    Json json = Json::parse(read_regular_file(file_of(name), kMostCellBytes));
     const Json sum = json.at("sha256");
     json.erase("sha256");
     if (sum != sha256(to_text(json))) return std::nullopt;

@@ -11,6 +11,7 @@
 #include "fit/fit.hpp"
 #include "fit/verdict.hpp"
 #include "plumb/format/version.hpp"
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 std::string sum_of(const fs::path& file) {
   try {
-    return sha256(read_file(file));
+    return sha256(read_regular_file(file, kMostFileBytes));
   } catch (const std::exception&) {
     return "";
   }
@@ -84,8 +85,20 @@ CellDiagnosis diagnosis_of(const Cell& cell, const MeasurementFiles& measured) {
   return out;
 }
 
+/// A pipe would be waited for, and with it the whole fleet.
+void check_regular(const fs::path& file) {
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (error || fs::is_regular_file(status) || !fs::exists(status)) return;
+  throw Failure(Exit::kInput, {.code = "E-READ",
+                               .message = display_name(file) + " is no regular file",
+                               .help = "cells of a fleet are read from files"});
+}
+
 void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
+  check_regular(folder / "cell.toml");
   const Cell cell = read_cell(folder / "cell.toml");
+  for (const auto& file : measurement_files(cell.measurement)) check_regular(file);
   out.robot = cell.robot_name;
   out.serial = cell.serial;
   out.model = model_key(cell.nominal);
@@ -108,14 +121,16 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
 }  // namespace
 
 std::vector<SummaryInput> inputs_of(const fs::path& folder) {
-  std::vector<SummaryInput> out{{"plumb", format::kVersion},
-                                {"cell.toml", sum_of(folder / "cell.toml")}};
+  std::vector<SummaryInput> out{{"plumb", format::kVersion, false},
+                                {"cell.toml", sum_of(folder / "cell.toml"), false}};
   try {
+    check_regular(folder / "cell.toml");
     const Cell cell = read_cell(folder / "cell.toml");
     for (const auto& file : measurement_files(cell.measurement))
-      out.push_back({file.lexically_proximate(cell.directory).generic_string(), sum_of(file)});
+      out.push_back(
+          {file.lexically_proximate(cell.directory).generic_string(), sum_of(file), true});
     if (!cell.fit.prior_from.empty())
-      out.push_back({"priors", sha256(fleet_priors_text(cell.fit.priors))});
+      out.push_back({"priors", sha256(fleet_priors_text(cell.fit.priors)), false});
   } catch (const std::exception&) {
     // Its summary will say why.
   }

@@ -9,14 +9,13 @@ namespace plumb::offline::fleet {
 namespace {
 
 constexpr int kIterations = 200;
-constexpr double kSettled = 1e-4;  // relative change of every sd
-constexpr double kLeastShare =
-    1e-3;  // of the spread of the estimates: an sd is never taken smaller
+constexpr double kSettled = 1e-4;     // relative change of every sd
+constexpr double kLeastShare = 1e-3;  // of spread and noise: an sd is never taken smaller
 
 /// One arm among the numbers of all arms.
 struct Arm {
   std::vector<Eigen::Index> place;  // of each of its numbers
-  Eigen::VectorXd x;
+  Eigen::VectorXd x, variance;
   Eigen::MatrixXd information;  // of its fit: C^-1
 };
 
@@ -51,6 +50,7 @@ Arm arm_of(const CellSummary& summary, const std::vector<Typical>& numbers) {
   for (std::size_t i = 0; i < own.size(); ++i)
     out.x(static_cast<Eigen::Index>(i)) = summary.numbers[static_cast<std::size_t>(own[i])].value;
   const Eigen::MatrixXd C = summary.covariance(own, own);
+  out.variance = C.diagonal();
   out.information = C.ldlt().solve(Eigen::MatrixXd::Identity(C.rows(), C.cols()));
   return out;
 }
@@ -78,8 +78,12 @@ std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms,
       const Eigen::Index p = arm.place[static_cast<std::size_t>(k)];
       spread(p) += std::pow(arm.x(k) - mu(p), 2);
     }
-  const Eigen::VectorXd least = kLeastShare * (spread.cwiseQuotient(told)).cwiseSqrt();
-  Eigen::VectorXd sd = (spread.cwiseQuotient(told)).cwiseSqrt().cwiseMax(1e-300);
+  Eigen::VectorXd of_fits = Eigen::VectorXd::Zero(count);  // variance
+  for (const Arm& arm : all)
+    for (Eigen::Index k = 0; k < arm.x.size(); ++k)
+      of_fits(arm.place[static_cast<std::size_t>(k)]) += arm.variance(k);
+  const Eigen::VectorXd least = kLeastShare * (spread + of_fits).cwiseQuotient(told).cwiseSqrt();
+  Eigen::VectorXd sd = spread.cwiseQuotient(told).cwiseSqrt().cwiseMax(least);
   for (Eigen::Index k = 0; k < count; ++k)
     for (const Typical& t : start)
       if (t.name == out[static_cast<std::size_t>(k)].name) {

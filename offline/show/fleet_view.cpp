@@ -53,6 +53,10 @@ Json cell_json(const Fleet& all, const CellSummary& cell) {
   const OddArm* const odd = odd_arm(all, cell.name);
   out["unlike_sisters"] = odd != nullptr;
   if (odd != nullptr) out["unlike_text"] = odd_words(all, *odd);
+  if (const auto copy = all.copies.find(cell.name); copy != all.copies.end())
+    out["same_measurements_as"] = copy->second;
+  else
+    put_null(out, "same_measurements_as", "no other cell has them");
   if (cell.ok)
     put_null(out, "error", "it could be fitted");
   else
