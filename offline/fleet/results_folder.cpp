@@ -69,6 +69,14 @@ void ResultsFolder::keep(const CellSummary& summary) const {
 
 void ResultsFolder::check_writable(const std::string& name) const {
   make_folder_of(name);
+  std::error_code none;
+  if (const auto status = fs::status(file_of(name), none);
+      fs::exists(status) && !fs::is_regular_file(status))
+    throw Failure(Exit::kEnvironment,
+                  {.code = "E-WRITE",
+                   .message = display_name(file_of(name)) + " is no file, but stands where the "
+                                                            "result of a cell belongs",
+                   .help = "move it away, or another folder for the results: -o DIR"});
   const fs::path probe = file_of(name).string() + fmt::format(".{}.probe", ::getpid());
   write_file_atomically(probe, std::string(kLargeResult, ' '));
   std::error_code ignored;

@@ -20,6 +20,8 @@ using fleet::CellSummary;
 using fleet::Fleet;
 using fleet::Model;
 
+constexpr std::size_t kAllListed = 500;  // cells; of more only those that need attention
+
 template <typename Figure>
 void put_figure(Html& html, const Figure& figure) {
   const std::string wide = figure(kWide_px);
@@ -45,13 +47,22 @@ Html cells_section(const Fleet& fleet) {
                   .head = {"cell", "robot", show::head::kMean, show::head::kP95, show::head::kMax,
                            show::head::kEffects, "state"},
                   .left_from = 5};
+  std::size_t left_out = 0;
   for (const auto& cell : fleet.cells) {
+    if (fleet.cells.size() > kAllListed && cell.good &&
+        show::odd_arm(fleet, cell.name) == nullptr) {
+      ++left_out;
+      continue;
+    }
     const auto mm = [&](double error_m) { return cell.ok ? show::mm(error_m) : "-"; };
     table.rows.push_back({cell.name, cell.robot, mm(cell.held.mean), mm(cell.held.p95),
                           mm(cell.held.max), show::counted(cell.effects),
                           show::state_of(fleet, cell)});
   }
   html.table(table);
+  if (left_out > 0)
+    html.paragraph(fmt::format("{} that are good are not listed here; fleet.json has them all.",
+                               counted_words(left_out, "arm", "arms")));
   return html;
 }
 
