@@ -15,6 +15,16 @@ constexpr Explanation kTerms[] = {
      "What is assumed before anything is measured: that arms are built within 0.5 mm and 0.5 "
      "mrad of nominal ([fit] prior_mm, prior_mrad). It decides only where the poses say next "
      "to nothing."},
+    {"fleet",
+     "Several arms that are looked at together: plumb fleet fits every cell of a folder and says "
+     "which arm is good, which is unlike its sisters, and what is typical of a model."},
+    {"sisters",
+     "Arms of one model, which have the same nominal arm in their cells. An arm is unlike its "
+     "sisters if so great a distance of its numbers from theirs has a chance below 1 %, by "
+     "their spread and by the uncertainty of its own fit."},
+    {"shrinkage",
+     "How much of an arm's own estimate of a number gives way to the mean of its sisters: 0 % where "
+     "its readings show the number well, 100 % where they do not show it at all."},
     {"recheck",
      "A few poses, measured again after some time, judged against the calibration: still true, or "
      "which part has changed. plumb recheck makes a run that names its parent; compile takes the "

@@ -86,9 +86,16 @@ struct Prior {
   bool of_fleet = false;  // learnt from other arms: this one may nevertheless be unlike them
 };
 
+/// How much the arms of a fleet speak for an effect in one more of them.
+struct SisterOdds {
+  std::string effect;
+  double nats = 0.0;  // added to ln B
+};
+
 struct FitSettings {
   std::vector<std::string> fixed;  // parameters held at nominal, "J2.d"
   std::vector<Prior> priors;
+  std::vector<SisterOdds> sister_odds;  // learnt from other arms
   std::string prior_from;     // a file of plumb fleet, as the cell file names it; empty: none
   double prior_m = 0.5e-3;    // 1 sigma of how far arms are built from nominal
   double prior_rad = 0.5e-3;  // the same of angles

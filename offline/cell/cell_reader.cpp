@@ -97,7 +97,7 @@ Cell read_cell(const fs::path& cell_toml) {
 }
 
 std::string hash_of(const Cell& cell) {
-  const std::string priors = fleet_priors_text(cell.fit.priors);
+  const std::string priors = fleet_priors_text(cell.fit);
   return sha256(cell.text + priors);
 }
 

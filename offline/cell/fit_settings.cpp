@@ -77,11 +77,12 @@ void read_fleet_priors(TomlTable& t, CellDraft& draft) {
   const std::vector<Prior> own = priors;
   try {
     auto learnt = fleet_priors(draft.cell.directory / *name, draft.cell.nominal);
-    if (learnt.empty())
+    if (learnt.priors.empty())
       t.warning("W-CELL-PRIOR",
                 "the fleet holds too few arms of this model to learn from: nothing is taken over",
                 *t.node("prior_from"), "named here", "plumb fleet needs five arms of one model");
-    for (auto& prior : learnt) {
+    draft.cell.fit.sister_odds = learnt.odds;
+    for (auto& prior : learnt.priors) {
       const bool stated =
           std::any_of(own.begin(), own.end(), [&](const Prior& p) { return p.name == prior.name; });
       if (!stated) priors.push_back(std::move(prior));

@@ -26,8 +26,8 @@ std::string model_key(const format::Chain& nominal) {
   return sha256(text).substr(0, 12);
 }
 
-std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format::Chain& nominal) {
-  std::vector<Prior> out;
+FleetPriors fleet_priors(const std::filesystem::path& file, const format::Chain& nominal) {
+  FleetPriors out;
   bool known = false;
   try {
     const Json json = Json::parse(read_regular_file(file, kMostFileBytes));
@@ -37,10 +37,12 @@ std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format:
       if (model.at("key") != key) continue;
       known = true;
       for (const auto& t : model.at("typical"))
-        out.push_back({.name = t.at("name"),
-                       .sigma = t.at("sd_si"),
-                       .mean = t.at("mean_si"),
-                       .of_fleet = true});
+        out.priors.push_back({.name = t.at("name"),
+                              .sigma = t.at("sd_si"),
+                              .mean = t.at("mean_si"),
+                              .of_fleet = true});
+      for (const auto& one : model.at("shares").at("effects"))
+        out.odds.push_back({one.at("effect"), one.at("odds_nats")});
     }
   } catch (const nlohmann::json::exception&) {
     refuse(file, "is no file of plumb fleet, or was cut off");
@@ -49,10 +51,12 @@ std::vector<Prior> fleet_priors(const std::filesystem::path& file, const format:
   return out;
 }
 
-std::string fleet_priors_text(const std::vector<Prior>& priors) {
+std::string fleet_priors_text(const FitSettings& settings) {
   std::string out;
-  for (const auto& prior : priors)
+  for (const auto& prior : settings.priors)
     if (prior.of_fleet) out += fmt::format("{} {} {}\n", prior.name, prior.mean, prior.sigma);
+  for (const auto& [effect, nats] : settings.sister_odds)
+    out += fmt::format("{} {}\n", effect, nats);
   return out;
 }
 

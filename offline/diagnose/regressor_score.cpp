@@ -120,6 +120,17 @@ static Eigen::Index most_negative(const Regressor& regressor,
   return worst;
 }
 
+namespace {
+
+/// What other arms of the model say for or against an effect in this one [nats].
+double sister_odds(const Cell& cell, const std::string& effect) {
+  for (const auto& one : cell.fit.sister_odds)
+    if (one.effect == effect) return one.nats;
+  return 0.0;
+}
+
+}  // namespace
+
 RegressorScore Scorer::score(const Regressor& regressor) const {
   RegressorScore out;
   for (const auto& at : whitened_.folds)
@@ -151,6 +162,7 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
       std::log(2.0) *
       static_cast<double>(all.Xy.size() - static_cast<Eigen::Index>(out.active.size()));
   out.evidence.ln_bayes -= whitened_.scatter_nats;
+  out.evidence.ln_bayes += sister_odds(*whitened_.cell, regressor.entry.name);
   if (out.active.empty()) out.evidence.ln_bayes = kImpossible;
   const double seen = out.theta.dot(whole * out.theta), moved = out.theta.dot(all.XX * out.theta);
   out.explained = whitened_.Q > 0.0 ? (2.0 * out.theta.dot(all.Xy) - seen) / whitened_.Q : 0.0;

@@ -34,15 +34,25 @@ Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
 
 Json diagnosis_to(const std::optional<CellDiagnosis>& d) {
   if (!d) return nullptr;
-  return {
-      {"finding", d->finding}, {"effect", d->effect}, {"joints", d->joints}, {"words", d->words}};
+  Json evidence = Json::array();
+  for (const auto& one : d->evidence)
+    evidence.push_back({{"effect", one.effect}, {"ln_bayes", one.ln_bayes}});
+  return {{"finding", d->finding},
+          {"effect", d->effect},
+          {"joints", d->joints},
+          {"words", d->words},
+          {"evidence", evidence}};
 }
 std::optional<CellDiagnosis> diagnosis_from(const Json& j) {
   if (j.is_null()) return std::nullopt;
-  return CellDiagnosis{.finding = j.at("finding"),
-                       .effect = j.at("effect"),
-                       .joints = j.at("joints"),
-                       .words = j.at("words")};
+  CellDiagnosis out;
+  j.at("finding").get_to(out.finding);
+  j.at("effect").get_to(out.effect);
+  j.at("joints").get_to(out.joints);
+  j.at("words").get_to(out.words);
+  for (const auto& one : j.at("evidence"))
+    out.evidence.push_back({one.at("effect"), one.at("ln_bayes")});
+  return out;
 }
 
 }  // namespace

@@ -29,12 +29,19 @@ struct ArmNumber {
   double std = 0.0;  // 1 sigma
 };
 
+/// The best candidate of one effect of the arm.
+struct EffectEvidence {
+  std::string effect;
+  double ln_bayes = 0.0;
+};
+
 /// What a diagnosis of a cell says.
 struct CellDiagnosis {
-  std::string finding;              // "complete", "missing", "unknown", "undecidable"
-  std::string effect;               // of "missing": the first one
-  std::vector<std::string> joints;  // and where
-  std::string words;                // one sentence
+  std::string finding;                   // "complete", "missing", "unknown", "undecidable"
+  std::string effect;                    // of "missing": the first one
+  std::vector<std::string> joints;       // and where
+  std::string words;                     // one sentence
+  std::vector<EffectEvidence> evidence;  // effect by effect
 };
 
 /// What is known of one cell of a fleet: the result of fitting it as it stands.

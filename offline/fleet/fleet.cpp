@@ -68,13 +68,20 @@ bool has_cell_file(const fs::path& folder) {
 }
 
 /// Thrown when results could not be kept: with the reason of the system, if it still is one.
-[[noreturn]] void results_lost(const ResultsFolder& results, int lost) {
-  results.check_writable();
+[[noreturn]] void results_lost(const ResultsFolder& results, const fs::path& first, int lost) {
+  try {
+    results.keep(unfinished(first));  // has no inputs, so nobody takes it for a result
+  } catch (const Failure& failure) {
+    Problem problem = failure.problems().front();
+    problem.message = fmt::format("{} result{} could not be kept, the first: {}", lost,
+                                  lost == 1 ? "" : "s", problem.message);
+    throw Failure(Exit::kEnvironment, problem);
+  }
   throw Failure(Exit::kEnvironment,
                 {.code = "E-WRITE",
-                 .message = fmt::format("{} results could not be kept in {}", lost,
-                                        display_name(results.folder())),
-                 .help = "look for room on its disk, and give the command again"});
+                 .message = fmt::format("{} result{} could not be kept in {}", lost,
+                                        lost == 1 ? "" : "s", display_name(results.folder())),
+                 .help = "the disk was full for a while, perhaps: give the command again"});
 }
 
 /// Equal for two cells with the same measurements.
@@ -140,7 +147,8 @@ std::vector<CellSummary> summaries_of(const std::vector<fs::path>& cells,
     made[i] = results.kept(cells[i].filename().string(), inputs_of(cells[i]), asked);
     if (!made[i]) missing.push_back(i);
   }
-  int done = static_cast<int>(cells.size() - missing.size()), lost = 0;
+  int done = static_cast<int>(cells.size() - missing.size());
+  std::vector<std::size_t> lost;
   tell(done);
   if (!missing.empty()) results.check_writable();
   std::map<pid_t, std::size_t> running;
@@ -156,18 +164,21 @@ std::vector<CellSummary> summaries_of(const std::vector<fs::path>& cells,
       }
       // No more processes: wait for one of ours, or do it here.
       if (running.empty()) {
-        if (summarise_and_keep(cells[i], results, asked) != kKept) ++lost;
+        if (summarise_and_keep(cells[i], results, asked) != kKept) lost.push_back(i);
         tell(++done);
         continue;
       }
       --next;
     }
     const Ended ended = any_child();
-    if (running.erase(ended.child) == 0) continue;
-    if (!ended.kept && !ended.killed) ++lost;
+    const auto at = running.find(ended.child);
+    if (at == running.end()) continue;
+    const std::size_t i = at->second;
+    running.erase(at);
+    if (!ended.kept && !ended.killed) lost.push_back(i);
     tell(++done);
   }
-  if (lost > 0) results_lost(results, lost);
+  if (!lost.empty()) results_lost(results, cells[lost.front()], static_cast<int>(lost.size()));
   std::vector<CellSummary> out;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!made[i]) made[i] = results.kept(cells[i].filename().string(), inputs_of(cells[i]), asked);
@@ -219,7 +230,8 @@ Fleet fleet_of(std::vector<CellSummary> cells) {
     out.models.push_back({.key = key,
                           .robot = name->first,
                           .arms = static_cast<int>(arms.size()),
-                          .sisters = learn_sisters(std::move(arms))});
+                          .sisters = learn_sisters(arms),
+                          .shares = learn_shares(arms)});
   }
   std::stable_sort(out.models.begin(), out.models.end(),
                    [](const Model& a, const Model& b) { return a.arms > b.arms; });

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fleet/effect_shares.hpp"
 #include "fleet/odd_arms.hpp"
 #include "fleet/results_folder.hpp"
 
@@ -17,6 +18,7 @@ struct Model {
   std::string key, robot;  // robot: as most of its cells call it
   int arms = 0;            // that could be fitted, copies not counted
   Sisters sisters;
+  EffectShares shares;
 };
 
 struct Fleet {

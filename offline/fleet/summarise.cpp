@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/summarise.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cell/fleet_priors.hpp"
 #include "cell/setups.hpp"
@@ -20,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string sum_of(const fs::path& file) {
+std::string sum_of(const fs::path& file, std::uintmax_t most = kMostFileBytes) {
   try {
-    return sha256(read_regular_file(file, kMostFileBytes));
+    return sha256(read_regular_file(file, most));
   } catch (const std::exception&) {
     return "";
   }
@@ -73,15 +75,33 @@ void check_finite(const CellSummary& summary) {
                                       .help = "see it by itself: plumb -C CELL fit"});
 }
 
-CellDiagnosis diagnosis_of(const Cell& cell, const MeasurementFiles& measured) {
-  const Diagnosis found = diagnose(cell, measured, {});
-  CellDiagnosis out{
-      .finding = name_of(found.finding), .effect = {}, .joints = {}, .words = found.text};
-  if (found.finding == Finding::kMissing && !found.candidates.empty()) {
-    out.effect = found.candidates.front().entry.name;
-    for (const int joint : found.candidates.front().entry.joints)
-      out.joints.push_back(cell.nominal.joints[static_cast<std::size_t>(joint)].name);
+/// The best candidate of every effect of the arm, by the effect's name. What happens while
+/// measuring says nothing about sisters.
+std::vector<EffectEvidence> evidence_of(const Diagnosis& found) {
+  std::map<std::string, double> best;
+  for (const auto& candidate : found.candidates) {
+    if (candidate.domain != "robot") continue;
+    const auto [at, is_new] = best.emplace(candidate.entry.name, candidate.ln_bayes);
+    if (!is_new) at->second = std::max(at->second, candidate.ln_bayes);
   }
+  std::vector<EffectEvidence> out;
+  for (const auto& [effect, ln_bayes] : best) out.push_back({effect, ln_bayes});
+  return out;
+}
+
+/// Of the cell without what other arms taught, so that no arm is heard twice.
+CellDiagnosis diagnosis_of(Cell cell, const MeasurementFiles& measured) {
+  std::erase_if(cell.fit.priors, [](const Prior& prior) { return prior.of_fleet; });
+  cell.fit.sister_odds.clear();
+  const Diagnosis found = diagnose(cell, measured, {});
+  CellDiagnosis out;
+  out.finding = name_of(found.finding);
+  out.words = found.text;
+  out.evidence = evidence_of(found);
+  if (found.finding != Finding::kMissing || found.candidates.empty()) return out;
+  out.effect = found.candidates.front().entry.name;
+  for (const int joint : found.candidates.front().entry.joints)
+    out.joints.push_back(cell.nominal.joints[static_cast<std::size_t>(joint)].name);
   return out;
 }
 
@@ -122,7 +142,7 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
 
 std::vector<SummaryInput> inputs_of(const fs::path& folder) {
   std::vector<SummaryInput> out{{"plumb", format::kVersion, false},
-                                {"cell.toml", sum_of(folder / "cell.toml"), false}};
+                                {"cell.toml", sum_of(folder / "cell.toml", kMostCellBytes), false}};
   try {
     check_regular(folder / "cell.toml");
     const Cell cell = read_cell(folder / "cell.toml");
@@ -130,7 +150,7 @@ std::vector<SummaryInput> inputs_of(const fs::path& folder) {
       out.push_back(
           {file.lexically_proximate(cell.directory).generic_string(), sum_of(file), true});
     if (!cell.fit.prior_from.empty())
-      out.push_back({"priors", sha256(fleet_priors_text(cell.fit.priors)), false});
+      out.push_back({"priors", sha256(fleet_priors_text(cell.fit)), false});
   } catch (const std::exception&) {
     // Its summary will say why.
   }

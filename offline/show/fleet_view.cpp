@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "program/printable.hpp"
 #include "show/counted.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
@@ -95,6 +96,14 @@ Json typical_json(const Typical& t) {
           {"arms", t.arms}};
 }
 
+Json shares_json(const fleet::EffectShares& shares) {
+  Json out{{"diagnosed", shares.diagnosed}, {"effects", Json::array()}};
+  for (const auto& one : shares.effects)
+    out["effects"].push_back(
+        {{"effect", one.effect}, {"arms", one.arms}, {"odds_nats", one.odds_nats}});
+  return out;
+}
+
 std::string cells_text(const Fleet& all) {
   TextTable table({"cell", head::kMean, head::kP95, head::kEffects, "state"});
   table.left_from(3);
@@ -105,8 +114,9 @@ std::string cells_text(const Fleet& all) {
       ++left_out;
       continue;
     }
-    table.add({cell.name, cell.ok ? mm(cell.held.mean) : "-", cell.ok ? mm(cell.held.p95) : "-",
-               counted(cell.effects), state_of(all, cell)});
+    table.add({printable_line(cell.name), cell.ok ? mm(cell.held.mean) : "-",
+               cell.ok ? mm(cell.held.p95) : "-", counted(cell.effects),
+               printable_line(state_of(all, cell))});
   }
   std::string out = "Held-out error in mm:\n\n" + table.text();
   if (left_out > 0) out += fmt::format("  and {} good ones\n", left_out);
@@ -114,6 +124,7 @@ std::string cells_text(const Fleet& all) {
 }
 
 std::string effects_text(const Fleet& all) {
+  if (all.models.empty()) return {};
   TextTable table({head::kEffect, "modelled in", "missing in"});
   for (const auto& use : fleet::effect_uses(all))
     table.add({use.effect, fmt::format("{}", use.modelled),
@@ -170,7 +181,7 @@ std::string fleet_verdict(const Fleet& all) {
     for (const OddArm& one : model.sisters.odd) odd.push_back(one.cell);
   if (!odd.empty())
     out += fmt::format("; {} {} unlike {} sisters: {}", odd.size(), odd.size() == 1 ? "is" : "are",
-                       odd.size() == 1 ? "its" : "their", counted(odd));
+                       odd.size() == 1 ? "its" : "their", printable_line(counted(odd)));
   if (failed > 0) out += fmt::format("; {} could not be fitted", failed);
   return out + ".";
 }
@@ -211,7 +222,8 @@ Json fleet_json(const Fleet& all) {
                              {"robot", model.robot},
                              {"arms", model.arms},
                              {"unlike_sisters", model.sisters.odd.size()},
-                             {"typical", std::move(typical)}});
+                             {"typical", std::move(typical)},
+                             {"shares", shares_json(model.shares)}});
   }
   return out;
 }

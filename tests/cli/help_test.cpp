@@ -10,10 +10,10 @@
 
 namespace {
 
-const std::vector<std::string> kVerbs{"demo",       "new",     "simulate", "check",   "fit",
-                                      "compare",    "runs",    "diff",     "compile", "inspect",
-                                      "predict",    "correct", "bench",    "dbc",     "deploy",
-                                      "modbus-map", "explain", "plot",     "report",  "serve"};
+const std::vector<std::string> kVerbs{
+    "demo",    "new",     "simulate", "check",   "fit",     "compare", "runs",   "diff",
+    "compile", "inspect", "predict",  "correct", "bench",   "dbc",     "deploy", "modbus-map",
+    "explain", "plot",    "report",   "serve",   "recheck", "fleet"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;

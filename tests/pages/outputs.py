@@ -120,6 +120,21 @@ def in_cell(plumb, cell):
     plumb.run("plumb", "inspect", f"{cell}/robot.plumb")
 
 
+def a_fleet(plumb):
+    """Five arms, a copy of one, and a cell that cannot be read."""
+    for seed in range(1, 6):
+        cell = f"fleet/arm{seed}"
+        plumb.run("plumb", "demo", "gear", cell)
+        plumb.run("plumb", "-C", cell, "simulate", "--poses", "60", "--seed", str(seed), "--force")
+    shutil.copytree(plumb.scratch / "fleet/arm1", plumb.scratch / "fleet/copy")
+    (plumb.scratch / "fleet/broken").mkdir()
+    plumb.write("fleet/broken/cell.toml", "schema = \n")
+    plumb.run("plumb", "fleet", "fleet")
+    plumb.run("plumb", "fleet", "fleet", "--diagnose")
+    plumb.run("plumb", "fleet", "fleet", "--share", "0/2")
+    plumb.run("plumb", "fleet", "fleet/broken")                                     # 3: no cell in it
+
+
 def other_forms(plumb):
     """Forms of a verb that no sample cell needs."""
     plumb.run("plumb", "demo", "--list")
@@ -322,6 +337,7 @@ def everything(programs, scratch):
     for cell in CELLS:
         in_cell(plumb, cell)
     other_forms(plumb)
+    a_fleet(plumb)
     controller_side(plumb)
     failures(plumb)
     return plumb.printed
