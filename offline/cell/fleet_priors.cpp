@@ -41,7 +41,7 @@ FleetPriors fleet_priors(const std::filesystem::path& file, const format::Chain&
                               .sigma = t.at("sd_si"),
                               .mean = t.at("mean_si"),
                               .of_fleet = true});
-      for (const auto& one : model.at("shares").at("effects"))
+      for (const auto& one : model.at("shares"))
         out.odds.push_back({one.at("effect"), one.at("odds_nats")});
     }
   } catch (const nlohmann::json::exception&) {

@@ -8,28 +8,24 @@
 
 namespace plumb::offline::fleet {
 
-/// In how many arms of a model an effect acts that their cells do not list, and how much that
-/// speaks for it in a further arm.
+/// In how many arms of a model an effect acts, and how much that speaks for it in a further arm.
 struct EffectShare {
   std::string effect;
   double arms = 0.0;       // the sum over the arms of the probability that it acts in them
+  double of = 0.0;         // so many arms tell
   double odds_nats = 0.0;  // added to ln B of that effect in an arm of this model
 };
 
-/// Shares of the effects that a diagnosis looked at.
-struct EffectShares {
-  int diagnosed = 0;  // arms
-  std::vector<EffectShare> effects;
-};
-
-/// A mixture of arms with a Dirichlet prior: before any arm is known, an arm has none of the
-/// effects with weight kNothing, or one of them with weight kOne each. Expectation maximisation
-/// [Dempster, Laird & Rubin 1977] over the Bayes factors of the arms gives the expected counts n,
-/// and
+/// An effect acts in an arm whose model holds it; in one that was diagnosed, with the probability
+/// that its Bayes factor gives it, by the shares of all arms (expectation maximisation [Dempster,
+/// Laird & Rubin 1977]). It is absent from an arm whose model holds other effects instead; an arm
+/// of which only the geometry was fitted tells nothing unless it was diagnosed. With n arms that
+/// have it and m that have it not,
 ///
-///   odds of effect c = ln[(n_c + kOne) / (n_0 + kNothing)] - ln[kOne / kNothing]
+///   odds = ln[(n + kHave) / (m + kHaveNot)] - ln[kHave / kHaveNot]
 ///
-/// so that without any arm all odds are 0. Empty if fewer than kFewestArms arms were diagnosed.
-EffectShares learn_shares(const std::vector<const CellSummary*>& arms);
+/// so that without any arm they are 0. Only effects of the arm itself, by name; empty if fewer than
+/// kFewestArms arms tell.
+std::vector<EffectShare> learn_shares(const std::vector<const CellSummary*>& arms);
 
 }  // namespace plumb::offline::fleet

@@ -18,7 +18,7 @@ struct Model {
   std::string key, robot;  // robot: as most of its cells call it
   int arms = 0;            // that could be fitted, copies not counted
   Sisters sisters;
-  EffectShares shares;
+  std::vector<EffectShare> shares;
 };
 
 struct Fleet {

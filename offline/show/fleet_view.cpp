@@ -96,11 +96,11 @@ Json typical_json(const Typical& t) {
           {"arms", t.arms}};
 }
 
-Json shares_json(const fleet::EffectShares& shares) {
-  Json out{{"diagnosed", shares.diagnosed}, {"effects", Json::array()}};
-  for (const auto& one : shares.effects)
-    out["effects"].push_back(
-        {{"effect", one.effect}, {"arms", one.arms}, {"odds_nats", one.odds_nats}});
+Json shares_json(const std::vector<fleet::EffectShare>& shares) {
+  Json out = Json::array();
+  for (const auto& one : shares)
+    out.push_back(
+        {{"effect", one.effect}, {"arms", one.arms}, {"of", one.of}, {"odds_nats", one.odds_nats}});
   return out;
 }
 
