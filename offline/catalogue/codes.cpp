@@ -64,6 +64,10 @@ constexpr Explanation kCodes[] = {
     {"E-CELL-PRIOR",
      "[fit] prior_from names the fleet.json that plumb fleet writes, which must hold arms with the "
      "DH values of this cell."},
+    {"W-FIT-SISTERS",
+     "The numbers of this arm are farther from those of its sisters than theirs differ among each "
+     "other: it may be of another batch, was repaired, or its data are wrong. What the fleet taught "
+     "then weighs less, so that the arm is calibrated much as it would be alone."},
     {"W-CELL-PRIOR",
      "Fewer than five arms of this model could be fitted when plumb fleet wrote the file that "
      "[fit] "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/calibrate.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -17,6 +19,7 @@
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/prior_lines.hpp"
 #include "fit/series_solver.hpp"
 #include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
@@ -27,9 +30,10 @@ namespace {
 // Independence asked for before the noise is known, and after.
 constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
-constexpr double kRoughly = 1e-8;      // of the cost, in one iteration
-constexpr int kEnoughRows = 4000;      // tell the scatter of a model, and a start
-constexpr double kNearlyAsGood = 1.5;  // times the scatter of the best start
+constexpr double kRoughly = 1e-8;       // of the cost, in one iteration
+constexpr int kEnoughRows = 4000;       // tell the scatter of a model, and a start
+constexpr double kNearlyAsGood = 1.5;   // times the scatter of the best start
+constexpr double kUnlikeSisters = 2.0;  // mean square of the distances; sisters have less than 1
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
 /// (J^T J)^-1 by QR of the scaled Jacobian.
@@ -226,6 +230,16 @@ ParameterSubset fine_subset(const FitData& data, const ArmState& state,
   return out;
 }
 
+Problem unlike_sisters(double times) {
+  return {
+      .severity = Severity::kWarning,
+      .code = "W-FIT-SISTERS",
+      .message = fmt::format("this arm is unlike its sisters, {:.1f} times as far from their mean "
+                             "as they are from each other: what they taught weighs little",
+                             times),
+      .help = "is it an arm of this model and batch? Else take prior_from out of cell.toml"};
+}
+
 Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
                     const std::vector<Parameter>& candidates) {
   FitData data = whole;  // with the stated sigma
@@ -253,6 +267,9 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
   if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell.fit));
+  const double unlike =
+      PriorLines(data, solution.state, fine.kept).distance_from_sisters(solution.state);
+  if (unlike > kUnlikeSisters) out.remarks.push_back(unlike_sisters(std::sqrt(unlike)));
   out.iterations = coarse_iterations + solution.iterations;
   out.rank = static_cast<int>(
       identifiable_parameters(data, solution.state, candidates, kRank).kept.size());

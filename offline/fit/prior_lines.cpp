@@ -59,9 +59,11 @@ std::vector<PriorLines::KnownParameter> PriorLines::known(
       if (parameters[i].name != prior.name) continue;
       const double nominal_value =
           parameters[i].of_effect() ? 0.0 : value_of(nominal, parameters[i]);
-      out.push_back(
-          {static_cast<Eigen::Index>(i), nominal_value + prior.mean, prior.sigma,
-           prior.of_fleet ? KnownParameter::Tail::kHeavy : KnownParameter::Tail::kNormal});
+      using Tail = KnownParameter::Tail;
+      using Source = KnownParameter::Source;
+      out.push_back({static_cast<Eigen::Index>(i), nominal_value + prior.mean, prior.sigma,
+                     prior.of_fleet ? Tail::kHeavy : Tail::kNormal,
+                     prior.of_fleet ? Source::kFleet : Source::kCell});
     }
   return out;
 }
@@ -96,19 +98,66 @@ int PriorLines::count() const {
   return static_cast<int>(known_.size()) + static_cast<int>(directions);
 }
 
+PriorLines::Pull PriorLines::pull_of(const KnownParameter& known, const ArmState& state) const {
+  const double value = value_of(state, parameters_[static_cast<std::size_t>(known.index)]);
+  return pull_of((known.mean - value) / known.sigma, known.tail);
+}
+
+double PriorLines::distance_from_sisters(const ArmState& state) const {
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& known : known_) {
+    if (known.source != KnownParameter::Source::kFleet) continue;
+    sum += std::pow(pull_of(known, state).residual, 2);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+/// An arm of another batch is far from its sisters in many numbers at once. Then all that they
+/// taught weighs less: with s the sum of the squares of the n residuals r, what they add to the
+/// cost is half of
+///
+///   s where s <= n,   n (1 + ln(s / n)) beyond
+///
+/// by residuals g r with g^2 = n (1 + ln(s / n)) / s.
+void PriorLines::doubt_sisters(double* residual, double* jacobian) const {
+  std::vector<Eigen::Index> rows;
+  double s = 0.0;
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    if (known_[k].source != KnownParameter::Source::kFleet) continue;
+    rows.push_back(static_cast<Eigen::Index>(k));
+    s += residual[k] * residual[k];
+  }
+  const auto n = static_cast<double>(rows.size());
+  if (s <= n) return;
+  const double cost = n * (1.0 + std::log(s / n)), g = std::sqrt(cost / s);
+  if (jacobian != nullptr) {
+    const auto count = static_cast<Eigen::Index>(parameters_.size());
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(
+        jacobian, static_cast<Eigen::Index>(known_.size()), count);
+    Eigen::RowVectorXd of_s = Eigen::RowVectorXd::Zero(count);  // derivative of s
+    for (const auto row : rows) of_s += 2.0 * residual[row] * J.row(row);
+    const Eigen::RowVectorXd of_g = (n / s - cost / s) / (2.0 * g * s) * of_s;
+    for (const auto row : rows) J.row(row) = g * J.row(row) + residual[row] * of_g;
+  }
+  for (const auto row : rows) residual[row] *= g;
+}
+
 void PriorLines::evaluate(const ArmState& state, double* residual, double* jacobian) const {
   const auto count = static_cast<Eigen::Index>(parameters_.size());
   Eigen::Index row = 0;
-  for (const auto& [index, mean, sigma, tail] : known_) {
-    const Pull pull = pull_of((mean - value_of(state, parameters_[index])) / sigma, tail);
+  for (const auto& known : known_) {
+    const Pull pull = pull_of(known, state);
     residual[row] = pull.residual;
     if (jacobian != nullptr) {
       Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
       slopes.setZero();
-      slopes(index) = -pull.slope / sigma;
+      slopes(known.index) = -pull.slope / known.sigma;
     }
     ++row;
   }
+  doubt_sisters(residual, jacobian);
   if (weak_.index.empty()) return;
   Eigen::VectorXd away = weak_.nominal;
   for (std::size_t k = 0; k < weak_.index.size(); ++k)

@@ -21,13 +21,20 @@ class PriorLines {
   /// line by line.
   void evaluate(const ArmState& state, double* residual, double* jacobian) const;
 
+  /// How far the arm is from its sisters: the mean square of its distances from what a fleet
+  /// taught, in their standard deviations, large ones counted less. About 1 or less of a sister, 0
+  /// without a fleet.
+  double distance_from_sisters(const ArmState& state) const;
+
  private:
   /// A parameter of which something is known beforehand.
   struct KnownParameter {
     enum class Tail { kNormal, kHeavy };
+    enum class Source { kCell, kFleet };
     Eigen::Index index;  // among those fitted
     double mean, sigma;
     Tail tail;
+    Source source = Source::kCell;
   };
 
   /// Columns of the weak directions' numbers among those fitted, and where these are nominally.
@@ -42,6 +49,8 @@ class PriorLines {
   static WeakColumns weak_columns(const FitData& data, const std::vector<Parameter>& parameters);
   struct Pull;
   static Pull pull_of(double u, KnownParameter::Tail tail);
+  Pull pull_of(const KnownParameter& known, const ArmState& state) const;
+  void doubt_sisters(double* residual, double* jacobian) const;
 
   const FitData& data_;
   const std::vector<Parameter>& parameters_;

@@ -70,7 +70,7 @@ bool has_cell_file(const fs::path& folder) {
 /// Thrown when results could not be kept: with the reason of the system, if it still is one.
 [[noreturn]] void results_lost(const ResultsFolder& results, const fs::path& first, int lost) {
   try {
-    results.keep(unfinished(first));  // has no inputs, so nobody takes it for a result
+    results.check_writable(first.filename().string());
   } catch (const Failure& failure) {
     Problem problem = failure.problems().front();
     problem.message = fmt::format("{} result{} could not be kept, the first: {}", lost,
@@ -150,7 +150,7 @@ std::vector<CellSummary> summaries_of(const std::vector<fs::path>& cells,
   int done = static_cast<int>(cells.size() - missing.size());
   std::vector<std::size_t> lost;
   tell(done);
-  if (!missing.empty()) results.check_writable();
+  if (!missing.empty()) results.check_writable(cells[missing.front()].filename().string());
   std::map<pid_t, std::size_t> running;
   std::size_t next = 0;
   while (next < missing.size() || !running.empty()) {

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 150;  // bytes; file systems end at 255, endings included
+constexpr std::size_t kLargeResult = 64 << 10;  // bytes
+constexpr std::size_t kLongestName = 150;       // bytes; file systems end at 255, endings included
 
 /// The name as a file of JSON keeps it: bytes that are no UTF-8 are replaced.
 std::string as_kept(const std::string& name) {
@@ -49,26 +50,29 @@ std::optional<CellSummary> ResultsFolder::kept(const std::string& name,
   return std::nullopt;
 }
 
-void ResultsFolder::keep(const CellSummary& summary) const {
-  const fs::path file = file_of(summary.name);
+void ResultsFolder::make_folder_of(const std::string& name) const {
   std::error_code error;
-  fs::create_directories(file.parent_path(), error);
+  fs::create_directories(file_of(name).parent_path(), error);
   if (error)
     throw Failure(Exit::kEnvironment,
                   {.code = "E-WRITE",
                    .message = "cannot write " + display_name(folder_) + ": " + error.message(),
                    .help = "another folder for the results: -o DIR"});
-  Json json = to_json(summary);
-  json["sha256"] = sha256(to_text(json));
-  write_file_atomically(file, to_text(json));
 }
 
-void ResultsFolder::check_writable() const {
-  const fs::path probe = folder_ / fmt::format(".probe-{}", ::getpid());
-  std::error_code error;
-  fs::create_directories(folder_, error);  // what fails here fails below, with its reason
-  write_file_atomically(probe, "results can be kept here\n");
-  fs::remove(probe, error);
+void ResultsFolder::keep(const CellSummary& summary) const {
+  make_folder_of(summary.name);
+  Json json = to_json(summary);
+  json["sha256"] = sha256(to_text(json));
+  write_file_atomically(file_of(summary.name), to_text(json));
+}
+
+void ResultsFolder::check_writable(const std::string& name) const {
+  make_folder_of(name);
+  const fs::path probe = file_of(name).string() + fmt::format(".{}.probe", ::getpid());
+  write_file_atomically(probe, std::string(kLargeResult, ' '));
+  std::error_code ignored;
+  fs::remove(probe, ignored);
 }
 
 }  // namespace plumb::offline::fleet

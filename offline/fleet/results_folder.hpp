@@ -25,12 +25,13 @@ class ResultsFolder {
   /// Throws Failure (kEnvironment) if it cannot be written.
   void keep(const CellSummary& summary) const;
 
-  /// Throws Failure (kEnvironment) if nothing can be kept here.
-  void check_writable() const;
+  /// Throws Failure (kEnvironment) if the result of this cell could not be kept.
+  void check_writable(const std::string& name) const;
 
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  void make_folder_of(const std::string& name) const;
   std::filesystem::path file_of(const std::string& name) const;
   std::filesystem::path folder_;
 };
