@@ -71,7 +71,7 @@ void read_priors(TomlTable& t, CellDraft& draft) {
 /// number itself goes before.
 void read_fleet_priors(TomlTable& t, CellDraft& draft) {
   const auto name = t.text("prior_from");
-  if (!name) return;
+  if (!name || name->empty()) return;
   draft.cell.fit.prior_from = *name;
   auto& priors = draft.cell.fit.priors;
   const std::vector<Prior> own = priors;

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/json.hpp"
 
 namespace plumb::offline {
 namespace {
+
+constexpr double kLargest = 1e6;  // SI: beyond it the file was edited or damaged
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
   throw Failure(Exit::kInput, {.code = "E-CELL-PRIOR",
@@ -47,6 +51,13 @@ FleetPriors fleet_priors(const std::filesystem::path& file, const format::Chain&
   } catch (const nlohmann::json::exception&) {
     refuse(file, "is no file of plumb fleet, or was cut off");
   }
+  for (const auto& prior : out.priors)
+    if (!std::isfinite(prior.mean) || !(prior.sigma > 0.0) || !(prior.sigma < kLargest) ||
+        std::abs(prior.mean) > kLargest)
+      refuse(file, fmt::format("gives {} a value that no arm has", prior.name));
+  for (const auto& one : out.odds)
+    if (!(std::abs(one.nats) < kLargest))
+      refuse(file, fmt::format("gives {} odds that no arm has", one.effect));
   if (!known) refuse(file, "holds no arm with these DH values");
   return out;
 }

@@ -66,6 +66,7 @@ class Editor {
     for (const auto& [joint, theta] : edit.theta)
       set_theta(robot["joints"][static_cast<std::size_t>(joint)], text_in(*unit_of(unit), theta));
     if (edit.files) set("measurement", "files", toml_list(*edit.files));
+    if (edit.prior_from) set("fit", "prior_from", toml_string(*edit.prior_from));
     if (edit.held_out) set("measurement", "held_out", toml_string(*edit.held_out));
     if (edit.frame) {
       const std::string length = edit.length_unit.value_or(robot["length_unit"].value_or("mm"));
@@ -125,7 +126,7 @@ class Editor {
 
 bool CellEdit::empty() const {
   return !dh_convention && !length_unit && !angle_unit && theta.empty() && !files && !held_out &&
-         !frame;
+         !prior_from && !frame;
 }
 
 std::string edited(const std::string& text, const std::string& file, const CellEdit& edit) {

@@ -16,6 +16,7 @@ struct CellEdit {
   std::map<int, double> theta;                    // of joint (zero-based) [rad]
   std::optional<std::vector<std::string>> files;  // of [measurement], relative to the cell
   std::optional<std::string> held_out;            // of [measurement]
+  std::optional<std::string> prior_from;          // empty: nothing is taken over from a fleet
   std::optional<format::Pose> frame;              // of [measurement]
   bool empty() const;
 };

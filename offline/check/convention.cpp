@@ -81,7 +81,10 @@ Cell reread(const Cell& cell, const CellEdit& edit) {
   if (edit.empty()) return cell;
   const std::string text = cell.text.empty() ? write_cell(cell) : cell.text;
   const auto file = cell.file.empty() ? std::filesystem::path("cell.toml") : cell.file;
-  Cell out = parse_cell(edited(text, file.string(), edit), file);
+  CellEdit alone = edit;
+  // Read in another convention it is no arm that the fleet knows.
+  if (!cell.fit.prior_from.empty()) alone.prior_from = "";
+  Cell out = parse_cell(edited(text, file.string(), alone), file);
   out.measurement.files = cell.measurement.files;
   // `cell` may be about one of the set-ups in the text.
   const auto& of_cell = cell.measurement.setups;

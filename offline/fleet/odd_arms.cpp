@@ -8,11 +8,21 @@
 namespace plumb::offline::fleet {
 namespace {
 
-/// Probability that chi^2 of n degrees of freedom exceeds a value, by the cube-root transform
-/// [Wilson & Hilferty 1931].
-double chance_of(double chi2, double n) {
-  const double a = 2.0 / (9.0 * n);
-  return 0.5 * std::erfc((std::cbrt(chi2 / n) - (1.0 - a)) / std::sqrt(2.0 * a));
+constexpr std::size_t kFew = 60;  // arms: each is judged against the others
+
+/// Probability that chi2 / n exceeds what it is by chance, where the variances are known by so many
+/// degrees of freedom: F(n, dof) by the cube-root transform [Paulson 1942].
+double chance_of(double chi2, double n, double dof) {
+  const double a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * dof), root = std::cbrt(chi2 / n);
+  const double z = ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
+  return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+/// Degrees of freedom with which the variance of a difference is known: the spread from arm to arm
+/// is an estimate, the uncertainty of the arm's own fit is not [Welch 1947].
+double dof_of(double spread, double whole, int arms) {
+  const double share = spread / whole;
+  return (arms - 1.0) / std::max(share * share, 1e-6);
 }
 
 /// How odd an arm is among those that `typical` was learnt from.
@@ -29,6 +39,7 @@ OddArm oddness(const CellSummary& arm, const std::vector<Typical>& typical, std:
   if (own.empty()) return out;
   Eigen::MatrixXd S = arm.covariance(own, own);
   Eigen::VectorXd away(S.rows());
+  double alone = 1.0, fewest = HUGE_VAL;
   for (Eigen::Index k = 0; k < away.size(); ++k) {
     const Typical& t = *known[static_cast<std::size_t>(k)];
     const ArmNumber& n = arm.numbers[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])];
@@ -36,7 +47,11 @@ OddArm oddness(const CellSummary& arm, const std::vector<Typical>& typical, std:
     S(k, k) += t.sd * t.sd * (1.0 + 1.0 / std::max(1, t.arms));
     away(k) = n.value - t.mean;
     const double times = std::abs(away(k)) / std::sqrt(S(k, k));
-    if (times <= out.times) continue;
+    const double dof = dof_of(t.sd * t.sd, S(k, k), t.arms);
+    fewest = std::min(fewest, static_cast<double>(t.arms) - 1.0);
+    const double by_chance = chance_of(times * times, 1.0, dof);
+    if (by_chance >= alone) continue;
+    alone = by_chance;
     out.number = n.name;
     out.unit = n.unit;
     out.value = n.value;
@@ -46,9 +61,8 @@ OddArm oddness(const CellSummary& arm, const std::vector<Typical>& typical, std:
   const double chi2 = away.dot(S.ldlt().solve(away));
   // Either the whole of it, or one number alone.
   const double numbers = static_cast<double>(away.size());
-  const double alone = numbers * std::erfc(out.times / std::sqrt(2.0));
-  out.chance =
-      std::min(1.0, 2.0 * static_cast<double>(arms) * std::min(chance_of(chi2, numbers), alone));
+  out.chance = std::min(1.0, 2.0 * static_cast<double>(arms) *
+                                 std::min(chance_of(chi2, numbers, fewest), numbers * alone));
   return out;
 }
 
@@ -66,8 +80,8 @@ Sisters learn_sisters(std::vector<const CellSummary*> arms) {
       std::vector<const CellSummary*> others = arms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
       OddArm one = oddness(*arms[i], out.typical, all);
-      // Against the others alone only where it may matter, since each takes as long as learning.
-      if (one.chance < 100.0 * kOddByChance)
+      // Against the others alone: among few arms an odd one hides behind the spread that it makes.
+      if (arms.size() <= kFew || one.chance < 100.0 * kOddByChance)
         if (const auto sisters = learn_typical(others, out.typical); !sisters.empty())
           one = oddness(*arms[i], sisters, all);
       if (one.chance >= oddest.chance) continue;

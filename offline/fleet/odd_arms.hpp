@@ -29,7 +29,7 @@ inline constexpr double kOddByChance = 0.01;
 
 /// Takes out the oddest arm for as long as it is too odd to be one of them, and learns anew: by the
 /// distance (x - mu)^T (C + diag sd^2)^-1 (x - mu) of its numbers from the others' mean, judged by
-/// chi^2 and the number of arms. At most a quarter of the arms are taken out.
+/// F and the number of arms. At most a quarter of the arms are taken out.
 Sisters learn_sisters(std::vector<const CellSummary*> arms);
 
 }  // namespace plumb::offline::fleet

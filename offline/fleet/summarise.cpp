@@ -115,6 +115,15 @@ void check_regular(const fs::path& file) {
                                .help = "cells of a fleet are read from files"});
 }
 
+/// Without the way to the cell, so that the same cell gives the same words wherever it stands.
+std::string seen_from(const fs::path& folder, std::string words) {
+  for (const std::string& way : {fs::absolute(folder).lexically_normal().string() + "/",
+                                 folder.string() + "/", display_name(folder) + "/"})
+    for (std::size_t at = 0; (at = words.find(way, at)) != std::string::npos;)
+      words.erase(at, way.size());
+  return words;
+}
+
 void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   check_regular(folder / "cell.toml");
   const Cell cell = read_cell(folder / "cell.toml");
@@ -167,7 +176,7 @@ CellSummary summarise(const fs::path& folder, Asked asked) {
     out.numbers.clear();
     out.covariance.resize(0, 0);
     out.error_code = failure.problems().front().code;
-    out.error = failure.problems().front().message;
+    out.error = seen_from(folder, failure.problems().front().message);
   } catch (const fs::filesystem_error& failure) {
     out.error_code = "E-READ";
     out.error = failure.code().message();

@@ -173,9 +173,11 @@ std::string fleet_verdict(const Fleet& all) {
   };
   const auto good = count([](const CellSummary& c) { return c.good; });
   const auto failed = count([](const CellSummary& c) { return !c.ok; });
-  std::string out = fmt::format("{} of {} arm{} keep{} {} tolerance", good, all.cells.size(),
-                                all.cells.size() == 1 ? "" : "s", good == 1 ? "s" : "",
-                                good == 1 ? "its" : "their");
+  std::string out =
+      all.cells.size() == 1
+          ? fmt::format("The only arm {} its tolerance", good == 1 ? "keeps" : "does not keep")
+          : fmt::format("{} of {} arms keep{} {} tolerance", good, all.cells.size(),
+                        good == 1 ? "s" : "", good == 1 ? "its" : "their");
   std::vector<std::string> odd;
   for (const Model& model : all.models)
     for (const OddArm& one : model.sisters.odd) odd.push_back(one.cell);
