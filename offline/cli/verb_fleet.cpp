@@ -160,10 +160,13 @@ void run_fleet(const FleetArguments& options, const Globals& globals, Outcome& o
   {
     Progress progress(
         fmt::format("{} {} cells", options.diagnose ? "diagnosing" : "fitting", cells.size()));
-    summaries =
-        fleet::summaries_of(cells, fleet::ResultsFolder(results), asked, jobs, [&](int done) {
-          progress.at(fmt::format("{} done, {} left", done, static_cast<int>(cells.size()) - done));
-        });
+    // Where no terminal follows it, each of these is a line: a hundred of them are enough.
+    const int all = static_cast<int>(cells.size()), step = std::max(1, all / 100);
+    const fleet::ResultsFolder folder(results);
+    summaries = fleet::summaries_of(cells, folder, asked, jobs, [&](int done) {
+      if (done % step == 0 || done == all)
+        progress.at(fmt::format("{} done, {} left", done, all - done));
+    });
   }
   warn_of_broken(summaries, outcome);
   if (options.share.empty())

@@ -44,9 +44,9 @@ Html verdict_section(const Fleet& fleet) {
 Html cells_section(const Fleet& fleet) {
   Html html;
   HtmlTable table{.caption = "Held-out errors, measured - predicted [mm]",
-                  .head = {"cell", "robot", show::head::kMean, show::head::kP95, show::head::kMax,
+                  .head = {"cell", show::head::kMean, show::head::kP95, show::head::kMax,
                            show::head::kEffects, "state"},
-                  .left_from = 5};
+                  .left_from = 4};
   std::size_t left_out = 0;
   for (const auto& cell : fleet.cells) {
     if (fleet.cells.size() > kAllListed && cell.good &&
@@ -55,9 +55,8 @@ Html cells_section(const Fleet& fleet) {
       continue;
     }
     const auto mm = [&](double error_m) { return cell.ok ? show::mm(error_m) : "-"; };
-    table.rows.push_back({cell.name, cell.robot, mm(cell.held.mean), mm(cell.held.p95),
-                          mm(cell.held.max), show::counted(cell.effects),
-                          show::state_of(fleet, cell)});
+    table.rows.push_back({cell.name, mm(cell.held.mean), mm(cell.held.p95), mm(cell.held.max),
+                          show::counted(cell.effects), show::state_of(fleet, cell)});
   }
   html.table(table);
   if (left_out > 0)

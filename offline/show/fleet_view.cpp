@@ -189,7 +189,7 @@ std::string fleet_verdict(const Fleet& all) {
 }
 
 std::string model_name(const Model& model) {
-  return fmt::format("{}, {} arm{}", model.robot.empty() ? "robot without a name" : model.robot,
+  return fmt::format("{}, {} arm{}", model.robot.empty() ? "model " + model.key : model.robot,
                      model.arms, model.arms == 1 ? "" : "s");
 }
 
