@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "fit/json_parts.hpp"
 #include "fit/model_json.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "run/1";
 constexpr const char* kFloorSchema = "run.noise_floor/1";
@@ -31,17 +30,6 @@ NoiseFloor floor_from(const Json& j) {
           .holds_scatter = j.value("holds_scatter", false)};
 }
 
-Json to_json(const ErrorStats& s) {
-  return {{"n", s.n}, {"mean_m", s.mean}, {"rms_m", s.rms}, {"p95_m", s.p95}, {"max_m", s.max}};
-}
-ErrorStats stats_from(const Json& j) {
-  return {.n = j.at("n"),
-          .mean = j.at("mean_m"),
-          .rms = j.at("rms_m"),
-          .p95 = j.at("p95_m"),
-          .max = j.at("max_m")};
-}
-
 Json to_json(const Estimate& e) {
   return {{"name", e.name},   {"length", e.is_length}, {"robot", e.of_robot},
           {"value", e.value}, {"nominal", e.nominal},  {"std", e.std},
@@ -55,21 +43,6 @@ Estimate estimate_from(const Json& j) {
           .value = j.at("value"),
           .nominal = j.at("nominal"),
           .std = j.at("std")};
-}
-
-/// Lower triangle, row by row.
-Json packed(const Eigen::MatrixXd& m) {
-  Json out = Json::array();
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index k = 0; k <= i; ++k) out.push_back(m(i, k));
-  return out;
-}
-Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
-  Eigen::MatrixXd m(size, size);
-  std::size_t next = 0;
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index k = 0; k <= i; ++k) m(i, k) = m(k, i) = j.at(next++).get<double>();
-  return m;
 }
 
 /// Frame and target of the second set-up and those after it.

@@ -1,36 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/cell_summary.hpp"
 
+#include "fit/json_parts.hpp"
+
 namespace plumb::offline::fleet {
 namespace {
 
 constexpr const char* kSchema = "fleet.cell/1";
-
-Json stats_to(const ErrorStats& s) {
-  return {{"n", s.n}, {"mean_m", s.mean}, {"rms_m", s.rms}, {"p95_m", s.p95}, {"max_m", s.max}};
-}
-ErrorStats stats_from(const Json& j) {
-  return {.n = j.at("n"),
-          .mean = j.at("mean_m"),
-          .rms = j.at("rms_m"),
-          .p95 = j.at("p95_m"),
-          .max = j.at("max_m")};
-}
-
-/// Lower triangle, row by row.
-Json packed(const Eigen::MatrixXd& m) {
-  Json out = Json::array();
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index k = 0; k <= i; ++k) out.push_back(m(i, k));
-  return out;
-}
-Eigen::MatrixXd unpacked(const Json& j, Eigen::Index size) {
-  Eigen::MatrixXd m(size, size);
-  std::size_t next = 0;
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index k = 0; k <= i; ++k) m(i, k) = m(k, i) = j.at(next++).get<double>();
-  return m;
-}
 
 Json diagnosis_to(const std::optional<CellDiagnosis>& d) {
   if (!d) return nullptr;
@@ -78,7 +54,7 @@ Json to_json(const CellSummary& s) {
           {"serial", s.serial},
           {"model", s.model},
           {"tolerance_m", s.tolerance_m},
-          {"held_out", stats_to(s.held)},
+          {"held_out", offline::to_json(s.held)},
           {"noise_floor_m", s.floor_m},
           {"verdict", s.verdict},
           {"good", s.good},
