@@ -61,17 +61,11 @@ constexpr Explanation kCodes[] = {
      "A cell of a fleet could not be fitted. The others are not affected; it is in the table with "
      "its "
      "reason, and is tried again as soon as its files change."},
-    {"E-CELL-PRIOR",
-     "[fit] prior_from names the fleet.json that plumb fleet writes, which must hold arms with the "
-     "DH values of this cell."},
     {"W-FIT-SISTERS",
      "The numbers of this arm are farther from those of its sisters than theirs differ among each "
-     "other: it may be of another batch, was repaired, or its data are wrong. What the fleet taught "
+     "other: it may be of another batch, was repaired, or its data are wrong. What the fleet "
+     "taught "
      "then weighs less, so that the arm is calibrated much as it would be alone."},
-    {"W-CELL-PRIOR",
-     "Fewer than five arms of this model could be fitted when plumb fleet wrote the file that "
-     "[fit] "
-     "prior_from names, so nothing typical is known of them. The cell is fitted as without it."},
     {"E-RECHECK-OWN",
      "recheck compares new readings with the calibration, and was given the calibration's own "
      "file. "

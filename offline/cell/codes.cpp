@@ -37,6 +37,9 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-CELL-NONE",
      "Every verb works in the nearest folder upward that holds a cell.toml. Go to a cell, name it "
      "with -C DIR, make one with plumb new, or try plumb demo."},
+    {"E-CELL-PRIOR",
+     "[fit] prior_from names the fleet.json that plumb fleet writes, which must hold arms with the "
+     "DH values of this cell, and numbers that arms can have."},
     {"E-CELL-RANGE",
      "The value has the right type but cannot be meant: joint limits must rise, standard "
      "deviations and tolerances be greater than 0, all numbers finite, names unique. The label "
@@ -209,6 +212,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"W-CELL-LENGTH", "A link is longer than 20 m. Check length_unit in [robot]."},
     {"W-CELL-MASS",
      "A link or payload of more than 5 tonnes is most often a mass in grams. Masses are in kg."},
+    {"W-CELL-PRIOR",
+     "Fewer than five arms of this model could be fitted when plumb fleet wrote the file that "
+     "[fit] "
+     "prior_from names, so nothing typical is known of them. The cell is fitted as without it."},
     {"W-CSV-COLUMN",
      "A column of that name is not known, so nothing reads it; but it differs by a slip from one "
      "that "

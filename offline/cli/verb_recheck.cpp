@@ -193,8 +193,9 @@ void add_recheck(Program& program) {
   VerbOptions verb = program.verb(
       {.name = "recheck",
        .summary = "Few poses later: is the calibration still true, or what has changed?",
-       .examples = "  plumb plan --recheck --n 12 -o plan.csv     # poses to measure again\n"
-                   "  plumb recheck --data today.csv"},
+       .examples =
+           "  plumb recheck --data today.csv               # of the poses of plumb plan --recheck\n"
+           "  plumb recheck --data today.csv --new-frame   # the tracker stands elsewhere"},
       [options](const Globals& g, Outcome& o) { recheck_cell(*options, g, o); });
   verb.add_option("--data", options->data, "Readings of 8 to 30 poses, as in measurements.csv")
       .type_name("FILE")
