@@ -23,7 +23,8 @@ constexpr Explanation kTerms[] = {
      "sisters if so great a distance of its numbers from theirs has a chance below 1 %, by "
      "their spread and by the uncertainty of its own fit."},
     {"shrinkage",
-     "How much of an arm's own estimate of a number gives way to the mean of its sisters: 0 % where "
+     "How much of an arm's own estimate of a number gives way to the mean of its sisters: 0 % "
+     "where "
      "its readings show the number well, 100 % where they do not show it at all."},
     {"recheck",
      "A few poses, measured again after some time, judged against the calibration: still true, or "
