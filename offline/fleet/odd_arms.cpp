@@ -77,13 +77,14 @@ Sisters learn_sisters(std::vector<const CellSummary*> arms) {
     OddArm oddest{.cell = {}, .number = {}, .unit = {}, .chance = 1.0};
     std::size_t which = 0;
     for (std::size_t i = 0; i < arms.size(); ++i) {
-      std::vector<const CellSummary*> others = arms;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
       OddArm one = oddness(*arms[i], out.typical, all);
       // Against the others alone: among few arms an odd one hides behind the spread that it makes.
-      if (arms.size() <= kFew || one.chance < 100.0 * kOddByChance)
+      if (arms.size() <= kFew || one.chance < 100.0 * kOddByChance) {
+        std::vector<const CellSummary*> others = arms;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
         if (const auto sisters = learn_typical(others, out.typical); !sisters.empty())
           one = oddness(*arms[i], sisters, all);
+      }
       if (one.chance >= oddest.chance) continue;
       oddest = one;
       which = i;

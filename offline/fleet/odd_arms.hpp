@@ -24,7 +24,7 @@ struct Sisters {
   std::vector<OddArm> odd;
 };
 
-/// How often at most one of the arms of a model is called odd although all are alike.
+/// The chance that any arm of a model is called odd although all of them are alike.
 inline constexpr double kOddByChance = 0.01;
 
 /// Takes out the oddest arm for as long as it is too odd to be one of them, and learns anew: by the
