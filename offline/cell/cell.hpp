@@ -92,13 +92,17 @@ struct SisterOdds {
   double nats = 0.0;  // added to ln B
 };
 
+struct EarlierArm;
+
 struct FitSettings {
   std::vector<std::string> fixed;  // parameters held at nominal, "J2.d"
   std::vector<Prior> priors;
   std::vector<SisterOdds> sister_odds;  // learnt from other arms
-  std::string prior_from;     // a file of plumb fleet, as the cell file names it; empty: none
-  double prior_m = 0.5e-3;    // 1 sigma of how far arms are built from nominal
-  double prior_rad = 0.5e-3;  // the same of angles
+  std::string prior_from;  // a file of plumb fleet, or a folder of a run or of a cell that has
+                           // one, as the cell file names it; empty: none
+  std::shared_ptr<const EarlierArm> earlier;  // that run
+  double prior_m = 0.5e-3;                    // 1 sigma of how far arms are built from nominal
+  double prior_rad = 0.5e-3;                  // the same of angles
   enum class Model { kDh, kComplete } model = Model::kDh;
 };
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cell/cell_sections.hpp"
+#include "cell/earlier_arm.hpp"
 #include "cell/fleet_priors.hpp"
 #include "effects/registry.hpp"
 #include "program/bounded_file.hpp"
@@ -97,8 +98,9 @@ Cell read_cell(const fs::path& cell_toml) {
 }
 
 std::string hash_of(const Cell& cell) {
-  const std::string priors = fleet_priors_text(cell.fit);
-  return sha256(cell.text + priors);
+  std::string taught = fleet_priors_text(cell.fit);
+  if (cell.fit.earlier && !cell.fit.prior_from.empty()) taught += cell.fit.earlier->check_sum;
+  return sha256(cell.text + taught);
 }
 
 fs::path find_cell(const fs::path& start) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cell/cell_sections.hpp"
+#include "cell/earlier_arm.hpp"
 #include "cell/fleet_priors.hpp"
 
 namespace plumb::offline {
@@ -68,14 +69,20 @@ void read_priors(TomlTable& t, CellDraft& draft) {
 }
 
 /// prior_from = "../fleet/fleet.json": what other arms of the model taught. What the cell says of a
-/// number itself goes before.
-void read_fleet_priors(TomlTable& t, CellDraft& draft) {
+/// number itself goes before. Or "../arm1", "runs/0003": one earlier run.
+void read_prior_from(TomlTable& t, CellDraft& draft) {
   const auto name = t.text("prior_from");
   if (!name || name->empty()) return;
   draft.cell.fit.prior_from = *name;
   auto& priors = draft.cell.fit.priors;
   const std::vector<Prior> own = priors;
   try {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(draft.cell.directory / *name, ignored)) {
+      draft.cell.fit.earlier =
+          std::make_shared<EarlierArm>(earlier_arm(draft.cell.directory / *name));
+      return;
+    }
     auto learnt = fleet_priors(draft.cell.directory / *name, draft.cell.nominal);
     if (learnt.priors.empty())
       t.warning("W-CELL-PRIOR",
@@ -105,7 +112,7 @@ void read_fit(TomlTable& t, CellDraft& draft) {
                              ? FitSettings::Model::kComplete
                              : FitSettings::Model::kDh;
   read_priors(t, draft);
-  read_fleet_priors(t, draft);
+  read_prior_from(t, draft);
   if (const auto length_mm = t.not_negative("prior_mm")) draft.cell.fit.prior_m = *length_mm * 1e-3;
   if (const auto angle_mrad = t.not_negative("prior_mrad"))
     draft.cell.fit.prior_rad = *angle_mrad * 1e-3;

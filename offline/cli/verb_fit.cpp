@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "cell/earlier_arm.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/next_line.hpp"
+#include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
 #include "fit/main_jump.hpp"
@@ -27,7 +29,48 @@ struct FitArguments {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> held_out;
   std::string base = name_of(Base::kArm);
+  std::string from, data;
 };
+
+/// The folder that --from means: a run of this cell by its number, or any folder.
+std::filesystem::path folder_of(const std::string& from, const Cell& cell) {
+  const bool number = from.find_first_not_of("0123456789") == std::string::npos;
+  if (number) return load_run(cell, run_number(from)).directory;
+  return std::filesystem::absolute(from).lexically_normal();
+}
+
+/// --from and --data: an earlier arm instead of what the cell takes over, and other readings.
+void take_over(const FitArguments& options, Cell& cell) {
+  if (options.from.empty()) {
+    if (options.data.empty()) return;
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = "--data: of which arm are these readings?",
+                                 .help = "name its run: plumb fit --from 1 --data " + options.data +
+                                         "; or the file in [measurement] files of cell.toml"});
+  }
+  std::erase_if(cell.fit.priors, [](const Prior& prior) { return prior.of_fleet; });
+  cell.fit.sister_odds.clear();
+  cell.fit.earlier = std::make_shared<EarlierArm>(earlier_arm(folder_of(options.from, cell)));
+  if (options.data.empty()) return;
+  cell.measurement.files = {std::filesystem::absolute(options.data).lexically_normal()};
+  cell.measurement.named_at.clear();
+  cell.measurement.setups.clear();
+}
+
+/// What cell.toml must say so that every verb goes on with these readings and that prior.
+std::string to_go_on(const FitArguments& options, const Cell& cell) {
+  const auto shown = [&](const std::filesystem::path& path) {
+    return std::filesystem::relative(path, cell.directory).generic_string();
+  };
+  std::string out = fmt::format(
+      "\nTo go on with this, write into cell.toml: [fit] prior_from = "
+      "\"{}\"",
+      shown(cell.fit.earlier->run));
+  if (!options.data.empty())
+    out +=
+        fmt::format(", and [measurement] files = [\"{}\"]", shown(cell.measurement.files.front()));
+  return out + ".\n";
+}
 
 void override_split(const FitArguments& options, Cell& cell) {
   if (options.seed) cell.measurement.seed = *options.seed;
@@ -102,11 +145,26 @@ std::optional<NoiseFloor> floor_of_last_diagnosis(const Cell& cell,
   return std::nullopt;
 }
 
+/// An earlier arm stands on the nominal numbers of the cell.
+void refuse_earlier(const Cell& cell) {
+  if (!cell.fit.earlier) return;
+  throw Failure(
+      Exit::kUsage,
+      {.code = "E-USAGE",
+       .message = "--base controller: an earlier run of the arm says nothing of the "
+                  "controller's own positions",
+       .help = "plumb fit --from RUN, or plumb fit --base controller without prior_from"});
+}
+
 void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
+  take_over(options, cell);
   MeasurementFiles measured = open_measurements(cell, outcome);
-  if (options.base == name_of(Base::kController)) stand_on_controller(cell, measured);
+  if (options.base == name_of(Base::kController)) {
+    refuse_earlier(cell);
+    stand_on_controller(cell, measured);
+  }
   Fit fitted = fit_with_progress(cell, measured, outcome);
   const auto floor = floor_of_last_diagnosis(cell, measured, fitted);
   if (floor) fitted.floor = *floor;
@@ -115,7 +173,8 @@ void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) 
   outcome.text += jump_words(cell, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
   keep_run(options, cell, measured, std::move(fitted), floor, outcome);
-  say_next(globals, next, outcome);
+  if (!options.from.empty()) outcome.text += to_go_on(options, cell);
+  if (options.data.empty()) say_next(globals, next, outcome);
 }
 
 }  // namespace
@@ -125,7 +184,9 @@ void add_fit(Program& program) {
   VerbOptions verb = program.verb(
       {.name = "fit",
        .summary = "Calibrate the arm; keep an immutable run under runs/",
-       .examples = "  plumb fit\n  plumb -C mycell fit --held-out kfold:5 --max-rms 0.1 --json"},
+       .examples = "  plumb fit\n  plumb -C mycell fit --held-out kfold:5 --max-rms 0.1 --json\n"
+                   "  plumb fit --from 1 --data later.csv   # the arm of run 1, measured again\n"
+                   "  plumb -C arm2 fit --from arm1         # a sister of the arm of cell arm1"},
       [options](const Globals& g, Outcome& o) { fit(*options, g, o); });
   verb.add_flag("--dry-run", options->dry_run, "Fit and show, but keep no run");
   verb.add_option("--max-rms", options->max_rms_mm,
@@ -138,6 +199,13 @@ void add_fit(Program& program) {
   verb.add_option("--held-out", options->held_out,
                   "Which poses are held out: auto, 20%, kfold:5, column:set, file:F.csv")
       .type_name("RULE");
+  verb.add_option(
+          "--from", options->from,
+          "Take over what an earlier run knows of the arm, or of a sister: number of a run, "
+          "folder of a run, or folder of a cell, whose latest run is meant")
+      .type_name("RUN");
+  verb.add_option("--data", options->data, "With --from: these readings instead of the cell's")
+      .type_name("FILE");
   verb.add_option("--base", options->base,
                   "What is calibrated: the arm of the cell, or the controller's own positions "
                   "(columns nx_mm, ny_mm, nz_mm)")

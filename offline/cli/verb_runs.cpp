@@ -3,10 +3,10 @@
 
 #include <optional>
 
+#include "cell/run_checksum.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
-#include "fit/run_checksum.hpp"
 #include "show/runs_view.hpp"
 
 namespace plumb::offline::cli {

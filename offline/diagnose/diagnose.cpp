@@ -133,7 +133,7 @@ std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& he
   return held_out_excess(
       held.usual_mean(), floor,
       unavoidable_ratio(fitted_coordinates(w.measured, w.split),
-                        static_cast<double>(fitted.parameters.size()) + fitted.series_dof));
+                        fitted.decided + fitted.series_dof));
 }
 
 /// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.

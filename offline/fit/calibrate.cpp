@@ -7,7 +7,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "cell/earlier_arm.hpp"
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/descent.hpp"
@@ -23,6 +25,7 @@
 #include "fit/series_solver.hpp"
 #include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
+#include "program/file.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -74,6 +77,8 @@ FitData fit_data(const Cell& cell, const Measurements& measured, const std::vect
   data.measured = &measured;
   data.rows = rows;
   data.sigma_m = stated_sigma(cell, measured);
+  // What the model of an earlier run leaves, it leaves here as well.
+  if (cell.fit.earlier) data.sigma_m = data.sigma_m.cwiseMax(cell.fit.earlier->left_m);
   if (measured.has_orientation()) data.sigma_rad = cell.measurement.sigma_rad.value_or(0.0);
   return data;
 }
@@ -139,8 +144,30 @@ FitData weighed_for_series(const FitData& stated, const ParameterSubset& subset,
   return widened();
 }
 
+/// What an earlier run held at nominal is held here too: it could not be told from what it fitted.
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
-  return calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
+  auto out = calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
+  if (!cell.fit.earlier) return out;
+  std::erase_if(out, [&](const Parameter& p) {
+    const auto& known = cell.fit.earlier->numbers;
+    return p.of_robot() && !p.of_effect() &&
+           std::none_of(known.begin(), known.end(),
+                        [&](const auto& n) { return n.name == p.name; });
+  });
+  return out;
+}
+
+/// How many of the numbers the readings decide: all of them, less what an earlier run does.
+double decided_by_readings(const FitData& data, const Solution& solution,
+                           const std::vector<Parameter>& parameters,
+                           const Eigen::MatrixXd& inverse) {
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  if (data.arm.names.empty()) return static_cast<double>(count);
+  const PriorLines lines(data, solution.state, parameters);
+  Eigen::VectorXd r(lines.count());
+  RowMajorMatrix J(lines.count(), count);
+  lines.evaluate(solution.state, r.data(), J.data());
+  return static_cast<double>(count) - (J * inverse).cwiseProduct(J).sum();
 }
 
 Calibration summary(const FitData& data, const ArmState& nominal, const Solution& solution,
@@ -156,7 +183,10 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   Calibration out;
   out.sigma0 =
       std::sqrt(solution.residual.head(without_weak).squaredNorm() / static_cast<double>(dof));
-  out.covariance = inverse_information(J) * std::pow(std::max(1.0, out.sigma0), 2);
+  const Eigen::MatrixXd inverse = inverse_information(J);
+  out.covariance = inverse * std::pow(std::max(1.0, out.sigma0), 2);
+  out.decided = decided_by_readings(data, solution, subset.kept, inverse);
+  out.known = data.arm;
   out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
   out.state = solution.state;
   out.estimates = estimates_of(solution.state, nominal, subset.kept, out.covariance);
@@ -178,6 +208,15 @@ struct Coarse {
   }
 };
 
+/// How many of the numbers no earlier run knows.
+std::size_t unknown_before(const FitData& data, const std::vector<Parameter>& parameters) {
+  const auto& known = data.arm.names;
+  return static_cast<std::size_t>(
+      std::count_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
+        return std::find(known.begin(), known.end(), p.name) == known.end();
+      }));
+}
+
 Coarse coarse_from(const FitData& data, const ArmState& start,
                    const std::vector<Parameter>& candidates) {
   Coarse out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
@@ -187,7 +226,7 @@ Coarse coarse_from(const FitData& data, const ArmState& start,
   placed.X_TG = start.X_TG;
   placed.more = start.more;
   out.subset = identifiable_parameters(data, unhidden(placed), candidates, kCoarse);
-  check_enough(data, out.subset.kept.size(), candidates);
+  check_enough(data, unknown_before(data, out.subset.kept), candidates);
   out.data.weak = weak_directions(data, unhidden(placed), out.subset.kept);
   out.solution.state = with_held_at_nominal(unhidden(start), nominal, candidates, out.subset.held);
   out.outliers = solve_without_outliers(out.data, out.subset.kept, out.solution);
@@ -240,12 +279,46 @@ Problem unlike_sisters(double times) {
       .help = "is it an arm of this model and batch? Else take prior_from out of cell.toml"};
 }
 
+/// What an arm of the earlier run has and this cell does not list acts in this arm too.
+void note_effects(const EarlierArm& earlier, const KnownArm& known, std::vector<Problem>& remarks) {
+  std::set<std::string> lacking;
+  for (const auto& number : earlier.numbers)
+    if (number.of_effect && !number.name.empty() &&
+        std::find(known.names.begin(), known.names.end(), number.name) == known.names.end())
+      lacking.insert(number.name.substr(0, number.name.find('.')));
+  if (lacking.empty()) return;
+  remarks.push_back({.severity = Severity::kNote,
+                     .code = "N-FIT-EARLIER",
+                     .message = fmt::format("{} fitted effects that this cell does not list as it "
+                                            "does: {}",
+                                            display_name(earlier.run), fmt::join(lacking, ", ")),
+                     .help = "plumb add " + *lacking.begin()});
+}
+
+Problem has_little_in_common(const EarlierArm& earlier) {
+  return {.severity = Severity::kWarning,
+          .code = "W-FIT-EARLIER",
+          .message = fmt::format("this arm has little in common with that of {}, whose numbers "
+                                 "weigh next to nothing",
+                                 display_name(earlier.run)),
+          .help = "is it that arm, or one of its model and batch? Else fit without it"};
+}
+
 Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
                     const std::vector<Parameter>& candidates) {
   FitData data = whole;  // with the stated sigma
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
-  widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
+  std::optional<Likeness> likeness;
+  if (cell.fit.earlier) {
+    const Judgement judged =
+        judge_likeness(data, coarse.solution.state, coarse.subset.kept, *cell.fit.earlier);
+    likeness = judged.likeness;
+    data.arm = judged.known;
+    data.sigma_m *= judged.noise_times;
+  } else {
+    widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
+  }
   if (whole.rows.size() > std::size_t{kManyRows})
     data.rows = whole.rows;  // they tell more apart than some do
   const auto fine =
@@ -254,10 +327,11 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   Solution solution = std::move(coarse.solution);
   solution.state = with_held_at_nominal(solution.state, nominal, candidates, fine.held);
   // What poses say is a matter of the instrument, not of what the model still lacks.
-  data.weak = weak_directions(whole, solution.state, fine.kept);
+  FitData stated = whole;
+  stated.arm = data.arm;
+  data.weak = weak_directions(stated, solution.state, fine.kept);
   const int coarse_iterations = solution.iterations;
   if (has_series(solution.state)) {
-    FitData stated = whole;
     stated.weak = data.weak;
     data = weighed_for_series(stated, fine, solution);
   }
@@ -266,6 +340,10 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   check_meets(cell, data, solution);
   Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
+  out.likeness = likeness;
+  if (cell.fit.earlier) note_effects(*cell.fit.earlier, data.arm, out.remarks);
+  if (likeness && likeness->kind == Likeness::Kind::kUnlike)
+    out.remarks.push_back(has_little_in_common(*cell.fit.earlier));
   if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell.fit));
   const double unlike =
       PriorLines(data, solution.state, fine.kept).distance_from_sisters(solution.state);
@@ -279,9 +357,11 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
 Calibration calibrated(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                        const ArmState* start) {
   check_poses(measured, rows);
-  const FitData data = fit_data(cell, measured, rows);
+  FitData data = fit_data(cell, measured, rows);
   const auto candidates = candidates_of(cell, data);
   check_enough(data, 0, candidates);
+  if (cell.fit.earlier)
+    data.arm = hardly_known(data, nominal_state(cell, measured), candidates, *cell.fit.earlier);
   // Before the model fits, no reading deserves more trust than another.
   FitData even = data;
   even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
@@ -318,7 +398,8 @@ Calibration calibrate_from(const Cell& cell, const Measurements& measured,
 Calibration calibrate_near(const Cell& cell, const Measurements& measured,
                            const std::vector<int>& rows, const ArmState& start,
                            const Calibration& from) {
-  const FitData stated = fit_data(cell, measured, without_outliers(rows, from.outliers));
+  FitData stated = fit_data(cell, measured, without_outliers(rows, from.outliers));
+  stated.arm = from.known;
   std::vector<Parameter> candidates;
   for (const auto& p : candidates_of(cell, stated))
     if (p.of_effect() || holds(from.parameters, p.name)) candidates.push_back(p);

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/known_arm.hpp"
+#include "fit/likeness.hpp"
 #include "fit/outliers.hpp"
 #include "fit/parameter.hpp"
 
@@ -35,6 +38,9 @@ struct Calibration {
   int rank = 0;                       // independent columns, of all candidates
   double calibrability = 0.0;         // cond_2(J^T J), SI columns
   double series_dof = 0.0;            // of series of waves, see Solution
+  double decided = 0.0;               // numbers, each by how much the readings decide it
+  std::optional<Likeness> likeness;   // with an earlier arm, if the cell names one
+  KnownArm known;                     // what that one says of this
   double sigma0 = 0.0;                // sqrt(chi^2 / dof) of the weighted residuals
   int iterations = 0;
 };

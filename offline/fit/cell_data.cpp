@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cell/earlier_arm.hpp"
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"
 #include "effects/effect_option.hpp"
@@ -114,6 +115,21 @@ std::vector<bool> joint_is_angle(const Cell& cell) {
   return out;
 }
 
+/// Readings that an earlier run was fitted to would count twice.
+void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
+  if (!cell.fit.earlier) return;
+  for (const auto& table : measured.tables)
+    for (const auto& sum : cell.fit.earlier->inputs)
+      if (table.sha256 == sum)
+        throw Failure(
+            Exit::kInput,
+            {.code = "E-FIT-EARLIER",
+             .message = fmt::format("{} was fitted to {} itself, whose readings would "
+                                    "count twice",
+                                    display_name(cell.fit.earlier->run), display_name(table.file)),
+             .help = "name other readings: plumb fit --from RUN --data later.csv"});
+}
+
 MeasurementFiles read_cell_measurements(const Cell& cell) {
   check_files(cell);
   const auto files = measurement_files(cell.measurement);
@@ -121,6 +137,7 @@ MeasurementFiles read_cell_measurements(const Cell& cell) {
   assign_setups(cell, files, out);
   check_rows(cell, out);
   warn_of_missing_axes(cell, out);
+  check_earlier(cell, out);
   return out;
 }
 

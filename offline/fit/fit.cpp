@@ -279,9 +279,8 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
   out.still = still_joints(cell, measured, fit);
-  out.unavoidable_ratio = unavoidable_ratio(
-      fitted_coordinates(measured, out.split),
-      static_cast<double>(out.calibration.parameters.size()) + out.calibration.series_dof);
+  out.unavoidable_ratio = unavoidable_ratio(fitted_coordinates(measured, out.split),
+                                            out.calibration.decided + out.calibration.series_dof);
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);

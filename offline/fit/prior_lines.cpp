@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/prior_lines.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/many_rows.hpp"
 
 namespace plumb::offline {
 namespace {
 
-bool has_own_prior(const Parameter& p, const FitSettings& settings) {
-  return std::any_of(settings.priors.begin(), settings.priors.end(),
-                     [&](const Prior& prior) { return prior.name == p.name; });
+bool has_own_prior(const Parameter& p, const FitData& data) {
+  const auto& priors = data.cell->fit.priors;
+  const auto& earlier = data.arm.names;
+  return std::any_of(priors.begin(), priors.end(),
+                     [&](const Prior& prior) { return prior.name == p.name; }) ||
+         std::find(earlier.begin(), earlier.end(), p.name) != earlier.end();
 }
 
 }  // namespace
@@ -40,7 +45,7 @@ std::vector<PriorLines::KnownParameter> PriorLines::known(
   std::vector<KnownParameter> out;
   if (data.cell == nullptr) return out;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].of_effect() || has_own_prior(parameters[i], data.cell->fit)) continue;
+    if (!parameters[i].of_effect() || has_own_prior(parameters[i], data)) continue;
     const auto& [joint, component] = std::pair(parameters[i].joint, parameters[i].component);
     const double typical = effect_parameter(start.arm, joint, component).typical;
     const format::Effect& effect = start.arm.effects[joint];
@@ -68,6 +73,29 @@ std::vector<PriorLines::KnownParameter> PriorLines::known(
   return out;
 }
 
+PriorLines::EarlierNumbers PriorLines::earlier_numbers(const FitData& data,
+                                                       const std::vector<Parameter>& parameters) {
+  EarlierNumbers out;
+  std::vector<Eigen::Index> of_earlier;
+  for (std::size_t k = 0; k < data.arm.names.size(); ++k) {
+    const auto at = std::find_if(parameters.begin(), parameters.end(),
+                                 [&](const Parameter& p) { return p.name == data.arm.names[k]; });
+    if (at == parameters.end()) continue;
+    out.index.push_back(at - parameters.begin());
+    of_earlier.push_back(static_cast<Eigen::Index>(k));
+  }
+  if (of_earlier.empty()) return out;
+  out.mean = data.arm.mean(of_earlier);
+  const Eigen::MatrixXd covariance = data.arm.covariance(of_earlier, of_earlier);
+  // Metres and radians differ by orders of magnitude from stiffnesses: factored in own units.
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd correlation =
+      sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> llt(correlation);
+  out.whitening = llt.matrixL().solve(Eigen::MatrixXd(sigma.cwiseInverse().asDiagonal()));
+  return out;
+}
+
 PriorLines::WeakColumns PriorLines::weak_columns(const FitData& data,
                                                  const std::vector<Parameter>& parameters) {
   WeakColumns out;
@@ -91,11 +119,12 @@ PriorLines::PriorLines(const FitData& data, const ArmState& start,
     : data_(data),
       parameters_(parameters),
       known_(known(data, start, parameters)),
+      earlier_(earlier_numbers(data, parameters)),
       weak_(weak_columns(data, parameters)) {}
 
 int PriorLines::count() const {
   const auto directions = weak_.index.empty() ? 0 : data_.weak.weights.rows();
-  return static_cast<int>(known_.size()) + static_cast<int>(directions);
+  return static_cast<int>(known_.size() + earlier_.index.size()) + static_cast<int>(directions);
 }
 
 PriorLines::Pull PriorLines::pull_of(const KnownParameter& known, const ArmState& state) const {
@@ -158,22 +187,48 @@ void PriorLines::evaluate(const ArmState& state, double* residual, double* jacob
     ++row;
   }
   doubt_sisters(residual, jacobian);
+  const auto next = [&](Eigen::Index lines) {
+    residual += lines;
+    if (jacobian != nullptr) jacobian += lines * count;
+  };
+  next(row);
+  add_earlier(state, residual, jacobian);
+  next(static_cast<Eigen::Index>(earlier_.index.size()));
+  add_weak(state, residual, jacobian);
+}
+
+void PriorLines::add_earlier(const ArmState& state, double* residual, double* jacobian) const {
+  const auto size = static_cast<Eigen::Index>(earlier_.index.size());
+  if (size == 0) return;
+  Eigen::VectorXd away = earlier_.mean;
+  for (Eigen::Index k = 0; k < size; ++k)
+    away(k) -= value_of(
+        state, parameters_[static_cast<std::size_t>(earlier_.index[static_cast<std::size_t>(k)])]);
+  Eigen::Map<Eigen::VectorXd>(residual, size) = earlier_.whitening * away;
+  if (jacobian == nullptr) return;
+  const auto count = static_cast<Eigen::Index>(parameters_.size());
+  Eigen::Map<RowMajorMatrix> J(jacobian, size, count);
+  J.setZero();
+  for (Eigen::Index k = 0; k < size; ++k)
+    J.col(earlier_.index[static_cast<std::size_t>(k)]) = -earlier_.whitening.col(k);
+}
+
+void PriorLines::add_weak(const ArmState& state, double* residual, double* jacobian) const {
   if (weak_.index.empty()) return;
   Eigen::VectorXd away = weak_.nominal;
   for (std::size_t k = 0; k < weak_.index.size(); ++k)
     away(static_cast<Eigen::Index>(k)) -=
         value_of(state, parameters_[static_cast<std::size_t>(weak_.index[k])]);
   const Eigen::VectorXd distance = data_.weak.weights * away;
+  const auto count = static_cast<Eigen::Index>(parameters_.size());
   for (Eigen::Index d = 0; d < distance.size(); ++d) {
     const Pull pull = pull_of(distance(d), KnownParameter::Tail::kHeavy);
-    residual[row] = pull.residual;
-    if (jacobian != nullptr) {
-      Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + row * count, count);
-      slopes.setZero();
-      for (std::size_t k = 0; k < weak_.index.size(); ++k)
-        slopes(weak_.index[k]) = -pull.slope * data_.weak.weights(d, static_cast<Eigen::Index>(k));
-    }
-    ++row;
+    residual[d] = pull.residual;
+    if (jacobian == nullptr) continue;
+    Eigen::Map<Eigen::RowVectorXd> slopes(jacobian + d * count, count);
+    slopes.setZero();
+    for (std::size_t k = 0; k < weak_.index.size(); ++k)
+      slopes(weak_.index[k]) = -pull.slope * data_.weak.weights(d, static_cast<Eigen::Index>(k));
   }
 }
 

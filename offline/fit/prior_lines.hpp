@@ -9,7 +9,8 @@
 namespace plumb::offline {
 
 /// What is known of the parameters of a fit beforehand, as lines of its least squares behind those
-/// of the poses: the priors of the cell, the typical sizes of effects, and the weak directions.
+/// of the poses: the priors of the cell, the typical sizes of effects, what an earlier calibration
+/// found, and the weak directions.
 class PriorLines {
  public:
   /// Keeps references to `data` and `parameters`.
@@ -44,6 +45,16 @@ class PriorLines {
     Eigen::VectorXd nominal;
   };
 
+  /// Numbers of an earlier calibration among those fitted: whitening * (mean - value) is how far
+  /// they are from it, in standard deviations.
+  struct EarlierNumbers {
+    std::vector<Eigen::Index> index;
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd whitening;  // inverse of the Cholesky factor of their covariance
+  };
+
+  static EarlierNumbers earlier_numbers(const FitData& data,
+                                        const std::vector<Parameter>& parameters);
   static std::vector<KnownParameter> known(const FitData& data, const ArmState& start,
                                            const std::vector<Parameter>& parameters);
   static WeakColumns weak_columns(const FitData& data, const std::vector<Parameter>& parameters);
@@ -51,10 +62,13 @@ class PriorLines {
   static Pull pull_of(double u, KnownParameter::Tail tail);
   Pull pull_of(const KnownParameter& known, const ArmState& state) const;
   void doubt_sisters(double* residual, double* jacobian) const;
+  void add_earlier(const ArmState& state, double* residual, double* jacobian) const;
+  void add_weak(const ArmState& state, double* residual, double* jacobian) const;
 
   const FitData& data_;
   const std::vector<Parameter>& parameters_;
   std::vector<KnownParameter> known_;
+  EarlierNumbers earlier_;
   WeakColumns weak_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/packed_matrix.hpp"
 #include "fit/json_parts.hpp"
 #include "fit/model_json.hpp"
 #include "program/problem.hpp"

@@ -8,9 +8,9 @@
 
 #include "cell/formula_reader.hpp"
 #include "cell/iso_time.hpp"
+#include "cell/run_checksum.hpp"
 #include "effects/registry.hpp"
 #include "fit/parameter.hpp"
-#include "fit/run_checksum.hpp"
 #include "fit/run_json.hpp"
 #include "program/file.hpp"
 #include "program/process_number.hpp"

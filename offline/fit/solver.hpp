@@ -7,6 +7,7 @@
 
 #include "cell/cell.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/known_arm.hpp"
 #include "fit/parameter.hpp"
 
 namespace plumb::offline {
@@ -27,6 +28,7 @@ struct FitData {
   double sigma_rad = 0.0;      // 0: orientation is not used
   const Cell* cell = nullptr;  // with its priors, or null: none
   WeakDirections weak = {};    // held near nominal; the parameters of a fit must contain theirs
+  KnownArm arm = {};           // what an earlier calibration says of the numbers fitted
   bool series = false;         // solves for the numbers of series of waves as well
 
   int per_pose() const;        // residuals of one pose

@@ -18,11 +18,14 @@ constexpr double kWeak = 3.0;     // s: known worse than a third of the prior
 constexpr double kPartOf = 0.25;  // of a number's square lies in the weak directions
 constexpr std::size_t kDirectionsListed = 6;
 
-/// 1 sigma of a number about its nominal value [SI]; 0 where nothing is known.
-double prior_of(const Parameter& p, const FitSettings& settings) {
+/// 1 sigma of a number about its nominal value [SI]; 0 where nothing is known, or more than that.
+double prior_of(const Parameter& p, const FitData& data) {
+  const FitSettings& settings = data.cell->fit;
   if (!p.of_robot() || p.of_effect()) return 0.0;
   for (const auto& own : settings.priors)
     if (own.name == p.name) return 0.0;
+  for (const auto& earlier : data.arm.names)
+    if (earlier == p.name) return 0.0;
   return p.is_length() ? settings.prior_m : settings.prior_rad;
 }
 
@@ -49,7 +52,7 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   std::vector<Parameter> order;
   std::vector<double> prior;
   for (const auto& p : parameters) {
-    const double sigma = prior_of(p, data.cell->fit);
+    const double sigma = prior_of(p, data);
     if (sigma > 0.0) {
       out.parameters.push_back(p);
       prior.push_back(sigma);

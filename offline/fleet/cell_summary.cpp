@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/cell_summary.hpp"
 
+#include "cell/packed_matrix.hpp"
 #include "fit/json_parts.hpp"
 
 namespace plumb::offline::fleet {

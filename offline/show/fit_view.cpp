@@ -12,6 +12,7 @@
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
+#include "show/likeness_view.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -192,6 +193,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
     put_null(out, "tree", "[effects] does not list local_tree");
   out["convergence"] = {{"iterations", c.iterations}};
   put(out["convergence"], "sigma0", c.sigma0);
+  out["from"] = likeness_json(cell, c);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
   out["verdict"] = compare::full_verdict(cell, measured, fit);
@@ -203,6 +205,7 @@ std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& 
   std::string out =
       compare::full_verdict(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
+  out += likeness_text(cell, c);
   out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",
                            c.estimates.size(), c.iterations);

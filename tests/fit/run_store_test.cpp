@@ -9,8 +9,8 @@
 #include <csignal>
 #include <fstream>
 
+#include "cell/run_checksum.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/run_checksum.hpp"
 #include "program/file.hpp"
 #include "simulate/simulate.hpp"
 

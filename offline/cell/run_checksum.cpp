@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/run_checksum.hpp"
+#include "cell/run_checksum.hpp"
 
 #include "program/file.hpp"
 
@@ -24,7 +24,7 @@ std::string with_zeros(std::string text, std::size_t at) {
 
 }  // namespace
 
-std::string with_checksums(nlohmann::ordered_json run, const std::string& predictions_csv) {
+std::string with_checksums(Json run, const std::string& predictions_csv) {
   run[kOfPredictions] = sha256(predictions_csv);
   run["checksum"] = std::string(kDigits, '0');
   std::string text = run.dump(1) + "\n";
@@ -38,7 +38,7 @@ bool json_sum_holds(const std::string& text) {
   return text.substr(at, kDigits) == sha256(with_zeros(text, at));
 }
 
-bool predictions_sum_holds(const nlohmann::ordered_json& run, const std::string& predictions_csv) {
+bool predictions_sum_holds(const Json& run, const std::string& predictions_csv) {
   return !run.contains(kOfPredictions) || run.at(kOfPredictions) == sha256(predictions_csv);
 }
 

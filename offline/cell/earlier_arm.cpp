@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cell/earlier_arm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cell/packed_matrix.hpp"
+#include "cell/run_checksum.hpp"
+#include "program/bounded_file.hpp"
+#include "program/file.hpp"
+#include "program/json.hpp"
+
+namespace plumb::offline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kAxes = 3.0;
+
+[[noreturn]] void refuse(const fs::path& what, const std::string& why) {
+  throw Failure(Exit::kInput,
+                {.code = "E-CELL-EARLIER",
+                 .message = fmt::format("{} {}", display_name(what), why),
+                 .help = "name a folder of a cell that was fitted, or of one of its runs, as in "
+                         "../arm1/runs/0003"});
+}
+
+/// The folder of the run that is meant.
+fs::path run_in(const fs::path& place) {
+  std::error_code error;
+  if (fs::exists(place / "run.json", error)) return place;
+  if (!fs::is_directory(place, error)) refuse(place, "is no folder of a cell or of a run");
+  std::optional<fs::path> last;
+  for (const auto& entry : fs::directory_iterator(place / "runs", error)) {
+    const std::string name = entry.path().filename().string();
+    const bool number = name.find_first_not_of("0123456789") == std::string::npos;
+    if (number && (!last || last->filename().string() < name)) last = entry.path();
+  }
+  if (!last) refuse(place, "holds no run");
+  return *last;
+}
+
+EarlierArm::Number number_of(const Json& estimate) {
+  return {.name = estimate.at("name"),
+          .value = estimate.at("value"),
+          .nominal = estimate.at("nominal"),
+          .of_effect = !estimate.value("unit", std::string()).empty(),
+          .is_length = estimate.at("length")};
+}
+
+/// RMS of a coordinate; of the fitted poses where none was held out.
+double left_of(const Json& run) {
+  const Json& held = run.at("held_out");
+  const Json& stats = held.at("n") > 0 ? held : run.at("fit");
+  return stats.at("rms_m").get<double>() / std::sqrt(kAxes);
+}
+
+bool sound(const EarlierArm& arm) {
+  const auto finite = [](const EarlierArm::Number& n) {
+    return std::isfinite(n.value) && std::isfinite(n.nominal);
+  };
+  return std::all_of(arm.numbers.begin(), arm.numbers.end(), finite) &&
+         arm.covariance.allFinite() && arm.covariance.diagonal().minCoeff() > 0.0 &&
+         std::isfinite(arm.left_m);
+}
+
+}  // namespace
+
+EarlierArm earlier_arm(const fs::path& place) {
+  EarlierArm out;
+  out.run = run_in(place);
+  const fs::path file = out.run / "run.json";
+  try {
+    const std::string text = read_regular_file(file, kMostFileBytes);
+    if (!json_sum_holds(text)) refuse(file, "was changed after it was written");
+    out.check_sum = sha256(text);
+    const Json run = Json::parse(text);
+    if (run.at("schema") != "run/1") refuse(file, "is of another schema than run/1");
+    if (run.value("base", "arm") != "arm")
+      refuse(file, "stands on the controller's own positions, which no other arm shares");
+    for (const auto& input : run.at("inputs")) out.inputs.push_back(input.at("sha256"));
+    const Json& calibration = run.at("calibration");
+    const Json& estimates = calibration.at("estimates");
+    std::vector<Eigen::Index> kept;
+    Eigen::Index place_in_run = 0;
+    for (const auto& estimate : estimates) {
+      if (estimate.at("robot")) {
+        out.numbers.push_back(number_of(estimate));
+        kept.push_back(place_in_run);
+      }
+      ++place_in_run;
+    }
+    if (kept.empty()) refuse(out.run, "fitted no number of the arm");
+    const Eigen::MatrixXd all = unpacked(calibration.at("covariance"), place_in_run);
+    out.covariance = all(kept, kept);
+    out.left_m = left_of(run);
+  } catch (const nlohmann::json::exception&) {
+    refuse(file, "is no run of plumb fit, or was cut off");
+  }
+  if (!sound(out)) refuse(file, "gives numbers that no arm has");
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plumb::offline {
+
+/// The numbers of an arm as an earlier run found them: of this arm, or of a sister.
+struct EarlierArm {
+  struct Number {
+    std::string name;                   // "J2.d", "joint_compliance.J2.c"
+    double value = 0.0, nominal = 0.0;  // SI
+    bool of_effect = false;
+    bool is_length = false;
+  };
+  std::filesystem::path run;  // folder
+  std::vector<Number> numbers;
+  Eigen::MatrixXd covariance;       // of these numbers, SI
+  double left_m = 0.0;              // RMS of a coordinate that the run leaves at held-out poses
+  std::vector<std::string> inputs;  // check sums of the measurements that it was fitted to
+  std::string check_sum;            // of run.json
+};
+
+/// Reads the run of `place`: a folder of a run (runs/0003), or a folder of a cell, whose latest run
+/// is meant. Throws Failure (kInput, E-CELL-EARLIER) if there is none, or if it was edited, was cut
+/// off, or knows no number of the arm.
+EarlierArm earlier_arm(const std::filesystem::path& place);
+
+}  // namespace plumb::offline

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cell/earlier_arm.hpp"
+#include "fit/known_arm.hpp"
+#include "fit/solver.hpp"
+
+namespace plumb::offline {
+
+/// How much an arm has in common with one that was calibrated earlier, as its own readings say it.
+struct Likeness {
+  enum class Kind { kSame, kSister, kUnlike, kUnknown } kind = Kind::kUnknown;
+  int numbers = 0;           // that both have
+  double same_chance = 0.0;  // that their numbers are as good as equal, one perhaps excepted
+  double share = 0.0;  // of the earlier arm's differences from nominal that this one has, 0..1
+  double spread_m = 0.0, spread_rad = 0.0;  // 1 sigma of the difference between the two arms
+  std::string changed;  // the one number in which they differ; empty: none, or several
+};
+
+/// "same", "sister", "unlike", "unknown"
+const char* name_of(Likeness::Kind kind);
+
+struct Judgement {
+  Likeness likeness;
+  KnownArm known;            // what the earlier arm says of this one
+  double noise_times = 1.0;  // what the readings scatter, in units of data.sigma_m
+};
+
+/// Weighs every degree of likeness by what the readings say of it, and averages. With d the true
+/// differences from nominal of the earlier arm, of which its run knows x = d + error of covariance
+/// C, and T the variance with which arms are built, times a factor that the readings choose:
+///
+///   d ~ N(0, T),   this arm ~ N(r d, (1 - r^2) T)
+///
+/// r = 1 is the same arm, in which one number may have changed, r = 0 an arm that has nothing in
+/// common with it but the model. The result has the mean and the covariance of that mixture, so it
+/// claims no more than the readings allow.
+///
+/// @param data  With sigmas about as large as the model misses the readings; `arm` plays no part.
+/// @param at    Where the fit is linearised; `parameters` are those that it fits.
+/// Throws Failure (kInput, E-FIT-EARLIER) if the arms have no number in common, or other nominal
+/// ones. Cost: 60 eigenvalue decompositions of the size of the shared numbers, 50 ms.
+Judgement judge_likeness(const FitData& data, const ArmState& at,
+                         const std::vector<Parameter>& parameters, const EarlierArm& earlier);
+
+/// The same before any reading is looked at: this arm differs from the earlier one as arms differ
+/// from nominal.
+KnownArm hardly_known(const FitData& data, const ArmState& at,
+                      const std::vector<Parameter>& parameters, const EarlierArm& earlier);
+
+}  // namespace plumb::offline
