@@ -61,6 +61,17 @@ constexpr Explanation kCodes[] = {
      "A cell of a fleet could not be fitted. The others are not affected; it is in the table with "
      "its "
      "reason, and is tried again as soon as its files change."},
+    {"E-FIT-EARLIER",
+     "A run from which numbers of the arm are to be taken over must be of an arm of the same "
+     "model, "
+     "with a number in common, and must not go back to the readings that are fitted now: these "
+     "would count twice, and the errors would look smaller than they are."},
+    {"N-FIT-EARLIER",
+     "The run from which numbers were taken over has effects that this cell does not list. What "
+     "they explained there is missing here: list them too, plumb add EFFECT."},
+    {"W-FIT-EARLIER",
+     "The readings say that the arm has little in common with the one whose run was named. The "
+     "result is then much like that of the readings alone, though not exactly so."},
     {"W-FIT-SISTERS",
      "The numbers of this arm are farther from those of its sisters than theirs differ among each "
      "other: it may be of another batch, was repaired, or its data are wrong. What the fleet "

@@ -14,7 +14,8 @@ constexpr Explanation kTerms[] = {
     {"prior",
      "What is assumed before anything is measured: that arms are built within 0.5 mm and 0.5 "
      "mrad of nominal ([fit] prior_mm, prior_mrad). It decides only where the poses say next "
-     "to nothing."},
+     "to nothing. Or what other arms, or an earlier run of this one, taught: [fit] prior_from, "
+     "fit --from."},
     {"fleet",
      "Several arms that are looked at together: plumb fleet fits every cell of a folder and says "
      "which arm is good, which is unlike its sisters, and what is typical of a model."},

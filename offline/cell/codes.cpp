@@ -11,6 +11,11 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-BUG",
      "Something that cannot happen did. Please report it with the command line and, if you "
      "may, the files."},
+    {"E-CELL-EARLIER",
+     "[fit] prior_from, or --from, names a run of an arm: a folder of a cell that was fitted, or "
+     "of "
+     "one of its runs. The run must be whole, as it was written, fitted to the arm of its cell and "
+     "not to the controller's own positions."},
     {"E-CELL-EFFECT",
      "[effects] names something that is not in the catalogue; plumb explain lists what is. It is "
      "refused rather than ignored, so that a model never lacks what its cell file promises. "

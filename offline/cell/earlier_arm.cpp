@@ -58,6 +58,18 @@ double left_of(const Json& run) {
   return stats.at("rms_m").get<double>() / std::sqrt(kAxes);
 }
 
+/// Adds the readings that a run goes back to: its own, and those of the runs before it.
+void add_inputs(const fs::path& folder, const Json& run, std::vector<std::string>& out) {
+  for (const auto& input : run.at("inputs")) out.push_back(input.at("sha256"));
+  if (run.contains("from"))
+    for (const auto& sum : run.at("from").at("inputs")) out.push_back(sum);
+  if (!run.contains("recheck")) return;
+  const int parent = run.at("recheck").at("parent");
+  const fs::path before = folder.parent_path() / fmt::format("{:04}", parent);
+  if (before >= folder) return;  // parents are older
+  add_inputs(before, Json::parse(read_regular_file(before / "run.json", kMostFileBytes)), out);
+}
+
 bool sound(const EarlierArm& arm) {
   const auto finite = [](const EarlierArm::Number& n) {
     return std::isfinite(n.value) && std::isfinite(n.nominal);
@@ -81,7 +93,7 @@ EarlierArm earlier_arm(const fs::path& place) {
     if (run.at("schema") != "run/1") refuse(file, "is of another schema than run/1");
     if (run.value("base", "arm") != "arm")
       refuse(file, "stands on the controller's own positions, which no other arm shares");
-    for (const auto& input : run.at("inputs")) out.inputs.push_back(input.at("sha256"));
+    add_inputs(out.run, run, out.inputs);
     const Json& calibration = run.at("calibration");
     const Json& estimates = calibration.at("estimates");
     std::vector<Eigen::Index> kept;

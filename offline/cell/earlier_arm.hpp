@@ -20,7 +20,7 @@ struct EarlierArm {
   std::vector<Number> numbers;
   Eigen::MatrixXd covariance;       // of these numbers, SI
   double left_m = 0.0;              // RMS of a coordinate that the run leaves at held-out poses
-  std::vector<std::string> inputs;  // check sums of the measurements that it was fitted to
+  std::vector<std::string> inputs;  // check sums of all readings that it goes back to
   std::string check_sum;            // of run.json
 };
 

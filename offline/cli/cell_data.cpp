@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/earlier_arm.hpp"
 #include "cli/cell_lock.hpp"
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
@@ -45,8 +46,9 @@ Cell open_cell(const Globals& globals, Outcome& outcome) {
   Cell cell = read_cell(cell_file(globals));
   outcome.inputs.push_back({cell.file.string(), sha256(cell.text)});
   if (!cell.fit.prior_from.empty()) {
-    const fs::path fleet = cell.directory / cell.fit.prior_from;
-    outcome.inputs.push_back({fleet.string(), sha256(read_file(fleet))});
+    const fs::path taught = cell.fit.earlier ? cell.fit.earlier->run / "run.json"
+                                             : cell.directory / cell.fit.prior_from;
+    outcome.inputs.push_back({taught.string(), sha256(read_file(taught))});
   }
   outcome.remark(cell.remarks);
   return cell;

@@ -40,7 +40,7 @@ std::filesystem::path folder_of(const std::string& from, const Cell& cell) {
 }
 
 /// --from and --data: an earlier arm instead of what the cell takes over, and other readings.
-void take_over(const FitArguments& options, Cell& cell) {
+void take_over(const FitArguments& options, Cell& cell, Outcome& outcome) {
   if (options.from.empty()) {
     if (options.data.empty()) return;
     throw Failure(Exit::kUsage, {.code = "E-USAGE",
@@ -51,6 +51,8 @@ void take_over(const FitArguments& options, Cell& cell) {
   std::erase_if(cell.fit.priors, [](const Prior& prior) { return prior.of_fleet; });
   cell.fit.sister_odds.clear();
   cell.fit.earlier = std::make_shared<EarlierArm>(earlier_arm(folder_of(options.from, cell)));
+  outcome.inputs.push_back(
+      {(cell.fit.earlier->run / "run.json").string(), cell.fit.earlier->check_sum});
   if (options.data.empty()) return;
   cell.measurement.files = {std::filesystem::absolute(options.data).lexically_normal()};
   cell.measurement.named_at.clear();
@@ -159,7 +161,7 @@ void refuse_earlier(const Cell& cell) {
 void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) {
   Cell cell = open_cell(globals, outcome);
   override_split(options, cell);
-  take_over(options, cell);
+  take_over(options, cell, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   if (options.base == name_of(Base::kController)) {
     refuse_earlier(cell);
@@ -172,8 +174,10 @@ void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) 
   outcome.text = show::fit_text(cell, measured, fitted);
   outcome.text += jump_words(cell, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
+  const auto& like = fitted.calibration.likeness;
+  const bool goes_on = !options.from.empty() && like && like->kind != Likeness::Kind::kUnlike;
   keep_run(options, cell, measured, std::move(fitted), floor, outcome);
-  if (!options.from.empty()) outcome.text += to_go_on(options, cell);
+  if (goes_on) outcome.text += to_go_on(options, cell);
   if (options.data.empty()) say_next(globals, next, outcome);
 }
 

@@ -15,6 +15,7 @@
 #include "figures/evidence_figure.hpp"
 #include "figures/observability_figure.hpp"
 #include "figures/registry.hpp"
+#include "figures/run_figures.hpp"
 #include "fit/earlier_runs.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
@@ -108,6 +109,10 @@ std::string run_figure(const PlotArguments& options, const Cell& cell, Measureme
   if (needs == Needs::kBench) return timed(options.name, cell, run, options.width);
   const auto results = figures::results_of(cell, measured, run);
   if (needs == Needs::kPlan) return planned(results, options.width);
+  if (needs == Needs::kFits) {
+    const Progress progress("fitting to fewer poses");
+    return figures::poses_figure(results, options.width);
+  }
   const auto earlier =
       needs == Needs::kEarlierRuns ? earlier_runs(run, cell, measured) : std::vector<Run>{};
   return figures::drawn(options.name, results, options.width, earlier).value();

@@ -17,7 +17,7 @@ using draw::kNarrowest, draw::kWidest, draw::kUsualWidth;
 struct FigureRow {
   std::string name;
   std::string shows;  // one line, without a full stop
-  enum class Needs { kRun, kEarlierRuns, kDiagnosis, kPlan, kBench } needs = Needs::kRun;
+  enum class Needs { kRun, kEarlierRuns, kDiagnosis, kPlan, kFits, kBench } needs = Needs::kRun;
 };
 
 /// Every figure, in the order of a report.

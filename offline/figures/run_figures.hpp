@@ -38,4 +38,8 @@ std::string waterfall(const RunResults& results, const std::vector<WaterfallStep
 /// refitted, with the control limit: what a check exceeds by chance once in some hundred.
 std::string history_figure(const RunResults& results, double width);
 
+/// The error at readings that were not fitted over the number of poses that were, of the arm alone
+/// and with what an earlier run or other arms taught. Cost: that of `error_by_poses`.
+std::string poses_figure(const RunResults& results, double width);
+
 }  // namespace plumb::offline::figures

@@ -36,6 +36,7 @@ constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
 constexpr double kRoughly = 1e-8;       // of the cost, in one iteration
 constexpr int kEnoughRows = 4000;       // tell the scatter of a model, and a start
 constexpr double kNearlyAsGood = 1.5;   // times the scatter of the best start
+constexpr double kPinned = 1e-3;        // of 1 sigma
 constexpr double kUnlikeSisters = 2.0;  // mean square of the distances; sisters have less than 1
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
@@ -157,17 +158,39 @@ std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
   return out;
 }
 
-/// How many of the numbers the readings decide: all of them, less what an earlier run does.
-double decided_by_readings(const FitData& data, const Solution& solution,
-                           const std::vector<Parameter>& parameters,
-                           const Eigen::MatrixXd& inverse) {
+/// Holds the shared numbers where the readings and the earlier run together put them.
+KnownArm pinned(KnownArm arm) {
+  arm.covariance *= kPinned * kPinned;
+  return arm;
+}
+
+/// Covariance of all numbers: of the shared ones as it was concluded; of the others as the readings
+/// give it for each value of those.
+Eigen::MatrixXd covariance_with(const KnownArm& arm, const Eigen::MatrixXd& J,
+                                const std::vector<Parameter>& parameters) {
+  std::vector<Eigen::Index> known, in_arm, others;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto at = std::find(arm.names.begin(), arm.names.end(), parameters[i].name);
+    const auto place = static_cast<Eigen::Index>(i);
+    if (at == arm.names.end()) {
+      others.push_back(place);
+    } else {
+      known.push_back(place);
+      in_arm.push_back(at - arm.names.begin());
+    }
+  }
   const auto count = static_cast<Eigen::Index>(parameters.size());
-  if (data.arm.names.empty()) return static_cast<double>(count);
-  const PriorLines lines(data, solution.state, parameters);
-  Eigen::VectorXd r(lines.count());
-  RowMajorMatrix J(lines.count(), count);
-  lines.evaluate(solution.state, r.data(), J.data());
-  return static_cast<double>(count) - (J * inverse).cwiseProduct(J).sum();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, count);
+  out(known, known) = arm.covariance(in_arm, in_arm);
+  if (others.empty()) return out;
+  const Eigen::MatrixXd free = J(Eigen::all, others);
+  const Eigen::MatrixXd inverse = inverse_information(free);
+  const Eigen::MatrixXd follows = -inverse * (free.transpose() * J(Eigen::all, known));
+  const Eigen::MatrixXd cross = follows * out(known, known);
+  out(others, known) = cross;
+  out(known, others) = cross.transpose();
+  out(others, others) = inverse + cross * follows.transpose();
+  return out;
 }
 
 Calibration summary(const FitData& data, const ArmState& nominal, const Solution& solution,
@@ -183,10 +206,8 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   Calibration out;
   out.sigma0 =
       std::sqrt(solution.residual.head(without_weak).squaredNorm() / static_cast<double>(dof));
-  const Eigen::MatrixXd inverse = inverse_information(J);
-  out.covariance = inverse * std::pow(std::max(1.0, out.sigma0), 2);
-  out.decided = decided_by_readings(data, solution, subset.kept, inverse);
-  out.known = data.arm;
+  out.covariance = inverse_information(J) * std::pow(std::max(1.0, out.sigma0), 2);
+  out.decided = static_cast<double>(count);
   out.calibrability = calibrability(sigma * sigma * J.transpose() * J, subset.kept);
   out.state = solution.state;
   out.estimates = estimates_of(solution.state, nominal, subset.kept, out.covariance);
@@ -304,18 +325,38 @@ Problem has_little_in_common(const EarlierArm& earlier) {
           .help = "is it that arm, or one of its model and batch? Else fit without it"};
 }
 
+/// What is concluded from an earlier arm, in place of what the pinned fit says of itself.
+void add_judgement(const Judgement& judged, const EarlierArm& earlier, const FitData& data,
+                   const Solution& solution, Calibration& out) {
+  out.likeness = judged.likeness;
+  out.known = judged.arm;
+  out.decided += judged.decided - static_cast<double>(judged.arm.names.size());
+  FitData readings = data;
+  readings.arm = {};
+  readings.rows = thinned(data.rows, kManyRows);
+  const double thinning =
+      std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(readings.rows.size()));
+  const Eigen::MatrixXd J = thinning * evaluate(readings, solution.state, out.parameters).jacobian;
+  out.covariance = covariance_with(judged.arm, J, out.parameters);
+  for (std::size_t i = 0; i < out.estimates.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    out.estimates[i].std = std::sqrt(std::max(0.0, out.covariance(at, at)));
+  }
+  note_effects(earlier, judged.arm, out.remarks);
+  if (judged.likeness.kind == Likeness::Kind::kUnlike)
+    out.remarks.push_back(has_little_in_common(earlier));
+}
+
 Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
                     const std::vector<Parameter>& candidates) {
   FitData data = whole;  // with the stated sigma
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
-  std::optional<Likeness> likeness;
+  std::optional<Judgement> judged;
   if (cell.fit.earlier) {
-    const Judgement judged =
-        judge_likeness(data, coarse.solution.state, coarse.subset.kept, *cell.fit.earlier);
-    likeness = judged.likeness;
-    data.arm = judged.known;
-    data.sigma_m *= judged.noise_times;
+    judged = judge_likeness(data, coarse.solution.state, coarse.subset.kept, *cell.fit.earlier);
+    data.arm = pinned(judged->arm);
+    data.sigma_m *= judged->noise_times;
   } else {
     widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
   }
@@ -340,10 +381,7 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   check_meets(cell, data, solution);
   Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
-  out.likeness = likeness;
-  if (cell.fit.earlier) note_effects(*cell.fit.earlier, data.arm, out.remarks);
-  if (likeness && likeness->kind == Likeness::Kind::kUnlike)
-    out.remarks.push_back(has_little_in_common(*cell.fit.earlier));
+  if (judged) add_judgement(*judged, *cell.fit.earlier, data, solution, out);
   if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell.fit));
   const double unlike =
       PriorLines(data, solution.state, fine.kept).distance_from_sisters(solution.state);

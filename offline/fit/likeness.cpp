@@ -14,13 +14,13 @@
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/many_rows.hpp"
 #include "fit/parameter_subset.hpp"
 #include "program/file.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kEnoughRows = 1000;
 // Of what arms are built with: the difference between the two, and its whole scale.
 constexpr double kSpreads[] = {0.0, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0};
 constexpr double kScales[] = {0.25, 0.5, 1.0, 2.0, 4.0};
@@ -142,7 +142,7 @@ Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter
   FitData some = data;
   some.arm = {};
   some.weak = {};
-  some.rows = thinned(data.rows, kEnoughRows);
+  some.rows = thinned(data.rows, kManyRows);
   const Solution here = evaluate(some, at, order);
   const Eigen::Index columns = here.jacobian.cols(), lines = here.jacobian.rows();
   Eigen::MatrixXd A(lines, columns + 1);
@@ -195,26 +195,41 @@ class Mixture {
 
   const std::vector<Hypothesis>& hypotheses() const { return all_; }
 
-  KnownArm known(const std::vector<Shared>& shared) const {
+  /// Fills in the numbers and how much of them the readings decide.
+  void conclude(const std::vector<Shared>& shared, Judgement& out) const {
     const Eigen::Index count = earlier_.x.size();
+    const Eigen::MatrixXd information = shown_.R.transpose() * shown_.R;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(count);
-    for (const auto& h : all_) mean += h.weight * bases_[h.base].mean;
-    Eigen::MatrixXd P = Eigen::MatrixXd::Zero(count, count);
+    Eigen::MatrixXd second = Eigen::MatrixXd::Zero(count, count);  // E[u u^T]
+    double noise = 0.0;
     for (const auto& h : all_) {
-      const Base& base = bases_[h.base];
-      const Eigen::VectorXd off = base.mean - mean;
-      P += h.weight * (base.P + off * off.transpose());
-      if (h.changed >= 0) P(h.changed, h.changed) += h.weight * change_variance(h.scale);
+      const Base posterior = posterior_of(h);
+      mean += h.weight * posterior.mean;
+      second += h.weight * (posterior.P + posterior.mean * posterior.mean.transpose());
+      noise += h.weight * h.noise * h.noise;
+      out.decided += h.weight * information.cwiseProduct(posterior.P).sum() / (h.noise * h.noise);
     }
-    KnownArm out;
-    for (const auto& one : shared) out.names.push_back(one.parameter.name);
-    out.mean = earlier_.nominal + earlier_.built.cwiseProduct(mean);
-    out.covariance = earlier_.built.asDiagonal() * P * earlier_.built.asDiagonal();
-    return out;
+    for (const auto& one : shared) out.arm.names.push_back(one.parameter.name);
+    out.arm.mean = earlier_.nominal + earlier_.built.cwiseProduct(mean);
+    out.arm.covariance = earlier_.built.asDiagonal() * (second - mean * mean.transpose()) *
+                         earlier_.built.asDiagonal();
+    out.noise_times = std::sqrt(noise);
   }
 
  private:
-  static double change_variance(double scale) { return std::pow(kChangeTimes * scale, 2); }
+  /// The shared numbers if this hypothesis is right, with the readings.
+  Base posterior_of(const Hypothesis& h) const {
+    Base out = bases_[h.base];
+    if (h.changed >= 0) out.P(h.changed, h.changed) += std::pow(kChangeTimes * h.scale, 2);
+    const Eigen::MatrixXd across = out.P * shown_.R.transpose();
+    Eigen::MatrixXd S = shown_.R * across;
+    S.diagonal().array() += h.noise * h.noise;
+    const Eigen::LLT<Eigen::MatrixXd> llt(S);
+    const Eigen::VectorXd off = shown_.z - shown_.R * (out.mean - u0_);
+    out.mean += across * llt.solve(off);
+    out.P -= across * llt.solve(across.transpose());
+    return out;
+  }
 
   void weigh(double scale) {
     const Eigen::Index count = earlier_.x.size();
@@ -271,6 +286,9 @@ class Mixture {
     for (auto& h : all_) sum += h.weight = std::exp(h.weight - most);
     for (auto& h : all_) h.weight /= sum;
     std::erase_if(all_, [](const Hypothesis& h) { return h.weight < kNegligible; });
+    double left = 0.0;
+    for (const auto& h : all_) left += h.weight;
+    for (auto& h : all_) h.weight /= left;
   }
 
   Earlier earlier_;
@@ -340,9 +358,10 @@ Judgement judge_likeness(const FitData& data, const ArmState& at,
   const Earlier known = scaled(data, shared, earlier);
   const Mixture mixture(known, shown(data, at, parameters, shared, known.built),
                         where(at, shared, known));
-  double noise = 0.0;
-  for (const auto& h : mixture.hypotheses()) noise += h.weight * h.noise * h.noise;
-  return {summary(mixture, shared, data.cell->fit), mixture.known(shared), std::sqrt(noise)};
+  Judgement out{.likeness = summary(mixture, shared, data.cell->fit), .arm = {}};
+  mixture.conclude(shared, out);
+  out.likeness.run = earlier.run.string();
+  return out;
 }
 
 KnownArm hardly_known(const FitData& data, const ArmState& at,

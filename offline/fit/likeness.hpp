@@ -13,6 +13,7 @@ namespace plumb::offline {
 /// How much an arm has in common with one that was calibrated earlier, as its own readings say it.
 struct Likeness {
   enum class Kind { kSame, kSister, kUnlike, kUnknown } kind = Kind::kUnknown;
+  std::string run;           // folder of the earlier run
   int numbers = 0;           // that both have
   double same_chance = 0.0;  // that their numbers are as good as equal, one perhaps excepted
   double share = 0.0;  // of the earlier arm's differences from nominal that this one has, 0..1
@@ -25,19 +26,21 @@ const char* name_of(Likeness::Kind kind);
 
 struct Judgement {
   Likeness likeness;
-  KnownArm known;            // what the earlier arm says of this one
+  KnownArm arm;              // the shared numbers as both say them together
   double noise_times = 1.0;  // what the readings scatter, in units of data.sigma_m
+  double decided = 0.0;      // of the shared numbers, each by how much the readings decide it
 };
 
-/// Weighs every degree of likeness by what the readings say of it, and averages. With d the true
+/// What an earlier arm and the readings say together of the numbers that both have. With d the true
 /// differences from nominal of the earlier arm, of which its run knows x = d + error of covariance
 /// C, and T the variance with which arms are built, times a factor that the readings choose:
 ///
 ///   d ~ N(0, T),   this arm ~ N(r d, (1 - r^2) T)
 ///
 /// r = 1 is the same arm, in which one number may have changed, r = 0 an arm that has nothing in
-/// common with it but the model. The result has the mean and the covariance of that mixture, so it
-/// claims no more than the readings allow.
+/// common with it but the model. Every r, factor and noise is weighed by what the readings say of
+/// it [Bayesian model averaging, Hoeting et al. 1999]: mean and covariance of the mixture of what
+/// each of them concludes. So where the readings cannot tell, the result claims no more.
 ///
 /// @param data  With sigmas about as large as the model misses the readings; `arm` plays no part.
 /// @param at    Where the fit is linearised; `parameters` are those that it fits.
@@ -46,8 +49,8 @@ struct Judgement {
 Judgement judge_likeness(const FitData& data, const ArmState& at,
                          const std::vector<Parameter>& parameters, const EarlierArm& earlier);
 
-/// The same before any reading is looked at: this arm differs from the earlier one as arms differ
-/// from nominal.
+/// What is known before any reading is looked at: this arm differs from the earlier one as arms
+/// differ from nominal.
 KnownArm hardly_known(const FitData& data, const ArmState& at,
                       const std::vector<Parameter>& parameters, const EarlierArm& earlier);
 

@@ -73,24 +73,48 @@ std::vector<ArmState::Placing> placings_from(const Json& j) {
   return out;
 }
 
+Json to_json(const Likeness& l) {
+  return {{"run", l.run},
+          {"kind", static_cast<int>(l.kind)},
+          {"numbers", l.numbers},
+          {"same_chance", l.same_chance},
+          {"share", l.share},
+          {"spread_m", l.spread_m},
+          {"spread_rad", l.spread_rad},
+          {"changed", l.changed}};
+}
+Likeness likeness_from(const Json& j) {
+  return {.kind = static_cast<Likeness::Kind>(j.at("kind").get<int>()),
+          .run = j.at("run"),
+          .numbers = j.at("numbers"),
+          .same_chance = j.at("same_chance"),
+          .share = j.at("share"),
+          .spread_m = j.at("spread_m"),
+          .spread_rad = j.at("spread_rad"),
+          .changed = j.at("changed")};
+}
+
 Json to_json(const Calibration& c) {
   Json estimates = Json::array();
   for (const auto& e : c.estimates) estimates.push_back(to_json(e));
-  return {{"chain", c.state.arm.calibrated},
-          {"domain", c.state.arm.domain},
-          {"effects", c.state.arm.effects},
-          {"mechanics", c.state.arm.mechanics},
-          {"gravity", c.state.arm.gravity},
-          {"frame", c.state.X_MB},
-          {"target", c.state.X_TG},
-          {"more_setups", to_json(c.state.more)},
-          {"estimates", estimates},
-          {"held", c.held},
-          {"covariance", packed(c.covariance)},
-          {"rank", c.rank},
-          {"calibrability", c.calibrability},
-          {"sigma0", c.sigma0},
-          {"iterations", c.iterations}};
+  Json out = {{"chain", c.state.arm.calibrated},
+              {"domain", c.state.arm.domain},
+              {"effects", c.state.arm.effects},
+              {"mechanics", c.state.arm.mechanics},
+              {"gravity", c.state.arm.gravity},
+              {"frame", c.state.X_MB},
+              {"target", c.state.X_TG},
+              {"more_setups", to_json(c.state.more)},
+              {"estimates", estimates},
+              {"held", c.held},
+              {"covariance", packed(c.covariance)},
+              {"rank", c.rank},
+              {"calibrability", c.calibrability},
+              {"sigma0", c.sigma0},
+              {"iterations", c.iterations}};
+  if (c.likeness) out["likeness"] = to_json(*c.likeness);
+  if (c.likeness) out["decided"] = c.decided;
+  return out;
 }
 Calibration calibration_from(const Json& j) {
   Calibration c;
@@ -111,6 +135,8 @@ Calibration calibration_from(const Json& j) {
   j.at("calibrability").get_to(c.calibrability);
   j.at("sigma0").get_to(c.sigma0);
   j.at("iterations").get_to(c.iterations);
+  c.decided = j.value("decided", static_cast<double>(c.estimates.size()));
+  if (j.contains("likeness")) c.likeness = likeness_from(j.at("likeness"));
   return c;
 }
 
@@ -158,6 +184,11 @@ RecheckOf recheck_from(const Json& j) {
           .limit_m = j.at("limit_m")};
 }
 
+Json to_json(const TakenOver& t) { return {{"check_sum", t.check_sum}, {"inputs", t.inputs}}; }
+TakenOver taken_over_from(const Json& j) {
+  return {.check_sum = j.at("check_sum"), .inputs = j.at("inputs")};
+}
+
 const Column& column(const Table& table, const char* name) {
   if (const Column* found = table.find(name)) return *found;
   throw Failure(Exit::kInput, {.code = "E-RUN-DAMAGED",
@@ -191,6 +222,7 @@ Json run_to_json(const Run& run) {
   out["unavoidable_ratio"] = fit.unavoidable_ratio;
   out["still_joints"] = fit.still;
   if (fit.tree) out["tree"] = to_json(*fit.tree);
+  if (run.from) out["from"] = to_json(*run.from);
   if (run.recheck) out["recheck"] = to_json(*run.recheck);
   return out;
 }
@@ -228,6 +260,7 @@ Run run_from_json(const Json& j) {
   fit.unavoidable_ratio = j.value("unavoidable_ratio", 1.0);
   fit.still = j.value("still_joints", std::vector<std::string>());
   fit.floor = floor_from(j.at("noise_floor"));
+  if (j.contains("from")) run.from = taken_over_from(j.at("from"));
   if (j.contains("recheck")) run.recheck = recheck_from(j.at("recheck"));
   return run;
 }

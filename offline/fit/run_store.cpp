@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "cell/earlier_arm.hpp"
 #include "cell/formula_reader.hpp"
 #include "cell/iso_time.hpp"
 #include "cell/run_checksum.hpp"
@@ -161,6 +162,8 @@ Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
     run.effects.push_back(
         !is_formula(effect.name) ? effect.name : "formula." + formula_label(formula_text(effect)));
   run.fit = std::move(fit);
+  if (const auto& earlier = cell.fit.earlier; earlier && run.fit.calibration.likeness)
+    run.from = TakenOver{.check_sum = earlier->check_sum, .inputs = earlier->inputs};
   return run;
 }
 

@@ -23,6 +23,12 @@ struct RecheckOf {
   double limit_m = 0.0;     // control limit: three standard deviations above that
 };
 
+/// What a run whose fit took numbers over from another one goes back to; the fit says what it took.
+struct TakenOver {
+  std::string check_sum;            // of the run.json of the other one
+  std::vector<std::string> inputs;  // check sums of all readings of the other one
+};
+
 /// A kept fit: runs/0001/run.json and predictions.csv beside the cell file. Immutable once made; a
 /// diagnosis of its model adds noise_floor.json and diagnosis.json, and a later one replaces them.
 struct Run {
@@ -33,6 +39,7 @@ struct Run {
   std::vector<format::InputHash> inputs;
   std::vector<std::string> effects;
   Fit fit;
+  std::optional<TakenOver> from;
   std::optional<RecheckOf> recheck;  // none: it was made by `plumb fit`, or a verb that fits
 };
 

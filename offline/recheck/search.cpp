@@ -12,6 +12,7 @@ namespace {
 const double kFound = -std::log(kFalseAlarm);
 constexpr int kMostChanges = 3;
 constexpr double kOddShare = 0.2;  // of the readings; more are no accident
+constexpr int kMostOdd = 3;        // each triples the scales that are judged together
 
 bool is_reading(const Change& change) { return change.part == Part::kReading; }
 
@@ -37,7 +38,7 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
   if (readings.poses < 4) return;
   for (int i = 0; i < readings.rows.size(); ++i)
     possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
-  most_odd_ = static_cast<int>(kOddShare * readings.rows.size());
+  most_odd_ = std::min(kMostOdd, static_cast<int>(kOddShare * readings.rows.size()));
 }
 
 void Search::run() {

@@ -193,7 +193,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
     put_null(out, "tree", "[effects] does not list local_tree");
   out["convergence"] = {{"iterations", c.iterations}};
   put(out["convergence"], "sigma0", c.sigma0);
-  out["from"] = likeness_json(cell, c);
+  add_likeness(c, out);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
   out["verdict"] = compare::full_verdict(cell, measured, fit);
@@ -205,7 +205,7 @@ std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& 
   std::string out =
       compare::full_verdict(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
-  out += likeness_text(cell, c);
+  out += likeness_text(c);
   out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",
                            c.estimates.size(), c.iterations);

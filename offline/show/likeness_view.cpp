@@ -3,28 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "cell/earlier_arm.hpp"
 #include "program/file.hpp"
-#include "show/parameter_unit.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
 namespace {
-
-/// By how much the one number that differs does: "+0.050 deg".
-std::string change_words(const EarlierArm& earlier, const Calibration& found,
-                         const std::string& name) {
-  const auto now = std::find_if(found.estimates.begin(), found.estimates.end(),
-                                [&](const Estimate& e) { return e.name == name; });
-  const auto then = std::find_if(earlier.numbers.begin(), earlier.numbers.end(),
-                                 [&](const auto& n) { return n.name == name; });
-  if (now == found.estimates.end() || then == earlier.numbers.end()) return "";
-  const ParameterUnit unit = unit_of(*now);
-  const double change = now->value - then->value;
-  return fmt::format("{}{} {}", change > 0.0 ? "+" : "", unit.text(change), unit.name);
-}
 
 std::string difference(const Likeness& like) {
   return fmt::format("{} mm and {:.3f} mrad", mm(like.spread_m), like.spread_rad * 1e3);
@@ -32,28 +15,21 @@ std::string difference(const Likeness& like) {
 
 }  // namespace
 
-Json likeness_json(const Cell& cell, const Calibration& found) {
-  if (!found.likeness || !cell.fit.earlier) return nullptr;
+void add_likeness(const Calibration& found, Json& result) {
+  if (!found.likeness)
+    return put_null(result, "from", "nothing was taken over from an earlier run");
   const Likeness& like = *found.likeness;
-  Json out{{"run", display_name(cell.fit.earlier->run)},
-           {"numbers", like.numbers},
-           {"alike", name_of(like.kind)}};
-  put(out, "same_chance", like.same_chance);
-  put(out, "share_pct", like.share * 100.0);
-  put(out, "spread_mm", to_mm(like.spread_m));
-  put(out, "spread_mrad", like.spread_rad * 1e3);
-  if (like.changed.empty())
-    put_null(out, "changed", "no single number differs");
-  else
-    out["changed"] = like.changed;
-  put(out, "decided_by_readings", found.decided);
-  return out;
+  result["from"] = {{"run", display_name(like.run)},        {"numbers", like.numbers},
+                    {"alike", name_of(like.kind)},          {"same_chance", like.same_chance},
+                    {"share_pct", like.share * 100.0},      {"spread_mm", to_mm(like.spread_m)},
+                    {"spread_mrad", like.spread_rad * 1e3}, {"changed", like.changed},
+                    {"decided_by_readings", found.decided}};
 }
 
-std::string likeness_text(const Cell& cell, const Calibration& found) {
-  if (!found.likeness || !cell.fit.earlier) return "";
+std::string likeness_text(const Calibration& found) {
+  if (!found.likeness) return "";
   const Likeness& like = *found.likeness;
-  const std::string run = display_name(cell.fit.earlier->run);
+  const std::string run = display_name(like.run);
   std::string out;
   switch (like.kind) {
     case Likeness::Kind::kSame:
@@ -61,16 +37,16 @@ std::string likeness_text(const Cell& cell, const Calibration& found) {
                 ? fmt::format("The numbers of {} hold for this arm too, give or take {}.", run,
                               difference(like))
                 : fmt::format(
-                      "The numbers of {} hold for this arm too, but for {}, which differs "
-                      "by {}.",
-                      run, like.changed, change_words(*cell.fit.earlier, found, like.changed));
+                      "The numbers of {} hold for this arm too, but it is as if {}, or a "
+                      "link beside it, had changed.",
+                      run, like.changed);
       break;
     case Likeness::Kind::kSister:
       out = fmt::format("This arm is like that of {}: their numbers differ by {} (1 sigma).", run,
                         difference(like));
       break;
     case Likeness::Kind::kUnlike:
-      out = fmt::format("This arm is unlike that of {}: next to nothing is taken over.", run);
+      out = fmt::format("This arm is unlike that of {}: fit it alone.", run);
       break;
     case Likeness::Kind::kUnknown:
       out = fmt::format(

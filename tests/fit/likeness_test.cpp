@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/likeness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fit/arm_change.hpp"
+#include "fit/calibrate.hpp"
+#include "simulate/simulate.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kNoise_m = 20e-6;
+constexpr int kJudged = 200;
+
+Cell some_cell(std::uint64_t seed) {
+  Cell cell = random_cell(seed, 6, format::Convention::kStandard, ArmKind::kRevolute);
+  cell.measurement.sigma_m = kNoise_m;
+  return cell;
+}
+
+/// `poses` readings, the first ones, and as many others as judge.
+Simulation measured(const Cell& cell, int poses, std::uint64_t arm, std::uint64_t session,
+                    double geometry) {
+  SimulationPlan plan;
+  plan.poses = poses + kJudged;
+  plan.noise_m = kNoise_m;
+  plan.seed = session;
+  plan.truth.seed = arm;
+  plan.truth.geometry_m = plan.truth.geometry_rad = geometry;
+  return simulate(cell, plan);
+}
+
+std::vector<int> first(int n) {
+  std::vector<int> out(static_cast<std::size_t>(n));
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+/// Mean distance from the truth at the readings that judge.
+double error_of(const Calibration& c, const Simulation& s, int poses) {
+  const Rows3 off = predict_points(c.state, s.measured) - s.true_p_M;
+  return off.bottomRows(s.measured.size() - poses).rowwise().norm().mean();
+}
+
+std::shared_ptr<const EarlierArm> earlier(const Calibration& c) {
+  auto out = std::make_shared<EarlierArm>();
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < c.estimates.size(); ++i) {
+    const Estimate& e = c.estimates[i];
+    if (!e.of_robot) continue;
+    out->numbers.push_back({e.name, e.value, e.nominal, !e.unit.empty(), e.is_length});
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  out->covariance = c.covariance(rows, rows);
+  out->left_m = kNoise_m;
+  return out;
+}
+
+struct Outcome {
+  double alone = 0.0, with = 0.0;
+  Calibration found;
+};
+
+/// An arm of `cell`, measured at so many poses, alone and with what the reference knows.
+Outcome outcome_of(const Cell& cell, const Simulation& s, int poses, const Calibration& reference) {
+  Cell with = cell;
+  with.fit.earlier = earlier(reference);
+  Outcome out;
+  out.alone = error_of(calibrate(cell, s.measured, first(poses)), s, poses);
+  out.found = calibrate(with, s.measured, first(poses));
+  out.with = error_of(out.found, s, poses);
+  return out;
+}
+
+double median_of(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+constexpr std::uint64_t kSeeds[] = {11, 12, 13, 14, 15, 16, 17};
+
+TEST(Likeness, TheSameArmNeedsFewPosesOnly) {
+  std::vector<double> times;
+  int same = 0;
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto later = measured(cell, 150, seed, 2, 0.3e-3);
+    // Nobody can do better than with the true arm, tracker and reflector from the same poses.
+    Cell known = cell;
+    known.nominal = later.true_chain;
+    const Rows3 off =
+        predict_points(place_nominal(known, later.measured, first(12)), later.measured) -
+        later.true_p_M;
+    const double best = off.bottomRows(kJudged).rowwise().norm().mean();
+    Cell with = cell;
+    with.fit.earlier = earlier(reference);
+    const auto found = calibrate(with, later.measured, first(12));
+    same += found.likeness->kind == Likeness::Kind::kSame ? 1 : 0;
+    times.push_back(error_of(found, later, 150) / best);
+  }
+  EXPECT_LT(median_of(times), 1.3);
+  EXPECT_GE(same, 6);
+}
+
+TEST(Likeness, ASisterHelpsAsMuchAsIfHerLikenessWereKnown) {
+  std::vector<double> times;
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    const auto reference = calibrate(cell, before.measured, first(150));
+    Cell around = cell;  // arms that differ by 0.03 mm and mrad from the reference
+    around.nominal = before.true_chain;
+    const auto sister = measured(around, 14, seed + 100, 2, 0.03e-3);
+    const auto outcome = outcome_of(cell, sister, 14, reference);
+    EXPECT_LT(outcome.with, outcome.alone) << seed;
+    Cell told = cell;  // by somebody who knows how much the arms differ
+    for (const auto& e : reference.estimates)
+      if (e.of_robot)
+        told.fit.priors.push_back({.name = e.name, .sigma = 0.03e-3, .mean = e.value - e.nominal});
+    times.push_back(outcome.with /
+                    error_of(calibrate(told, sister.measured, first(14)), sister, 14));
+    EXPECT_NE(outcome.found.likeness->kind, Likeness::Kind::kUnlike) << seed;
+    EXPECT_LT(outcome.found.decided, 33.0);
+  }
+  EXPECT_LT(median_of(times), 1.1);
+}
+
+TEST(Likeness, AnArmThatSharesNothingIsSeenAndDoesNoHarm) {
+  std::vector<double> times;
+  int unlike = 0;
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto other = measured(cell, 40, seed + 200, 2, 0.3e-3);
+    const auto outcome = outcome_of(cell, other, 40, reference);
+    times.push_back(outcome.with / outcome.alone);
+    EXPECT_LT(outcome.with, 1.2 * outcome.alone) << seed;
+    EXPECT_LT(outcome.found.likeness->same_chance, 0.01) << seed;
+    unlike += outcome.found.likeness->kind == Likeness::Kind::kUnlike ? 1 : 0;
+  }
+  EXPECT_LT(median_of(times), 1.05);
+  EXPECT_GE(unlike, 4);
+}
+
+TEST(Likeness, OneEncoderThatMovedIsNamedAndTheRestIsKept) {
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    const auto reference = calibrate(cell, before.measured, first(150));
+    auto later = measured(cell, 16, seed, 2, 0.3e-3);
+    later.measured.q.col(2).array() -= 1.5e-3;  // the readings of the third encoder
+    const auto outcome = outcome_of(cell, later, 16, reference);
+    EXPECT_EQ(outcome.found.likeness->changed, "J3.theta") << seed;
+    EXPECT_LT(outcome.with, outcome.alone) << seed;
+  }
+}
+
+/// The truth lies within the stated uncertainty as often as it should, whatever the arms share.
+TEST(Likeness, StatesItsUncertaintyHonestly) {
+  int inside = 0, all = 0;
+  for (const double spread : {0.01e-3, 0.05e-3, 0.2e-3})
+    for (const auto seed : kSeeds) {
+      const Cell cell = some_cell(seed);
+      const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+      const auto reference = calibrate(cell, before.measured, first(150));
+      Cell around = cell;
+      around.nominal = before.true_chain;
+      const auto sister = measured(around, 16, seed + 300, 2, spread);
+      const auto outcome = outcome_of(cell, sister, 16, reference);
+      ArmState truth;
+      truth.arm.calibrated = sister.true_chain;
+      for (std::size_t i = 0; i < outcome.found.estimates.size(); ++i) {
+        const Estimate& e = outcome.found.estimates[i];
+        // Alone of its kind: no number held at nominal acts as a length between parallel axes does.
+        if (!e.of_robot || e.name.find(".a") == std::string::npos) continue;
+        ++all;
+        const double off = value_of(truth, outcome.found.parameters[i]) - e.value;
+        inside += std::abs(off) < 2.0 * e.std ? 1 : 0;
+      }
+    }
+  EXPECT_GT(inside, 0.88 * all);
+  EXPECT_LT(inside, 1.00 * all);
+}
+
+TEST(Likeness, AnotherModelIsRefused) {
+  const Cell cell = some_cell(1);
+  const auto s = measured(cell, 40, 1, 1, 0.3e-3);
+  auto other = std::make_shared<EarlierArm>(*earlier(calibrate(cell, s.measured, first(40))));
+  other->numbers.front().nominal += 1e-3;
+  Cell with = cell;
+  with.fit.earlier = other;
+  try {
+    calibrate(with, s.measured, first(40));
+    FAIL() << "not refused";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.problems().front().code, "E-FIT-EARLIER");
+  }
+}
+
+}  // namespace
+}  // namespace plumb::offline
