@@ -167,17 +167,17 @@ def weights_of(arm, columns):
 def estimated(arm, readings, known, near=None, waved=None):
     """What linear least squares with a normal prior makes of the readings. known: of the arm's true model, the
     mean and spread; else nominal, give or take 0.5 mm and 0.5 mrad, as an arm alone is calibrated. near: another
-    arm of the model and how far its single errors and, relatively, its springs are from those of this one.
-    waved: whether the waves of a gear are estimated, else if there are any."""
+    arm of the model and how far its single errors, relatively its springs, and its waves are from those of this
+    one, the last None if they have nothing in common. waved: whether waves are estimated, else if there are any."""
     model, n = arm.model, len(arm.values)
-    other, spread, soft = near or (None, None, 0.09 if known else 1.0)
+    other, spread, soft, wave = near or (None, None, 0.09 if known else 1.0, None)
     at = Arm(model, list(other.values if other else model.mean if known else [0.0] * n),
-             dict((other or model).springs), (0.0,) * 4)
+             dict((other or model).springs), (0.0,) * 4 if wave is None else other.waves)
     at.tool, at.base = arm.tool, arm.base
     waved = any(arm.waves) if waved is None else waved
     sds = [spread] * n if other else list(model.spread) if known else [0.5] * n
     sds += [1e6 * model.springs[j] * soft for j in sorted(model.springs)]
-    sds += [0.15] * 4 if waved else []
+    sds += [0.15 if wave is None else wave] * 4 if waved else []
     sds += [100.0] * 9
     size = len(sds)
     matrix = [[0.0] * size for _ in range(size)]
@@ -198,7 +198,7 @@ def estimated(arm, readings, known, near=None, waved=None):
     springs = {j: c + 1e-6 * more for (j, c), more in zip(sorted(at.springs.items()), found[n:])}
     rest = found[n + len(springs):]
     out = Arm(model, [a + b for a, b in zip(at.values, found)], springs,
-              tuple(1e-3 * w for w in rest[:4]) if waved else (0.0,) * 4)
+              tuple(a + 1e-3 * b for a, b in zip(at.waves, rest)) if waved else (0.0,) * 4)
     out.tool = add(arm.tool, tuple(rest[-9:-6]))
     turn = rotation(times(1e-3, tuple(rest[-3:])))
     out.base = (tuple(tuple(dot(row, column(arm.base[0], k)) for k in range(3)) for row in turn),
