@@ -179,9 +179,14 @@ class Failed(Exception):
     pass
 
 
-def told_by(program, *words):
-    """Exit code, the object on stdout (empty if it is none) and the messages."""
-    done = subprocess.run([program, *map(str, words), "--json"], capture_output=True, text=True)
+def told_by(program, *words, limit_s=None):
+    """Exit code, the object on stdout (empty if it is none) and the messages. limit_s: a program that has not
+    ended by then is killed."""
+    command = [program, *map(str, words), "--json"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=limit_s)
+    except subprocess.TimeoutExpired:
+        return -1, {}, f"no end after {limit_s} s"
     try:
         told = json.loads(done.stdout)
     except ValueError:
