@@ -1,0 +1,259 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Inside the emulated machine: the power fails while the Debian package plumb-rt is upgraded, downgraded and upgraded
+again, with and without a service that runs, in a small root on a logged disk (logged_disk.py). After each cut a model
+and the program must be there, whole; dpkg must be able to read its database; and REPAIR must bring the newer version.
+
+  power_cut_upgrade.py OLDER.deb NEWER.deb STATUS FOLDERS CUTS SEED [OPTION-OF-DPKG|LIBRARY]
+
+STATUS: entries of dpkg's database for the packages that plumb-rt asks for. FOLDERS: as for power_cut.py, `a`, `run` and
+`run2`, and `etc/keys.d`. The last word is a planted fault, which must be found: LIBRARY is loaded into dpkg while the
+packages are installed, and --force-unsafe-io makes dpkg not wait for the files of a package.
+
+The maintainer scripts run with DPKG_ROOT, which they are made for, and with the programs of this machine: a root in
+which they could run by themselves would be a whole Debian on the logged disk."""
+import collections
+import hashlib
+import io
+import itertools
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tarfile
+import time
+
+from logged_disk import AT, MOUNTED, WORK, LoggedDisk, run
+
+OLDER, NEWER, STATUS, FOLDERS = (pathlib.Path(word) for word in sys.argv[1:5])
+CUTS, SEED = int(sys.argv[5]), int(sys.argv[6])
+PLANTED = sys.argv[7] if len(sys.argv) > 7 else None
+PROGRAM, PLACE, KEYS, DATABASE = "usr/bin/plumb-rt", "var/lib/plumb/cell", "etc/plumb", "var/lib/dpkg"
+VARIANTS = ("baseline", "x86-64-v3")
+REPAIR = ("--install", NEWER)  # as docs/operate.md says it
+
+
+def contents(deb):
+    """What is in the package: (SHA-256, mode) of each file by its name."""
+    tree = subprocess.run(["dpkg-deb", "--fsys-tarfile", deb], capture_output=True, check=True).stdout
+    with tarfile.open(fileobj=io.BytesIO(tree)) as files:
+        return {file.name.removeprefix("./"): (hashlib.sha256(files.extractfile(file).read()).hexdigest(), file.mode)
+                for file in files if file.isfile()}
+
+
+def version(deb):
+    return run("dpkg-deb", "-f", deb, "Version")
+
+
+PACKAGES = {version(deb): contents(deb) for deb in (OLDER, NEWER)}
+NEW = version(NEWER)
+
+
+def dpkg(root, *words, planted=None):
+    """This machine's own settings of dpkg count for nothing: in many containers they say force-unsafe-io."""
+    options = [f"--root={root}", f"--log={root}/var/log/dpkg.log", "--no-force-unsafe-io", "--force-script-chrootless"]
+    settings = dict(os.environ, LC_ALL="C")
+    if planted and planted.startswith("--"):
+        options.append(planted)
+    elif planted:
+        settings["LD_PRELOAD"] = planted
+    return subprocess.run(["dpkg", *options, *map(str, words)], capture_output=True, text=True, env=settings)
+
+
+def database_says(root):
+    """State and version of plumb-rt, such as "install ok installed 0.1.0-1"."""
+    return run("dpkg-query", f"--admindir={root / DATABASE}", "-W", "-f", "${Status} ${Version}", "plumb-rt")
+
+
+def plumb_rt(root, *words, variant=None):
+    rules = ["--etc", root / KEYS] if words[0] != "status" else []
+    settings = {**os.environ, **({"PLUMB_RT_VARIANT": variant} if variant else {})}
+    return subprocess.run([root / PROGRAM, *map(str, [*words, *rules])], capture_output=True, text=True, env=settings)
+
+
+def current(root):
+    link = root / PLACE / "current"
+    return os.readlink(link) if link.is_symlink() else None
+
+
+def went_well(what, done):
+    if done.returncode != 0:
+        raise SystemExit(f"{what}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+
+
+def prepared(root):
+    """A root in which the older package is installed and a model is current."""
+    for folder in ("info", "updates", "triggers", "parts"):
+        (root / DATABASE / folder).mkdir(parents=True)
+    (root / "var/log").mkdir()
+    (root / "etc").mkdir()
+    (root / "etc/passwd").write_text("root:x:0:0:root:/root:/bin/sh\n")
+    (root / "etc/group").write_text("root:x:0:\n")
+    shutil.copy(STATUS, root / DATABASE / "status")
+    (root / DATABASE / "available").touch()
+    for entry in STATUS.read_text().split("\n\n"):
+        fields = dict(line.split(": ", 1) for line in entry.splitlines() if line[:1].isalpha() and ": " in line)
+        if "Package" in fields:
+            of_several = f":{fields['Architecture']}" if fields.get("Multi-Arch") == "same" else ""
+            name = root / DATABASE / f"info/{fields['Package']}{of_several}"
+            pathlib.Path(f"{name}.list").write_text("/.\n")
+            pathlib.Path(f"{name}.md5sums").touch()
+    went_well("the older package", dpkg(root, "--install", OLDER))
+    for key in (FOLDERS / "etc/keys.d").iterdir():
+        run("install", "-m", "644", key, root / KEYS / "keys.d")
+    went_well("a model", plumb_rt(root, "install", FOLDERS / "a", "--to", root / PLACE))
+    run("sync")
+
+
+def story(disk, root):
+    """Its state is the model that is current, and the version of the package."""
+    def state():
+        return f"{current(root)}|{database_says(root).split()[-1]}"
+
+    def step(name, action):
+        disk.step(name, state, lambda: went_well(name, action()))
+
+    def package(name, deb):
+        step(name, lambda: dpkg(root, "--install", deb, planted=PLANTED))
+
+    def model(name, folder):
+        step(name, lambda: plumb_rt(root, "install", FOLDERS / folder, "--to", root / PLACE))
+
+    package("upgrade", NEWER)
+    package("downgrade", OLDER)
+    model("a model that runs from a file", "run")
+    with Service(root) as service:
+        package("upgrade beside a service", NEWER)
+        service.must_run()
+        model("a model for the old program from the new one", "run2")
+        time.sleep(2)
+        service.must_run()
+    with Service(root) as service:
+        package("downgrade beside a service", OLDER)
+        service.must_run()
+        package("upgrade again beside a service", NEWER)
+        time.sleep(2)
+        service.must_run()
+
+
+class Service:
+    """plumb-rt runs the place from that root and writes a record there."""
+
+    def __init__(self, root):
+        self.root = root
+
+    def __enter__(self):
+        (WORK / "corrected.csv").unlink(missing_ok=True)  # one that is there is never replaced
+        self.said = open(WORK / "rt.log", "w")
+        self.process = subprocess.Popen([self.root / PROGRAM, "run", self.root / PLACE, "--priority", "0", "--etc", self.root / KEYS],
+                                        stdout=self.said, stderr=self.said)
+        until = time.monotonic() + 60
+        while plumb_rt(self.root, "status", self.root / PLACE).returncode != 0 and time.monotonic() < until:
+            time.sleep(0.5)
+        self.must_run()
+        time.sleep(2)
+        return self
+
+    def must_run(self):
+        if self.process.poll() is not None or plumb_rt(self.root, "status", self.root / PLACE).returncode != 0:
+            raise SystemExit("it does not run:\n" + (WORK / "rt.log").read_text())
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(60)
+        self.said.close()
+
+
+def files_differ(root, versions):
+    """Each file must be that of one of these versions, as a whole; a name that one of them lacks may be missing."""
+    for name in sorted(set(itertools.chain(*PACKAGES.values()))):
+        file = root / name
+        found = (hashlib.sha256(file.read_bytes()).hexdigest(), file.stat().st_mode & 0o7777) if file.is_file() else None
+        if found not in [PACKAGES[one].get(name) for one in versions]:
+            size = f"{file.stat().st_size} bytes, mode {file.stat().st_mode & 0o7777:o}" if file.is_file() else "missing"
+            return f"{name} is not that of {' or '.join(versions)}: {size}"
+    return ""
+
+
+def model_fails(root):
+    done = plumb_rt(root, "verify", "--to", root / PLACE)
+    if done.returncode != 0:
+        return f"verify: {done.stdout}{done.stderr}"
+    for variant in VARIANTS:
+        (WORK / "corrected.csv").unlink(missing_ok=True)
+        done = plumb_rt(root, "run", root / PLACE, "--check", "--priority", "0", variant=variant)
+        if done.returncode != 0:
+            return f"run --check, {variant}: {done.stdout}{done.stderr}"
+    return ""
+
+
+def left_behind(root):
+    """Files in the folders of the package that are none of the newer one."""
+    there = {str(file.relative_to(root)) for file in (root / "usr").rglob("*") if not file.is_dir()}
+    return ", ".join(sorted(there - set(PACKAGES[NEW])))
+
+
+def repair_fails(root):
+    done = dpkg(root, *REPAIR)
+    if done.returncode != 0:
+        return f"dpkg {' '.join(map(str, REPAIR))}: {done.stdout}{done.stderr}"
+    if database_says(root) != f"install ok installed {NEW}":
+        return f"after the repair dpkg says: {database_says(root)}"
+    for words in (("--audit",), ("--verify", "plumb-rt")):
+        done = dpkg(root, *words)
+        if done.returncode != 0 or done.stdout:
+            return f"after the repair dpkg {' '.join(words)} says: {done.stdout}{done.stderr}"
+    files = left_behind(root)
+    return f"left behind: {files}" if files else files_differ(root, [NEW])
+
+
+class Judge:
+    """Says what is wrong with the mounted disk, and counts what dpkg says of it."""
+
+    def __init__(self):
+        self.said, self.configured = collections.Counter(), collections.Counter()
+
+    def __call__(self, allowed):
+        root = MOUNTED / "root"
+        models, versions = (sorted(set(words)) for words in zip(*(state.split("|") for state in allowed)))
+        if str(current(root)) not in models:
+            return f"current is {current(root)}, and must be {' or '.join(models)}"
+        wrong = files_differ(root, versions) or model_fails(root)
+        if wrong:
+            return wrong
+        try:
+            *words, found = database_says(root).split()
+        except SystemExit as error:
+            return f"dpkg's database: {error}"
+        state = " ".join(words)
+        if found not in versions or (len(versions) == 1 and state != "install ok installed"):
+            return f"dpkg says {state} {found}, and must say {' or '.join(versions)}"
+        self.said[state] += 1
+        if state != "install ok installed" and self.said.total() % 2 == 0:
+            # apt asks for this. It need not be enough, and must not be in the way of the repair.
+            done = dpkg(root, "--configure", "-a")
+            self.configured[f"exit code {done.returncode}, {database_says(root).rpartition(' ')[0]}"] += 1
+        return repair_fails(root) or model_fails(root)
+
+
+def main():
+    with LoggedDisk(128, "commit=1,noauto_da_alloc") as disk:
+        root = AT / "root"
+        prepared(root)
+        story(disk, root)
+    judge = Judge()
+    faults, cuts = disk.faults_of_cuts(CUTS, SEED, judge, "found " if PLANTED else "FAILED")
+    if PLANTED:
+        print(f"{'ok    ' if faults else 'FAILED'} planted: with {pathlib.Path(PLANTED).name} {faults} of {cuts} cuts leave a fault")
+        return 0 if faults else 1
+    for words, counted in (("dpkg says", judge.said), ("where it was interrupted, after --configure -a", judge.configured)):
+        print(f"       {words}: " + ", ".join(f"{state} {times}" for state, times in counted.most_common()))
+    print(f"{'ok    ' if faults == 0 else 'FAILED'} after {cuts} cuts of the power in an upgrade a model and a whole program are there,"
+          f" and dpkg {REPAIR[0]} ends in the newer one; {faults} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
