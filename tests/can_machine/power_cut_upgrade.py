@@ -4,11 +4,15 @@
 again, with and without a service that runs, in a small root on a logged disk (logged_disk.py). After each cut a model
 and the program must be there, whole; dpkg must be able to read its database; and REPAIR must bring the newer version.
 
-  power_cut_upgrade.py OLDER.deb NEWER.deb STATUS FOLDERS CUTS SEED [OPTION-OF-DPKG|LIBRARY]
+  power_cut_upgrade.py OLDER.deb NEWER.deb STATUS FOLDERS CUTS SEED [LIBRARY]
 
 STATUS: entries of dpkg's database for the packages that plumb-rt asks for. FOLDERS: as for power_cut.py, `a`, `run` and
-`run2`, and `etc/keys.d`. The last word is a planted fault, which must be found: LIBRARY is loaded into dpkg while the
-packages are installed, and --force-unsafe-io makes dpkg not wait for the files of a package.
+`run2`, and `etc/keys.d`. LIBRARY is loaded into dpkg while it installs: a planted fault, which must be found both in the
+program and in dpkg's database. --force-unsafe-io would be none: dpkg then does not wait for the files of a package, but
+starts writing them as it unpacks, and ext4 has written them when it writes the names that they get.
+
+The disk is mounted with noauto_da_alloc, so that ext4 does not wait of itself for a file that replaces another: dpkg has
+to.
 
 The maintainer scripts run with DPKG_ROOT, which they are made for, and with the programs of this machine: a root in
 which they could run by themselves would be a whole Debian on the logged disk."""
@@ -29,7 +33,7 @@ from logged_disk import AT, MOUNTED, WORK, LoggedDisk, run
 
 OLDER, NEWER, STATUS, FOLDERS = (pathlib.Path(word) for word in sys.argv[1:5])
 CUTS, SEED = int(sys.argv[5]), int(sys.argv[6])
-PLANTED = sys.argv[7] if len(sys.argv) > 7 else None
+PLANTED = sys.argv[7] if len(sys.argv) > 7 else ""
 PROGRAM, PLACE, KEYS, DATABASE = "usr/bin/plumb-rt", "var/lib/plumb/cell", "etc/plumb", "var/lib/dpkg"
 VARIANTS = ("baseline", "x86-64-v3")
 REPAIR = ("--install", NEWER)  # as docs/operate.md says it
@@ -51,15 +55,11 @@ PACKAGES = {version(deb): contents(deb) for deb in (OLDER, NEWER)}
 NEW = version(NEWER)
 
 
-def dpkg(root, *words, planted=None):
+def dpkg(root, *words, planted=""):
     """This machine's own settings of dpkg count for nothing: in many containers they say force-unsafe-io."""
     options = [f"--root={root}", f"--log={root}/var/log/dpkg.log", "--no-force-unsafe-io", "--force-script-chrootless"]
-    settings = dict(os.environ, LC_ALL="C")
-    if planted and planted.startswith("--"):
-        options.append(planted)
-    elif planted:
-        settings["LD_PRELOAD"] = planted
-    return subprocess.run(["dpkg", *options, *map(str, words)], capture_output=True, text=True, env=settings)
+    return subprocess.run(["dpkg", *options, *map(str, words)], capture_output=True, text=True,
+                          env={**os.environ, "LC_ALL": "C", "LD_PRELOAD": planted})
 
 
 def database_says(root):
@@ -122,12 +122,14 @@ def story(disk, root):
         step(name, lambda: plumb_rt(root, "install", FOLDERS / folder, "--to", root / PLACE))
 
     package("upgrade", NEWER)
+    model("a model by the new program", "run")
     package("downgrade", OLDER)
-    model("a model that runs from a file", "run")
+    if PLANTED:
+        return
     with Service(root) as service:
         package("upgrade beside a service", NEWER)
         service.must_run()
-        model("a model for the old program from the new one", "run2")
+        model("a model by the new program for the old one that runs", "run2")
         time.sleep(2)
         service.must_run()
     with Service(root) as service:
@@ -166,22 +168,30 @@ class Service:
         self.said.close()
 
 
+def state_of(file):
+    return (hashlib.sha256(file.read_bytes()).hexdigest(), file.stat().st_mode & 0o7777) if file.is_file() else None
+
+
 def files_differ(root, versions):
-    """Each file must be that of one of these versions, as a whole; a name that one of them lacks may be missing."""
+    """Kind and words of a fault: each file must be that of one of these versions, as a whole. A name that one of them
+    lacks may be missing."""
     for name in sorted(set(itertools.chain(*PACKAGES.values()))):
-        file = root / name
-        found = (hashlib.sha256(file.read_bytes()).hexdigest(), file.stat().st_mode & 0o7777) if file.is_file() else None
-        if found not in [PACKAGES[one].get(name) for one in versions]:
-            size = f"{file.stat().st_size} bytes, mode {file.stat().st_mode & 0o7777:o}" if file.is_file() else "missing"
-            return f"{name} is not that of {' or '.join(versions)}: {size}"
-    return ""
+        found = state_of(root / name)
+        if found in [PACKAGES[one].get(name) for one in versions]:
+            continue
+        others = [one for one, files in PACKAGES.items() if files.get(name) == found]
+        if others:
+            return {"program of another version": f"{name} is that of {others[0]}, not of {' or '.join(versions)}"}
+        size = f"{(root / name).stat().st_size} bytes, mode {found[1]:o}" if found else "missing"
+        return {"broken program": f"{name} is that of no version: {size}"}
+    return {}
 
 
-def model_fails(root):
+def model_fails(root, variants):
     done = plumb_rt(root, "verify", "--to", root / PLACE)
     if done.returncode != 0:
         return f"verify: {done.stdout}{done.stderr}"
-    for variant in VARIANTS:
+    for variant in variants:
         (WORK / "corrected.csv").unlink(missing_ok=True)
         done = plumb_rt(root, "run", root / PLACE, "--check", "--priority", "0", variant=variant)
         if done.returncode != 0:
@@ -206,36 +216,44 @@ def repair_fails(root):
         if done.returncode != 0 or done.stdout:
             return f"after the repair dpkg {' '.join(words)} says: {done.stdout}{done.stderr}"
     files = left_behind(root)
-    return f"left behind: {files}" if files else files_differ(root, [NEW])
+    return f"left behind: {files}" if files else "".join(files_differ(root, [NEW]).values())
 
 
 class Judge:
-    """Says what is wrong with the mounted disk, and counts what dpkg says of it."""
+    """Says what is wrong with the mounted disk; counts the faults by kind, and what dpkg says of the package."""
 
     def __init__(self):
-        self.said, self.configured = collections.Counter(), collections.Counter()
+        self.faults, self.said, self.configured = collections.Counter(), collections.Counter(), collections.Counter()
 
     def __call__(self, allowed):
         root = MOUNTED / "root"
         models, versions = (sorted(set(words)) for words in zip(*(state.split("|") for state in allowed)))
-        if str(current(root)) not in models:
-            return f"current is {current(root)}, and must be {' or '.join(models)}"
-        wrong = files_differ(root, versions) or model_fails(root)
-        if wrong:
-            return wrong
+        found = {"model": "" if str(current(root)) in models else f"current is {current(root)}, not {' or '.join(models)}",
+                 "database": self.database_fails(root, versions), **files_differ(root, versions)}
+        if not any(found.values()):
+            found = {"run": model_fails(root, VARIANTS)}
+        if not any(found.values()):
+            found = {"repair": self.repair_fails_after_all(root)}
+        wrong = {kind: words for kind, words in found.items() if words}
+        self.faults.update(wrong.keys())
+        return "; ".join(f"{kind}: {words.strip()}" for kind, words in wrong.items())
+
+    def database_fails(self, root, versions):
         try:
-            *words, found = database_says(root).split()
+            state, _, version_there = database_says(root).rpartition(" ")
         except SystemExit as error:
-            return f"dpkg's database: {error}"
-        state = " ".join(words)
-        if found not in versions or (len(versions) == 1 and state != "install ok installed"):
-            return f"dpkg says {state} {found}, and must say {' or '.join(versions)}"
+            return str(error)
         self.said[state] += 1
-        if state != "install ok installed" and self.said.total() % 2 == 0:
-            # apt asks for this. It need not be enough, and must not be in the way of the repair.
+        if version_there in versions and (len(versions) > 1 or state == "install ok installed"):
+            return ""
+        return f"dpkg says {state} {version_there}, not {' or '.join(versions)}"
+
+    def repair_fails_after_all(self, root):
+        """apt asks for --configure -a first. That need not be enough, and must not be in the way of the repair."""
+        if self.said.total() % 2 == 0 and not database_says(root).startswith("install ok installed"):
             done = dpkg(root, "--configure", "-a")
             self.configured[f"exit code {done.returncode}, {database_says(root).rpartition(' ')[0]}"] += 1
-        return repair_fails(root) or model_fails(root)
+        return repair_fails(root) or model_fails(root, VARIANTS[-1:])
 
 
 def main():
@@ -246,12 +264,15 @@ def main():
     judge = Judge()
     faults, cuts = disk.faults_of_cuts(CUTS, SEED, judge, "found " if PLANTED else "FAILED")
     if PLANTED:
-        print(f"{'ok    ' if faults else 'FAILED'} planted: with {pathlib.Path(PLANTED).name} {faults} of {cuts} cuts leave a fault")
-        return 0 if faults else 1
-    for words, counted in (("dpkg says", judge.said), ("where it was interrupted, after --configure -a", judge.configured)):
-        print(f"       {words}: " + ", ".join(f"{state} {times}" for state, times in counted.most_common()))
-    print(f"{'ok    ' if faults == 0 else 'FAILED'} after {cuts} cuts of the power in an upgrade a model and a whole program are there,"
-          f" and dpkg {REPAIR[0]} ends in the newer one; {faults} faults")
+        kinds = ", ".join(f"{kind} {times}" for kind, times in judge.faults.most_common())
+        both = judge.faults["broken program"] > 0 and judge.faults["database"] > 0
+        print(f"{'ok    ' if both else 'FAILED'} planted: where dpkg does not wait for the disk {faults} of {cuts} cuts leave a fault:"
+              f" {kinds}")
+        return 0 if both else 1
+    for words, counted in (("dpkg says after the cut", judge.said), ("and after --configure -a, tried in half of those that need a repair", judge.configured)):
+        print(f"       {words}: " + "; ".join(f"{state}: {times}" for state, times in counted.most_common()))
+    print(f"{'ok    ' if faults == 0 else 'FAILED'} after {cuts} cuts of the power in an upgrade the model and one of the two programs are there,"
+          f" whole, and dpkg {REPAIR[0]} ends in the newer one; {faults} faults")
     return 1 if faults else 0
 
 
