@@ -38,7 +38,8 @@ class LoggedDisk:
             with open(file, "wb") as out:
                 out.truncate(size)
             loops.append(run("losetup", "--find", "--show", file))
-        run("dmsetup", "--noudevsync", "create", "cut", "--table", f"0 {self.bytes // 512} log-writes {loops[0]} {loops[1]}")
+        table = f"0 {self.bytes // 512} log-writes {loops[0]} {loops[1]}"
+        run("dmsetup", "--noudevsync", "create", "cut", "--table", table)
         run("dmsetup", "mknodes")
         run("mkfs.ext4", "-q", "-J", "size=4", "/dev/mapper/cut")
         run("mount", "-o", self.options, "/dev/mapper/cut", AT)
@@ -68,7 +69,8 @@ class LoggedDisk:
         allowed = may_be_there(every)
         MOUNTED.mkdir()
         # Not before the first file system is whole.
-        marked = [n for n, (*_, mark) in enumerate(every, 1) if mark and mark.startswith(("begin:", "end:"))]
+        marked = [n for n, (*_, mark) in enumerate(every, 1)
+                  if mark and mark.startswith(("begin:", "end:"))]
         begin, end = marked[0], marked[-1]
         chosen = set(random.Random(seed).sample(range(begin, end + 1), min(count, end + 1 - begin)))
         print(f"       {end + 1 - begin} writes, {len(chosen)} cuts, seed {seed}", flush=True)
@@ -92,7 +94,8 @@ class LoggedDisk:
     def _after_a_cut(self, judged):
         run("cp", "--sparse=always", IMAGE, WORK / "cut")
         loop = run("losetup", "--find", "--show", WORK / "cut")
-        mounted = subprocess.run(["mount", "-o", self.options, loop, MOUNTED], capture_output=True, text=True)
+        mounted = subprocess.run(["mount", "-o", self.options, loop, MOUNTED],
+                                 capture_output=True, text=True)
         try:
             return judged() if mounted.returncode == 0 else "no file system: " + mounted.stderr
         except OSError as error:

@@ -40,11 +40,12 @@ REPAIR = ("--install", NEWER)  # as docs/operate.md says it
 
 
 def contents(deb):
-    """What is in the package: (SHA-256, mode) of each file by its name."""
+    """What is in the package, by its name: (SHA-256, mode) of a file, (where it leads, 0) of a link."""
     tree = subprocess.run(["dpkg-deb", "--fsys-tarfile", deb], capture_output=True, check=True).stdout
-    with tarfile.open(fileobj=io.BytesIO(tree)) as files:
-        return {file.name.removeprefix("./"): (hashlib.sha256(files.extractfile(file).read()).hexdigest(), file.mode)
-                for file in files if file.isfile()}
+    with tarfile.open(fileobj=io.BytesIO(tree)) as members:
+        return {one.name.removeprefix("./"): (one.linkname, 0) if one.issym() else
+                (hashlib.sha256(members.extractfile(one).read()).hexdigest(), one.mode)
+                for one in members if not one.isdir()}
 
 
 def version(deb):
@@ -55,22 +56,28 @@ PACKAGES = {version(deb): contents(deb) for deb in (OLDER, NEWER)}
 NEW = version(NEWER)
 
 
+def quietly(*command, **options):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+
+
 def dpkg(root, *words, planted=""):
-    """This machine's own settings of dpkg count for nothing: in many containers they say force-unsafe-io."""
-    options = [f"--root={root}", f"--log={root}/var/log/dpkg.log", "--no-force-unsafe-io", "--force-script-chrootless"]
-    return subprocess.run(["dpkg", *options, *map(str, words)], capture_output=True, text=True,
-                          env={**os.environ, "LC_ALL": "C", "LD_PRELOAD": planted})
+    """This machine's own force-unsafe-io counts for nothing: the settings of containers often have it."""
+    options = [f"--root={root}", f"--log={root}/var/log/dpkg.log", "--no-force-unsafe-io",
+               "--force-script-chrootless"]
+    settings = {**os.environ, "LC_ALL": "C", "LD_PRELOAD": planted}
+    return quietly("dpkg", *options, *words, env=settings)
 
 
 def database_says(root):
     """State and version of plumb-rt, such as "install ok installed 0.1.0-1"."""
-    return run("dpkg-query", f"--admindir={root / DATABASE}", "-W", "-f", "${Status} ${Version}", "plumb-rt")
+    return run("dpkg-query", f"--admindir={root / DATABASE}", "-W", "-f", "${Status} ${Version}",
+               "plumb-rt")
 
 
 def plumb_rt(root, *words, variant=None):
     rules = ["--etc", root / KEYS] if words[0] != "status" else []
     settings = {**os.environ, **({"PLUMB_RT_VARIANT": variant} if variant else {})}
-    return subprocess.run([root / PROGRAM, *map(str, [*words, *rules])], capture_output=True, text=True, env=settings)
+    return quietly(root / PROGRAM, *words, *rules, env=settings)
 
 
 def current(root):
@@ -94,7 +101,8 @@ def prepared(root):
     shutil.copy(STATUS, root / DATABASE / "status")
     (root / DATABASE / "available").touch()
     for entry in STATUS.read_text().split("\n\n"):
-        fields = dict(line.split(": ", 1) for line in entry.splitlines() if line[:1].isalpha() and ": " in line)
+        fields = dict(line.split(": ", 1) for line in entry.splitlines()
+                      if line[:1].isalpha() and ": " in line)
         if "Package" in fields:
             of_several = f":{fields['Architecture']}" if fields.get("Multi-Arch") == "same" else ""
             name = root / DATABASE / f"info/{fields['Package']}{of_several}"
@@ -149,17 +157,20 @@ class Service:
     def __enter__(self):
         (WORK / "corrected.csv").unlink(missing_ok=True)  # one that is there is never replaced
         self.said = open(WORK / "rt.log", "w")
-        self.process = subprocess.Popen([self.root / PROGRAM, "run", self.root / PLACE, "--priority", "0", "--etc", self.root / KEYS],
-                                        stdout=self.said, stderr=self.said)
+        command = [self.root / PROGRAM, "run", self.root / PLACE, "--priority", "0", "--etc", self.root / KEYS]
+        self.process = subprocess.Popen(command, stdout=self.said, stderr=self.said)
         until = time.monotonic() + 60
-        while plumb_rt(self.root, "status", self.root / PLACE).returncode != 0 and time.monotonic() < until:
+        while not self.answers() and self.process.poll() is None and time.monotonic() < until:
             time.sleep(0.5)
         self.must_run()
         time.sleep(2)
         return self
 
+    def answers(self):
+        return plumb_rt(self.root, "status", self.root / PLACE).returncode == 0
+
     def must_run(self):
-        if self.process.poll() is not None or plumb_rt(self.root, "status", self.root / PLACE).returncode != 0:
+        if self.process.poll() is not None or not self.answers():
             raise SystemExit("it does not run:\n" + (WORK / "rt.log").read_text())
 
     def __exit__(self, *_):
@@ -169,7 +180,12 @@ class Service:
 
 
 def state_of(file):
-    return (hashlib.sha256(file.read_bytes()).hexdigest(), file.stat().st_mode & 0o7777) if file.is_file() else None
+    """As contents() has it; None if there is none."""
+    if file.is_symlink():
+        return os.readlink(file), 0
+    if not file.is_file():
+        return None
+    return hashlib.sha256(file.read_bytes()).hexdigest(), file.stat().st_mode & 0o7777
 
 
 def files_differ(root, versions):
@@ -181,8 +197,9 @@ def files_differ(root, versions):
             continue
         others = [one for one, files in PACKAGES.items() if files.get(name) == found]
         if others:
-            return {"program of another version": f"{name} is that of {others[0]}, not of {' or '.join(versions)}"}
-        size = f"{(root / name).stat().st_size} bytes, mode {found[1]:o}" if found else "missing"
+            words = f"{name} is that of {others[0]}, not of {' or '.join(versions)}"
+            return {"program of another version": words}
+        size = f"{(root / name).lstat().st_size} bytes, mode {found[1]:o}" if found else "missing"
         return {"broken program": f"{name} is that of no version: {size}"}
     return {}
 
@@ -201,7 +218,8 @@ def model_fails(root, variants):
 
 def left_behind(root):
     """Files in the folders of the package that are none of the newer one."""
-    there = {str(file.relative_to(root)) for file in (root / "usr").rglob("*") if not file.is_dir()}
+    there = {str(file.relative_to(root)) for file in (root / "usr").rglob("*")
+             if file.is_symlink() or not file.is_dir()}
     return ", ".join(sorted(there - set(PACKAGES[NEW])))
 
 
@@ -223,12 +241,13 @@ class Judge:
     """Says what is wrong with the mounted disk; counts the faults by kind, and what dpkg says of the package."""
 
     def __init__(self):
-        self.faults, self.said, self.configured = collections.Counter(), collections.Counter(), collections.Counter()
+        self.faults, self.said, self.configured = (collections.Counter() for _ in range(3))
 
     def __call__(self, allowed):
         root = MOUNTED / "root"
         models, versions = (sorted(set(words)) for words in zip(*(state.split("|") for state in allowed)))
-        found = {"model": "" if str(current(root)) in models else f"current is {current(root)}, not {' or '.join(models)}",
+        now = str(current(root))
+        found = {"model": "" if now in models else f"current is {now}, not {' or '.join(models)}",
                  "database": self.database_fails(root, versions), **files_differ(root, versions)}
         if not any(found.values()):
             found = {"run": model_fails(root, VARIANTS)}
@@ -264,16 +283,19 @@ def main():
     judge = Judge()
     faults, cuts = disk.faults_of_cuts(CUTS, SEED, judge, "found " if PLANTED else "FAILED")
     if PLANTED:
-        kinds = ", ".join(f"{kind} {times}" for kind, times in judge.faults.most_common())
         both = judge.faults["broken program"] > 0 and judge.faults["database"] > 0
-        print(f"{'ok    ' if both else 'FAILED'} planted: where dpkg does not wait for the disk {faults} of {cuts} cuts leave a fault:"
-              f" {kinds}")
+        print(f"{'ok    ' if both else 'FAILED'} planted: where dpkg does not wait for the disk {faults} of"
+              f" {cuts} cuts leave a fault: {listed(judge.faults)}")
         return 0 if both else 1
-    for words, counted in (("dpkg says after the cut", judge.said), ("and after --configure -a, tried in half of those that need a repair", judge.configured)):
-        print(f"       {words}: " + "; ".join(f"{state}: {times}" for state, times in counted.most_common()))
-    print(f"{'ok    ' if faults == 0 else 'FAILED'} after {cuts} cuts of the power in an upgrade the model and one of the two programs are there,"
-          f" whole, and dpkg {REPAIR[0]} ends in the newer one; {faults} faults")
+    print(f"       after the cut dpkg says: {listed(judge.said)}")
+    print(f"       --configure -a, tried in half of those not installed, leaves: {listed(judge.configured)}")
+    print(f"{'ok    ' if faults == 0 else 'FAILED'} after {cuts} cuts of the power in an upgrade the model and"
+          f" one of the two programs are there, whole, and dpkg {REPAIR[0]} ends in the newer one; {faults} faults")
     return 1 if faults else 0
+
+
+def listed(counts):
+    return "; ".join(f"{words} {times}" for words, times in counts.most_common())
 
 
 if __name__ == "__main__":
