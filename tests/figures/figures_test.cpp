@@ -809,11 +809,11 @@ TEST(Figures, TakeLessThan100MillisecondsFor1500Poses) {
 TEST(Registry, DrawsWhatItListsAndNothingElse) {
   const MadeRun made(20, 2);
   const auto names = run_figures(made.cell);
-  EXPECT_EQ(names.size(), figure_list().size() - 4 + 3)
-      << "two joints instead of JN three times; no diagnosis, no plan, no timing";
+  EXPECT_EQ(names.size(), figure_list().size() - 5 + 3)
+      << "two joints instead of JN three times; no diagnosis, no plan, no fits, no timing";
   for (const auto& name : names) EXPECT_TRUE(drawn(name, made.results(), 700.0)) << name;
-  for (const auto* name : {"joint-J3", "joint-JN", "evidence", "observability", "latency", "cost",
-                           "context-NAME", "", "../error-hist"})
+  for (const auto* name : {"joint-J3", "joint-JN", "evidence", "observability", "poses", "latency",
+                           "cost", "context-NAME", "", "../error-hist"})
     EXPECT_FALSE(drawn(name, made.results(), 700.0)) << name;
 }
 
