@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "cell/packed_matrix.hpp"
 #include "cell/run_checksum.hpp"
@@ -58,16 +59,33 @@ double left_of(const Json& run) {
   return stats.at("rms_m").get<double>() / std::sqrt(kAxes);
 }
 
-/// Adds the readings that a run goes back to: its own, and those of the runs before it.
-void add_inputs(const fs::path& folder, const Json& run, std::vector<std::string>& out) {
-  for (const auto& input : run.at("inputs")) out.push_back(input.at("sha256"));
-  if (run.contains("from"))
-    for (const auto& sum : run.at("from").at("inputs")) out.push_back(sum);
+/// The digests of readings of a run: the last column of its predictions. A run of an earlier
+/// version has none.
+void add_digests(const fs::path& folder, std::unordered_set<std::string>& out) {
+  std::istringstream lines(read_regular_file(folder / "predictions.csv", kMostFileBytes));
+  std::string line;
+  std::getline(lines, line);
+  if (!line.ends_with(",note")) return;
+  while (std::getline(lines, line)) out.insert(line.substr(line.rfind(',') + 1));
+}
+
+/// Adds what a run goes back to: its own readings, and those of the runs before it.
+void add_readings(const fs::path& folder, const Json& run, EarlierArm& out) {
+  for (const auto& input : run.at("inputs")) out.inputs.push_back(input.at("sha256"));
+  std::error_code error;
+  if (fs::exists(folder / "predictions.csv", error)) add_digests(folder, out.readings);
+  const auto go_on = [&](const fs::path& before) {
+    if (before == folder || !fs::exists(before / "run.json", error)) return;
+    add_readings(before, Json::parse(read_regular_file(before / "run.json", kMostFileBytes)), out);
+  };
+  if (run.contains("from")) {
+    for (const auto& sum : run.at("from").at("inputs")) out.inputs.push_back(sum);
+    const auto& likeness = run.at("calibration").at("likeness");
+    go_on(fs::path(likeness.at("run").get<std::string>()));
+  }
   if (!run.contains("recheck")) return;
   const int parent = run.at("recheck").at("parent");
-  const fs::path before = folder.parent_path() / fmt::format("{:04}", parent);
-  if (before >= folder) return;  // parents are older
-  add_inputs(before, Json::parse(read_regular_file(before / "run.json", kMostFileBytes)), out);
+  go_on(folder.parent_path() / fmt::format("{:04}", parent));
 }
 
 bool sound(const EarlierArm& arm) {
@@ -93,7 +111,7 @@ EarlierArm earlier_arm(const fs::path& place) {
     if (run.at("schema") != "run/1") refuse(file, "is of another schema than run/1");
     if (run.value("base", "arm") != "arm")
       refuse(file, "stands on the controller's own positions, which no other arm shares");
-    add_inputs(out.run, run, out.inputs);
+    add_readings(out.run, run, out);
     const Json& calibration = run.at("calibration");
     const Json& estimates = calibration.at("estimates");
     std::vector<Eigen::Index> kept;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace plumb::offline {
@@ -20,8 +21,9 @@ struct EarlierArm {
   std::vector<Number> numbers;
   Eigen::MatrixXd covariance;       // of these numbers, SI
   double left_m = 0.0;              // RMS of a coordinate that the run leaves at held-out poses
-  std::vector<std::string> inputs;  // check sums of all readings that it goes back to
-  std::string check_sum;            // of run.json
+  std::vector<std::string> inputs;  // check sums of all measurement files that it goes back to
+  std::unordered_set<std::string> readings;  // their digests, as far as the runs are still there
+  std::string check_sum;                     // of run.json
 };
 
 /// Reads the run of `place`: a folder of a run (runs/0003), or a folder of a cell, whose latest run

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cell/earlier_arm.hpp"
+#include "cell/reading_digest.hpp"
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"
 #include "effects/effect_option.hpp"
@@ -118,16 +119,23 @@ std::vector<bool> joint_is_angle(const Cell& cell) {
 /// Readings that an earlier run was fitted to would count twice.
 void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
   if (!cell.fit.earlier) return;
-  for (const auto& table : measured.tables)
-    for (const auto& sum : cell.fit.earlier->inputs)
-      if (table.sha256 == sum)
-        throw Failure(
-            Exit::kInput,
-            {.code = "E-FIT-EARLIER",
-             .message = fmt::format("{} was fitted to {} itself, whose readings would "
-                                    "count twice",
-                                    display_name(cell.fit.earlier->run), display_name(table.file)),
-             .help = "name other readings: plumb fit --from RUN --data later.csv"});
+  const EarlierArm& earlier = *cell.fit.earlier;
+  int known = 0;
+  for (int i = 0; i < measured.size(); ++i)
+    known += earlier.readings.contains(reading_digest(measured, i)) ? 1 : 0;
+  const bool of_a_file =
+      std::any_of(measured.tables.begin(), measured.tables.end(), [&](const Table& table) {
+        return std::find(earlier.inputs.begin(), earlier.inputs.end(), table.sha256) !=
+               earlier.inputs.end();
+      });
+  if (known == 0 && !of_a_file) return;
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-FIT-EARLIER",
+       .message = fmt::format("{} goes back to {} of these {} readings, which would count twice",
+                              display_name(earlier.run),
+                              known > 0 ? fmt::format("{}", known) : "some", measured.size()),
+       .help = "name readings that it has not seen: plumb fit --from RUN --data later.csv"});
 }
 
 MeasurementFiles read_cell_measurements(const Cell& cell) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/packed_matrix.hpp"
+#include "cell/reading_digest.hpp"
 #include "fit/json_parts.hpp"
 #include "fit/model_json.hpp"
 #include "program/problem.hpp"
@@ -278,14 +279,14 @@ NoiseFloor floor_from_json(const Json& j) {
 }
 
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit) {
-  std::string out = "pose,set,fold,px_m,py_m,pz_m\n";
+  std::string out = "pose,set,fold,px_m,py_m,pz_m,note\n";
   for (int i = 0; i < measured.size(); ++i) {
     const auto p = fit.predicted_M.row(i);
     const char* set = !fit.split.used[i]                            ? "ignore"
                       : fit.split.held[i] || fit.split.fold[i] >= 0 ? "held"
                                                                     : "fit";
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{}\n", i + 1, set, fit.split.fold[i],
-                   p(0), p(1), p(2));
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{}\n", i + 1, set, fit.split.fold[i],
+                   p(0), p(1), p(2), reading_digest(measured, i));
   }
   return out;
 }

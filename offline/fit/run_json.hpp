@@ -20,7 +20,7 @@ nlohmann::ordered_json floor_to_json(const NoiseFloor& floor);
 /// The reverse. Throws as `run_from_json`, or Failure (kInput) on another schema.
 NoiseFloor floor_from_json(const nlohmann::ordered_json& j);
 
-/// predictions.csv: pose, set, fold, predicted point.
+/// predictions.csv: pose, set, fold, predicted point, and in `note` the digest of the reading.
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit);
 
 /// Fills split and predictions of `fit` from predictions.csv.
