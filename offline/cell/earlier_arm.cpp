@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAxes = 3.0;
+constexpr int kMostSteps = 1000;  // from run to run: more is a circle
 
 [[noreturn]] void refuse(const fs::path& what, const std::string& why) {
   throw Failure(Exit::kInput,
@@ -70,13 +71,15 @@ void add_digests(const fs::path& folder, std::unordered_set<std::string>& out) {
 }
 
 /// Adds what a run goes back to: its own readings, and those of the runs before it.
-void add_readings(const fs::path& folder, const Json& run, EarlierArm& out) {
+void add_readings(const fs::path& folder, const Json& run, EarlierArm& out, int steps = 0) {
+  if (steps > kMostSteps) refuse(out.run, "goes back to more runs than any arm has");
   for (const auto& input : run.at("inputs")) out.inputs.push_back(input.at("sha256"));
   std::error_code error;
   if (fs::exists(folder / "predictions.csv", error)) add_digests(folder, out.readings);
   const auto go_on = [&](const fs::path& before) {
     if (before == folder || !fs::exists(before / "run.json", error)) return;
-    add_readings(before, Json::parse(read_regular_file(before / "run.json", kMostFileBytes)), out);
+    add_readings(before, Json::parse(read_regular_file(before / "run.json", kMostFileBytes)), out,
+                 steps + 1);
   };
   if (run.contains("from")) {
     for (const auto& sum : run.at("from").at("inputs")) out.inputs.push_back(sum);
