@@ -83,8 +83,9 @@ void add_readings(const fs::path& folder, const Json& run, EarlierArm& out, int 
   };
   if (run.contains("from")) {
     for (const auto& sum : run.at("from").at("inputs")) out.inputs.push_back(sum);
-    const auto& likeness = run.at("calibration").at("likeness");
-    go_on(fs::path(likeness.at("run").get<std::string>()));
+    const auto& calibration = run.at("calibration");
+    if (calibration.contains("likeness"))
+      go_on(fs::path(calibration.at("likeness").at("run").get<std::string>()));
   }
   if (!run.contains("recheck")) return;
   const int parent = run.at("recheck").at("parent");
