@@ -130,10 +130,9 @@ HeldOut nested_held_out(const Work& w) {
 std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
-  return held_out_excess(
-      held.usual_mean(), floor,
-      unavoidable_ratio(fitted_coordinates(w.measured, w.split),
-                        fitted.decided + fitted.series_dof));
+  return held_out_excess(held.usual_mean(), floor,
+                         unavoidable_ratio(fitted_coordinates(w.measured, w.split),
+                                           fitted.decided + fitted.series_dof));
 }
 
 /// Steps of a diagnosis; with `apply` the last one is as long as there are effects to add.
