@@ -99,7 +99,7 @@ Cell read_cell(const fs::path& cell_toml) {
 
 std::string hash_of(const Cell& cell) {
   std::string taught = fleet_priors_text(cell.fit);
-  if (cell.fit.earlier && !cell.fit.prior_from.empty()) taught += cell.fit.earlier->check_sum;
+  if (cell.fit.earlier) taught += cell.fit.earlier->check_sum;
   return sha256(cell.text + taught);
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAxes = 3.0;
+constexpr double kMost = 1e6;     // SI: beyond it the file was edited or damaged
 constexpr int kMostSteps = 1000;  // from run to run: more is a circle
 
 [[noreturn]] void refuse(const fs::path& what, const std::string& why) {
@@ -34,14 +36,16 @@ constexpr int kMostSteps = 1000;  // from run to run: more is a circle
 fs::path run_in(const fs::path& place) {
   std::error_code error;
   if (fs::exists(place / "run.json", error)) return place;
+  if (place.filename() == "run.json") return place.parent_path();
   if (!fs::is_directory(place, error)) refuse(place, "is no folder of a cell or of a run");
   std::optional<fs::path> last;
   for (const auto& entry : fs::directory_iterator(place / "runs", error)) {
     const std::string name = entry.path().filename().string();
     const bool number = name.find_first_not_of("0123456789") == std::string::npos;
-    if (number && (!last || last->filename().string() < name)) last = entry.path();
+    if (!number || !fs::exists(entry.path() / "run.json", error)) continue;
+    if (!last || last->filename().string() < name) last = entry.path();
   }
-  if (!last) refuse(place, "holds no run");
+  if (!last) refuse(place, "holds no run that can be read");
   return *last;
 }
 
@@ -53,6 +57,15 @@ EarlierArm::Number number_of(const Json& estimate) {
           .is_length = estimate.at("length")};
 }
 
+EarlierArm::Row row_of(const Json& joint) {
+  return {.joint = joint.at("name"),
+          .prismatic = joint.at("prismatic"),
+          .theta = joint.at("theta"),
+          .d = joint.at("d"),
+          .a = joint.at("a"),
+          .alpha = joint.at("alpha")};
+}
+
 /// RMS of a coordinate; of the fitted poses where none was held out.
 double left_of(const Json& run) {
   const Json& held = run.at("held_out");
@@ -62,8 +75,11 @@ double left_of(const Json& run) {
 
 /// The digests of readings of a run: the last column of its predictions. A run of an earlier
 /// version has none.
-void add_digests(const fs::path& folder, std::unordered_set<std::string>& out) {
-  std::istringstream lines(read_regular_file(folder / "predictions.csv", kMostFileBytes));
+void add_digests(const fs::path& folder, const Json& run, std::unordered_set<std::string>& out) {
+  const std::string text = read_regular_file(folder / "predictions.csv", kMostFileBytes);
+  if (!predictions_sum_holds(run, text))
+    refuse(folder / "predictions.csv", "was changed after it was written");
+  std::istringstream lines(text);
   std::string line;
   std::getline(lines, line);
   if (!line.ends_with(",note")) return;
@@ -75,7 +91,7 @@ void add_readings(const fs::path& folder, const Json& run, EarlierArm& out, int 
   if (steps > kMostSteps) refuse(out.run, "goes back to more runs than any arm has");
   for (const auto& input : run.at("inputs")) out.inputs.push_back(input.at("sha256"));
   std::error_code error;
-  if (fs::exists(folder / "predictions.csv", error)) add_digests(folder, out.readings);
+  add_digests(folder, run, out.readings);
   const auto go_on = [&](const fs::path& before) {
     if (before == folder || !fs::exists(before / "run.json", error)) return;
     add_readings(before, Json::parse(read_regular_file(before / "run.json", kMostFileBytes)), out,
@@ -93,12 +109,17 @@ void add_readings(const fs::path& folder, const Json& run, EarlierArm& out, int 
 }
 
 bool sound(const EarlierArm& arm) {
-  const auto finite = [](const EarlierArm::Number& n) {
-    return std::isfinite(n.value) && std::isfinite(n.nominal);
+  const auto possible = [](const EarlierArm::Number& n) {
+    return std::abs(n.value) < kMost && std::abs(n.nominal) < kMost;
   };
-  return std::all_of(arm.numbers.begin(), arm.numbers.end(), finite) &&
-         arm.covariance.allFinite() && arm.covariance.diagonal().minCoeff() > 0.0 &&
-         std::isfinite(arm.left_m);
+  if (!std::all_of(arm.numbers.begin(), arm.numbers.end(), possible)) return false;
+  if (!(arm.left_m > 0.0) || !(arm.left_m < kMost) || !arm.covariance.allFinite()) return false;
+  const Eigen::VectorXd variance = arm.covariance.diagonal();
+  if (!(variance.minCoeff() > 0.0) || !(variance.maxCoeff() < kMost)) return false;
+  const Eigen::VectorXd per_sigma = variance.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd correlation =
+      per_sigma.asDiagonal() * arm.covariance * per_sigma.asDiagonal();
+  return Eigen::LLT<Eigen::MatrixXd>(correlation).info() == Eigen::Success;
 }
 
 }  // namespace
@@ -117,6 +138,9 @@ EarlierArm earlier_arm(const fs::path& place) {
       refuse(file, "stands on the controller's own positions, which no other arm shares");
     add_readings(out.run, run, out);
     const Json& calibration = run.at("calibration");
+    out.modified = calibration.at("chain").at("modified");
+    for (const auto& joint : calibration.at("chain").at("joints"))
+      out.rows.push_back(row_of(joint));
     const Json& estimates = calibration.at("estimates");
     std::vector<Eigen::Index> kept;
     Eigen::Index place_in_run = 0;

@@ -17,7 +17,15 @@ struct EarlierArm {
     bool of_effect = false;
     bool is_length = false;
   };
+  /// A row of the arm as it was calibrated; what was not fitted is nominal.
+  struct Row {
+    std::string joint;
+    bool prismatic = false;
+    double theta = 0.0, d = 0.0, a = 0.0, alpha = 0.0;  // SI
+  };
   std::filesystem::path run;  // folder
+  bool modified = false;      // rows in Craig's convention
+  std::vector<Row> rows;
   std::vector<Number> numbers;
   Eigen::MatrixXd covariance;       // of these numbers, SI
   double left_m = 0.0;              // RMS of a coordinate that the run leaves at held-out poses

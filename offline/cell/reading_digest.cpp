@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/reading_digest.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "program/file.hpp"
@@ -9,12 +11,14 @@ namespace plumb::offline {
 
 std::string reading_digest(const Measurements& measured, int row) {
   constexpr std::size_t kDigits = 16;
-  std::vector<double> values;
-  for (Eigen::Index k = 0; k < measured.q.cols(); ++k) values.push_back(measured.q(row, k));
+  constexpr double kPerUnit = 1e5;
+  std::vector<std::int64_t> values;
+  const auto add = [&](double value) { values.push_back(std::llround(value * kPerUnit)); };
+  for (Eigen::Index k = 0; k < measured.q.cols(); ++k) add(measured.q(row, k));
   for (int k = 0; k < 3; ++k)
-    if (measured.has_axis[static_cast<std::size_t>(k)]) values.push_back(measured.p_M(row, k));
+    if (measured.has_axis[static_cast<std::size_t>(k)]) add(measured.p_M(row, k));
   const auto* bytes = reinterpret_cast<const char*>(values.data());
-  return sha256({bytes, values.size() * sizeof(double)}).substr(0, kDigits);
+  return sha256({bytes, values.size() * sizeof(std::int64_t)}).substr(0, kDigits);
 }
 
 }  // namespace plumb::offline

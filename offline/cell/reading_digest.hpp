@@ -7,8 +7,8 @@
 
 namespace plumb::offline {
 
-/// Tells a reading from others wherever it is kept: 16 hexadecimal digits of the SHA-256 sum of its
-/// joint angles and its measured point, bit by bit.
+/// Tells a reading from others in whatever units it is kept: 16 hexadecimal digits of the SHA-256
+/// sum of its joint angles, to 10 urad or 10 um, and of its measured point, to 10 um.
 std::string reading_digest(const Measurements& measured, int row);
 
 }  // namespace plumb::offline

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "check/imagined_poses.hpp"
+#include "fit/imagined_poses.hpp"
 #include "check/spectrum.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/weights.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "check/arm_shape.hpp"
-#include "check/imagined_poses.hpp"
+#include "fit/imagined_poses.hpp"
 #include "fit/parameter_subset.hpp"
 
 namespace plumb::offline {

@@ -29,7 +29,7 @@ struct FitArguments {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> held_out;
   std::string base = name_of(Base::kArm);
-  std::string from, data;
+  std::optional<std::string> from, data;
 };
 
 /// The folder that --from means: a run of this cell by its number, or any folder.
@@ -39,24 +39,42 @@ std::filesystem::path folder_of(const std::string& from, const Cell& cell) {
   return std::filesystem::absolute(from).lexically_normal();
 }
 
+/// --data: these readings instead of the cell's.
+void read_instead(const std::string& file, Cell& cell) {
+  if (!cell.measurement.setups.empty())
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE",
+                   .message = "--data: the cell has set-ups; of which one are these readings?",
+                   .help = "give them a cell of their own, with [fit] prior_from naming the run"});
+  if (!std::filesystem::exists(file))
+    throw Failure(Exit::kInput,
+                  {.code = "E-READ",
+                   .message = fmt::format("--data: cannot read {}: no such file", file),
+                   .help = "see what is there: ls -l"});
+  cell.measurement.files = {std::filesystem::absolute(file).lexically_normal()};
+  cell.measurement.named_at.clear();
+}
+
 /// --from and --data: an earlier arm instead of what the cell takes over, and other readings.
 void take_over(const FitArguments& options, Cell& cell, Outcome& outcome) {
-  if (options.from.empty()) {
-    if (options.data.empty()) return;
-    throw Failure(Exit::kUsage, {.code = "E-USAGE",
-                                 .message = "--data: of which arm are these readings?",
-                                 .help = "name its run: plumb fit --from 1 --data " + options.data +
-                                         "; or the file in [measurement] files of cell.toml"});
+  if (!options.from) {
+    if (!options.data) return;
+    throw Failure(Exit::kUsage,
+                  {.code = "E-USAGE",
+                   .message = "--data: of which arm are these readings?",
+                   .help = "name its run: plumb fit --from 1 --data " + *options.data +
+                           "; or the file in [measurement] files of cell.toml"});
   }
+  if (options.from->empty() || (options.data && options.data->empty()))
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = "--from and --data need a name, and got an empty one",
+                                 .help = "plumb fit --from 1 --data later.csv"});
   std::erase_if(cell.fit.priors, [](const Prior& prior) { return prior.of_fleet; });
   cell.fit.sister_odds.clear();
-  cell.fit.earlier = std::make_shared<EarlierArm>(earlier_arm(folder_of(options.from, cell)));
+  cell.fit.earlier = std::make_shared<EarlierArm>(earlier_arm(folder_of(*options.from, cell)));
   outcome.inputs.push_back(
       {(cell.fit.earlier->run / "run.json").string(), cell.fit.earlier->check_sum});
-  if (options.data.empty()) return;
-  cell.measurement.files = {std::filesystem::absolute(options.data).lexically_normal()};
-  cell.measurement.named_at.clear();
-  cell.measurement.setups.clear();
+  if (options.data) read_instead(*options.data, cell);
 }
 
 /// What cell.toml must say so that every verb goes on with these readings and that prior.
@@ -65,10 +83,10 @@ std::string to_go_on(const FitArguments& options, const Cell& cell) {
     return std::filesystem::relative(path, cell.directory).generic_string();
   };
   std::string out = fmt::format(
-      "\nTo go on with this, write into cell.toml: [fit] prior_from = "
+      "\nThe other verbs know nothing of this until cell.toml says: [fit] prior_from = "
       "\"{}\"",
       shown(cell.fit.earlier->run));
-  if (!options.data.empty())
+  if (options.data)
     out +=
         fmt::format(", and [measurement] files = [\"{}\"]", shown(cell.measurement.files.front()));
   return out + ".\n";
@@ -175,10 +193,10 @@ void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) 
   outcome.text += jump_words(cell, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
   const auto& like = fitted.calibration.likeness;
-  const bool goes_on = !options.from.empty() && like && like->kind != Likeness::Kind::kUnlike;
+  const bool alike = options.from && like && like->kind != Likeness::Kind::kUnlike;
   keep_run(options, cell, measured, std::move(fitted), floor, outcome);
-  if (goes_on) outcome.text += to_go_on(options, cell);
-  if (options.data.empty()) say_next(globals, next, outcome);
+  if (alike && outcome.result["run"].is_number()) outcome.text += to_go_on(options, cell);
+  if (!options.from) say_next(globals, next, outcome);
 }
 
 }  // namespace

@@ -17,7 +17,9 @@
 #include "fit/fit_judgement.hpp"
 #include "fit/formula_binding.hpp"
 #include "fit/frame_start.hpp"
+#include "fit/imagined_poses.hpp"
 #include "fit/many_rows.hpp"
+#include "fit/odd_pose.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/pose_sense.hpp"
@@ -33,10 +35,11 @@ namespace {
 // Independence asked for before the noise is known, and after.
 constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
 constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
-constexpr double kRoughly = 1e-8;       // of the cost, in one iteration
-constexpr int kEnoughRows = 4000;       // tell the scatter of a model, and a start
-constexpr double kNearlyAsGood = 1.5;   // times the scatter of the best start
-constexpr double kPinned = 1e-3;        // of 1 sigma
+constexpr double kRoughly = 1e-8;                      // of the cost, in one iteration
+constexpr int kEnoughRows = 4000;                      // tell the scatter of a model, and a start
+constexpr double kNearlyAsGood = 1.5;                  // times the scatter of the best start
+constexpr double kPinned = 1e-3;                       // of 1 sigma
+constexpr double kHardlyLike = 1.0, kMuchLike = 0.05;  // spread of two arms, of what is built
 constexpr double kUnlikeSisters = 2.0;  // mean square of the distances; sisters have less than 1
 constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
@@ -145,17 +148,63 @@ FitData weighed_for_series(const FitData& stated, const ParameterSubset& subset,
   return widened();
 }
 
-/// What an earlier run held at nominal is held here too: it could not be told from what it fitted.
 std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
-  auto out = calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
-  if (!cell.fit.earlier) return out;
-  std::erase_if(out, [&](const Parameter& p) {
-    const auto& known = cell.fit.earlier->numbers;
-    return p.of_robot() && !p.of_effect() &&
-           std::none_of(known.begin(), known.end(),
-                        [&](const auto& n) { return n.name == p.name; });
-  });
+  return calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
+}
+
+bool knows(const EarlierArm& earlier, const Parameter& p) {
+  return std::any_of(earlier.numbers.begin(), earlier.numbers.end(),
+                     [&](const auto& n) { return n.name == p.name; });
+}
+
+/// Candidates beside what an earlier arm knows.
+struct Unknown {
+  std::vector<Parameter> candidates;   // the known numbers before other ones of the arm
+  std::vector<std::string> redundant;  // no pose tells them from others: held at nominal
+  std::vector<std::string> placing;    // where tracker and reflector are: poses must show it
+};
+
+/// What the earlier arm knows makes a number look independent that acts as another one does, the
+/// offset of J1 as a turn of the tracker, say; so poses all over the joint limits are asked.
+Unknown beside(const EarlierArm& earlier, const Cell& cell, const FitData& data,
+               const ArmState& placed, const std::vector<Parameter>& candidates) {
+  Unknown out;
+  std::vector<Parameter> order, others, effects;
+  for (const auto& p : candidates)
+    if (!p.of_robot()) order.push_back(p);
+  for (const auto& p : candidates) {
+    if (!p.of_robot()) continue;
+    (p.of_effect() ? effects : knows(earlier, p) ? order : others).push_back(p);
+  }
+  order.insert(order.end(), others.begin(), others.end());
+  const Subset subset = identifiable(at_imagined_poses(cell, data, placed, order), kRank);
+  std::vector<bool> kept(order.size(), false);
+  for (const int k : subset.kept) kept[static_cast<std::size_t>(k)] = true;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Parameter& p = order[k];
+    if (!p.of_robot() && kept[k]) out.placing.push_back(p.name);
+    if (p.of_robot() && !kept[k] && !knows(earlier, p))
+      out.redundant.push_back(p.name);
+    else
+      out.candidates.push_back(p);
+  }
+  out.candidates.insert(out.candidates.end(), effects.begin(), effects.end());
   return out;
+}
+
+/// However well the arm is known, too few poses do not show where it stands.
+void check_placed_by_poses(const FitData& data, const Unknown& unknown,
+                           const std::vector<std::string>& held) {
+  std::vector<std::string> open;
+  for (const auto& name : unknown.placing)
+    if (std::find(held.begin(), held.end(), name) != held.end()) open.push_back(name);
+  if (open.empty()) return;
+  throw Failure(
+      Exit::kNumbersSayNo,
+      {.code = "E-FIT-FEW",
+       .message = fmt::format("{} readings do not show where tracker and reflector are: {}",
+                              data.rows.size(), fmt::join(open, ", ")),
+       .help = "measure at least 8 different poses: plumb plan --n 12"});
 }
 
 /// Holds the shared numbers where the readings and the earlier run together put them.
@@ -238,6 +287,31 @@ std::size_t unknown_before(const FitData& data, const std::vector<Parameter>& pa
       }));
 }
 
+/// Few poses and all numbers free would hide a bad reading; as readings of the earlier arm, or of
+/// one much like it, it stands out. Takes it out of the data.
+std::vector<Outlier> outliers_of_known_arm(Coarse& coarse) {
+  const auto& earlier = coarse.data.cell->fit.earlier;
+  if (!earlier) return {};
+  FitData alike = coarse.data;
+  alike.arm =
+      known_within(kMuchLike, coarse.data, coarse.solution.state, coarse.subset.kept, *earlier);
+  const std::size_t most = std::max<std::size_t>(1, alike.rows.size() / 10);
+  std::vector<Outlier> out;
+  while (out.size() < most) {
+    const Solution solution = solve(alike, coarse.solution.state, coarse.subset.kept);
+    if (is_many(alike, coarse.subset.kept)) break;  // the usual search sees them
+    const auto odd = odd_pose(alike, solution);
+    if (!odd) break;
+    const int row = alike.rows[*odd];
+    const Measurements one = pick(*alike.measured, {row});
+    alike.rows.erase(alike.rows.begin() + static_cast<std::ptrdiff_t>(*odd));
+    const double error = residuals(one, predict_points(solution.state, one)).row(0).norm();
+    out.push_back({.row = row, .error_m = error, .times = 0.0});
+  }
+  coarse.data.rows = alike.rows;
+  return out;
+}
+
 Coarse coarse_from(const FitData& data, const ArmState& start,
                    const std::vector<Parameter>& candidates) {
   Coarse out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
@@ -250,7 +324,9 @@ Coarse coarse_from(const FitData& data, const ArmState& start,
   check_enough(data, unknown_before(data, out.subset.kept), candidates);
   out.data.weak = weak_directions(data, unhidden(placed), out.subset.kept);
   out.solution.state = with_held_at_nominal(unhidden(start), nominal, candidates, out.subset.held);
-  out.outliers = solve_without_outliers(out.data, out.subset.kept, out.solution);
+  out.outliers = outliers_of_known_arm(out);
+  const auto more = solve_without_outliers(out.data, out.subset.kept, out.solution);
+  out.outliers.insert(out.outliers.end(), more.begin(), more.end());
   return out;
 }
 
@@ -396,10 +472,8 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
                        const ArmState* start) {
   check_poses(measured, rows);
   FitData data = fit_data(cell, measured, rows);
-  const auto candidates = candidates_of(cell, data);
+  auto candidates = candidates_of(cell, data);
   check_enough(data, 0, candidates);
-  if (cell.fit.earlier)
-    data.arm = hardly_known(data, nominal_state(cell, measured), candidates, *cell.fit.earlier);
   // Before the model fits, no reading deserves more trust than another.
   FitData even = data;
   even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
@@ -411,9 +485,19 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   else
     for (auto& placed : placements(even, nominal_state(cell, measured), candidates))
       starts.push_back(std::move(placed.state));
+  Unknown unknown;
+  if (cell.fit.earlier) {
+    check_same_model(cell, *cell.fit.earlier);
+    unknown = beside(*cell.fit.earlier, cell, even, starts.front(), candidates);
+    candidates = unknown.candidates;
+    even.arm = data.arm =
+        known_within(kHardlyLike, data, starts.front(), candidates, *cell.fit.earlier);
+  }
   std::vector<Problem> remarks;
   Coarse coarse = coarse_from_any(even, starts, candidates, remarks);
+  check_placed_by_poses(data, unknown, coarse.subset.held);
   Calibration out = refined(cell, data, std::move(coarse), candidates);
+  out.held.insert(out.held.end(), unknown.redundant.begin(), unknown.redundant.end());
   check_same_arm(out.estimates);
   warn_of_far_parameters(out.estimates, remarks);
   warn_of_impossible_effects(out, remarks);

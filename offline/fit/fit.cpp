@@ -14,6 +14,7 @@
 #include "fit/context_needs.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/fit_steps.hpp"
+#include "fit/parameter_subset.hpp"
 #include "fit/pose_sense.hpp"
 #include "tree/domain.hpp"
 
@@ -128,6 +129,22 @@ ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
   norms.reserve(rows.size());
   for (int i : rows) norms.push_back(error.row(i).norm());
   return summarise(std::move(norms));
+}
+
+/// The error to expect at new poses, in noise floors, of an arm that is right and of which the
+/// readings and an earlier run leave so much open.
+double open_ratio(const Measurements& measured, const Fit& fit) {
+  constexpr int kEnough = 1000;
+  constexpr double kByChance = 1.3;
+  const Calibration& c = fit.calibration;
+  if (!c.likeness || fit.floor.sigma_m <= 0.0) return 1.0;
+  FitData data;
+  data.measured = &measured;
+  data.rows = thinned(fit_rows(fit.split), kEnough);
+  data.sigma_m = Rows3::Ones(measured.size(), 3);
+  const Eigen::MatrixXd J = evaluate(data, c.state, c.parameters).jacobian;
+  const double variance = (J * c.covariance).cwiseProduct(J).sum() / static_cast<double>(J.rows());
+  return kByChance * std::sqrt(1.0 + variance / (fit.floor.sigma_m * fit.floor.sigma_m));
 }
 
 /// Held-out poses far outside the scatter of the others. They stay in the figure.
@@ -281,6 +298,7 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   out.still = still_joints(cell, measured, fit);
   out.unavoidable_ratio = unavoidable_ratio(fitted_coordinates(measured, out.split),
                                             out.calibration.decided + out.calibration.series_dof);
+  out.unavoidable_ratio = std::max(out.unavoidable_ratio, open_ratio(measured, out));
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);

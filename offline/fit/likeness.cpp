@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
@@ -24,17 +25,22 @@ namespace {
 // Of what arms are built with: the difference between the two, and its whole scale.
 constexpr double kSpreads[] = {0.0, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0};
 constexpr double kScales[] = {0.25, 0.5, 1.0, 2.0, 4.0};
-constexpr double kNoises[] = {0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0};
-constexpr double kNoiseKnown = 0.2;      // 1 sigma of its logarithm: the earlier run has seen it
+constexpr double kNoises[] = {0.5, 0.6, 0.7, 0.8, 0.9, 1.0,  1.1,  1.2,  1.4,   1.7,   2.0,
+                              2.5, 3.0, 4.0, 6.0, 9.0, 14.0, 25.0, 50.0, 100.0, 250.0, 1000.0};
+// The earlier run has seen the noise; but another instrument may be far worse: a t distribution of
+// the logarithm, with that scale and 2 degrees of freedom.
+constexpr double kNoiseKnown = 0.2;
 constexpr double kMostWithChange = 0.1;  // spread of arms in which a single change can be seen
 constexpr double kChangeChance = 0.1;    // that one number has changed
 constexpr double kChangeTimes = 4.0;     // as large as arms are built different
 constexpr double kSame = 0.04;           // spread up to which arms are as good as one
 constexpr double kUnlike = 0.85;         // spread from which on arms have little in common
 constexpr double kSure = 0.9;
-constexpr double kNegligible = 1e-7;    // weight of a hypothesis
-constexpr double kSameNominal = 1e-9;   // SI
-constexpr double kUnsetPrior = 0.5e-3;  // m or rad, where the cell sets its own to 0
+constexpr double kNegligible = 1e-7;  // weight of a hypothesis
+constexpr double kMostBuilt = 10e-3;  // m or rad: how far at most arms are built from nominal
+constexpr int kUnchanged = -1, kOffsets = -2;  // in the place of a number that has changed
+constexpr double kSameNominal = 1e-9;          // SI
+constexpr double kUnsetPrior = 0.5e-3;         // m or rad, where the cell sets its own to 0
 
 struct Shared {
   Parameter parameter;
@@ -52,7 +58,15 @@ double built_within(const FitData& data, const ArmState& at, const Parameter& p,
     return std::hypot(effect_parameter(at.arm, p.joint, p.component).typical, value);
   const FitSettings& fit = data.cell->fit;
   const double stated = p.is_length() ? fit.prior_m : fit.prior_rad;
-  return stated > 0.0 ? stated : kUnsetPrior;
+  return stated > 0.0 ? std::min(stated, kMostBuilt) : kUnsetPrior;
+}
+
+/// Whether the number adds to what the encoder of the joint says.
+bool is_offset(const FitData& data, const Parameter& p) {
+  if (p.of_effect()) return false;
+  const auto& row = data.cell->nominal.joints[static_cast<std::size_t>(p.joint)];
+  return p.kind == (row.type == format::JointType::kPrismatic ? Parameter::Kind::kD
+                                                              : Parameter::Kind::kTheta);
 }
 
 double nominal_of(const FitData& data, const Parameter& p) {
@@ -80,13 +94,12 @@ std::vector<Shared> shared_numbers(const FitData& data, const ArmState& at,
                                     [&](const Prior& prior) { return prior.name == p.name; });
     if (found == earlier.numbers.end() || stated || !p.of_robot()) continue;
     if (p.of_effect() && of_measurement(at, p)) continue;
-    if (!p.of_effect() && std::abs(found->nominal - nominal_of(data, p)) > kSameNominal)
-      refuse(earlier,
-             fmt::format("is of another model: its nominal {} is not that of this cell", p.name));
     const double built = built_within(data, at, p, found->value);
     if (built > 0.0) out.push_back({p, found - earlier.numbers.begin(), built});
   }
-  if (out.empty()) refuse(earlier, "has no number in common with this fit");
+  if (out.empty())
+    refuse(earlier,
+           "has no number in common with this fit: another [fit] model, or all are held fixed");
   return out;
 }
 
@@ -176,7 +189,7 @@ double ln_normal(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
 struct Hypothesis {
   double weight = 0.0;  // of the posterior; its logarithm, not normalised, until all are weighed
   double scale = 1.0, spread = 0.0, noise = 1.0;
-  int changed = -1;
+  int changed = kUnchanged;
   std::size_t base = 0;  // index of mean and covariance
 };
 
@@ -187,8 +200,12 @@ struct Base {
 
 class Mixture {
  public:
-  Mixture(Earlier earlier, Shown shown, Eigen::VectorXd u0)
-      : earlier_(std::move(earlier)), shown_(std::move(shown)), u0_(std::move(u0)) {
+  /// offsets: places of the encoder offsets among the shared numbers.
+  Mixture(Earlier earlier, Shown shown, Eigen::VectorXd u0, std::vector<Eigen::Index> offsets)
+      : earlier_(std::move(earlier)),
+        shown_(std::move(shown)),
+        u0_(std::move(u0)),
+        offsets_(std::move(offsets)) {
     for (const double scale : kScales) weigh(scale);
     normalise();
   }
@@ -217,10 +234,19 @@ class Mixture {
   }
 
  private:
-  /// The shared numbers if this hypothesis is right, with the readings.
-  Base posterior_of(const Hypothesis& h) const {
+  /// The shared numbers if this hypothesis is right, before the readings.
+  Base prior_of(const Hypothesis& h) const {
     Base out = bases_[h.base];
-    if (h.changed >= 0) out.P(h.changed, h.changed) += std::pow(kChangeTimes * h.scale, 2);
+    const double variance = std::pow(kChangeTimes * h.scale, 2);
+    if (h.changed >= 0) out.P(h.changed, h.changed) += variance;
+    if (h.changed == kOffsets)
+      for (const auto k : offsets_) out.P(k, k) += variance;
+    return out;
+  }
+
+  /// The same with the readings.
+  Base posterior_of(const Hypothesis& h) const {
+    Base out = prior_of(h);
     const Eigen::MatrixXd across = out.P * shown_.R.transpose();
     Eigen::MatrixXd S = shown_.R * across;
     S.diagonal().array() += h.noise * h.noise;
@@ -263,11 +289,14 @@ class Mixture {
       const Eigen::ArrayXd Sw = w / S;
       const double ln = ln_before - 0.5 * ((w * Sw).sum() + S.log().sum()) -
                         0.5 * shown_.rest / (noise * noise) - shown_.rest_lines * std::log(noise) -
-                        0.5 * std::pow(std::log(noise) / kNoiseKnown, 2);
-      Hypothesis one{ln, scale, spread, noise, -1, bases_.size() - 1};
-      if (may_change) one.weight += std::log(1.0 - kChangeChance);
+                        1.5 * std::log1p(0.5 * std::pow(std::log(noise) / kNoiseKnown, 2));
+      Hypothesis one{ln, scale, spread, noise, kUnchanged, bases_.size() - 1};
+      if (may_change) one.weight += std::log(1.0 - 2.0 * kChangeChance);
       all_.push_back(one);
       if (!may_change) continue;
+      one.changed = kOffsets;
+      one.weight = ln + ln_of_offsets(one, S, Sw, Ut) + std::log(kChangeChance);
+      all_.push_back(one);
       for (Eigen::Index j = 0; j < moved.cols(); ++j) {
         const Eigen::ArrayXd v = moved.col(j);
         const double more = 1.0 + (v * v / S).sum();
@@ -277,6 +306,19 @@ class Mixture {
         all_.push_back(one);
       }
     }
+  }
+
+  /// What it adds to ln of the evidence if the offsets of all joints may have changed, by the
+  /// Woodbury identity.
+  double ln_of_offsets(const Hypothesis& h, const Eigen::ArrayXd& S, const Eigen::ArrayXd& Sw,
+                       const Eigen::MatrixXd& Ut) const {
+    if (offsets_.empty()) return 0.0;
+    const Eigen::MatrixXd V = Ut * shown_.R(Eigen::all, offsets_) * (kChangeTimes * h.scale);
+    Eigen::MatrixXd more = V.transpose() * S.inverse().matrix().asDiagonal() * V;
+    more.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(more);
+    const Eigen::VectorXd towards = V.transpose() * Sw.matrix();
+    return 0.5 * towards.dot(llt.solve(towards)) - llt.matrixLLT().diagonal().array().log().sum();
   }
 
   /// Hypotheses that weigh nothing are dropped.
@@ -294,6 +336,7 @@ class Mixture {
   Earlier earlier_;
   Shown shown_;
   Eigen::VectorXd u0_;
+  std::vector<Eigen::Index> offsets_;
   std::vector<Base> bases_;
   std::vector<Hypothesis> all_;
 };
@@ -312,11 +355,12 @@ Likeness summary(const Mixture& mixture, const std::vector<Shared>& shared,
   Likeness out;
   out.numbers = static_cast<int>(shared.size());
   Eigen::VectorXd changed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(shared.size()));
-  double unlike = 0.0, variance = 0.0, r2 = 0.0;
+  double unlike = 0.0, variance = 0.0, r2 = 0.0, offsets = 0.0;
   for (const auto& h : mixture.hypotheses()) {
     if (h.spread <= kSame) out.same_chance += h.weight;
     if (h.spread >= kUnlike) unlike += h.weight;
     if (h.changed >= 0) changed(h.changed) += h.weight;
+    if (h.changed == kOffsets) offsets += h.weight;
     r2 += h.weight * (1.0 - h.spread * h.spread);
     variance += h.weight * std::pow(h.spread * h.scale, 2);
   }
@@ -333,6 +377,7 @@ Likeness summary(const Mixture& mixture, const std::vector<Shared>& shared,
   Eigen::Index likely = 0;
   if (changed.maxCoeff(&likely) > kSure)
     out.changed = shared[static_cast<std::size_t>(likely)].parameter.name;
+  if (offsets > kSure) out.changed = "offsets";
   return out;
 }
 
@@ -356,15 +401,18 @@ Judgement judge_likeness(const FitData& data, const ArmState& at,
                          const std::vector<Parameter>& parameters, const EarlierArm& earlier) {
   const auto shared = shared_numbers(data, at, parameters, earlier);
   const Earlier known = scaled(data, shared, earlier);
+  std::vector<Eigen::Index> offsets;
+  for (std::size_t i = 0; i < shared.size(); ++i)
+    if (is_offset(data, shared[i].parameter)) offsets.push_back(static_cast<Eigen::Index>(i));
   const Mixture mixture(known, shown(data, at, parameters, shared, known.built),
-                        where(at, shared, known));
+                        where(at, shared, known), std::move(offsets));
   Judgement out{.likeness = summary(mixture, shared, data.cell->fit), .arm = {}};
   mixture.conclude(shared, out);
   out.likeness.run = earlier.run.string();
   return out;
 }
 
-KnownArm hardly_known(const FitData& data, const ArmState& at,
+KnownArm known_within(double spread, const FitData& data, const ArmState& at,
                       const std::vector<Parameter>& parameters, const EarlierArm& earlier) {
   const auto shared = shared_numbers(data, at, parameters, earlier);
   const Earlier known = scaled(data, shared, earlier);
@@ -372,9 +420,40 @@ KnownArm hardly_known(const FitData& data, const ArmState& at,
   for (const auto& one : shared) out.names.push_back(one.parameter.name);
   out.mean = known.nominal + known.built.cwiseProduct(known.x);
   Eigen::MatrixXd P = known.C;
-  P.diagonal().array() += 1.0;
+  P.diagonal().array() += spread * spread;
   out.covariance = known.built.asDiagonal() * P * known.built.asDiagonal();
   return out;
+}
+
+void check_same_model(const Cell& cell, const EarlierArm& earlier) {
+  const auto& joints = cell.nominal.joints;
+  const bool modified = cell.nominal.convention == format::Convention::kModified;
+  if (earlier.modified != modified)
+    refuse(earlier, "is of an arm whose rows stand in the other convention");
+  if (earlier.rows.size() != joints.size())
+    refuse(earlier, fmt::format("is of an arm of {} joints, this one has {}", earlier.rows.size(),
+                                joints.size()));
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto& then = earlier.rows[i];
+    const auto& now = joints[i];
+    if (then.joint != now.name)
+      refuse(earlier, fmt::format("calls joint {} {}, not {}", i + 1, then.joint, now.name));
+    if (then.prismatic != (now.type == format::JointType::kPrismatic))
+      refuse(earlier, fmt::format("has another kind of joint {}", now.name));
+    const auto check = [&](const char* what, double calibrated, double nominal) {
+      const std::string name = now.name + "." + what;
+      const auto fitted = std::find_if(earlier.numbers.begin(), earlier.numbers.end(),
+                                       [&](const auto& n) { return n.name == name; });
+      const double before = fitted == earlier.numbers.end() ? calibrated : fitted->nominal;
+      if (std::abs(before - nominal) > kSameNominal)
+        refuse(earlier,
+               fmt::format("is of another model: its nominal {} is not that of this cell", name));
+    };
+    check("theta", then.theta, now.theta);
+    check("d", then.d, now.d);
+    check("a", then.a, now.a);
+    check("alpha", then.alpha, now.alpha);
+  }
 }
 
 }  // namespace plumb::offline

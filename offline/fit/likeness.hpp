@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "cell/earlier_arm.hpp"
 #include "fit/known_arm.hpp"
 #include "fit/solver.hpp"
 
 namespace plumb::offline {
+
+struct EarlierArm;
 
 /// How much an arm has in common with one that was calibrated earlier, as its own readings say it.
 struct Likeness {
@@ -18,7 +19,7 @@ struct Likeness {
   double same_chance = 0.0;  // that their numbers are as good as equal, one perhaps excepted
   double share = 0.0;  // of the earlier arm's differences from nominal that this one has, 0..1
   double spread_m = 0.0, spread_rad = 0.0;  // 1 sigma of the difference between the two arms
-  std::string changed;  // the one number in which they differ; empty: none, or several
+  std::string changed;  // the one number in which they differ, or "offsets": of several joints
 };
 
 /// "same", "sister", "unlike", "unknown"
@@ -37,10 +38,11 @@ struct Judgement {
 ///
 ///   d ~ N(0, T),   this arm ~ N(r d, (1 - r^2) T)
 ///
-/// r = 1 is the same arm, in which one number may have changed, r = 0 an arm that has nothing in
-/// common with it but the model. Every r, factor and noise is weighed by what the readings say of
-/// it [Bayesian model averaging, Hoeting et al. 1999]: mean and covariance of the mixture of what
-/// each of them concludes. So where the readings cannot tell, the result claims no more.
+/// r = 1 is the same arm, in which one number or the offsets may have changed, r = 0 an arm that
+/// has nothing in common with it but the model. Every r, factor and noise is weighed by what the
+/// readings say of it [Bayesian model averaging, Hoeting et al. 1999]: mean and covariance of the
+/// mixture of what each of them concludes. So where the readings cannot tell, the result claims no
+/// more.
 ///
 /// @param data  With sigmas about as large as the model misses the readings; `arm` plays no part.
 /// @param at    Where the fit is linearised; `parameters` are those that it fits.
@@ -49,9 +51,13 @@ struct Judgement {
 Judgement judge_likeness(const FitData& data, const ArmState& at,
                          const std::vector<Parameter>& parameters, const EarlierArm& earlier);
 
-/// What is known before any reading is looked at: this arm differs from the earlier one as arms
-/// differ from nominal.
-KnownArm hardly_known(const FitData& data, const ArmState& at,
+/// What is known before any reading is looked at, if this arm differs from the earlier one by
+/// `spread` times what arms differ from nominal.
+KnownArm known_within(double spread, const FitData& data, const ArmState& at,
                       const std::vector<Parameter>& parameters, const EarlierArm& earlier);
+
+/// Throws Failure (kInput, E-FIT-EARLIER) with the reason if the earlier arm is not of the model of
+/// this cell: convention, joints, nominal rows.
+void check_same_model(const Cell& cell, const EarlierArm& earlier);
 
 }  // namespace plumb::offline

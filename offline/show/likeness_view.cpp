@@ -31,22 +31,27 @@ std::string likeness_text(const Calibration& found) {
   const Likeness& like = *found.likeness;
   const std::string run = display_name(like.run);
   std::string out;
+  const std::string what = like.changed == "offsets" ? "the offsets of several joints"
+                                                     : like.changed + ", or a link beside it,";
   switch (like.kind) {
     case Likeness::Kind::kSame:
       out = like.changed.empty()
                 ? fmt::format("The numbers of {} hold for this arm too, give or take {}.", run,
                               difference(like))
                 : fmt::format(
-                      "The numbers of {} hold for this arm too, but it is as if {}, or a "
-                      "link beside it, had changed.",
-                      run, like.changed);
+                      "The numbers of {} hold for this arm too, but it is as if {} had "
+                      "changed; an effect that this cell does not list may look so as well.",
+                      run, what);
       break;
     case Likeness::Kind::kSister:
       out = fmt::format("This arm is like that of {}: their numbers differ by {} (1 sigma).", run,
                         difference(like));
       break;
     case Likeness::Kind::kUnlike:
-      out = fmt::format("This arm is unlike that of {}: fit it alone.", run);
+      out = fmt::format(
+          "This arm has little in common with that of {}: measure at least 30 poses "
+          "and fit it alone.",
+          run);
       break;
     case Likeness::Kind::kUnknown:
       out = fmt::format(
@@ -55,9 +60,9 @@ std::string likeness_text(const Calibration& found) {
           run, difference(like));
   }
   return out + fmt::format(
-                   "\n  {} numbers of the arm are known from there; the readings decide "
-                   "as much as {:.0f} of all {} numbers\n",
-                   like.numbers, found.decided, found.estimates.size());
+                   "\n  frame and target included, the readings decide {:.0f} of the {} "
+                   "numbers, and the earlier run the others\n",
+                   found.decided, found.estimates.size());
 }
 
 }  // namespace plumb::offline::show

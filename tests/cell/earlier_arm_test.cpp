@@ -12,8 +12,8 @@ std::string run_of(const std::string& estimates, const std::string& covariance,
   return "{\"schema\": \"run/1\", \"inputs\": [{\"file\": \"m.csv\", \"sha256\": \"abc\"}]," +
          more +
          " \"held_out\": {\"n\": 20, \"rms_m\": 3e-4}, \"fit\": {\"n\": 20, \"rms_m\": 1e-4}," +
-         " \"calibration\": {\"estimates\": [" + estimates + "], \"covariance\": [" + covariance +
-         "]}}";
+         " \"calibration\": {\"chain\": {\"modified\": false, \"joints\": []}, \"estimates\": [" +
+         estimates + "], \"covariance\": [" + covariance + "]}}";
 }
 
 std::string estimate(const std::string& name, bool robot, const std::string& value) {
@@ -23,6 +23,7 @@ std::string estimate(const std::string& name, bool robot, const std::string& val
 
 class EarlierArmFile : public testing::Test {
  protected:
+  EarlierArmFile() { folder.put("predictions.csv", "pose\n"); }
   std::string refused(const std::string& text) {
     folder.put("run.json", text);
     const auto problems = problems_of([&] { earlier_arm(folder.path()); });
@@ -34,13 +35,13 @@ class EarlierArmFile : public testing::Test {
 TEST_F(EarlierArmFile, GivesTheNumbersOfTheArmAloneWithTheirCovariance) {
   const std::string all = estimate("J1.a", true, "0.51") + "," + estimate("frame.x", false, "3") +
                           "," + estimate("J2.a", true, "0.52");
-  folder.put("run.json", run_of(all, "1, 2, 9, 3, 4, 5"));
+  folder.put("run.json", run_of(all, "1, 2, 9, 0.5, 4, 5"));
   const EarlierArm arm = earlier_arm(folder.path());
   ASSERT_EQ(arm.numbers.size(), 2U);
   EXPECT_EQ(arm.numbers[1].name, "J2.a");
   EXPECT_EQ(arm.numbers[1].value, 0.52);
   EXPECT_EQ(arm.covariance(0, 0), 1.0);
-  EXPECT_EQ(arm.covariance(1, 0), 3.0);
+  EXPECT_EQ(arm.covariance(1, 0), 0.5);
   EXPECT_EQ(arm.covariance(1, 1), 5.0);
   EXPECT_EQ(arm.inputs, std::vector<std::string>{"abc"});
   EXPECT_NEAR(arm.left_m, 3e-4 / std::sqrt(3.0), 1e-12);  // of the held-out poses
@@ -57,6 +58,9 @@ TEST_F(EarlierArmFile, OfAFolderOfACellIsItsLatestRun) {
   std::filesystem::create_directories(folder.path() / "arm/runs/0002");
   std::filesystem::create_directories(folder.path() / "arm/runs/0010");
   std::filesystem::create_directories(folder.path() / "arm/runs/.draft-1");
+  std::filesystem::create_directories(folder.path() / "arm/runs/0099");  // without a run
+  for (const char* run : {"0002", "0010"})
+    folder.put(std::string("arm/runs/") + run + "/predictions.csv", "pose\n");
   folder.put("arm/runs/0002/run.json", run_of(estimate("J1.a", true, "0.5"), "1"));
   folder.put("arm/runs/0010/run.json", run_of(estimate("J1.a", true, "0.6"), "1"));
   EXPECT_EQ(earlier_arm(folder.path() / "arm").numbers[0].value, 0.6);

@@ -93,6 +93,16 @@ TEST_F(FitFrom, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(box->plumb({"-C", "arm", "fit", "--data", "later.csv"}).exit, 2);
   EXPECT_EQ(box->plumb({"-C", "arm", "fit", "--from", "7", "--data", "later.csv"}).exit, 3);
   EXPECT_EQ(box->plumb({"-C", "arm", "fit", "--from", "nowhere"}).exit, 3);
+  EXPECT_EQ(box->plumb({"-C", "arm", "fit", "--from", ""}).exit, 2);
+  // Five readings do not show where the tracker stands, however well the arm is known.
+  std::istringstream lines(box->read("later.csv"));
+  std::string line, few;
+  for (int rows = 0; rows < 2 && std::getline(lines, line); few += line + "\n")
+    if (!line.starts_with("#") && !line.starts_with("pose")) ++rows;
+  box->write("few.csv", few);
+  const Ran ran =
+      box->plumb({"-C", "arm", "fit", "--from", "1", "--data", "few.csv", "--held-out", "20%"});
+  EXPECT_NE(ran.exit, 0) << ran.out;
   EXPECT_EQ(box->plumb({"-C", "arm", "fit", "--from", "1", "--data", "none.csv"}).exit, 3);
   ASSERT_EQ(box->plumb({"demo", "scara", "other"}).exit, 0);
   ASSERT_EQ(box->plumb({"-C", "other", "fit"}).exit, 0);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cell/earlier_arm.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "simulate/simulate.hpp"
@@ -57,6 +58,9 @@ std::shared_ptr<const EarlierArm> earlier(const Calibration& c) {
     rows.push_back(static_cast<Eigen::Index>(i));
   }
   out->covariance = c.covariance(rows, rows);
+  for (const auto& row : c.state.arm.calibrated.joints)
+    out->rows.push_back(
+        {row.name, row.type == format::JointType::kPrismatic, row.theta, row.d, row.a, row.alpha});
   out->left_m = kNoise_m;
   return out;
 }
@@ -160,6 +164,70 @@ TEST(Likeness, OneEncoderThatMovedIsNamedAndTheRestIsKept) {
     const auto outcome = outcome_of(cell, later, 16, reference);
     EXPECT_EQ(outcome.found.likeness->changed, "J3.theta") << seed;
     EXPECT_LT(outcome.with, outcome.alone) << seed;
+  }
+}
+
+TEST(Likeness, OneWrongReadingIsSeenThoughThereAreFew) {
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    auto later = measured(cell, 12, seed, 2, 0.3e-3);
+    later.measured.p_M(5, 1) += 5e-3;
+    const auto outcome = outcome_of(cell, later, 12, calibrate(cell, before.measured, first(150)));
+    ASSERT_EQ(outcome.found.outliers.size(), 1U) << seed;
+    EXPECT_EQ(outcome.found.outliers[0].row, 5);
+    EXPECT_LT(outcome.with, 0.1e-3);
+  }
+}
+
+TEST(Likeness, NoiseBeyondWhatWasStatedIsNoDifferenceOfTheArms) {
+  for (const double noise : {0.1e-3, 0.5e-3, 3e-3})
+    for (const auto seed : kSeeds) {
+      const Cell cell = some_cell(seed);
+      const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+      SimulationPlan plan;
+      plan.poses = 16 + kJudged;
+      plan.noise_m = noise;
+      plan.seed = 2;
+      plan.truth.seed = seed;
+      plan.truth.geometry_m = plan.truth.geometry_rad = 0.3e-3;
+      const auto later = simulate(cell, plan);
+      const auto outcome =
+          outcome_of(cell, later, 16, calibrate(cell, before.measured, first(150)));
+      EXPECT_LT(outcome.with, outcome.alone) << noise << " " << seed;
+      EXPECT_NE(outcome.found.likeness->kind, Likeness::Kind::kUnlike) << noise << " " << seed;
+    }
+}
+
+TEST(Likeness, OffsetsOfSeveralJointsMayHaveChanged) {
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    auto later = measured(cell, 16, seed, 2, 0.3e-3);
+    for (int j = 1; j < 5; ++j) later.measured.q.col(j).array() += 1e-3 * (j % 2 == 0 ? 2 : -3);
+    const auto outcome = outcome_of(cell, later, 16, calibrate(cell, before.measured, first(150)));
+    EXPECT_EQ(outcome.found.likeness->changed, "offsets") << seed;
+    EXPECT_LT(outcome.with, outcome.alone) << seed;
+  }
+}
+
+/// The earlier run fitted tracker and reflector, which here are given: what it held at nominal in
+/// their place is free now.
+TEST(Likeness, WhatTheEarlierRunHeldIsFittedWhereItCanBe) {
+  for (const auto seed : kSeeds) {
+    const Cell cell = some_cell(seed);
+    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
+    const auto later = measured(cell, 40, seed, 2, 0.3e-3);
+    const auto reference = calibrate(cell, before.measured, first(150));
+    Cell frame = cell, target = cell;
+    frame.measurement.fit_frame = false;
+    frame.measurement.X_MB = later.X_MB;
+    target.measurement.fit_target = false;
+    target.measurement.target_T = {later.X_TG.p[0], later.X_TG.p[1], later.X_TG.p[2]};
+    for (const Cell& given : {frame, target}) {
+      const auto outcome = outcome_of(given, later, 40, reference);
+      EXPECT_LT(outcome.with, 1.2 * outcome.alone) << seed;
+    }
   }
 }
 

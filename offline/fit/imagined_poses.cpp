@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/imagined_poses.hpp"
+#include "fit/imagined_poses.hpp"
 
 #include <numeric>
 
