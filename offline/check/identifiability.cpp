@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "fit/imagined_poses.hpp"
 #include "check/spectrum.hpp"
+#include "fit/imagined_poses.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/weights.hpp"
 
