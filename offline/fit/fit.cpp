@@ -14,7 +14,7 @@
 #include "fit/context_needs.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/fit_steps.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/imagined_poses.hpp"
 #include "fit/pose_sense.hpp"
 #include "tree/domain.hpp"
 
@@ -24,6 +24,7 @@ namespace {
 constexpr double kFarTimes = 6.0;              // the usual scatter: an outlier
 constexpr double kSmallestScatter_m = 0.1e-6;  // of noise-free data
 constexpr std::size_t kListed = 5;
+constexpr double kAnyError = 1e3;  // noise floors, which few poses may leave
 
 const EffectEntry* find_local_tree(const Cell& cell) {
   const auto it = std::find_if(cell.effects.begin(), cell.effects.end(),
@@ -131,20 +132,36 @@ ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
   return summarise(std::move(norms));
 }
 
-/// The error to expect at new poses, in noise floors, of an arm that is right and of which the
-/// readings and an earlier run leave so much open.
-double open_ratio(const Measurements& measured, const Fit& fit) {
-  constexpr int kEnough = 1000;
-  constexpr double kByChance = 1.3;
-  const Calibration& c = fit.calibration;
-  if (!c.likeness || fit.floor.sigma_m <= 0.0) return 1.0;
+/// What the readings and an earlier run leave open of the geometry, as the mean variance of a
+/// coordinate at poses anywhere [m^2]; 0 without an earlier run.
+double left_open(const Cell& cell, const Measurements& measured, const Calibration& c) {
+  if (!c.likeness) return 0.0;
+  std::vector<Parameter> geometry;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < c.parameters.size(); ++i) {
+    if (c.parameters[i].of_effect()) continue;
+    geometry.push_back(c.parameters[i]);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
   FitData data;
   data.measured = &measured;
-  data.rows = thinned(fit_rows(fit.split), kEnough);
-  data.sigma_m = Rows3::Ones(measured.size(), 3);
-  const Eigen::MatrixXd J = evaluate(data, c.state, c.parameters).jacobian;
-  const double variance = (J * c.covariance).cwiseProduct(J).sum() / static_cast<double>(J.rows());
-  return kByChance * std::sqrt(1.0 + variance / (fit.floor.sigma_m * fit.floor.sigma_m));
+  const Eigen::MatrixXd J = at_imagined_poses(cell, data, c.state, geometry);
+  const Eigen::MatrixXd open = J * Eigen::MatrixXd(c.covariance(rows, rows));
+  return open.cwiseProduct(J).sum() / static_cast<double>(J.rows());
+}
+
+/// The error to expect at new poses of an arm that is right, in noise floors, if so much is open.
+double open_ratio(double variance_m2, const NoiseFloor& floor) {
+  constexpr double kByChance = 1.3;
+  if (variance_m2 <= 0.0 || floor.sigma_m <= 0.0) return 1.0;
+  return kByChance * std::sqrt(1.0 + variance_m2 / (floor.sigma_m * floor.sigma_m));
+}
+
+/// Fewer coordinates than numbers, of an arm that may share none of them with the earlier one: no
+/// error says anything then.
+bool says_nothing(const Calibration& c, double coordinates) {
+  return c.likeness && c.likeness->kind != Likeness::Kind::kSame &&
+         coordinates < static_cast<double>(c.estimates.size());
 }
 
 /// Held-out poses far outside the scatter of the others. They stay in the figure.
@@ -273,12 +290,14 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   if (measured.has_orientation() && cell.measurement.sigma_rad)
     predicted.turn_errors = Eigen::VectorXd::Zero(measured.size());
   const ArmState start = final_model.geometry_only;
+  double open = out.split.folds > 0 ? 0.0 : left_open(cell, measured, final_model.calibration);
   for (int k = 0; k < out.split.folds; ++k) {
     if (tell) tell(fmt::format("step {} of {}, fold {}", k + 2, out.split.folds + 1, k + 1));
     const auto inside = fit_rows(out.split, k);
     if (several) check_placed(cell, measured, inside, held_rows(out.split, k));
-    predict_held(cell, measured, fit_on(cell, measured, inside, &start), inside,
-                 held_rows(out.split, k), predicted);
+    const Fitted fitted = fit_on(cell, measured, inside, &start);
+    open += left_open(cell, measured, fitted.calibration) / out.split.folds;
+    predict_held(cell, measured, fitted, inside, held_rows(out.split, k), predicted);
   }
   if (out.split.folds == 0)
     predict_held(cell, measured, final_model, fit, held_rows(out.split), predicted);
@@ -298,7 +317,9 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   out.still = still_joints(cell, measured, fit);
   out.unavoidable_ratio = unavoidable_ratio(fitted_coordinates(measured, out.split),
                                             out.calibration.decided + out.calibration.series_dof);
-  out.unavoidable_ratio = std::max(out.unavoidable_ratio, open_ratio(measured, out));
+  out.unavoidable_ratio = std::max(out.unavoidable_ratio, open_ratio(open, out.floor));
+  if (says_nothing(out.calibration, fitted_coordinates(measured, out.split)))
+    out.unavoidable_ratio = kAnyError;
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);
