@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "cell/earlier_arm.hpp"
 #include "cell/setups.hpp"
 #include "check/common_scale.hpp"
 #include "check/contradiction.hpp"
@@ -241,7 +242,7 @@ class Checker {
     try {
       const Split split = split_poses(measured, cell_.measurement.held_out, cell_.measurement.seed);
       const std::size_t readings = fewest_fitted(split);
-      const auto numbers = static_cast<std::size_t>(out_.parameters->rank);
+      const auto numbers = static_cast<std::size_t>(open_of(out_.parameters->rank));
       if (axes_of(measured) * readings > numbers) return;
       find(Severity::kError, "E-CHECK-FEW",
            fmt::format("{} readings are too few to hold some of them out: {} of them are left to "
@@ -262,6 +263,14 @@ class Checker {
     return out;
   }
 
+  /// How many of so many numbers no earlier run knows; where the arm stands it never does.
+  int open_of(int numbers) const {
+    constexpr int kPlacing = 6;
+    if (!cell_.fit.earlier) return numbers;
+    const int known = static_cast<int>(cell_.fit.earlier->numbers.size());
+    return std::max(std::min(numbers, kPlacing), numbers - known);
+  }
+
   /// Each distinct pose gives its measured axes once; repeats give noise only.
   void poses_enough(const MeasurementFiles& measured) {
     const int axes = static_cast<int>(axes_of(measured));
@@ -269,6 +278,7 @@ class Checker {
     const int coordinates = axes * static_cast<int>(groups.size());
     int needed = out_.parameters->rank_anywhere;
     for (const auto& p : out_.parameters->calibration.parameters) needed += p.of_effect() ? 1 : 0;
+    needed = open_of(needed);
     if (coordinates > kEnough * needed) return;
     const bool too_few = coordinates <= needed;
     find(too_few ? Severity::kError : Severity::kWarning, too_few ? "E-CHECK-FEW" : "W-CHECK-FEW",
