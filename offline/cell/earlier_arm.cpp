@@ -53,8 +53,7 @@ EarlierArm::Number number_of(const Json& estimate) {
   return {.name = estimate.at("name"),
           .value = estimate.at("value"),
           .nominal = estimate.at("nominal"),
-          .of_effect = !estimate.value("unit", std::string()).empty(),
-          .is_length = estimate.at("length")};
+          .of_effect = !estimate.value("unit", std::string()).empty()};
 }
 
 EarlierArm::Row row_of(const Json& joint) {

@@ -15,7 +15,6 @@ struct EarlierArm {
     std::string name;                   // "J2.d", "joint_compliance.J2.c"
     double value = 0.0, nominal = 0.0;  // SI
     bool of_effect = false;
-    bool is_length = false;
   };
   /// A row of the arm as it was calibrated; what was not fitted is nominal.
   struct Row {

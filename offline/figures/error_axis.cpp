@@ -37,6 +37,17 @@ ErrorAxis error_axis(const RunResults& results) {
   return out;
 }
 
+ErrorAxis mean_error_axis(double least_m, double most_m) {
+  ErrorAxis out{.unit = unit_for(most_m), .axis = {}};
+  out.axis.title = "mean error [" + out.unit.name + "]";
+  out.axis.high = 1.1 * most_m * out.unit.per_m;
+  if (most_m > kLogBeyond * least_m && least_m > 0.0) {  // a tracker at another station: metres
+    out.axis.scale = draw::Axis::Scale::kLog;
+    out.axis.low = 0.5 * least_m * out.unit.per_m;
+  }
+  return out;
+}
+
 void draw_limits(const RunResults& results, const ErrorAxis& axis, Along along,
                  draw::Panel& panel) {
   std::vector<draw::Panel::Level> levels;

@@ -20,6 +20,10 @@ struct ErrorAxis {
 };
 ErrorAxis error_axis(const RunResults& results);
 
+/// An axis of mean errors between these: linear, or logarithmic if they differ by more than 15
+/// times.
+ErrorAxis mean_error_axis(double least_m, double most_m);
+
 /// Lines of a panel for tolerance and noise floor, if they lie on the axis.
 enum class Along { kX, kY };
 void draw_limits(const RunResults& results, const ErrorAxis& axis, Along along, draw::Panel& panel);

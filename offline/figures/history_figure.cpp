@@ -87,13 +87,7 @@ std::string history_figure(const RunResults& results, double width) {
     most = std::max({most, run.recheck->before.mean, run.recheck->limit_m, run.fit.held.mean});
     least = std::min({least, run.recheck->before.mean, run.recheck->expected_m, run.fit.held.mean});
   }
-  ErrorAxis axis{.unit = unit_for(most), .axis = {}};
-  axis.axis.title = "mean error [" + axis.unit.name + "]";
-  axis.axis.high = 1.1 * most * axis.unit.per_m;
-  if (most > kLogBeyond * least && least > 0.0) {  // a tracker at another station is metres off
-    axis.axis.scale = draw::Axis::Scale::kLog;
-    axis.axis.low = 0.5 * least * axis.unit.per_m;
-  }
+  const ErrorAxis axis = mean_error_axis(least, most);
   draw::Axis runs{.title = "run", .low = -0.6, .high = 0.6, .ticks = {}};
   runs.high += static_cast<double>(results.rechecks.size());
   runs.ticks.push_back({0.0, fmt::format("{}", results.run.number)});

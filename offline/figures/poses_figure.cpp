@@ -87,13 +87,7 @@ std::string poses_figure(const RunResults& results, double width) {
   for (const auto& point : curve)
     for (const auto& error : {point.alone_m, point.with_m})
       if (error) most = std::max(most, *error), least = std::min(least, *error);
-  ErrorAxis axis{.unit = unit_for(most), .axis = {}};
-  axis.axis.title = "mean error [" + axis.unit.name + "]";
-  axis.axis.high = 1.1 * most * axis.unit.per_m;
-  if (most > kLogBeyond * least && least > 0.0) {
-    axis.axis.scale = draw::Axis::Scale::kLog;
-    axis.axis.low = 0.5 * least * axis.unit.per_m;
-  }
+  const ErrorAxis axis = mean_error_axis(least, most);
   draw::Axis poses{.title = "poses that were fitted",
                    .low = 8.0 / kRoom,
                    .high = 16.0 * kRoom,

@@ -17,7 +17,6 @@
 #include "fit/fit_judgement.hpp"
 #include "fit/formula_binding.hpp"
 #include "fit/frame_start.hpp"
-#include "fit/imagined_poses.hpp"
 #include "fit/many_rows.hpp"
 #include "fit/odd_pose.hpp"
 #include "fit/parameter_subset.hpp"
@@ -25,6 +24,7 @@
 #include "fit/pose_sense.hpp"
 #include "fit/prior_lines.hpp"
 #include "fit/series_solver.hpp"
+#include "fit/unknown_numbers.hpp"
 #include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
 #include "program/file.hpp"
@@ -152,61 +152,6 @@ std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
   return calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
 }
 
-bool knows(const EarlierArm& earlier, const Parameter& p) {
-  return std::any_of(earlier.numbers.begin(), earlier.numbers.end(),
-                     [&](const auto& n) { return n.name == p.name; });
-}
-
-/// Candidates beside what an earlier arm knows.
-struct Unknown {
-  std::vector<Parameter> candidates;   // the known numbers before other ones of the arm
-  std::vector<std::string> redundant;  // no pose tells them from others: held at nominal
-  std::vector<std::string> placing;    // where tracker and reflector are: poses must show it
-};
-
-/// What the earlier arm knows makes a number look independent that acts as another one does, the
-/// offset of J1 as a turn of the tracker, say; so poses all over the joint limits are asked.
-Unknown beside(const EarlierArm& earlier, const Cell& cell, const FitData& data,
-               const ArmState& placed, const std::vector<Parameter>& candidates) {
-  Unknown out;
-  std::vector<Parameter> order, others, effects;
-  for (const auto& p : candidates)
-    if (!p.of_robot()) order.push_back(p);
-  for (const auto& p : candidates) {
-    if (!p.of_robot()) continue;
-    (p.of_effect() ? effects : knows(earlier, p) ? order : others).push_back(p);
-  }
-  order.insert(order.end(), others.begin(), others.end());
-  const Subset subset = identifiable(at_imagined_poses(cell, data, placed, order), kRank);
-  std::vector<bool> kept(order.size(), false);
-  for (const int k : subset.kept) kept[static_cast<std::size_t>(k)] = true;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const Parameter& p = order[k];
-    if (!p.of_robot() && kept[k]) out.placing.push_back(p.name);
-    if (p.of_robot() && !kept[k] && !knows(earlier, p))
-      out.redundant.push_back(p.name);
-    else
-      out.candidates.push_back(p);
-  }
-  out.candidates.insert(out.candidates.end(), effects.begin(), effects.end());
-  return out;
-}
-
-/// However well the arm is known, too few poses do not show where it stands.
-void check_placed_by_poses(const FitData& data, const Unknown& unknown,
-                           const std::vector<std::string>& held) {
-  std::vector<std::string> open;
-  for (const auto& name : unknown.placing)
-    if (std::find(held.begin(), held.end(), name) != held.end()) open.push_back(name);
-  if (open.empty()) return;
-  throw Failure(
-      Exit::kNumbersSayNo,
-      {.code = "E-FIT-FEW",
-       .message = fmt::format("{} readings do not show where tracker and reflector are: {}",
-                              data.rows.size(), fmt::join(open, ", ")),
-       .help = "measure at least 8 different poses: plumb plan --n 12"});
-}
-
 /// Holds the shared numbers where the readings and the earlier run together put them.
 KnownArm pinned(KnownArm arm) {
   arm.covariance *= kPinned * kPinned;
@@ -291,7 +236,8 @@ std::size_t unknown_before(const FitData& data, const std::vector<Parameter>& pa
 /// one much like it, it stands out. Takes it out of the data.
 std::vector<Outlier> outliers_of_known_arm(Coarse& coarse) {
   const auto& earlier = coarse.data.cell->fit.earlier;
-  if (!earlier) return {};
+  // Among many rows the usual search sees them.
+  if (!earlier || is_many(coarse.data, coarse.subset.kept)) return {};
   FitData alike = coarse.data;
   alike.arm =
       known_within(kMuchLike, coarse.data, coarse.solution.state, coarse.subset.kept, *earlier);
@@ -299,7 +245,6 @@ std::vector<Outlier> outliers_of_known_arm(Coarse& coarse) {
   std::vector<Outlier> out;
   while (out.size() < most) {
     const Solution solution = solve(alike, coarse.solution.state, coarse.subset.kept);
-    if (is_many(alike, coarse.subset.kept)) break;  // the usual search sees them
     const auto odd = odd_pose(alike, solution);
     if (!odd) break;
     const int row = alike.rows[*odd];
@@ -396,7 +341,7 @@ Problem has_little_in_common(const EarlierArm& earlier) {
   return {.severity = Severity::kWarning,
           .code = "W-FIT-EARLIER",
           .message = fmt::format("this arm has little in common with that of {}, whose numbers "
-                                 "weigh next to nothing",
+                                 "weigh little",
                                  display_name(earlier.run)),
           .help = "is it that arm, or one of its model and batch? Else fit without it"};
 }
@@ -485,10 +430,10 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   else
     for (auto& placed : placements(even, nominal_state(cell, measured), candidates))
       starts.push_back(std::move(placed.state));
-  Unknown unknown;
+  UnknownNumbers unknown;
   if (cell.fit.earlier) {
     check_same_model(cell, *cell.fit.earlier);
-    unknown = beside(*cell.fit.earlier, cell, even, starts.front(), candidates);
+    unknown = unknown_numbers(*cell.fit.earlier, cell, even, starts.front(), candidates);
     candidates = unknown.candidates;
     even.arm = data.arm =
         known_within(kHardlyLike, data, starts.front(), candidates, *cell.fit.earlier);

@@ -315,11 +315,11 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   out.calibration = std::move(final_model.calibration);
   find_held_outliers(measured, held, out);
   out.still = still_joints(cell, measured, fit);
-  out.unavoidable_ratio = unavoidable_ratio(fitted_coordinates(measured, out.split),
-                                            out.calibration.decided + out.calibration.series_dof);
-  out.unavoidable_ratio = std::max(out.unavoidable_ratio, open_ratio(open, out.floor));
-  if (says_nothing(out.calibration, fitted_coordinates(measured, out.split)))
-    out.unavoidable_ratio = kAnyError;
+  const double coordinates = fitted_coordinates(measured, out.split);
+  const double numbers = out.calibration.decided + out.calibration.series_dof;
+  out.unavoidable_ratio =
+      std::max(unavoidable_ratio(coordinates, numbers), open_ratio(open, out.floor));
+  if (says_nothing(out.calibration, coordinates)) out.unavoidable_ratio = kAnyError;
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);

@@ -8,11 +8,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
-#include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/many_rows.hpp"

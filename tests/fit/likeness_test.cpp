@@ -54,7 +54,7 @@ std::shared_ptr<const EarlierArm> earlier(const Calibration& c) {
   for (std::size_t i = 0; i < c.estimates.size(); ++i) {
     const Estimate& e = c.estimates[i];
     if (!e.of_robot) continue;
-    out->numbers.push_back({e.name, e.value, e.nominal, !e.unit.empty(), e.is_length});
+    out->numbers.push_back({e.name, e.value, e.nominal, !e.unit.empty()});
     rows.push_back(static_cast<Eigen::Index>(i));
   }
   out->covariance = c.covariance(rows, rows);
@@ -63,6 +63,11 @@ std::shared_ptr<const EarlierArm> earlier(const Calibration& c) {
         {row.name, row.type == format::JointType::kPrismatic, row.theta, row.d, row.a, row.alpha});
   out->left_m = kNoise_m;
   return out;
+}
+
+/// An arm of the cell, calibrated with many poses.
+Calibration reference_of(const Cell& cell, std::uint64_t seed) {
+  return calibrate(cell, measured(cell, 150, seed, 1, 0.3e-3).measured, first(150));
 }
 
 struct Outcome {
@@ -93,8 +98,7 @@ TEST(Likeness, TheSameArmNeedsFewPosesOnly) {
   int same = 0;
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
-    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
-    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto reference = reference_of(cell, seed);
     const auto later = measured(cell, 150, seed, 2, 0.3e-3);
     // Nobody can do better than with the true arm, tracker and reflector from the same poses.
     Cell known = cell;
@@ -118,7 +122,7 @@ TEST(Likeness, ASisterHelpsAsMuchAsIfHerLikenessWereKnown) {
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
     const auto before = measured(cell, 150, seed, 1, 0.3e-3);
-    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto reference = reference_of(cell, seed);
     Cell around = cell;  // arms that differ by 0.03 mm and mrad from the reference
     around.nominal = before.true_chain;
     const auto sister = measured(around, 14, seed + 100, 2, 0.03e-3);
@@ -141,8 +145,7 @@ TEST(Likeness, AnArmThatSharesNothingIsSeenAndDoesNoHarm) {
   int unlike = 0;
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
-    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
-    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto reference = reference_of(cell, seed);
     const auto other = measured(cell, 40, seed + 200, 2, 0.3e-3);
     const auto outcome = outcome_of(cell, other, 40, reference);
     times.push_back(outcome.with / outcome.alone);
@@ -157,8 +160,7 @@ TEST(Likeness, AnArmThatSharesNothingIsSeenAndDoesNoHarm) {
 TEST(Likeness, OneEncoderThatMovedIsNamedAndTheRestIsKept) {
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
-    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
-    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto reference = reference_of(cell, seed);
     auto later = measured(cell, 16, seed, 2, 0.3e-3);
     later.measured.q.col(2).array() -= 1.5e-3;  // the readings of the third encoder
     const auto outcome = outcome_of(cell, later, 16, reference);
@@ -170,10 +172,9 @@ TEST(Likeness, OneEncoderThatMovedIsNamedAndTheRestIsKept) {
 TEST(Likeness, OneWrongReadingIsSeenThoughThereAreFew) {
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
-    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
     auto later = measured(cell, 12, seed, 2, 0.3e-3);
     later.measured.p_M(5, 1) += 5e-3;
-    const auto outcome = outcome_of(cell, later, 12, calibrate(cell, before.measured, first(150)));
+    const auto outcome = outcome_of(cell, later, 12, reference_of(cell, seed));
     ASSERT_EQ(outcome.found.outliers.size(), 1U) << seed;
     EXPECT_EQ(outcome.found.outliers[0].row, 5);
     EXPECT_LT(outcome.with, 0.1e-3);
@@ -184,7 +185,6 @@ TEST(Likeness, NoiseBeyondWhatWasStatedIsNoDifferenceOfTheArms) {
   for (const double noise : {0.1e-3, 0.5e-3, 3e-3})
     for (const auto seed : kSeeds) {
       const Cell cell = some_cell(seed);
-      const auto before = measured(cell, 150, seed, 1, 0.3e-3);
       SimulationPlan plan;
       plan.poses = 16 + kJudged;
       plan.noise_m = noise;
@@ -192,8 +192,7 @@ TEST(Likeness, NoiseBeyondWhatWasStatedIsNoDifferenceOfTheArms) {
       plan.truth.seed = seed;
       plan.truth.geometry_m = plan.truth.geometry_rad = 0.3e-3;
       const auto later = simulate(cell, plan);
-      const auto outcome =
-          outcome_of(cell, later, 16, calibrate(cell, before.measured, first(150)));
+      const auto outcome = outcome_of(cell, later, 16, reference_of(cell, seed));
       EXPECT_LT(outcome.with, outcome.alone) << noise << " " << seed;
       EXPECT_NE(outcome.found.likeness->kind, Likeness::Kind::kUnlike) << noise << " " << seed;
     }
@@ -202,10 +201,9 @@ TEST(Likeness, NoiseBeyondWhatWasStatedIsNoDifferenceOfTheArms) {
 TEST(Likeness, OffsetsOfSeveralJointsMayHaveChanged) {
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
-    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
     auto later = measured(cell, 16, seed, 2, 0.3e-3);
     for (int j = 1; j < 5; ++j) later.measured.q.col(j).array() += 1e-3 * (j % 2 == 0 ? 2 : -3);
-    const auto outcome = outcome_of(cell, later, 16, calibrate(cell, before.measured, first(150)));
+    const auto outcome = outcome_of(cell, later, 16, reference_of(cell, seed));
     EXPECT_EQ(outcome.found.likeness->changed, "offsets") << seed;
     EXPECT_LT(outcome.with, outcome.alone) << seed;
   }
@@ -216,9 +214,8 @@ TEST(Likeness, OffsetsOfSeveralJointsMayHaveChanged) {
 TEST(Likeness, WhatTheEarlierRunHeldIsFittedWhereItCanBe) {
   for (const auto seed : kSeeds) {
     const Cell cell = some_cell(seed);
-    const auto before = measured(cell, 150, seed, 1, 0.3e-3);
     const auto later = measured(cell, 40, seed, 2, 0.3e-3);
-    const auto reference = calibrate(cell, before.measured, first(150));
+    const auto reference = reference_of(cell, seed);
     Cell frame = cell, target = cell;
     frame.measurement.fit_frame = false;
     frame.measurement.X_MB = later.X_MB;
@@ -238,7 +235,7 @@ TEST(Likeness, StatesItsUncertaintyHonestly) {
     for (const auto seed : kSeeds) {
       const Cell cell = some_cell(seed);
       const auto before = measured(cell, 150, seed, 1, 0.3e-3);
-      const auto reference = calibrate(cell, before.measured, first(150));
+      const auto reference = reference_of(cell, seed);
       Cell around = cell;
       around.nominal = before.true_chain;
       const auto sister = measured(around, 16, seed + 300, 2, spread);
