@@ -11,6 +11,9 @@ constexpr std::uint8_t kPassive = CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASS
 constexpr std::uint8_t kActive = CAN_ERR_CRTL_ACTIVE;
 constexpr std::uint8_t kOverran = CAN_ERR_CRTL_RX_OVERFLOW;
 
+/// Linux tells of a lost carrier up to a second late, if another link changed just before.
+constexpr std::int64_t kCarrierToldAfterNs = 2'000'000'000;
+
 }  // namespace
 
 template <class F>
@@ -35,7 +38,8 @@ void CanCondition::hear_controller(std::uint8_t status) noexcept {
   }
 }
 
-void CanCondition::hear(std::uint32_t classes, const std::array<std::uint8_t, 8>& data) noexcept {
+void CanCondition::hear(std::uint32_t classes, const std::array<std::uint8_t, 8>& data,
+                        std::int64_t time_ns) noexcept {
   if (classes & CAN_ERR_TX_TIMEOUT) ++errors_.transmit_timeouts;
   if (classes & CAN_ERR_LOSTARB) ++errors_.arbitration_lost;
   if (classes & CAN_ERR_ACK) ++errors_.not_acknowledged;
@@ -49,13 +53,15 @@ void CanCondition::hear(std::uint32_t classes, const std::array<std::uint8_t, 8>
     if (classes & CAN_ERR_BUSOFF) {
       ++errors_.bus_offs;
       bus_off_ = true;
+      bus_off_since_ns_ = time_ns;
+      carrier_was_lost_ = false;
     }
   });
 }
 
 void CanCondition::interface_down(std::int64_t now_ns) noexcept {
   if (!interface_down_) ++errors_.interface_downs;
-  interface_down_ = true;
+  interface_down_ = carrier_was_lost_ = true;
   down_since_ns_ = now_ns;
 }
 
@@ -76,8 +82,10 @@ void CanCondition::queue_full() noexcept {
   if (confinement_ == Confinement::kPassive) stuck_ = true;
 }
 
-void CanCondition::carrier_back() noexcept {
-  change([&] { bus_off_ = false; });
+void CanCondition::carrier(bool there, std::int64_t now_ns) noexcept {
+  if (!there) carrier_was_lost_ = true;
+  const bool is_told = carrier_was_lost_ || now_ns - bus_off_since_ns_ > kCarrierToldAfterNs;
+  if (there && is_told) change([&] { bus_off_ = false; });
 }
 
 void CanCondition::received(From from, std::int64_t time_ns) noexcept {

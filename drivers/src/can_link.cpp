@@ -114,7 +114,7 @@ CanLink::Taken CanLink::take(CanFrame& frame) noexcept {
                           frame.time_ns);
       return Taken::kFrame;
     case WireKind::kError:
-      condition_.hear(wire.can_id & CAN_ERR_MASK, error_data(wire));
+      condition_.hear(wire.can_id & CAN_ERR_MASK, error_data(wire), frame.time_ns);
       return Taken::kOther;
     case WireKind::kRemote:
       ++counters_.remote;
@@ -143,8 +143,8 @@ bool CanLink::send(const CanFrame& frame) noexcept {
   const std::size_t bytes = to_wire(frame, options_, wire);
   if (bytes == 0) return keep(false);
   if (condition_.bus_off()) {
-    if (!carrier()) return keep(false);
-    condition_.carrier_back();
+    condition_.carrier(carrier(), ClockReading::now().monotonic_ns);
+    if (condition_.bus_off()) return keep(false);
   }
   if (::send(socket_, &wire, bytes, MSG_DONTWAIT | MSG_NOSIGNAL) == static_cast<ssize_t>(bytes)) {
     condition_.sent();

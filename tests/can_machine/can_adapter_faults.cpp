@@ -150,6 +150,21 @@ TEST_F(WithAnAdapter, BusOffIsDownAndNothingIsQueuedUntilTheRestart) {
   EXPECT_NE(adapter.heard().find("t160"), std::string::npos);
 }
 
+/// The kernel tells of a lost carrier up to a second late if another change came just before.
+TEST_F(WithAnAdapter, ASecondBusOffWithinASecondIsDownToo) {
+  EXPECT_EQ(state_after("sb000256\r"), LinkState::kDown);
+  wait_ms(1500);
+  EXPECT_FALSE(send());
+  must("ip link set adapter0 down && ip link set adapter0 up");
+  receive();
+  EXPECT_TRUE(send());
+  EXPECT_EQ(state_after("sb000256\r"), LinkState::kDown);
+  std::ignore = adapter.heard();
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(send());
+  EXPECT_EQ(adapter.heard(), "");
+  EXPECT_EQ(port->state(), LinkState::kDown);
+}
+
 TEST_F(WithAnAdapter, AFrameFromTheWireEndsBusOff) {
   EXPECT_EQ(state_after("sb000256\r"), LinkState::kDown);
   adapter.say("sa000000\r");

@@ -25,20 +25,25 @@ struct CanErrorCounters {
 ///
 ///     state      cause                                      until
 ///     down       the interface is down or gone              a frame is sent or received
-///                bus-off                                    a restart, error-active, or a frame
-///                                                           from the wire
+///                bus-off                                    a restart, error-active, a frame
+///                                                           from the wire, or the carrier is back
 ///                the queue is full while error-passive,     a frame is sent
 ///                that is, no one acknowledges
 ///     degraded   error-warning or error-passive             error-active
 class CanCondition {
  public:
-  /// Takes an error frame (linux/can/error.h): its identifier without flags, and its 8 bytes.
-  void hear(std::uint32_t classes, const std::array<std::uint8_t, 8>& data) noexcept;
+  /// Takes an error frame (linux/can/error.h): its identifier without flags, its 8 bytes, and when
+  /// it came.
+  void hear(std::uint32_t classes, const std::array<std::uint8_t, 8>& data,
+            std::int64_t time_ns) noexcept;
 
   void interface_down(std::int64_t now_ns) noexcept;
   void sent() noexcept;
   void queue_full() noexcept;
-  void carrier_back() noexcept;
+  /// Takes whether the kernel says that there is a carrier, asked while bus-off. A carrier ends
+  /// bus-off only after it was seen lost, or two seconds later, because the kernel tells of a lost
+  /// carrier late.
+  void carrier(bool there, std::int64_t now_ns) noexcept;
 
   enum class From : std::uint8_t { kWire, kThisMachine };
   void received(From from, std::int64_t time_ns) noexcept;
@@ -61,7 +66,9 @@ class CanCondition {
   bool bus_off_ = false;
   bool stuck_ = false;
   Confinement confinement_ = Confinement::kActive;
+  bool carrier_was_lost_ = false;  // since bus-off
   std::int64_t down_since_ns_ = 0;
+  std::int64_t bus_off_since_ns_ = 0;
   std::uint64_t reconnects_ = 0;
   CanErrorCounters errors_;
 };
