@@ -111,8 +111,6 @@ inline constexpr double kFewestFreeLines = 20.0;
 
 /// Scatter that explains no more than this needs no second look [nats]. odds.
 inline constexpr double kScatterMatters = 2.0;
-/// Poses from which its likelihood is taken; for more it is extrapolated. cost.
-inline constexpr Eigen::Index kScatterPoses = 2500;
 /// Estimates of the scatter beside the best candidate, should that become another one. cost.
 inline constexpr int kScatterRounds = 2;
 
@@ -179,13 +177,9 @@ inline constexpr int kRefinements = 12;
 inline constexpr double kFinestFactor = 1.05;
 /// The same of a pitch, as a share of its first step. cost.
 inline constexpr double kFinestOfTravel = 0.1;
-/// So many poses tell what lowers a held-out error by 1 %: its evidence is then above 100 nats.
-/// Small waves add up, and each is looked for with more. cost.
-inline constexpr Eigen::Index kScanPoses = 4000, kWavePoses = 10000;
-/// Poses are thinned out if there are more than so many times the number wanted. cost.
-inline constexpr double kWorthThinning = 1.5;
-/// The best are judged again on all poses. cost.
-inline constexpr std::size_t kScoredAgain = 16;
+/// So many poses choose the effects: what lowers a held-out error by 1 % then has an evidence
+/// above 60 nats. The numbers of the chosen effects are fitted to all readings. cost.
+inline constexpr int kMostChoosing = 2000;
 /// Candidates in the list, and those of it that are compared for confounding. cost.
 inline constexpr std::size_t kListed = 12, kCompared = 8;
 /// Waves of a series whose sizes are listed, and poses on which it is compared with others. cost.

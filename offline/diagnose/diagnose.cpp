@@ -17,6 +17,7 @@
 #include "diagnose/model_parts.hpp"
 #include "diagnose/other_gravity.hpp"
 #include "diagnose/refit.hpp"
+#include "diagnose/sharpen_steps.hpp"
 #include "effects/registry.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/quantile.hpp"
@@ -75,11 +76,13 @@ struct Work {
   const MeasurementFiles& measured;
   Split split;
   std::vector<int> fit, held;  // held: for good, none with folds
+  std::vector<int> choosing;   // of fit: the readings that choose the effects
   std::vector<Testable> testable;
   std::vector<std::string> not_testable;
   std::vector<Testable> excluded;  // the same with the reasons
   const DiagnosisRequest& request;
 
+  bool all_choose() const { return choosing.size() == fit.size(); }
   ForwardStart start(const std::vector<int>& rows, bool quiet) const {
     std::function<void(const std::string&)> tell;
     if (!quiet && request.tell)
@@ -211,9 +214,16 @@ void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, 
        .help = "plumb explain W-DIAGNOSE-ROSE"});
 }
 
+/// The model at the end, as all readings see it.
+void fit_to_all(const Work& w, std::vector<ForwardStep>& steps) {
+  sharpen_steps(w.cell, w.measured, {w.choosing, w.fit}, steps);
+  ForwardStep& last = steps.back();
+  last.calibration = refitted(w.cell, w.measured, w.fit, last.effects, last.calibration);
+}
+
 void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
                     const Scan& first, Diagnosis& out) {
-  ForwardSelection found = forward_selection(w.start(w.fit, false), base, whitened, first);
+  ForwardSelection found = forward_selection(w.start(w.choosing, false), base, whitened, first);
   std::vector<HeldOut> held_by_step;
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
@@ -229,6 +239,15 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     held_by_step.erase(held_by_step.begin() + static_cast<std::ptrdiff_t>(kept),
                        held_by_step.end());
     found.unlikely.clear();
+  }
+  if (!found.steps.empty() && !w.all_choose()) {
+    fit_to_all(w, found.steps);
+    held_by_step.back() = held_out_of(w, found.steps.back().effects, found.steps.back().calibration);
+    for (std::size_t i = 0; i < found.steps.size(); ++i) {
+      out.added[i].entry = found.steps[i].entry;
+      out.added[i].moves = found.steps[i].moves;
+    }
+    out.added.back().held = held_by_step.back().stats();
   }
   std::optional<HeldOut> held;
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
@@ -281,8 +300,10 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
          {},
          {},
          {},
+         {},
          request};
   w.fit = fit_rows(w.split);
+  w.choosing = even_choice(measured, w.fit, kMostChoosing, cell.measurement.seed);
   if (w.split.folds == 0) w.held = held_rows(w.split);
   w.testable = testable_effects(data_sense(w.cell, measured, w.fit));
   Diagnosis out;
@@ -294,14 +315,15 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
       w.excluded.push_back(answer);
     }
   tell_step(request, 0);
-  Calibration base = calibrate(w.cell, measured, w.fit);
+  Calibration base = calibrate(w.cell, measured, w.choosing);
   tell_step(request, 1);
-  const auto rows = without_outliers(w.fit, base.outliers);
+  const auto rows = without_outliers(w.choosing, base.outliers);
   const WhitenedFit plain = make_whitened_fit(w.cell, measured, base, rows, w.held);
   JudgedFit at = judged(plain, w.not_testable, {});
   std::optional<UnderOtherGravity> turned;
   if (judgeable(at.whitened))
-    turned = under_other_gravity(w.cell, measured, base, w.fit, w.held, plain, at, w.not_testable);
+    turned = under_other_gravity(w.cell, measured, base, w.choosing, w.held, plain, at,
+                                 w.not_testable);
   if (turned) {
     out.gravity = turned->gravity;
     if (turned->gravity.certain) {
@@ -313,13 +335,15 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   }
   const WhitenedFit& whitened = at.whitened;
   const Scan& first = at.look;
+  const Calibration present =
+      w.all_choose() ? base : calibrate_from(w.cell, measured, w.fit, base.state);
   out.repeatability = at.repeatability;
-  out.floor = with_repeatability(noise_floor(w.cell, measured, base.state), out.repeatability);
+  out.floor = with_repeatability(noise_floor(w.cell, measured, present.state), out.repeatability);
   out.folds = w.split.folds;
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());
   out.regressors = first.regressors;
-  for (const auto& outlier : base.outliers) out.outliers.push_back(measured.pose[outlier.row]);
+  for (const auto& outlier : present.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, whitened, base);
   out.candidates = candidates_of(whitened, first);
   if (out.finding == Finding::kMissing) {
@@ -336,9 +360,9 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   if (out.gravity && !other_gravity && out.finding == Finding::kMissing)
     out.finding = Finding::kUndecidable;
   tell_step(request, 2);
-  const HeldOut held = held_out_of(w, w.cell.effects, base);
+  const HeldOut held = held_out_of(w, w.cell.effects, present);
   out.before = out.after = held.stats();
-  out.held_out_excess = held_out_excess_of(w, held, base, out.floor);
+  out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);
   if (request.apply && !other_gravity) go_all_the_way(w, base, whitened, first, out);

@@ -50,11 +50,7 @@ double nats_over(const ScatterLines& lines, const JointScatter& a, const JointSc
   const auto cost = [](const JointScatter& at) {
     return static_cast<double>((at.variance.array() > 0.0).count());
   };
-  const ScatterLines some = thinned(lines, kScatterPoses);
-  const double nats = ln_likelihood_of_ratios(some, a) - ln_likelihood_of_ratios(some, b);
-  return nats * static_cast<double>(lines.poses()) /
-             static_cast<double>(std::max<Eigen::Index>(1, some.poses())) -
-         cost(a) + cost(b);
+  return ln_likelihood_of_ratios(lines, a) - ln_likelihood_of_ratios(lines, b) - cost(a) + cost(b);
 }
 
 void pay(Scan& look, double nats) {

@@ -130,30 +130,26 @@ Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tr
   return out;
 }
 
-Ripples scan_fast_ripples(const Scorer& some, const Scorer& scorer, int joint, int& tried) {
+Ripples scan_fast_ripples(const Scorer& scorer, int joint, int& tried) {
   Ripples out{.joint = joint, .cycles = {}, .strongest_ln_bayes = kImpossible};
-  const auto grid = fast_ripple_grid(some.whitened(), joint);
+  const auto grid = fast_ripple_grid(scorer.whitened(), joint);
   tried += static_cast<int>(grid.size());
   for (std::size_t first = 0; first < grid.size(); first += kTogether) {
     const std::vector<double> waves(
         grid.begin() + static_cast<std::ptrdiff_t>(first),
         grid.begin() + static_cast<std::ptrdiff_t>(std::min(first + kTogether, grid.size())));
-    const Products all = some.products(ripple_regressor(some.whitened(), joint, waves));
+    const Products all = scorer.products(ripple_regressor(scorer.whitened(), joint, waves));
     for (std::size_t k = 0; k < waves.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(2 * k);
       const auto UX = all.UX.middleCols(at, 2);
       const Evidence found = evidence(all.XX.block(at, at, 2, 2) - UX.transpose() * UX,
-                                      all.Xy.segment(at, 2), some.whitened().Q, some.scale());
+                                      all.Xy.segment(at, 2), scorer.whitened().Q, scorer.scale());
       if (found.ln_bayes <= out.strongest_ln_bayes) continue;
       out.strongest_ln_bayes = found.ln_bayes;
       out.cycles = {waves[k]};
     }
   }
   if (out.cycles.empty()) return out;
-  // What some of the poses say all have to confirm.
-  if (&some.whitened() != &scorer.whitened())
-    out.strongest_ln_bayes =
-        scorer.score(ripple_regressor(scorer.whitened(), joint, out.cycles)).evidence.ln_bayes;
   refine(scorer, out, grid[1] - grid[0]);
   return out;
 }

@@ -22,8 +22,7 @@ Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tr
 
 /// The best single wave of a joint beyond those of the usual scan, refined. Fast waves are rare,
 /// and trying them costs as much as the rest of a scan: use it if nothing else explains what is
-/// left. Searched with `some`, which may have fewer poses, and refined with `scorer`.
-/// Cost: poses of `some` * waves on the grid * (rank + 32).
-Ripples scan_fast_ripples(const Scorer& some, const Scorer& scorer, int joint, int& tried);
+/// left. Cost: poses * waves on the grid * (rank + 32).
+Ripples scan_fast_ripples(const Scorer& scorer, int joint, int& tried);
 
 }  // namespace plumb::offline

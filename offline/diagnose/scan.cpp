@@ -15,7 +15,6 @@
 #include "diagnose/joint_groups.hpp"
 #include "diagnose/ripple_scan.hpp"
 #include "diagnose/series_scan.hpp"
-#include "diagnose/thinned_fit.hpp"
 #include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/series_numbers.hpp"
@@ -159,13 +158,11 @@ std::string peaks_of(const WhitenedFit& s, const Found& found) {
   return series_words(*s.cell, model);
 }
 
-/// One series at these joints. some: the poses on which waves are looked for.
-std::optional<Found> series_at(const Scorer& some, const Scorer& all,
-                               const std::vector<int>& joints, double paid) {
-  auto series = scan_series(some, joints);
+/// One series at these joints.
+std::optional<Found> series_at(const Scorer& scorer, const std::vector<int>& joints, double paid) {
+  auto series = scan_series(scorer, joints);
   if (!series) return std::nullopt;
   Found out{series->entry, {}, std::move(series->scored), {}, 0.0, {}, 0.0};
-  if (&some.whitened() != &all.whitened()) out.scored = score_series(all, out.entry);
   out.score = out.ln_bayes() - paid;
   return out;
 }
@@ -180,20 +177,20 @@ bool takes_the_place(const Found& series, const Found& best) {
 }
 
 /// One series of waves at every joint where, alone, it says more than any law of that joint does.
-std::optional<Found> found_series(const Scorer& some, const Scorer& all,
-                                  const std::vector<Found>& library, double paid) {
-  const WhitenedFit& s = some.whitened();
+std::optional<Found> found_series(const Scorer& scorer, const std::vector<Found>& library,
+                                  double paid) {
+  const WhitenedFit& s = scorer.whitened();
   std::vector<int> joints;
   std::optional<Found> out;
   for (const auto& [joint, best] : best_at_joints(library)) {
     if (!s.chain.revolute(joint) || has_series_at(s, joint)) continue;
-    auto alone = series_at(some, all, {joint}, paid);
+    auto alone = series_at(scorer, {joint}, paid);
     if (!alone || !takes_the_place(*alone, *best)) continue;
     joints.push_back(joint);
     out = std::move(alone);
   }
-  if (joints.size() > 1) out = series_at(some, all, joints, paid);
-  if (out) out->peaks = peaks_of(all.whitened(), *out);
+  if (joints.size() > 1) out = series_at(scorer, joints, paid);
+  if (out) out->peaks = peaks_of(s, *out);
   return out;
 }
 
@@ -269,13 +266,12 @@ std::vector<int> joints_for_fast_waves(const WhitenedFit& whitened, const Scan& 
 
 /// Fast waves, in place of the slow ones of the same joint where they explain more. They alone pay
 /// for their search: it is made only when all else has failed.
-void add_fast_waves(const Scorer& some, const Scorer& scorer,
-                    const std::vector<std::string>& banned, Scan& out) {
+void add_fast_waves(const Scorer& scorer, const std::vector<std::string>& banned, Scan& out) {
   const WhitenedFit& whitened = scorer.whitened();
   int tried = 0;
   std::vector<Ripples> fast;
   for (const int joint : joints_for_fast_waves(whitened, out))
-    fast.push_back(scan_fast_ripples(some, scorer, joint, tried));
+    fast.push_back(scan_fast_ripples(scorer, joint, tried));
   if (fast.empty()) return;
   const double paid = std::log(std::max(1.0, out.regressors + tried));
   for (const auto& waves : fast) {
@@ -294,63 +290,6 @@ void add_fast_waves(const Scorer& some, const Scorer& scorer,
   }
   out.regressors += tried;
 }
-
-void score_again(const Scorer& scorer, Found& found, const Regressor& regressor) {
-  const double before = found.ln_bayes();
-  found.scored = scorer.score(regressor);
-  found.score += found.ln_bayes() - before;
-}
-
-/// The moves of a part at the best cuts of all poses near those that were found.
-void score_moves_again(const Scorer& scorer, Found& found) {
-  const WhitenedFit& s = scorer.whitened();
-  std::vector<double> rows;
-  for (const Move& move : found.moves) rows.push_back(move.after_row);
-  const double before = found.ln_bayes();
-  ChangePoint point{found.entry, std::move(rows)};
-  if (point.after_rows.empty())
-    point.after_rows = {number_option(found.entry, OptionKey::kAfterRow, 0.0)};
-  sharpen(s, 2 * s.fit_poses() / kScanPoses, point);
-  Found again = found_moves(scorer, point);
-  found.entry = std::move(again.entry);
-  found.scored = std::move(again.scored);
-  found.moves = std::move(again.moves);
-  found.score += found.ln_bayes() - before;
-}
-
-/// Scores again on all poses what was found on a part of them: the best of the library, all that is
-/// supported, and the best pattern.
-void score_on_all(const Scorer& scorer, Scan& out) {
-  const WhitenedFit& whitened = scorer.whitened();
-  for (std::size_t i = 0; i < out.library.size(); ++i) {
-    Found& found = out.library[i];
-    if (i >= kScoredAgain && !(found.score > kSupported)) continue;
-    if (is_change_point(found.entry.name))
-      score_moves_again(scorer, found);
-    else
-      score_again(scorer, found, regressor_of(whitened, found));
-  }
-  if (!out.pattern) return;
-  visit_patterns(whitened, [&](const Regressor& regressor) {
-    if (regressor.pattern.subject == out.pattern->pattern.subject &&
-        regressor.pattern.words == out.pattern->pattern.words)
-      score_again(scorer, *out.pattern, regressor);
-  });
-}
-
-/// The whitened fit on fewer poses, or itself if they are not many.
-class Some {
- public:
-  Some(const WhitenedFit& whitened, Eigen::Index poses) : all_(whitened) {
-    if (static_cast<double>(whitened.fit_poses()) > kWorthThinning * static_cast<double>(poses))
-      few_ = thinned(whitened, poses);
-  }
-  const WhitenedFit& whitened() const { return few_ ? *few_ : all_; }
-
- private:
-  const WhitenedFit& all_;
-  std::optional<WhitenedFit> few_;
-};
 
 void sort_by_evidence(Scan& out) {
   std::stable_sort(out.library.begin(), out.library.end(),
@@ -416,11 +355,8 @@ bool Scan::unknown() const {
          pattern->scored.explained > best.scored.explained + kAhead_share;
 }
 
-Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_testable,
+Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,
           const std::vector<std::string>& banned) {
-  const Scorer scorer_of_all(all_poses);
-  const Some some(all_poses, kScanPoses), more(all_poses, kWavePoses);
-  const WhitenedFit& whitened = some.whitened();
   const Scorer scorer(whitened);
   Collector all(whitened, scorer, banned);
   visit_library(whitened, not_testable, [&](const Regressor& b) { all.take(b); });
@@ -433,12 +369,11 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
     all.count(cuts);
   }
   visit_patterns(whitened, [&](const Regressor& b) { all.take_pattern(b); });
-  const Scorer wave_scorer(more.whitened());
   std::vector<Ripples> ripples;
   for (int j = 0; j < whitened.joints(); ++j) {
     if (!whitened.chain.revolute(j) || contains(not_testable, wave_effect())) continue;
     int waves = 0;
-    ripples.push_back(scan_ripples(wave_scorer, j, all.regressors_, waves));
+    ripples.push_back(scan_ripples(scorer, j, all.regressors_, waves));
     all.count(waves);
   }
   Scan out;
@@ -456,7 +391,7 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
     out.library.push_back(std::move(*found));
   }
   for (const auto& waves : ripples)
-    if (auto found = found_ripples(wave_scorer, waves, paid);
+    if (auto found = found_ripples(scorer, waves, paid);
         found && !contains(banned, key_of(*whitened.cell, found->entry)))
       out.library.push_back(std::move(*found));
   sort_by_evidence(out);
@@ -466,20 +401,18 @@ Scan scan(const WhitenedFit& all_poses, const std::vector<std::string>& not_test
   out.pattern = std::move(all.pattern_);
   if (out.pattern) out.pattern->score = out.pattern->ln_bayes() - paid;
   sort_by_evidence(out);
-  if (&whitened != &all_poses) score_on_all(scorer_of_all, out);
-  sort_by_evidence(out);
   for (auto& found : out.library)
-    if (found.score > kSupported) found.gain = scorer_of_all.gain(found.scored);
-  if (out.pattern) out.pattern->gain = scorer_of_all.gain(out.pattern->scored);
+    if (found.score > kSupported) found.gain = scorer.gain(found.scored);
+  if (out.pattern) out.pattern->gain = scorer.gain(out.pattern->scored);
   if (!contains(not_testable, wave_effect())) {
-    add_fast_waves(scorer, scorer_of_all, banned, out);
+    add_fast_waves(scorer, banned, out);
     sort_by_evidence(out);
   }
   // Last, beside everything that may say it in fewer numbers.
   if (!contains(not_testable, series_effect()))
-    if (auto series = found_series(wave_scorer, scorer_of_all, out.library, paid);
+    if (auto series = found_series(scorer, out.library, paid);
         series && !contains(banned, key_of(*whitened.cell, series->entry))) {
-      if (series->score > kSupported) series->gain = scorer_of_all.gain(series->scored);
+      if (series->score > kSupported) series->gain = scorer.gain(series->scored);
       out.library.push_back(std::move(*series));
       sort_by_evidence(out);
     }

@@ -19,12 +19,11 @@ constexpr double kScatterRidge = 1e-9;
 /// Everything of one model of the noise: lines divided by the Cholesky factor of each pose's
 /// covariance, and the model's columns taken out.
 struct Whitened {
-  Eigen::VectorXd residual;                 // (lines,)
-  Eigen::MatrixXd U;                        // (lines, rank)
-  std::vector<Eigen::VectorXd> joint;       // (lines,)
-  Eigen::MatrixXd unit;                     // (lines, axes): the axes themselves
-  Eigen::LLT<Eigen::MatrixXd> information;  // U^T U
-  double ln_determinants = 0.0;             // of the covariance, and of U^T U
+  Eigen::VectorXd residual;            // (lines,)
+  Eigen::MatrixXd model;               // (lines, rank) the model's columns, orthonormal
+  std::vector<Eigen::VectorXd> joint;  // (lines,)
+  Eigen::MatrixXd unit;                // (lines, axes): the axes themselves
+  double ln_determinants = 0.0;        // of the covariance, and of the model's information
 };
 
 Eigen::MatrixXd covariance_at(const ScatterLines& s, const JointScatter& at, Eigen::Index pose) {
@@ -39,7 +38,7 @@ Eigen::MatrixXd covariance_at(const ScatterLines& s, const JointScatter& at, Eig
 Whitened whitened_by(const ScatterLines& s, const JointScatter& at, bool with_motions) {
   Whitened out;
   out.residual = s.y;
-  out.U = s.U;
+  out.model = s.U;
   if (with_motions) {
     out.joint = s.joint;
     out.unit = Eigen::MatrixXd::Identity(s.axes, s.axes).replicate(s.poses(), 1);
@@ -52,17 +51,17 @@ Whitened whitened_by(const ScatterLines& s, const JointScatter& at, bool with_mo
     ln_determinant += 2.0 * root.matrixLLT().diagonal().array().log().sum();
     const auto divide = [&](auto&& lines) { L.solveInPlace(lines); };
     divide(out.residual.segment(line, s.axes));
-    divide(out.U.middleRows(line, s.axes));
+    divide(out.model.middleRows(line, s.axes));
     if (!with_motions) continue;
     for (auto& motion : out.joint) divide(motion.segment(line, s.axes));
     divide(out.unit.middleRows(line, s.axes));
   }
-  Eigen::MatrixXd information = out.U.transpose() * out.U;
+  Eigen::MatrixXd information = out.model.transpose() * out.model;
   information.diagonal().array() *= 1.0 + kScatterRidge;
-  out.information.compute(information);
-  const Eigen::VectorXd b = out.information.solve(out.U.transpose() * out.residual);
-  out.residual -= out.U * b;
-  const double ln_information = 2.0 * out.information.matrixLLT().diagonal().array().log().sum();
+  const Eigen::LLT<Eigen::MatrixXd> root(information);
+  root.matrixU().solveInPlace<Eigen::OnTheRight>(out.model);
+  out.residual -= out.model * (out.model.transpose() * out.residual).eval();
+  const double ln_information = 2.0 * root.matrixLLT().diagonal().array().log().sum();
   out.ln_determinants = ln_determinant + ln_information;
   return out;
 }
@@ -72,15 +71,15 @@ struct Share {
   double trace = 0.0, squares = 0.0;
 
   void add(const ScatterLines& s, const Whitened& w, const Eigen::Ref<const Eigen::VectorXd>& g) {
-    Eigen::MatrixXd H(w.U.cols(), s.poses());
+    trace += g.squaredNorm();
+    Eigen::VectorXd in_model(w.model.cols());
     for (Eigen::Index i = 0; i < s.poses(); ++i) {
       const auto gi = g.segment(i * s.axes, s.axes);
-      H.col(i).noalias() = w.U.middleRows(i * s.axes, s.axes).transpose() * gi;
+      in_model.noalias() = w.model.middleRows(i * s.axes, s.axes).transpose() * gi;
+      trace -= in_model.squaredNorm();
       const double along = gi.dot(w.residual.segment(i * s.axes, s.axes));
       squares += along * along;
     }
-    w.information.matrixL().solveInPlace(H);
-    trace += g.squaredNorm() - H.squaredNorm();
   }
   /// The factor of the next variance.
   double factor() const { return trace > 0.0 ? std::sqrt(std::max(0.0, squares) / trace) : 0.0; }
@@ -92,8 +91,7 @@ double contribution(const ScatterLines& s, const JointScatter& at, std::size_t j
          static_cast<double>(std::max<Eigen::Index>(1, s.y.size()));
 }
 
-}  // namespace
-
+/// Every so many poses.
 ScatterLines thinned(const ScatterLines& s, Eigen::Index most) {
   if (s.poses() <= most) return s;
   std::vector<Eigen::Index> line;
@@ -104,6 +102,8 @@ ScatterLines thinned(const ScatterLines& s, Eigen::Index most) {
   for (const auto& motion : s.joint) out.joint.emplace_back(motion(line));
   return out;
 }
+
+}  // namespace
 
 double ln_likelihood_of_ratios(const ScatterLines& s, const JointScatter& at) {
   const Whitened w = whitened_by(s, at, false);

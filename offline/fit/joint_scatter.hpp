@@ -22,9 +22,6 @@ struct ScatterLines {
   Eigen::Index poses() const { return axes == 0 ? 0 : y.size() / axes; }
 };
 
-/// The same on at most `most` poses, evenly spread.
-ScatterLines thinned(const ScatterLines& lines, Eigen::Index most);
-
 /// Variances of one model of the noise.
 struct JointScatter {
   Eigen::VectorXd variance;     // of each joint [rad^2 or m^2]

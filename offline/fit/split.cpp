@@ -171,13 +171,23 @@ Measurements by_pose(const Measurements& m) {
 
 constexpr std::size_t kFewestOfASetup = 8;  // poses: fewer hardly tell a frame of six numbers
 
-/// A set-up of a few poses needs all of them for its own frame and reflector: none is held out.
-void fit_all_of_small_setups(const Measurements& m, Split& split) {
+/// Rows of set-ups of few poses, shape (n,).
+std::vector<bool> in_small_setup(const Measurements& m, const std::vector<bool>& used) {
+  std::vector<bool> out(used.size(), false);
+  if (m.setup.empty()) return out;
   std::map<int, std::set<int>> poses;
   for (int i = 0; i < m.size(); ++i)
-    if (split.used[i]) poses[m.setup[static_cast<std::size_t>(i)]].insert(m.replicate_group[i]);
+    if (used[i]) poses[m.setup[static_cast<std::size_t>(i)]].insert(m.replicate_group[i]);
+  for (int i = 0; i < m.size(); ++i)
+    out[i] = poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfASetup;
+  return out;
+}
+
+/// A set-up of a few poses needs all of them for its own frame and reflector: none is held out.
+void fit_all_of_small_setups(const Measurements& m, Split& split) {
+  const std::vector<bool> small = in_small_setup(m, split.used);
   for (int i = 0; i < m.size(); ++i) {
-    if (poses[m.setup[static_cast<std::size_t>(i)]].size() >= kFewestOfASetup) continue;
+    if (!small[i]) continue;
     split.fold[i] = -1;
     split.held[i] = false;
   }
@@ -213,7 +223,7 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
       hold_last_file(m, split);
       break;
   }
-  if (!m.setup.empty() && !split.marked && rule.kind != HeldOutRule::Kind::kFile)
+  if (!split.marked && rule.kind != HeldOutRule::Kind::kFile)
     fit_all_of_small_setups(m, split);
   leave_out_repeats_of_held(m, split);
   return split;
@@ -246,6 +256,33 @@ std::vector<int> held_rows(const Split& split) {
   std::vector<int> out;
   for (std::size_t i = 0; i < split.used.size(); ++i)
     if (split.used[i] && (split.held[i] || split.fold[i] >= 0)) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+std::vector<int> even_choice(const Measurements& m, const std::vector<int>& rows, int most,
+                             std::uint64_t seed) {
+  const Measurements some = by_pose(pick(m, rows));
+  Split split;
+  split.used.assign(rows.size(), true);
+  const auto poses = static_cast<int>(representatives(some, split.used).size());
+  if (poses <= most && static_cast<int>(rows.size()) <= 2 * most) return rows;
+  if (poses > most) {
+    Random random(seed);
+    hold_share(some, static_cast<double>(most) / poses, random, split);
+  } else {
+    split.held = split.used;
+  }
+  const std::vector<bool> small = in_small_setup(some, split.used);
+  std::map<int, std::vector<int>> by_group;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (split.held[i] || small[i]) by_group[some.replicate_group[i]].push_back(rows[i]);
+  const auto each = static_cast<std::size_t>(std::max(2, 2 * most / std::min(poses, most)));
+  std::vector<int> out;
+  for (const auto& [group, repeats] : by_group) {
+    const std::size_t kept = std::min(each, repeats.size());
+    for (std::size_t k = 0; k < kept; ++k) out.push_back(repeats[k * repeats.size() / kept]);
+  }
+  std::sort(out.begin(), out.end());
   return out;
 }
 

@@ -33,4 +33,11 @@ std::vector<int> fit_rows(const Split& split, int fold);  // of one fold
 std::vector<int> held_rows(const Split& split, int fold);
 std::vector<int> held_rows(const Split& split);  // every row that has a held-out error
 
+/// An even choice of the rows, in joint space and over the set-ups: of `most` different poses, and
+/// about twice as many readings at most, so that a pose that was read very often is there less
+/// often. All rows where there are not more of either. A set-up of few poses keeps all of them.
+/// Ascending, as `rows` are; deterministic in the seed.
+std::vector<int> even_choice(const Measurements& measurements, const std::vector<int>& rows,
+                             int most, std::uint64_t seed);
+
 }  // namespace plumb::offline
