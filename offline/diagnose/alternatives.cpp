@@ -7,6 +7,7 @@
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/excluded_laws.hpp"
+#include "diagnose/unknown_weights.hpp"
 #include "effects/registry.hpp"
 
 namespace plumb::offline {
@@ -73,6 +74,13 @@ std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& l
   const std::vector<double> alike = mutual_reproduction(whitened, first, searched);
   for (std::size_t i = 0; i < searched.size(); ++i)
     if (alike[i] >= kConfounded) out.push_back(alternative(first, *searched[i]));
+  for (const Found& other : rivals_under_unknown_weights(whitened, first)) {
+    out.push_back(alternative(first, other));
+    out.back().not_shown = "no mass of a link is stated";
+    out.back().measure =
+        "state the masses of the links in cell.toml (mass_kg, com_mm), or measure the same poses "
+        "with and without payload";
+  }
   if (excluded.empty()) return out;
   const std::vector<Found> laws = excluded_laws(whitened, names_of(excluded));
   const std::vector<const Found*> hidden = near(laws, first);

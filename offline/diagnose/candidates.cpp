@@ -11,6 +11,7 @@
 #include "diagnose/fitted_size.hpp"
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
+#include "diagnose/series_scan.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/registry.hpp"
@@ -86,7 +87,8 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
   return moved.reshaped(s.axes, s.fit_poses()).colwise().norm().maxCoeff();
 }
 
-Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
+/// What the evidence says of a candidate, and what it is.
+Candidate described(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
   const EffectInfo& info = *descriptor_of(found.entry.name).law;
   const Regressor regressor = regressor_of(s, found);
   Candidate out;
@@ -94,13 +96,10 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   out.title = info.title;
   out.domain = domain_word(found.entry);
   out.ln_bayes = found.ln_bayes();
-  const Gain gain = scorer.gain(found.scored);
-  out.gain = gain.share;
-  out.gain_se = gain.share_se;
   out.cycles = found.cycles;
   if (out.cycles.empty() && has_option(found.entry, OptionKey::kCyclesPerTurn))
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
-  out.supported = found.score > kSupported && gain.clear;
+  out.supported = found.score > kSupported && scorer.gain(found.scored).clear;
   out.peaks = found.peaks;
   out.moves = found.moves;
   const format::Model model = model_of(s, regressor);
@@ -112,8 +111,22 @@ Candidate candidate(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   out.explained = found.scored.explained;
   out.absorbed = found.scored.absorbed;
   out.largest_m = largest_motion(s, regressor, size.theta);
-  out.alone = held_out_error(scorer, regressor, found.scored);
   return out;
+}
+
+/// A candidate at another fit than that of its scan.
+RegressorScore score_of(const Scorer& scorer, const Found& found, const Regressor& regressor) {
+  return is_series(found.entry.name) ? score_series(scorer, found.entry) : scorer.score(regressor);
+}
+
+/// Held-out error of a candidate alone.
+void add_alone(const WhitenedFit& plain, const Scorer& scorer, const Found& found, Candidate& out) {
+  const Regressor regressor = regressor_of(plain, found);
+  const RegressorScore scored = score_of(scorer, found, regressor);
+  const Gain gain = held_out_gain(scorer, regressor, scored);
+  out.gain = gain.share;
+  out.gain_se = gain.share_se;
+  out.alone = held_out_error(scorer, regressor, scored);
 }
 
 /// RMS over the fit poses of what the joint of a pattern turns, as fitted; 0 if it is no joint's.
@@ -165,21 +178,22 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
 }
 
 /// Held-out error of each with the best one already in.
-void add_after(const WhitenedFit& s, const std::vector<const Found*>& found,
-               std::vector<Candidate>& out) {
-  const WhitenedFit next =
-      extended(s, regressor_of(s, *found.front()), found.front()->scored.theta);
+void add_after(const WhitenedFit& plain, const Scorer& alone,
+               const std::vector<const Found*>& found, std::vector<Candidate>& out) {
+  const Regressor best = regressor_of(plain, *found.front());
+  const WhitenedFit next = extended(plain, best, score_of(alone, *found.front(), best).theta);
   const Scorer scorer(next);
   out.front().after = out.front().alone;
   for (std::size_t i = 1; i < found.size(); ++i) {
     const Regressor regressor = regressor_of(next, *found[i]);
-    out[i].after = held_out_error(scorer, regressor, scorer.score(regressor));
+    out[i].after = held_out_error(scorer, regressor, score_of(scorer, *found[i], regressor));
   }
 }
 
 }  // namespace
 
-std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& scan) {
+std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const WhitenedFit& plain,
+                                     const Scan& scan) {
   std::vector<const Found*> found;
   const Found* best = scan.supported();
   if (best != nullptr) found.push_back(best);
@@ -190,10 +204,13 @@ std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& sc
   }
   std::vector<Candidate> out;
   if (found.empty()) return out;
-  const Scorer scorer(whitened);
-  for (const Found* f : found) out.push_back(candidate(whitened, scorer, *f));
+  const Scorer scorer(whitened), plain_scorer(plain);
+  for (const Found* f : found) {
+    out.push_back(described(whitened, scorer, *f));
+    add_alone(plain, plain_scorer, *f, out.back());
+  }
   name_confounded(whitened, found, out);
-  add_after(whitened, found, out);
+  add_after(plain, plain_scorer, found, out);
   return out;
 }
 

@@ -11,7 +11,11 @@ namespace plumb::offline {
 
 /// The candidates of the first scan for the report, best first: each with its held-out error alone
 /// and together with the best one, its parameters, and the effects it is confounded with.
-std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Scan& scan);
+///
+/// @param plain  The same fit without the scatter of the joints: errors are those of models that
+///               are fitted as `fit` does.
+std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const WhitenedFit& plain,
+                                     const Scan& scan);
 
 /// What an effect belongs to: "robot", "environment", "procedure" or "measurement".
 std::string domain_word(const EffectEntry& entry);

@@ -178,8 +178,8 @@ inline constexpr double kFinestFactor = 1.05;
 /// The same of a pitch, as a share of its first step. cost.
 inline constexpr double kFinestOfTravel = 0.1;
 /// So many poses choose the effects: what lowers a held-out error by 1 % then has an evidence
-/// above 60 nats. The numbers of the chosen effects are fitted to all readings. cost.
-inline constexpr int kMostChoosing = 2000;
+/// above 90 nats. The numbers of the chosen effects are fitted to all readings. cost.
+inline constexpr int kMostChoosing = 3000;
 /// Candidates in the list, and those of it that are compared for confounding. cost.
 inline constexpr std::size_t kListed = 12, kCompared = 8;
 /// Waves of a series whose sizes are listed, and poses on which it is compared with others. cost.

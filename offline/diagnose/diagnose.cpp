@@ -242,7 +242,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   }
   if (!found.steps.empty() && !w.all_choose()) {
     fit_to_all(w, found.steps);
-    held_by_step.back() = held_out_of(w, found.steps.back().effects, found.steps.back().calibration);
+    held_by_step.back() =
+        held_out_of(w, found.steps.back().effects, found.steps.back().calibration);
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
       out.added[i].entry = found.steps[i].entry;
       out.added[i].moves = found.steps[i].moves;
@@ -318,12 +319,12 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   Calibration base = calibrate(w.cell, measured, w.choosing);
   tell_step(request, 1);
   const auto rows = without_outliers(w.choosing, base.outliers);
-  const WhitenedFit plain = make_whitened_fit(w.cell, measured, base, rows, w.held);
+  WhitenedFit plain = make_whitened_fit(w.cell, measured, base, rows, w.held);
   JudgedFit at = judged(plain, w.not_testable, {});
   std::optional<UnderOtherGravity> turned;
   if (judgeable(at.whitened))
-    turned = under_other_gravity(w.cell, measured, base, w.choosing, w.held, plain, at,
-                                 w.not_testable);
+    turned =
+        under_other_gravity(w.cell, measured, base, w.choosing, w.held, plain, at, w.not_testable);
   if (turned) {
     out.gravity = turned->gravity;
     if (turned->gravity.certain) {
@@ -331,6 +332,8 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
       base = std::move(turned->calibration);
       at = std::move(turned->judged);
       at.whitened.cell = &w.cell;
+      plain = make_whitened_fit(w.cell, measured, base, without_outliers(w.choosing, base.outliers),
+                                w.held);
     }
   }
   const WhitenedFit& whitened = at.whitened;
@@ -345,7 +348,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.regressors = first.regressors;
   for (const auto& outlier : present.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, whitened, base);
-  out.candidates = candidates_of(whitened, first);
+  out.candidates = candidates_of(whitened, plain, first);
   if (out.finding == Finding::kMissing) {
     out.alternatives = alternatives(whitened, first, *first.supported(), w.excluded);
     if (names_what_is_not_shown(out.alternatives)) out.finding = Finding::kUndecidable;

@@ -107,20 +107,33 @@ bool explains_little(const Diagnosis& d) {
          after_m > (1.0 - kLittleShare) * d.before.mean;
 }
 
+/// ", or a law that these poses cannot show: bending of links (link_flexure:J2) (no mass is
+/// stated)".
+std::string not_shown_words(const Cell& cell, const std::vector<Alternative>& others) {
+  std::string out;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const std::string law = in_words(cell, others[i].entry, others[i].cycles);
+    const bool goes_on = i > 0 && others[i].not_shown == others[i - 1].not_shown;
+    out += fmt::format("{}{}", goes_on ? " or " : ", or a law that these poses cannot show: ", law);
+    if (i + 1 == others.size() || others[i].not_shown != others[i + 1].not_shown)
+      out += fmt::format(" ({})", others[i].not_shown);
+  }
+  return out;
+}
+
 /// "J2 yields under load, or the error of J3 repeats once and twice a turn": an effect and what it
 /// may be instead.
 std::string either_words(const Cell& cell, const std::string& first,
                          const std::vector<Alternative>& others) {
   std::string out = first;
   const std::size_t shown = std::min(others.size(), kAlternativesShown);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Alternative& other = others[i];
-    if (other.not_shown.empty())
-      out += ", or " + effect_sentence(cell, other.entry, other.cycles);
+  std::vector<Alternative> not_shown;
+  for (std::size_t i = 0; i < shown; ++i)
+    if (others[i].not_shown.empty())
+      out += ", or " + effect_sentence(cell, others[i].entry, others[i].cycles);
     else
-      out += fmt::format(", or a law that these poses cannot show, {} ({})",
-                         in_words(cell, other.entry, other.cycles), other.not_shown);
-  }
+      not_shown.push_back(others[i]);
+  out += not_shown_words(cell, not_shown);
   if (others.size() == shown + 1) out += ", or another one (--json)";
   if (others.size() > shown + 1)
     out += fmt::format(", or one of {} others (--json)", others.size() - shown);
@@ -187,10 +200,12 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
 /// Effects that were added, but may be something else.
 std::string unsure_words(const Cell& cell, const Diagnosis& d) {
   std::string out;
-  for (const auto& added : d.added)
-    if (!added.alternatives.empty())
-      out += fmt::format("; {}: these poses cannot tell, and predict as well with either",
-                         either_words(cell, effect_sentence(cell, added), added.alternatives));
+  for (const auto& added : d.added) {
+    if (added.alternatives.empty()) continue;
+    out += fmt::format("; {}: these poses cannot tell",
+                       either_words(cell, effect_sentence(cell, added), added.alternatives));
+    if (!names_what_is_not_shown(added.alternatives)) out += ", and predict as well with either";
+  }
   return out;
 }
 
@@ -408,14 +423,16 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
         return fmt::format("{}{}; {}", fall, unsure_words(cell, d),
                            undecided_words(cell, *d.undecided));
       if (d.tied && !d.added.empty()) return fmt::format("{}; {}.", fall, tie_words(cell, d));
-      if (const std::string unsure = unsure_words(cell, d); !unsure.empty())
-        return fall + unsure + ".";
-      return fall + "; what is left cannot be judged without a noise floor.";
+      if (d.floor.source == NoiseFloor::Source::kNone || unsure_words(cell, d).empty())
+        return fmt::format("{}{}; what is left cannot be judged without a noise floor.", fall,
+                           unsure_words(cell, d));
+      break;
     default:
-      return fmt::format("{}{}; {}{}.{}", fall, unsure_words(cell, d),
-                         complete_words(d, d.after, d.added.empty() ? Held::kSay : Held::kSaid),
-                         unlikely_words(cell, d), repeatability_words(cell, d));
+      break;
   }
+  return fmt::format("{}{}; {}{}.{}", fall, unsure_words(cell, d),
+                     complete_words(d, d.after, d.added.empty() ? Held::kSay : Held::kSaid),
+                     unlikely_words(cell, d), repeatability_words(cell, d));
 }
 
 }  // namespace plumb::offline

@@ -18,6 +18,27 @@ auto lines_of(const WhitenedFit& s, const Segment& at) {
   return Eigen::seqN(at.begin * s.axes, at.size() * s.axes);
 }
 
+/// Whitened lines of a fold as the others predict them: without the regressor, and with it.
+Eigen::VectorXd left_in_fold(const Scorer& scorer, std::size_t f) {
+  const WhitenedFit& s = scorer.whitened();
+  const auto at = lines_of(s, s.folds[f]);
+  return s.y(at) - s.U(at, Eigen::all) * scorer.without(f).model;
+}
+
+Eigen::VectorXd left_in_fold(const Scorer& scorer, std::size_t f, const Regressor& regressor,
+                             const RegressorScore& scored) {
+  const WhitenedFit& s = scorer.whitened();
+  const auto at = lines_of(s, s.folds[f]);
+  const auto fitted = scorer.without(f, scored);
+  return s.y(at) - s.U(at, Eigen::all) * fitted.model - motion(s, regressor, fitted.regressor)(at);
+}
+
+double sum_of_squares(const std::vector<double>& norms) {
+  double out = 0.0;
+  for (const double norm : norms) out += norm * norm;
+  return out;
+}
+
 }  // namespace
 
 ErrorStats held_out_error(const Scorer& scorer) {
@@ -28,10 +49,8 @@ ErrorStats held_out_error(const Scorer& scorer) {
     return summarise(std::move(norms));
   }
   norms = s.contradicted_m;
-  for (std::size_t f = 0; f < s.folds.size(); ++f) {
-    const auto at = lines_of(s, s.folds[f]);
-    add_norms(s, s.folds[f], s.y(at) - s.U(at, Eigen::all) * scorer.without(f).model, norms);
-  }
+  for (std::size_t f = 0; f < s.folds.size(); ++f)
+    add_norms(s, s.folds[f], left_in_fold(scorer, f), norms);
   return summarise(std::move(norms));
 }
 
@@ -47,15 +66,22 @@ ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
     return summarise(std::move(norms));
   }
   norms = s.contradicted_m;
-  for (std::size_t f = 0; f < s.folds.size(); ++f) {
-    const auto at = lines_of(s, s.folds[f]);
-    const auto fitted = scorer.without(f, scored);
-    add_norms(
-        s, s.folds[f],
-        s.y(at) - s.U(at, Eigen::all) * fitted.model - motion(s, regressor, fitted.regressor)(at),
-        norms);
-  }
+  for (std::size_t f = 0; f < s.folds.size(); ++f)
+    add_norms(s, s.folds[f], left_in_fold(scorer, f, regressor, scored), norms);
   return summarise(std::move(norms));
+}
+
+Gain held_out_gain(const Scorer& scorer, const Regressor& regressor, const RegressorScore& scored) {
+  const WhitenedFit& s = scorer.whitened();
+  std::vector<double> before, after;
+  for (std::size_t f = 0; f < s.folds.size(); ++f) {
+    std::vector<double> without, with;
+    add_norms(s, s.folds[f], left_in_fold(scorer, f), without);
+    add_norms(s, s.folds[f], left_in_fold(scorer, f, regressor, scored), with);
+    before.push_back(sum_of_squares(without));
+    after.push_back(sum_of_squares(with));
+  }
+  return gain_of(before, after);
 }
 
 }  // namespace plumb::offline

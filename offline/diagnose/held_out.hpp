@@ -15,4 +15,7 @@ ErrorStats held_out_error(const Scorer& scorer);
 ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
                           const RegressorScore& scored);
 
+/// How far the 3-D error falls with the regressor, by cross-validation over the folds.
+Gain held_out_gain(const Scorer& scorer, const Regressor& regressor, const RegressorScore& scored);
+
 }  // namespace plumb::offline

@@ -20,12 +20,15 @@ constexpr double kNoMotion_m = 1e-12;  // per unit of a parameter, in SI
 
 struct Bound {
   const WhitenedFit& whitened;
+  const std::vector<Loads>& loads;
   format::Effect effect;
   int law = -1;
   EffectShape shape;
 
-  Bound(const WhitenedFit& s, const EffectEntry& entry)
+  Bound(const WhitenedFit& s, const EffectEntry& entry) : Bound(s, entry, s.loads) {}
+  Bound(const WhitenedFit& s, const EffectEntry& entry, const std::vector<Loads>& on_arm)
       : whitened(s),
+        loads(on_arm),
         effect(bind_effect(*s.cell, *s.measured, entry)),
         law(find_fitted_law(entry.name)) {
     shape = {.arm_joints = s.joints(),
@@ -43,7 +46,7 @@ struct Bound {
     return {.q = whitened.q(i),
             .chain = whitened.chain,
             .frames = whitened.frames[i],
-            .loads = whitened.loads[i],
+            .loads = loads[i],
             .context = whitened.context[i].known};
   }
 };
@@ -301,6 +304,13 @@ Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entr
     motion_columns(bound, out);
   scale(bound, out);
   return out;
+}
+
+Eigen::MatrixXd motions_under(const WhitenedFit& whitened, const EffectEntry& entry,
+                              const std::vector<Loads>& loads) {
+  Regressor out;
+  motion_columns(Bound(whitened, entry, loads), out);
+  return std::move(out.columns);
 }
 
 void visit_library(const WhitenedFit& whitened, const std::vector<std::string>& not_testable,

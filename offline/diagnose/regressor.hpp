@@ -61,6 +61,11 @@ double travel_of(const WhitenedFit& whitened, int joint);
 /// One regressor of the library again, with other constants.
 Regressor library_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
 
+/// Motions of a law under other loads than those of the whitened fit, per unit of each of its
+/// parameters, whitened, shape (lines, parameters).
+Eigen::MatrixXd motions_under(const WhitenedFit& whitened, const EffectEntry& entry,
+                              const std::vector<Loads>& loads);
+
 /// Waves of one joint at these cycles a turn, together.
 Regressor ripple_regressor(const WhitenedFit& whitened, int joint,
                            const std::vector<double>& cycles);

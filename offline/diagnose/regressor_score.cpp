@@ -208,30 +208,37 @@ Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) con
 }
 
 Gain Scorer::gain(const RegressorScore& scored) const {
-  double before = 0.0, after = 0.0, sum = 0.0, squares = 0.0;
-  double share = 0.0, share_squares = 0.0;  // of the folds' RMS
+  std::vector<double> before, after;
   for (std::size_t f = 0; f < folds_.size(); ++f) {
     const Fold& fold = folds_[f];
     const Products& held = scored.folds[f];
     const auto [a, theta] = without(f, scored);
-    const double error = fold.yy - 2.0 * (a.dot(fold.Uy) + theta.dot(held.Xy)) +
-                         a.dot(fold.UU * a) + 2.0 * a.dot(held.UX * theta) +
-                         theta.dot(held.XX * theta);
-    const double better = fold.error - error;
-    before += fold.error;
-    after += error;
+    before.push_back(fold.error);
+    after.push_back(fold.yy - 2.0 * (a.dot(fold.Uy) + theta.dot(held.Xy)) + a.dot(fold.UU * a) +
+                    2.0 * a.dot(held.UX * theta) + theta.dot(held.XX * theta));
+  }
+  return gain_of(before, after);
+}
+
+Gain gain_of(const std::vector<double>& before, const std::vector<double>& after) {
+  double all_before = 0.0, all_after = 0.0, sum = 0.0, squares = 0.0;
+  double share = 0.0, share_squares = 0.0;  // of the folds' RMS
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    const double better = before[f] - after[f];
+    all_before += before[f];
+    all_after += after[f];
     sum += better;
     squares += better * better;
-    const double fall = 1.0 - std::sqrt(std::max(0.0, error) / std::max(fold.error, 1e-300));
+    const double fall = 1.0 - std::sqrt(std::max(0.0, after[f]) / std::max(before[f], 1e-300));
     share += fall;
     share_squares += fall * fall;
   }
-  const auto K = static_cast<double>(folds_.size());
+  const auto K = static_cast<double>(before.size());
   const double mean = sum / K;
   const double se = std::sqrt(std::max(0.0, squares / K - mean * mean) / std::max(1.0, K - 1.0));
   Gain out;
-  if (before <= 0.0) return out;
-  out.share = 1.0 - std::sqrt(std::max(0.0, after) / before);
+  if (all_before <= 0.0) return out;
+  out.share = 1.0 - std::sqrt(std::max(0.0, all_after) / all_before);
   // The folds share most of the poses that they are fitted to, and so are less independent than
   // they look: the variance of their mean is not 1 / K but 1 / K + 1 / (K - 1) of the spread
   // [Nadeau & Bengio 2003].

@@ -19,12 +19,16 @@ struct Products {
 /// Over all of these segments; there is one at least.
 Products sum_of(const std::vector<Products>& segments);
 
-/// How far a held-out error falls, fold by fold inside the fit poses.
+/// How far a held-out error falls, fold by fold inside the fit poses: in whitened lines where
+/// effects are chosen, in lengths where it is reported.
 struct Gain {
   double share = 0.0;     // of the RMS
   double share_se = 0.0;  // standard error of that, as a prediction of the fall on other poses
   bool clear = false;     // more than 1 %, and more than one standard error of the folds
 };
+
+/// Of sums of squares of the held-out error of each fold, without and with an effect.
+Gain gain_of(const std::vector<double>& before, const std::vector<double>& after);
 
 /// A regressor scored at a whitened fit.
 struct RegressorScore {

@@ -257,9 +257,6 @@ Regressor smooth_part(const WhitenedFit& s, const Regressor& series) {
   return out;
 }
 
-namespace {
-
-/// The series as one candidate, with its prior as it is.
 RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   const WhitenedFit& s = scorer.whitened();
   const Regressor series = series_regressor(s, entry);
@@ -301,8 +298,6 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   out.absorbed = moved > 0.0 ? std::clamp(1.0 - seen / moved, 0.0, 1.0) : 0.0;
   return out;
 }
-
-}  // namespace
 
 std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints) {
   const WhitenedFit& s = scorer.whitened();

@@ -22,6 +22,9 @@ struct SeriesFound {
 /// (waves of all joints)^2, then (waves of all joints)^3 / 3 for each prior that is tried.
 std::optional<SeriesFound> scan_series(const Scorer& scorer, const std::vector<int>& joints);
 
+/// One series as it stands, with its prior as it is.
+RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);
+
 /// Its columns: 1 is one standard deviation of the prior.
 Regressor series_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
 

@@ -40,8 +40,7 @@ void sharpen_one(const Cell& cell, const Measurements& measured, const StepReadi
   sharpen(whitened, kGapsAway * static_cast<Eigen::Index>(rows.all.size() / rows.choosing.size()),
           point);
   step.entry = point.entry;
-  for (std::size_t i = 0; i < step.moves.size(); ++i)
-    step.moves[i].after_row = point.after_rows[i];
+  for (std::size_t i = 0; i < step.moves.size(); ++i) step.moves[i].after_row = point.after_rows[i];
   for (const double row : point.after_rows)
     without.effects = with_effect(without.effects, at(step.entry, row));
   effects = std::move(without.effects);

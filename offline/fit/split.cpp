@@ -223,8 +223,7 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
       hold_last_file(m, split);
       break;
   }
-  if (!split.marked && rule.kind != HeldOutRule::Kind::kFile)
-    fit_all_of_small_setups(m, split);
+  if (!split.marked && rule.kind != HeldOutRule::Kind::kFile) fit_all_of_small_setups(m, split);
   leave_out_repeats_of_held(m, split);
   return split;
 }

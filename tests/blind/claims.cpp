@@ -25,6 +25,13 @@ bool is_related(const HiddenCase& drawn, const EffectEntry& entry) {
                      [&](const auto& hidden) { return tests::is_related(hidden, entry); });
 }
 
+/// An addition says what it may be instead, where these poses cannot tell.
+bool is_related(const HiddenCase& drawn, const offline::Addition& added) {
+  return is_related(drawn, added.entry) ||
+         std::any_of(added.alternatives.begin(), added.alternatives.end(),
+                     [&](const auto& other) { return is_hidden(drawn, other.entry); });
+}
+
 /// What the first candidate may be instead, as the verdict says: "A or B".
 template <class Verdict>
 std::vector<EffectEntry> alternatives_of(const Verdict& d) {
@@ -53,7 +60,7 @@ Claims claims_of(const HiddenCase& drawn, const Diagnosis& d) {
   out.either = !others.empty();
   out.alarm = d.finding == Finding::kMissing || d.finding == Finding::kUnknown || out.either ||
               !d.added.empty() || d.unknown_after.has_value();
-  for (const auto& added : d.added) out.unrelated += !is_related(drawn, added.entry);
+  for (const auto& added : d.added) out.unrelated += !is_related(drawn, added);
   if (d.candidates.empty()) return out;
   const auto& first = d.candidates.front();
   out.lead =

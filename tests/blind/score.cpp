@@ -76,11 +76,17 @@ ArmState fitted_with_tree(const Seen& seen, std::vector<EffectEntry> effects) {
 }
 
 /// By how much the error that a tracker sees at new poses falls with the first candidate, as a
-/// share.
-double true_fall(const Seen& seen, const BlindCase& blind, const Diagnosis& d, double sigma) {
+/// share: with all its waves, and under the gravity for which the diagnosis lists it.
+double true_fall(Seen seen, const BlindCase& blind, const Diagnosis& d, double sigma) {
   const Simulation& fresh = blind.fresh_scattered ? *blind.fresh_scattered : blind.fresh_robot;
+  if (d.gravity && d.gravity->certain) seen.cell.gravity = d.gravity->found;
+  const Candidate& first = d.candidates.front();
   std::vector<EffectEntry> more = seen.cell.effects;
-  more.push_back(d.candidates.front().entry);
+  more.push_back(first.entry);
+  for (std::size_t k = 1; k < first.cycles.size(); ++k) {
+    more.push_back(first.entry);
+    more.back().options["cycles_per_turn"] = first.cycles[k];
+  }
   const double before = std::hypot(sigma, true_error(fitted(seen, seen.cell.effects), fresh));
   return 1.0 - std::hypot(sigma, true_error(fitted(seen, more), fresh)) / before;
 }

@@ -163,11 +163,59 @@ TEST(Alternatives, AWaveThatSoFewPosesCannotShowIsWeighedSilently) {
   EXPECT_EQ(laws.front().entry.joints, std::vector<int>{1});
 }
 
+/// Where no mass is stated, only the payload's weight is known to the laws of links and base.
+BlindRequest weightless(const char* effect, int poses, std::uint64_t seed) {
+  BlindRequest out = hiding({effect}, poses, seed);
+  out.masses = StatedMasses::kNone;
+  return out;
+}
+
+bool names(const Diagnosis& d, const std::string& law) {
+  return d.candidates.front().entry.name == law ||
+         std::any_of(d.alternatives.begin(), d.alternatives.end(),
+                     [&](const Alternative& other) { return other.entry.name == law; });
+}
+
+TEST(UnknownWeights, ALinkThatBendsOrABaseThatTiltsIsNotCalledAYieldingJoint) {
+  for (const char* law : {"link_flexure", "base_compliance"})
+    for (const int poses : {80, 300})
+      for (const std::uint64_t seed : {1U, 2U}) {
+        const std::string hidden = std::string(law) + (law[0] == 'l' ? ":J2:5" : "::5");
+        const BlindCase blind = make_blind_case(weightless(hidden.c_str(), poses, seed));
+        const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {});
+        ASSERT_FALSE(d.candidates.empty());
+        EXPECT_TRUE(names(d, law)) << hidden << ", " << poses << " poses: " << d.text;
+        if (d.candidates.front().entry.name == law) continue;
+        EXPECT_EQ(d.finding, Finding::kUndecidable) << d.text;
+        EXPECT_TRUE(says(d.text, "no mass of a link is stated")) << d.text;
+        EXPECT_FALSE(says(d.text, "Certain")) << d.text;
+      }
+}
+
+TEST(UnknownWeights, ManyPosesOftenTellAJointFromALink) {
+  int decided = 0, all = 0;
+  for (const char* hidden : {"joint_compliance:J2:5", "joint_compliance:J3:5"})
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const BlindCase blind = make_blind_case(weightless(hidden, 500, seed));
+      const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {});
+      EXPECT_EQ(d.candidates.front().entry.joints, std::vector<int>{hidden[18] - '1'}) << d.text;
+      ++all;
+      decided += d.finding == Finding::kMissing && d.alternatives.empty();
+    }
+  EXPECT_GE(2 * decided, all) << "a doubt that is always there says nothing";
+}
+
+TEST(UnknownWeights, AreNoDoubtWhereMassesAreStated) {
+  const BlindCase blind = make_blind_case(hiding({"joint_compliance:J2:5"}, 80));
+  const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {});
+  EXPECT_FALSE(says(d.text, "no mass of a link is stated")) << d.text;
+}
+
 TEST(Sizes, OfACandidateAreThoseOfARefit) {
   for (const char* hidden : {"encoder_scale:J5:3", "gear_harmonics:J2:5", "joint_compliance:J3:5",
                              "tracker::5", "axis_wobble:J1:3"}) {
     const Looked at(hiding({hidden}, 200));
-    const auto all = candidates_of(at.whitened, scan(at.whitened, {}, {}));
+    const auto all = candidates_of(at.whitened, at.whitened, scan(at.whitened, {}, {}));
     ASSERT_FALSE(all.empty());
     Cell with = at.blind.cell;
     const Candidate& first = all.front();

@@ -286,6 +286,21 @@ BlindRequest yielding_under(const std::array<double, 3>& gravity) {
   return out;
 }
 
+/// A second effect that looks like the scatter of a joint must not make the first one look better
+/// than it is: the promised fall is that of the error in millimetres.
+TEST(DiagnoseHonest, ThePromisedFallIsThatOfTheErrorNotOfTheWhitenedOne) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    BlindRequest request = hiding("overcompensated_reversal:J4:5", 500);
+    request.effects.push_back("joint_compliance:J2:2");
+    request.seed = seed;
+    const Diagnosis d = diagnosed(request);
+    ASSERT_FALSE(d.added.empty());
+    const Candidate& first = d.candidates.front();
+    EXPECT_NEAR(first.gain, 1.0 - first.alone.rms / d.before.rms, 0.02) << d.text;
+    EXPECT_NEAR(first.alone.rms, d.added.front().held.rms, 0.05 * first.alone.rms) << d.text;
+  }
+}
+
 TEST(DiagnoseHonest, GravityThatActsElsewhereIsNamedAndNothingIsAddedUnderTheWrongOne) {
   for (const auto& gravity : {std::array{0.0, 0.0, 9.81}, std::array{0.0, -9.81, 0.0}}) {
     const BlindCase blind = make_blind_case(yielding_under(gravity));

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of many poses a scan looks at some; what it says holds for all.
+// Of many poses some choose the effects; what is said of these holds for all.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
 #include "diagnose/constants.hpp"
-#include "diagnose/scan.hpp"
+#include "diagnose/diagnosis.hpp"
 #include "diagnose/thinned_fit.hpp"
+#include "fit/fit.hpp"
 #include "simulate/blind_case.hpp"
 
 namespace plumb::offline {
@@ -56,25 +57,28 @@ TEST(SomePoses, OfAStageAreAStage) {
   EXPECT_NEAR(some.Q / arm.whitened.Q, 1000.0 / kPoses, 0.1 * 1000.0 / kPoses);
 }
 
-TEST(SomePoses, WhatTheyShowIsJudgedOnAll) {
+TEST(SomePoses, ChooseWhatIsThenFittedToAll) {
   const int bumped = 4321;
   const Bumped arm(bumped);
-  ASSERT_GT(arm.whitened.fit_poses(), 6000);
-  const Scan look = scan(arm.whitened, {}, {});
-  const Scorer scorer(arm.whitened);
-  int supported = 0;
-  for (const auto& found : look.library) {
-    if (!(found.score > kSupported)) continue;
-    ++supported;
-    const RegressorScore of_all = scorer.score(regressor_of(arm.whitened, found));
-    EXPECT_NEAR(found.ln_bayes(), of_all.evidence.ln_bayes,
-                1e-6 * std::abs(of_all.evidence.ln_bayes))
-        << key_of(arm.blind.cell, found.entry);
+  const MeasurementFiles& measured = arm.blind.measured.measured;
+  ASSERT_GT(measured.size(), 2 * kMostChoosing);
+  const Diagnosis d = diagnose(arm.blind.cell, measured, {.apply = true, .tell = {}});
+  ASSERT_EQ(d.added.size(), 2U) << d.text_after;
+  EXPECT_EQ(d.finding_after, Finding::kComplete) << d.text_after;
+  bool found = false;
+  for (const auto& added : d.added) {
+    if (added.entry.name != "step") continue;
+    found = true;
+    // Among all poses that are fitted, not among those that chose: to the next held-out one.
+    EXPECT_NEAR(std::get<double>(added.entry.options.at("after_row")), bumped, 1.0);
   }
-  EXPECT_GE(supported, 2);
-  const Found* step = look.find(arm.blind.cell, "step/base");
-  ASSERT_NE(step, nullptr);
-  EXPECT_NEAR(std::get<double>(step->entry.options.at("after_row")), bumped, 1.0);
+  EXPECT_TRUE(found);
+  // The last line is that of the model as `fit` makes it, of all poses.
+  Cell with = arm.blind.cell;
+  with.effects = d.effects;
+  const Fit whole = fit_cell(with, measured);
+  EXPECT_NEAR(d.after.mean, whole.held.mean, 1e-3 * whole.held.mean);
+  EXPECT_NEAR(d.added.back().held.mean, d.after.mean, 1e-12);
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <set>
 
 #include "cell/random.hpp"
@@ -178,6 +181,69 @@ TEST(Split, AFileThatIsFittedCannotVouchForItself) {
   m.file.assign(static_cast<std::size_t>(n), 0);
   m.file.resize(static_cast<std::size_t>(2 * n), 1);
   EXPECT_THROW(split_poses(m, {.kind = HeldOutRule::Kind::kFile}, 1), Failure);
+}
+
+std::vector<int> all_rows(const Measurements& m) {
+  std::vector<int> out(static_cast<std::size_t>(m.size()));
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+TEST(EvenChoice, OfNotManyPosesIsAllOfThem) {
+  const Measurements m = random_poses(100, 1);
+  EXPECT_EQ(even_choice(m, all_rows(m), 100, 1), all_rows(m));
+}
+
+TEST(EvenChoice, OfManyPosesHasTheNumberAskedForWithTheirRepeats) {
+  const Measurements m = random_poses(900, 1);
+  const std::vector<int> chosen = even_choice(m, all_rows(m), 200, 7);
+  EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+  EXPECT_EQ(chosen, even_choice(m, all_rows(m), 200, 7));
+  EXPECT_NE(chosen, even_choice(m, all_rows(m), 200, 8));
+  std::map<int, int> readings;
+  for (const int row : chosen) ++readings[m.replicate_group[row]];
+  EXPECT_EQ(readings.size(), 200U);
+  EXPECT_LE(chosen.size(), 400U);
+  EXPECT_TRUE(std::any_of(readings.begin(), readings.end(), [](auto& r) { return r.second == 2; }))
+      << "repeats tell the noise";
+}
+
+TEST(EvenChoice, IsSpreadOverJointSpaceMoreEvenlyThanByChance) {
+  const Measurements m = random_poses(4000, 3);
+  std::vector<int> in_cell(100, 0);
+  for (const int row : even_choice(m, all_rows(m), 1000, 1)) {
+    if (row > 0 && m.replicate_group[row] == m.replicate_group[row - 1]) continue;
+    ++in_cell[static_cast<std::size_t>(10 * static_cast<int>(10 * m.q(row, 0)) +
+                                       static_cast<int>(10 * m.q(row, 1)))];
+  }
+  double variance = 0.0;
+  for (const int count : in_cell) variance += std::pow(count - 10.0, 2) / 100.0;
+  // By chance it would be that of the poses themselves, a quarter of 40, and of the drawing: 10.
+  EXPECT_LT(variance, 7.0);
+}
+
+TEST(EvenChoice, APoseThatWasReadVeryOftenIsThereLessOften) {
+  Measurements m = random_poses(30, 2);
+  std::vector<int> rows;
+  for (int repeat = 0; repeat < 50; ++repeat)
+    for (int i = 0; i < m.size(); ++i) rows.push_back(i);
+  const Measurements many = pick(m, rows);
+  const std::vector<int> chosen = even_choice(many, all_rows(many), 300, 1);
+  EXPECT_LE(chosen.size(), 600U);
+  std::set<int> poses;
+  for (const int row : chosen) poses.insert(many.replicate_group[row]);
+  EXPECT_EQ(poses.size(), 30U);
+}
+
+TEST(EvenChoice, ASetupOfFewPosesKeepsAllOfThem) {
+  Measurements m = random_poses(600, 5);
+  m.setup.assign(static_cast<std::size_t>(m.size()), 0);
+  std::set<int> small;
+  for (int i = 0; i < m.size(); ++i)
+    if (m.replicate_group[i] >= 595) m.setup[i] = 1, small.insert(m.replicate_group[i]);
+  std::set<int> chosen;
+  for (const int row : even_choice(m, all_rows(m), 100, 1)) chosen.insert(m.replicate_group[row]);
+  for (const int pose : small) EXPECT_TRUE(chosen.contains(pose)) << pose;
 }
 
 }  // namespace
