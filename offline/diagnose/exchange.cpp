@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "diagnose/constants.hpp"
+#include "diagnose/evidence_without.hpp"
 #include "diagnose/found_list.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/unless_refused.hpp"
@@ -12,18 +13,16 @@
 namespace plumb::offline {
 namespace {
 
-/// An effect that replaces `key` better, in the model without it; or null.
-const Found* better_than(const Selection& s, const JudgedModel& without, const std::string& key) {
+/// An effect that replaces this one better, in the model without it; or null.
+const Found* better_than(const Selection& s, const JudgedModel& without, const Found& found) {
   const Found* other = without.look.supported();
-  if (other == nullptr || s.key(other->entry) == key) return nullptr;
-  const Found* own = without.look.find(s.cell(), key);
-  const bool hardly = own != nullptr && other->ln_bayes() < own->ln_bayes() + kSupported;
-  return hardly ? nullptr : other;
+  if (other == nullptr || s.key(other->entry) == s.key(found.entry)) return nullptr;
+  return other->ln_bayes() < evidence_without(without, found) + kSupported ? nullptr : other;
 }
 
 bool exchange_one(Selection& s, const Found& found) {
   const JudgedModel without = s.without(found.entries(), s.banned());
-  const Found* other = better_than(s, without, s.key(found.entry));
+  const Found* other = better_than(s, without, found);
   if (other == nullptr) return false;
   s.look_at(s.fitted(with_found(without.model.cell->effects, *other)));
   for (const auto& entry : found.entries()) forget(s.added, entry);

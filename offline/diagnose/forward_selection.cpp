@@ -13,6 +13,7 @@
 #include "diagnose/exchange.hpp"
 #include "diagnose/found_list.hpp"
 #include "diagnose/fresh_waves.hpp"
+#include "diagnose/give_way.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "diagnose/untrim_ends.hpp"
 #include "effects/effect_option.hpp"
@@ -46,7 +47,7 @@ void select(Selection& s, ForwardSelection& out) {
   for (int step = 0; step < kMostSteps; ++step) {
     if (s.look().unknown() && !s.leaves_as_remainder(*s.look().pattern)) {
       // A structure of no law comes last: it may be what a wrongly named effect leaves.
-      if (untrim_ends(s) || exchange_oversized(s) || exchange(s)) continue;
+      if (untrim_ends(s) || exchange_oversized(s) || exchange(s) || step_gives_way(s)) continue;
       out.unknown = unknown_structure(s.whitened(), *s.look().pattern);
       return;
     }

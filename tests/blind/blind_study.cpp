@@ -3,7 +3,7 @@
 //   blind_study [CASES] [SEED] [POSES] [--list]
 //   blind_study --inconvenient [--kind NUMBER] [CASES] [SEED] [POSES] [--list]
 // With POSES: the first CASES cases that have so many. --kind: arms of one kind alone, numbered
-// from 0 as in its table.
+// from 0 as in its table. --case NUMBER: that case of --list alone.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,12 +20,15 @@ int main(int argc, char** argv) {
   const auto asked_for = [&words](const char* option) { return std::erase(words, option) > 0; };
   const bool list = asked_for("--list");
   const bool inconvenient = asked_for("--inconvenient");
-  int kind = -1;  // inconvenient arms of every kind
-  if (const auto at = std::find(words.begin(), words.end(), "--kind");
-      at != words.end() && at + 1 != words.end()) {
-    kind = std::atoi((at + 1)->c_str());
+  const auto number_after = [&words](const char* option) {
+    const auto at = std::find(words.begin(), words.end(), option);
+    if (at == words.end() || at + 1 == words.end()) return -1;
+    const int number = std::atoi((at + 1)->c_str());
     words.erase(at, at + 2);
-  }
+    return number;
+  };
+  const int kind = number_after("--kind");  // -1: inconvenient arms of every kind
+  const int only = number_after("--case");  // -1: all
   const int cases = !words.empty() ? std::atoi(words[0].c_str()) : 2000;
   const auto seed = static_cast<std::uint64_t>(words.size() > 1 ? std::atoll(words[1].c_str()) : 1);
   const int poses = words.size() > 2 ? std::atoi(words[2].c_str()) : 0;
@@ -36,7 +39,8 @@ int main(int argc, char** argv) {
                         : plumb::tests::draw_case(seed, number);
   };
   std::vector<int> numbers;
-  for (int i = 0; i < 100 * cases && static_cast<int>(numbers.size()) < cases; ++i)
+  if (only >= 0) numbers.push_back(only);
+  for (int i = 0; only < 0 && i < 100 * cases && static_cast<int>(numbers.size()) < cases; ++i)
     if (poses == 0 || draw(i).request.poses == poses) numbers.push_back(i);
   const auto chosen = [&](int k) { return draw(numbers[static_cast<std::size_t>(k)]); };
   const auto scores =
