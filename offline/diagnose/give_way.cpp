@@ -10,14 +10,14 @@
 namespace plumb::offline {
 namespace {
 
-bool same_structure(const std::optional<Found>& a, const std::optional<Found>& b) {
-  return a && b && a->pattern.subject == b->pattern.subject && a->pattern.words == b->pattern.words;
+bool of_the_same_part(const std::optional<Found>& a, const std::optional<Found>& b) {
+  return a && b && a->pattern.subject == b->pattern.subject;
 }
 
 bool gives_way(Selection& s, const Found& step) {
   JudgedModel without = s.without(step.entries(), s.banned());
   const auto& pattern = without.look.pattern;
-  if (!same_structure(pattern, s.look().pattern) ||
+  if (!of_the_same_part(pattern, s.look().pattern) ||
       pattern->ln_bayes() < evidence_without(without, step) + kAhead_nats)
     return false;
   for (const auto& entry : step.entries()) forget(s.added, entry);

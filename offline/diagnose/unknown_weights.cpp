@@ -9,6 +9,7 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/registry.hpp"
+#include "plumb/runtime/detail/effects/gravity_compensator.hpp"
 #include "plumb/runtime/detail/effects/joint_compliance.hpp"
 
 namespace plumb::offline {
@@ -19,6 +20,13 @@ constexpr double kMovesNothing = 1e-9;  // of a column, over the largest
 bool states_no_mass(const Cell& cell) {
   return std::none_of(cell.mechanics.begin(), cell.mechanics.end(),
                       [](const JointMechanics& joint) { return joint.has_mass(); });
+}
+
+/// Laws by which gravity turns a joint: it yields, or a spring that carries it is not what it
+/// should be.
+bool gravity_turns_joint(const EffectDescriptor& effect) {
+  return effect.cause == Cause::kYieldingJoint ||
+         effect.name == effects::GravityCompensator::kInfo.name;
 }
 
 /// Laws by which something else than a joint yields to its load. They are linear in the loads.
@@ -117,8 +125,7 @@ double evidence_of_joints(const WhitenedFit& s, const Scorer& scorer, const Foun
 
 std::vector<Found> rivals_under_unknown_weights(const WhitenedFit& whitened, const Found& first) {
   std::vector<Found> out;
-  if (descriptor_of(first.entry.name).cause != Cause::kYieldingJoint ||
-      !states_no_mass(*whitened.cell))
+  if (!gravity_turns_joint(descriptor_of(first.entry.name)) || !states_no_mass(*whitened.cell))
     return out;
   const WhitenedFit s = thinned(whitened, std::min(whitened.fit_poses(), kComparedPoses));
   const Scorer scorer(s);
