@@ -11,6 +11,7 @@
 #include "diagnose/fitted_size.hpp"
 #include "diagnose/held_out.hpp"
 #include "diagnose/plausible.hpp"
+#include "diagnose/ripple_scan.hpp"
 #include "diagnose/series_scan.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/effect_option.hpp"
@@ -88,7 +89,7 @@ double largest_motion(const WhitenedFit& s, const Regressor& regressor,
 }
 
 /// What the evidence says of a candidate, and what it is.
-Candidate described(const WhitenedFit& s, const Scorer& scorer, const Found& found) {
+Candidate described(const WhitenedFit& s, const Found& found) {
   const EffectInfo& info = *descriptor_of(found.entry.name).law;
   const Regressor regressor = regressor_of(s, found);
   Candidate out;
@@ -99,7 +100,7 @@ Candidate described(const WhitenedFit& s, const Scorer& scorer, const Found& fou
   out.cycles = found.cycles;
   if (out.cycles.empty() && has_option(found.entry, OptionKey::kCyclesPerTurn))
     out.cycles = {number_option(found.entry, OptionKey::kCyclesPerTurn, 0.0)};
-  out.supported = found.score > kSupported && scorer.gain(found.scored).clear;
+  out.supported = found.score > kSupported && found.gain.clear;
   out.peaks = found.peaks;
   out.moves = found.moves;
   const format::Model model = model_of(s, regressor);
@@ -119,14 +120,34 @@ RegressorScore score_of(const Scorer& scorer, const Found& found, const Regresso
   return is_series(found.entry.name) ? score_series(scorer, found.entry) : scorer.score(regressor);
 }
 
+CandidateInFolds in_folds(const Scorer& scorer, const Found& found, const Regressor& regressor,
+                          const RegressorScore& scored, double regressors) {
+  CandidateInFolds out;
+  const std::size_t folds = scorer.whitened().folds.size();
+  if (!is_wave(found.entry.name)) {
+    out.regressor.assign(folds, regressor);
+    out.scored.assign(folds, scored);
+    return out;
+  }
+  const int joint = found.entry.joints.front();
+  const auto waves = waves_without_folds(scorer, joint, found.cycles, regressors);
+  out.scored = scored_without_folds(scorer, joint, waves);
+  for (const auto& cycles : waves)
+    out.regressor.push_back(cycles.empty() ? Regressor{}
+                                           : ripple_regressor(scorer.whitened(), joint, cycles));
+  return out;
+}
+
 /// Held-out error of a candidate alone.
-void add_alone(const WhitenedFit& plain, const Scorer& scorer, const Found& found, Candidate& out) {
+void add_alone(const WhitenedFit& plain, const Scorer& scorer, const Found& found,
+               double regressors, Candidate& out) {
   const Regressor regressor = regressor_of(plain, found);
   const RegressorScore scored = score_of(scorer, found, regressor);
-  const Gain gain = held_out_gain(scorer, regressor, scored);
+  const CandidateInFolds folds = in_folds(scorer, found, regressor, scored, regressors);
+  const Gain gain = held_out_gain(scorer, folds);
   out.gain = gain.share;
   out.gain_se = gain.share_se;
-  out.alone = held_out_error(scorer, regressor, scored);
+  out.alone = held_out_error(scorer, regressor, scored, folds);
 }
 
 /// RMS over the fit poses of what the joint of a pattern turns, as fitted; 0 if it is no joint's.
@@ -179,14 +200,17 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
 
 /// Held-out error of each with the best one already in.
 void add_after(const WhitenedFit& plain, const Scorer& alone,
-               const std::vector<const Found*>& found, std::vector<Candidate>& out) {
+               const std::vector<const Found*>& found, double regressors,
+               std::vector<Candidate>& out) {
   const Regressor best = regressor_of(plain, *found.front());
   const WhitenedFit next = extended(plain, best, score_of(alone, *found.front(), best).theta);
   const Scorer scorer(next);
   out.front().after = out.front().alone;
   for (std::size_t i = 1; i < found.size(); ++i) {
     const Regressor regressor = regressor_of(next, *found[i]);
-    out[i].after = held_out_error(scorer, regressor, score_of(scorer, *found[i], regressor));
+    const RegressorScore scored = score_of(scorer, *found[i], regressor);
+    out[i].after = held_out_error(scorer, regressor, scored,
+                                  in_folds(scorer, *found[i], regressor, scored, regressors));
   }
 }
 
@@ -204,13 +228,13 @@ std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Whitened
   }
   std::vector<Candidate> out;
   if (found.empty()) return out;
-  const Scorer scorer(whitened), plain_scorer(plain);
+  const Scorer plain_scorer(plain);
   for (const Found* f : found) {
-    out.push_back(described(whitened, scorer, *f));
-    add_alone(plain, plain_scorer, *f, out.back());
+    out.push_back(described(whitened, *f));
+    add_alone(plain, plain_scorer, *f, scan.regressors, out.back());
   }
   name_confounded(whitened, found, out);
-  add_after(plain, plain_scorer, found, out);
+  add_after(plain, plain_scorer, found, scan.regressors, out);
   return out;
 }
 

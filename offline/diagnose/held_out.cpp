@@ -25,12 +25,15 @@ Eigen::VectorXd left_in_fold(const Scorer& scorer, std::size_t f) {
   return s.y(at) - s.U(at, Eigen::all) * scorer.without(f).model;
 }
 
-Eigen::VectorXd left_in_fold(const Scorer& scorer, std::size_t f, const Regressor& regressor,
-                             const RegressorScore& scored) {
+Eigen::VectorXd left_in_fold(const Scorer& scorer, std::size_t f,
+                             const CandidateInFolds& candidate) {
   const WhitenedFit& s = scorer.whitened();
+  const RegressorScore& scored = candidate.scored[f];
+  if (scored.theta.size() == 0) return left_in_fold(scorer, f);
   const auto at = lines_of(s, s.folds[f]);
   const auto fitted = scorer.without(f, scored);
-  return s.y(at) - s.U(at, Eigen::all) * fitted.model - motion(s, regressor, fitted.regressor)(at);
+  return s.y(at) - s.U(at, Eigen::all) * fitted.model -
+         motion(s, candidate.regressor[f], fitted.regressor)(at);
 }
 
 double sum_of_squares(const std::vector<double>& norms) {
@@ -55,7 +58,7 @@ ErrorStats held_out_error(const Scorer& scorer) {
 }
 
 ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
-                          const RegressorScore& scored) {
+                          const RegressorScore& scored, const CandidateInFolds& in_folds) {
   const WhitenedFit& s = scorer.whitened();
   std::vector<double> norms;
   if (s.held.size() > 0) {
@@ -67,17 +70,17 @@ ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
   }
   norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
-    add_norms(s, s.folds[f], left_in_fold(scorer, f, regressor, scored), norms);
+    add_norms(s, s.folds[f], left_in_fold(scorer, f, in_folds), norms);
   return summarise(std::move(norms));
 }
 
-Gain held_out_gain(const Scorer& scorer, const Regressor& regressor, const RegressorScore& scored) {
+Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds) {
   const WhitenedFit& s = scorer.whitened();
   std::vector<double> before, after;
   for (std::size_t f = 0; f < s.folds.size(); ++f) {
     std::vector<double> without, with;
     add_norms(s, s.folds[f], left_in_fold(scorer, f), without);
-    add_norms(s, s.folds[f], left_in_fold(scorer, f, regressor, scored), with);
+    add_norms(s, s.folds[f], left_in_fold(scorer, f, in_folds), with);
     before.push_back(sum_of_squares(without));
     after.push_back(sum_of_squares(with));
   }

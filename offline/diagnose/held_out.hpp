@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "diagnose/regressor.hpp"
 #include "diagnose/regressor_score.hpp"
 #include "fit/error_stats.hpp"
@@ -11,11 +13,20 @@ namespace plumb::offline {
 /// fit, or if there are none, by cross-validation over its folds.
 ErrorStats held_out_error(const Scorer& scorer);
 
-/// The same with a regressor in the model.
-ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
-                          const RegressorScore& scored);
+/// A candidate as each fold has it: the same everywhere, but of waves the frequencies that the
+/// other folds choose.
+struct CandidateInFolds {
+  std::vector<Regressor> regressor;
+  std::vector<RegressorScore> scored;
+};
 
-/// How far the 3-D error falls with the regressor, by cross-validation over the folds.
-Gain held_out_gain(const Scorer& scorer, const Regressor& regressor, const RegressorScore& scored);
+/// The error with a regressor in the model.
+///
+/// @param in_folds  What is added in each fold; without columns: nothing.
+ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
+                          const RegressorScore& scored, const CandidateInFolds& in_folds);
+
+/// How far the 3-D error falls with it, by cross-validation over the folds.
+Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds);
 
 }  // namespace plumb::offline

@@ -133,9 +133,7 @@ double sister_odds(const Cell& cell, const std::string& effect) {
 
 RegressorScore Scorer::score(const Regressor& regressor) const {
   RegressorScore out;
-  for (const auto& at : whitened_.folds)
-    out.folds.push_back(regressor.joint >= 0 ? products_of_joint(whitened_, regressor, at)
-                                             : products_of_motions(whitened_, regressor, at));
+  out.folds = products_by_fold(regressor);
   const Products all = sum_of(out.folds);
   const Eigen::MatrixXd whole = all.XX - all.UX.transpose() * all.UX;
   for (Eigen::Index c = 0; c < all.Xy.size(); ++c) out.active.push_back(c);
@@ -207,17 +205,57 @@ Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) con
   return out;
 }
 
+/// Sum of squares of one fold, as the others predict it with the regressor.
+double Scorer::held_out_with(std::size_t f, const RegressorScore& scored) const {
+  const Fold& fold = folds_[f];
+  if (scored.theta.size() == 0) return fold.error;
+  const Products& held = scored.folds[f];
+  const auto [a, theta] = without(f, scored);
+  return fold.yy - 2.0 * (a.dot(fold.Uy) + theta.dot(held.Xy)) + a.dot(fold.UU * a) +
+         2.0 * a.dot(held.UX * theta) + theta.dot(held.XX * theta);
+}
+
 Gain Scorer::gain(const RegressorScore& scored) const {
   std::vector<double> before, after;
   for (std::size_t f = 0; f < folds_.size(); ++f) {
-    const Fold& fold = folds_[f];
-    const Products& held = scored.folds[f];
-    const auto [a, theta] = without(f, scored);
-    before.push_back(fold.error);
-    after.push_back(fold.yy - 2.0 * (a.dot(fold.Uy) + theta.dot(held.Xy)) + a.dot(fold.UU * a) +
-                    2.0 * a.dot(held.UX * theta) + theta.dot(held.XX * theta));
+    before.push_back(folds_[f].error);
+    after.push_back(held_out_with(f, scored));
   }
   return gain_of(before, after);
+}
+
+Gain Scorer::gain(const std::vector<RegressorScore>& by_fold) const {
+  std::vector<double> before, after;
+  for (std::size_t f = 0; f < folds_.size(); ++f) {
+    before.push_back(folds_[f].error);
+    after.push_back(held_out_with(f, by_fold[f]));
+  }
+  return gain_of(before, after);
+}
+
+std::vector<Products> Scorer::products_by_fold(const Regressor& regressor) const {
+  std::vector<Products> out;
+  for (const auto& at : whitened_.folds)
+    out.push_back(regressor.joint >= 0 ? products_of_joint(whitened_, regressor, at)
+                                       : products_of_motions(whitened_, regressor, at));
+  return out;
+}
+
+Scorer::Cleared Scorer::cleared_without(std::size_t f, const std::vector<Products>& by_fold) const {
+  const Fold& fold = folds_[f];
+  const Products all = sum_of(by_fold);
+  const Eigen::MatrixXd UX = all.UX - by_fold[f].UX;
+  // Over all folds the residual is orthogonal to the model.
+  const Eigen::VectorXd Uy = -fold.Uy;
+  const Eigen::MatrixXd AUX = fold.without * UX;
+  Cleared out;
+  out.XX = all.XX - by_fold[f].XX - UX.transpose() * AUX;
+  out.Xy = all.Xy - by_fold[f].Xy - AUX.transpose() * Uy;
+  out.Q = whitened_.Q - fold.yy - Uy.dot(fold.without * Uy);
+  out.scale = scale_;
+  out.scale.lines =
+      std::max(1.0, scale_.lines - static_cast<double>(whitened_.folds[f].size() * whitened_.axes));
+  return out;
 }
 
 Gain gain_of(const std::vector<double>& before, const std::vector<double>& after) {

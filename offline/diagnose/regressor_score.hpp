@@ -63,8 +63,24 @@ class Scorer {
   /// Over all fit poses.
   Products products(const Regressor& regressor) const;
 
+  /// The same over each fold.
+  std::vector<Products> products_by_fold(const Regressor& regressor) const;
+
+  /// Products over all folds but one, cleared of the model as these folds fit it; the residual's
+  /// sum of squares, and the scale of evidence there.
+  struct Cleared {
+    Eigen::MatrixXd XX;
+    Eigen::VectorXd Xy;
+    double Q = 0.0;
+    EvidenceScale scale;
+  };
+  Cleared cleared_without(std::size_t fold, const std::vector<Products>& by_fold) const;
+
   /// K-fold gain: model and regressor refitted without each fold, all from products.
   Gain gain(const RegressorScore& scored) const;
+  /// The same of a regressor that each fold has chosen for itself; one without columns adds
+  /// nothing.
+  Gain gain(const std::vector<RegressorScore>& by_fold) const;
 
   /// Sizes fitted without one fold: of the model's columns U, and of the regressor's.
   struct Without {
@@ -84,6 +100,7 @@ class Scorer {
     Eigen::MatrixXd without;  // (U^T U of the others)^-1
     double error = 0.0;       // held-out sum of squares of the model alone
   };
+  double held_out_with(std::size_t fold, const RegressorScore& scored) const;
   double variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double width) const;
 
   const WhitenedFit& whitened_;

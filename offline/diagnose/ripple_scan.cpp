@@ -65,6 +65,35 @@ Regressor with_slopes(const WhitenedFit& s, const Regressor& waves, const Eigen:
   return out;
 }
 
+double step_of(const std::vector<double>& grid) {
+  return grid.size() > 1 ? grid[1] - grid[0] : 0.5;
+}
+
+/// Picks waves of the grid one after the other, at most so many.
+Ripples picked(Field field, const std::vector<double>& grid, const EvidenceScale& scale,
+               double price, std::size_t most_waves) {
+  Ripples out{.joint = 0, .cycles = {}, .strongest_ln_bayes = -1e6};
+  while (out.cycles.size() < most_waves) {
+    std::size_t best = 0;
+    double most = -1e6;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+      if (!apart(grid[k], out.cycles, step_of(grid))) continue;
+      const double ln = field.of(k, scale).ln_bayes;
+      if (ln > most) most = ln, best = k;
+    }
+    if (out.cycles.empty()) out.strongest_ln_bayes = most;
+    if (!out.cycles.empty() && most < price) break;
+    out.cycles.push_back(grid[best]);
+    if (most < price) break;
+    field.pick(best);
+  }
+  return out;
+}
+
+double price_of_wave(double regressors, const std::vector<double>& grid) {
+  return std::log(std::max(1.0, regressors + static_cast<double>(grid.size()))) + kWavePays;
+}
+
 /// Refines all wave numbers at once by Gauss-Newton steps, from the grid they were found on.
 void refine(const Scorer& scorer, Ripples& out, double step) {
   Regressor waves = ripple_regressor(scorer.whitened(), out.joint, out.cycles);
@@ -103,30 +132,15 @@ void refine(const Scorer& scorer, Ripples& out, double step) {
 }  // namespace
 
 Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tried) {
-  Ripples out{.joint = joint, .cycles = {}, .strongest_ln_bayes = -1e6};
   const auto grid = ripple_grid(scorer.whitened(), joint);
-  if (grid.empty()) return out;
+  if (grid.empty()) return {.joint = joint, .cycles = {}, .strongest_ln_bayes = -1e6};
   tried += static_cast<int>(grid.size());
   const Products all = scorer.products(ripple_regressor(scorer.whitened(), joint, grid));
-  Field field{all.XX - all.UX.transpose() * all.UX, all.Xy, scorer.whitened().Q};
-  const double price =
-      std::log(std::max(1.0, regressors + static_cast<double>(grid.size()))) + kWavePays;
-  const double step = grid.size() > 1 ? grid[1] - grid[0] : 0.5;
-  while (out.cycles.size() < kMostWaves) {
-    std::size_t best = 0;
-    double most = -1e6;
-    for (std::size_t k = 0; k < grid.size(); ++k) {
-      if (!apart(grid[k], out.cycles, step)) continue;
-      const double ln = field.of(k, scorer.scale()).ln_bayes;
-      if (ln > most) most = ln, best = k;
-    }
-    if (out.cycles.empty()) out.strongest_ln_bayes = most;
-    if (!out.cycles.empty() && most < price) break;
-    out.cycles.push_back(grid[best]);
-    if (most < price) break;
-    field.pick(best);
-  }
-  if (out.strongest_ln_bayes >= price) refine(scorer, out, step);
+  const double price = price_of_wave(regressors, grid);
+  Ripples out = picked({all.XX - all.UX.transpose() * all.UX, all.Xy, scorer.whitened().Q}, grid,
+                       scorer.scale(), price, kMostWaves);
+  out.joint = joint;
+  if (out.strongest_ln_bayes >= price) refine(scorer, out, step_of(grid));
   return out;
 }
 
@@ -150,7 +164,44 @@ Ripples scan_fast_ripples(const Scorer& scorer, int joint, int& tried) {
     }
   }
   if (out.cycles.empty()) return out;
-  refine(scorer, out, grid[1] - grid[0]);
+  refine(scorer, out, step_of(grid));
+  return out;
+}
+
+std::vector<std::vector<double>> waves_without_folds(const Scorer& scorer, int joint,
+                                                     const std::vector<double>& chosen,
+                                                     double regressors) {
+  const WhitenedFit& s = scorer.whitened();
+  std::vector<double> grid = ripple_grid(s, joint);
+  const bool fast = chosen.size() == 1 && !grid.empty() &&
+                    chosen.front() > grid.back() + kLeastSteps * step_of(grid);
+  if (fast) grid = fast_ripple_grid(s, joint);
+  std::vector<std::vector<double>> out(s.folds.size());
+  if (grid.empty()) return out;
+  const auto by_fold = scorer.products_by_fold(ripple_regressor(s, joint, grid));
+  const double price = price_of_wave(regressors, grid);
+  for (std::size_t f = 0; f < s.folds.size(); ++f) {
+    Scorer::Cleared there = scorer.cleared_without(f, by_fold);
+    out[f] = picked({std::move(there.XX), std::move(there.Xy), there.Q}, grid, there.scale, price,
+                    fast ? 1 : kMostWaves)
+                 .cycles;
+    for (double& wave : out[f])
+      for (const double refined : chosen)
+        if (std::abs(refined - wave) < step_of(grid)) {
+          wave = refined;
+          break;
+        }
+  }
+  return out;
+}
+
+std::vector<RegressorScore> scored_without_folds(const Scorer& scorer, int joint,
+                                                 const std::vector<std::vector<double>>& waves) {
+  std::vector<RegressorScore> out;
+  for (const auto& cycles : waves)
+    out.push_back(cycles.empty()
+                      ? RegressorScore{}
+                      : scorer.score(ripple_regressor(scorer.whitened(), joint, cycles)));
   return out;
 }
 

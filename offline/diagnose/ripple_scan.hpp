@@ -25,4 +25,16 @@ Ripples scan_ripples(const Scorer& scorer, int joint, double regressors, int& tr
 /// left. Cost: poses * waves on the grid * (rank + 32).
 Ripples scan_fast_ripples(const Scorer& scorer, int joint, int& tried);
 
+/// The waves of a candidate as they would be chosen without each fold of the fit poses, so that a
+/// fold's error is held out from the choice of its frequencies as well: one list a fold, perhaps
+/// empty. A wave of the grid that has been refined in `chosen` has that frequency.
+/// Cost: as scan_ripples, and for each fold (waves on the grid)^2 for every wave that is picked.
+std::vector<std::vector<double>> waves_without_folds(const Scorer& scorer, int joint,
+                                                     const std::vector<double>& chosen,
+                                                     double regressors);
+
+/// Each of them scored at all poses, so that every fold can be predicted by the others.
+std::vector<RegressorScore> scored_without_folds(const Scorer& scorer, int joint,
+                                                 const std::vector<std::vector<double>>& waves);
+
 }  // namespace plumb::offline
