@@ -29,6 +29,8 @@ namespace {
 /// Below so many poses the reported error comes from folds around the whole selection. Of more the
 /// choice hardly depends on a fold, and choosing six times takes 5 s at 150 poses, 22 s at 500.
 constexpr std::size_t kNestedBelow = 60;
+/// The same where waves were added: each has a frequency that was chosen among hundreds.
+constexpr std::size_t kNestedWithWavesBelow = 300;
 
 /// The cell without what is learnt: the tree comes after the physics.
 Cell physics_of(Cell cell) {
@@ -104,11 +106,14 @@ HeldOut held_out_of(const Work& w, const std::vector<EffectEntry>& effects,
 
 /// Whether the selection itself runs again without each fold. Of more poses the evidence of nearly
 /// all chooses what the evidence of all does, and it would take six times as long.
-bool chosen_in_folds(const Work& w) {
-  if (w.split.folds == 0) return false;
+bool chosen_in_folds(const Work& w, const std::vector<ForwardStep>& steps) {
+  if (w.split.folds == 0 || steps.empty()) return false;
+  const bool waves = std::any_of(steps.begin(), steps.end(),
+                                 [](const ForwardStep& step) { return is_wave(step.entry.name); });
   const Measurements some = pick(w.measured, w.fit);
   const std::vector<int> group = pose_groups(some);
-  return std::set<int>(group.begin(), group.end()).size() < kNestedBelow;
+  return std::set<int>(group.begin(), group.end()).size() <
+         (waves ? kNestedWithWavesBelow : kNestedBelow);
 }
 
 /// The whole selection once more around every fold.
@@ -201,16 +206,15 @@ std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
 }
 
 void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, std::size_t kept,
-                          double before_m, Diagnosis& out) {
+                          double least_m, double rose_to_m, Diagnosis& out) {
   std::vector<std::string> names;
   for (std::size_t i = kept; i < added.size(); ++i) names.push_back(key_of(cell, added[i].entry));
-  const double least_m = kept == 0 ? before_m : added[kept - 1].held.mean;
   out.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-DIAGNOSE-ROSE",
        .message = fmt::format("not added, though the fitted readings speak for it: {}; the error "
                               "on unseen poses rose from {:.3f} to {:.3f} mm",
-                              fmt::join(names, ", "), least_m * 1e3, added[kept].held.mean * 1e3),
+                              fmt::join(names, ", "), least_m * 1e3, rose_to_m * 1e3),
        .help = "plumb explain W-DIAGNOSE-ROSE"});
 }
 
@@ -230,10 +234,15 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
                          held_by_step.back().stats(), step.alternatives, step.moves});
   }
-  const std::size_t kept = steps_kept(out.before.mean, out.added);
+  std::optional<HeldOut> nested;
+  if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
+  const bool rises = nested && nested->stats().mean > out.before.mean;
+  const std::size_t kept = rises ? 0 : steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
   if (refused) {
-    say_what_was_refused(w.cell, out.added, kept, out.before.mean, out);
+    say_what_was_refused(w.cell, out.added, kept,
+                         kept == 0 ? out.before.mean : out.added[kept - 1].held.mean,
+                         rises ? nested->stats().mean : out.added[kept].held.mean, out);
     out.added.erase(out.added.begin() + static_cast<std::ptrdiff_t>(kept), out.added.end());
     found.steps.erase(found.steps.begin() + static_cast<std::ptrdiff_t>(kept), found.steps.end());
     held_by_step.erase(held_by_step.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -268,9 +277,9 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     out.floor =
         with_repeatability(noise_floor(w.cell, w.measured, fitted.state), out.repeatability);
   }
-  if (chosen_in_folds(w) && !(refused && kept == 0)) {
+  if (nested && kept > 0) {
     out.nested = true;
-    held = nested_held_out(w);
+    held = std::move(nested);
   }
   if (held) {
     out.after = held->stats();
