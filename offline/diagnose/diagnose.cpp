@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cell/effects_edit.hpp"
 #include "cell/replicates.hpp"
 #include "check/data_sense.hpp"
 #include "diagnose/alternatives.hpp"
@@ -225,6 +226,17 @@ void fit_to_all(const Work& w, std::vector<ForwardStep>& steps) {
   last.calibration = refitted(w.cell, w.measured, w.fit, last.effects, last.calibration);
 }
 
+/// The first candidate and the first effect that was added are one: what was refitted is shown for
+/// both, so that no sentence contradicts the table below it.
+void take_over_first(Diagnosis& out) {
+  if (out.added.empty() || out.candidates.empty()) return;
+  Candidate& first = out.candidates.front();
+  const Addition& added = out.added.front();
+  if (same_effect(first.entry, added.entry) && first.cycles == added.cycles &&
+      first.moves.size() == added.moves.size())
+    first.alone = first.after = added.held;
+}
+
 void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
                     const Scan& first, Diagnosis& out) {
   ForwardSelection found = forward_selection(w.start(w.choosing, false), base, whitened, first);
@@ -354,6 +366,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.folds = w.split.folds;
   out.poses_fit = static_cast<int>(w.fit.size());
   out.poses_held = static_cast<int>(held_rows(w.split).size());
+  out.poses_choosing = static_cast<int>(w.choosing.size());
   out.regressors = first.regressors;
   for (const auto& outlier : present.outliers) out.outliers.push_back(measured.pose[outlier.row]);
   out.finding = finding_of(first, whitened, base);
@@ -378,6 +391,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);
   if (request.apply && !other_gravity) go_all_the_way(w, base, whitened, first, out);
+  take_over_first(out);
   // Whatever was added would be compiled with the gravity that the cell states.
   if (request.apply && other_gravity) out.finding_after = Finding::kUndecidable;
   out.text = verdict_text(w.cell, out);

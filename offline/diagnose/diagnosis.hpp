@@ -133,6 +133,7 @@ struct Diagnosis {
   NoiseFloor floor;             // with the repeatability of the arm in it, where it is known
   Repeatability repeatability;  // beside the first candidate; with `apply`, at the end
   int poses_fit = 0, poses_held = 0;
+  int poses_choosing = 0;  // of those that are fitted: they chose the effects
   bool nested = false;  // held-out figures come from folds around the whole diagnosis
   int folds = 0;        // of the held-out figures; 0: one held-out set
   ErrorStats before, after;

@@ -8,7 +8,7 @@
 namespace plumb::offline::report {
 namespace {
 
-constexpr const char* kSchema = "diagnosis/1";
+constexpr const char* kSchema = "diagnosis/2";
 
 std::filesystem::path kept_file(const Run& run) { return run.directory / "diagnosis.json"; }
 
@@ -100,7 +100,7 @@ Json found_to(const Diagnosis& d) {
            {"floor_dof", d.floor.dof},
            {"floor_source", static_cast<int>(d.floor.source)},
            {"floor_holds_scatter", d.floor.holds_scatter},
-           {"poses", {d.poses_fit, d.poses_held}},
+           {"poses", {d.poses_fit, d.poses_held, d.poses_choosing}},
            {"nested", d.nested},
            {"folds", d.folds},
            {"before", stats_to(d.before)},
@@ -133,6 +133,7 @@ Diagnosis found_of(const Json& j) {
              .holds_scatter = j.value("floor_holds_scatter", false)};
   d.poses_fit = j.at("poses").at(0);
   d.poses_held = j.at("poses").at(1);
+  d.poses_choosing = j.at("poses").at(2);
   d.nested = j.at("nested");
   d.folds = j.at("folds");
   d.before = stats_of(j.at("before"));

@@ -136,6 +136,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   if (d.repeatability.supported()) out["repeatability"] = repeatability_json(cell, d.repeatability);
   out["poses_fit"] = d.poses_fit;
   out["poses_held_out"] = d.poses_held;
+  out["poses_choosing"] = d.poses_choosing;
   out["folds"] = d.folds;
   out["nested"] = d.nested;
   put_error(out, "held_out_before", d.before);

@@ -19,6 +19,15 @@ namespace {
 
 constexpr std::size_t kShown = 8;
 
+/// Of very many poses an even choice decides which effects there are.
+std::string choosing_text(const Diagnosis& d) {
+  if (d.poses_choosing >= d.poses_fit) return {};
+  return fmt::format("  {} of the {} fitted poses, evenly spread, chose the effects; {}\n",
+                     d.poses_choosing, d.poses_fit,
+                     d.added.empty() ? "the error now is that of a fit to all"
+                                     : "the line of the last one is a fit to all");
+}
+
 std::string errors_text(const Cell& cell, const Diagnosis& d) {
   TextTable table({head::kHeldOutError, head::kMean, head::kRms, head::kP95, head::kMax});
   const auto add = [&](const std::string& name, const ErrorStats& e) {
@@ -29,7 +38,7 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
   if (d.floor.source != NoiseFloor::Source::kNone)
     table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
-  return table.text() + folds_text(d.folds, d.poses_fit);
+  return table.text() + folds_text(d.folds, d.poses_fit) + choosing_text(d);
 }
 
 /// What most people need: which effect, and how far the error falls.
