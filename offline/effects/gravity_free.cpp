@@ -29,8 +29,9 @@ constexpr EffectDescriptor kGravityFreeDescriptor{
     .law = &effects::GravityFree::kInfo,
     .explanation =
         "Gravity torque without known masses: per joint, the components of gravity in the link "
-        "frames with free factors, reduced to what can be told apart. Needs: poses in many "
-        "orientations.",
+        "frames with free factors, reduced to what can be told apart. A link that bends or a base "
+        "that tilts under unknown weights may look the same; diagnose compares them and says so. "
+        "Needs: poses in many orientations.",
     .joints = JointList::kSet,
     .testable = gravity_free_testable,
     .measure = "150 poses in many orientations",
