@@ -638,7 +638,8 @@ constexpr Explanation kCodes[] = {
     {"E-DEMO-NAME", "There is no sample cell of that name. plumb demo --list shows them."},
     {"W-DIAGNOSE-ROSE",
      "The fitted readings spoke for these effects, but with them the error on readings that had no "
-     "say rose, so they were not added. Where the effects were chosen anew without each fold, it is "
+     "say rose, so they were not added. Where the effects were chosen anew without each fold, it "
+     "is "
      "the error of those choices that rose. Something else is missing that they imitate, or the "
      "measurement is short and in one place, so that what is learnt there does not hold elsewhere. "
      "Measure more poses, in an order that is no path."},

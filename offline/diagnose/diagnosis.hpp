@@ -134,8 +134,8 @@ struct Diagnosis {
   Repeatability repeatability;  // beside the first candidate; with `apply`, at the end
   int poses_fit = 0, poses_held = 0;
   int poses_choosing = 0;  // of those that are fitted: they chose the effects
-  bool nested = false;  // held-out figures come from folds around the whole diagnosis
-  int folds = 0;        // of the held-out figures; 0: one held-out set
+  bool nested = false;     // held-out figures come from folds around the whole diagnosis
+  int folds = 0;           // of the held-out figures; 0: one held-out set
   ErrorStats before, after;
   std::vector<Addition> added;
   std::optional<EffectEntry> tied;  // explains these poses exactly as well as the first candidate
