@@ -88,18 +88,27 @@ bool ModbusOwner::round(std::int64_t now_ns) {
 }
 
 bool ModbusOwner::look_before(std::uint16_t first, std::uint16_t count, std::int64_t now_ns) {
+  bool seen = false;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     const ModbusSpan& span = looks_[i].span;
-    if (looks_[i].fresh || span.first >= first + count || first >= span.first + span.count)
-      continue;
+    if (span.first >= first + count || first >= span.first + span.count) continue;
+    seen = true;
+    if (looks_[i].fresh) continue;
     if (!look(i, now_ns)) return false;
     return decide(now_ns);
   }
+  // A server that does not let these be read cannot show that they are another's.
+  if (!seen) looked_ns_ = MonotonicTime::now_ns();
   return true;
+}
+
+bool ModbusOwner::sight_is_old() const noexcept {
+  return MonotonicTime::now_ns() - looked_ns_ > watch_ns_ * 2 / 3;
 }
 
 bool ModbusOwner::look(std::size_t index, std::int64_t now_ns) {
   Look& look = looks_[index];
+  looked_ns_ = MonotonicTime::now_ns();
   ModbusTalk::Result result = read(look.span);
   if (result == ModbusTalk::Result::kDone && known_ && !all_explained(look.span))
     result = read(look.span);

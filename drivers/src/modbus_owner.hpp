@@ -43,6 +43,10 @@ class ModbusOwner {
   /// False: the registers are not ours, or someone else has just written into them.
   bool may_write() const noexcept { return state_ == State::kOwns && sight_.foreign == 0; }
 
+  /// Whether the last look began so long ago that another client may have taken the registers
+  /// since: the process was stopped between look and write. Nothing is to be written then.
+  bool sight_is_old() const noexcept;
+
   /// To be called before registers are written, and again when the server has confirmed it.
   void write_begins(std::uint16_t first, std::span<const std::uint16_t> content) noexcept;
   void write_done(std::uint16_t first, std::span<const std::uint16_t> content) noexcept;
@@ -97,6 +101,7 @@ class ModbusOwner {
 
   ModbusTalk& talk_;
   ModbusCounters& counters_;
+  std::int64_t looked_ns_ = 0;  // when the last look began
   std::int64_t look_ns_;
   std::int64_t watch_ns_;
   std::vector<ModbusSpan> spans_;  // of a server that refuses nothing

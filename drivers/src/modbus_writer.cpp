@@ -45,7 +45,7 @@ bool ModbusWriter::write_run(std::int64_t now_ns) {
   if (run_.count == 0) return true;
   const Run run = std::exchange(run_, {});
   if (!owner_.look_before(run.first, run.count, now_ns)) return false;
-  if (!owner_.may_write()) return true;
+  if (!owner_.may_write() || owner_.sight_is_old()) return true;
   owner_.write_begins(run.first, run.content());
   const ModbusTalk::Result result = talk_.write(run.first, run.content());
   if (result != ModbusTalk::Result::kDone) return ModbusTalk::goes_on(result);
