@@ -15,10 +15,9 @@ namespace plumb::offline {
 /// taken as equally soft in all directions.
 ///
 /// @return  Those within 10 nats of the best explanation, `first` among these, best first: of each
-///          law the link that explains most. Their
-///          evidence is as far from that of `first` as it is on the poses that are compared. Empty
-///          unless `first` is such a joint and no mass is stated. None can be added: their
-///          numbers are products of compliances and weights.
+///          law the link that explains most. Their evidence is as far from that of `first` as it is
+///          on the poses that are compared. Empty unless `first` is such a joint and no mass is
+///          stated. None can be added: their numbers are products of compliances and weights.
 /// Cost: 4 motions of each law a link, on 1,000 poses at most.
 std::vector<Found> rivals_under_unknown_weights(const WhitenedFit& whitened, const Found& first);
 

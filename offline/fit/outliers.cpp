@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
 #include <unordered_set>
 
 #include "fit/leverage.hpp"
@@ -15,6 +18,7 @@ namespace {
 constexpr double kFarOutlierTimes = 6.0;  // times the usual scatter: no reading of this tracker
 constexpr double kFarthestFirst = 0.3;  // of the farthest: the rest may only look far because of it
 constexpr double kMostShare = 0.1;      // of the poses
+constexpr double kMostOfSetup = 0.34;   // of the poses of one set-up
 constexpr double kLittle = 0.5;         // of the cost is theirs: they pulled the fit aside a little
 constexpr double kSolved = 1e-12;       // of the cost, in the last iteration
 constexpr double kOutliersRoughly = 1e-8;  // of the cost: near enough to tell outliers
@@ -44,6 +48,34 @@ Far far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance,
   }
   out.share = squares / std::max(1e-300, plain.squaredNorm());
   return out;
+}
+
+/// Set-ups that would lose more than a third of their poses. The few that are left would decide
+/// where tracker and reflector stand, and could no longer be contradicted.
+std::set<int> decimated_setups(const FitData& data, const std::vector<int>& all,
+                               const std::vector<int>& taken) {
+  std::map<int, int> poses, lost;
+  for (const int row : all) ++poses[setup_of(*data.measured, row)];
+  for (const int row : taken) ++lost[setup_of(*data.measured, row)];
+  std::set<int> out;
+  for (const auto& [setup, count] : lost)
+    if (count > 1 && count > kMostOfSetup * poses[setup]) out.insert(setup);
+  return out;
+}
+
+/// Leaves set-ups whole that would lose too much; what was taken of them before comes back.
+void keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>& whole,
+                 std::vector<int>& taken, Far& far) {
+  std::vector<int> out = taken;
+  out.insert(out.end(), far.rows.begin(), far.rows.end());
+  whole.merge(decimated_setups(data, all, out));
+  if (whole.empty()) return;
+  const auto stays = [&](int row) { return whole.contains(setup_of(*data.measured, row)); };
+  for (auto* rows : {&taken, &far.rows}) {
+    std::copy_if(rows->begin(), rows->end(), std::back_inserter(far.rest), stays);
+    std::erase_if(*rows, stays);
+  }
+  std::sort(far.rest.begin(), far.rest.end());
 }
 
 /// Those of `taken` that the fit without them agrees with after all.
@@ -110,11 +142,13 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
   std::vector<int> taken;
   bool came_back = false;
   double scatter = 1.0;
+  std::set<int> kept_whole;  // set-ups of which nothing is taken out
   for (;;) {
     if (!many && !of_this) leverage = Leverage(data, solution, parameters);
     const Eigen::VectorXd distance = leverage.distances(data, solution);
     scatter = usual_scatter(distance, data.per_pose());
-    const Far far = far_from_the_rest(data, distance, plain_distances(data, solution));
+    Far far = far_from_the_rest(data, distance, plain_distances(data, solution));
+    keep_setups(data, all, kept_whole, taken, far);
     if (many && far.rows.empty() && !of_this) {
       // The leverage so far is from a fit with more rows: an approximation.
       leverage = Leverage(data, solution, parameters);

@@ -30,7 +30,8 @@ double usual_scatter(const Eigen::VectorXd& distances, int per_pose);
 /// Least squares without the poses that the others contradict: farther away than 6 times the usual
 /// scatter. The farthest go first, the fit is repeated, and who then agrees comes back. Takes them
 /// out of `data.rows` and returns them, farthest first. More than one pose in ten would be no
-/// outliers but a wrong model: then none is taken out.
+/// outliers but a wrong model: then none is taken out. A set-up never loses more than one pose, or
+/// a third of them.
 std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Parameter>& parameters,
                                             Solution& solution);
 

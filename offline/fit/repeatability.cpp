@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kSupported_nats = 3.0;  // 20 to 1
 constexpr double kUsual_rad = 60e-6;     // [m] of a joint that slides
+constexpr double kMostOfJoint = 200e-6;  // [rad or m] no industrial arm has more
 constexpr double kWorthSaying = 0.3;     // of the largest
 
 /// The offset of each joint, whose derivative is the motion of the joint.
@@ -55,7 +56,10 @@ bool stood_still(const Measurements& m, int a, int b) {
 
 bool Repeatability::supported() const { return nats > kSupported_nats && usual(); }
 
-bool Repeatability::usual() const { return sigma_m <= usual_sigma_m; }
+bool Repeatability::usual() const {
+  return sigma_m <= usual_sigma_m &&
+         std::all_of(std.begin(), std.end(), [](double joint) { return joint <= kMostOfJoint; });
+}
 
 Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& scatter,
                                const std::vector<double>& sigma_m) {

@@ -23,8 +23,9 @@ struct Repeatability {
 
   /// Whether the readings speak for it at odds of 20 to 1, and it is of a usual size.
   bool supported() const;
-  /// Whether the poses scatter by no more than if every joint had 60 urad; industrial arms have 10
-  /// to 60. Beyond it something that the model lacks is the likelier cause.
+  /// Whether the poses scatter by no more than if every joint had 60 urad, and no joint by more
+  /// than 200; industrial arms have 10 to 60. Beyond it something that the model lacks is the
+  /// likelier cause: an error that depends on the joint's angle scatters from pose to pose as well.
   bool usual() const;
 };
 
