@@ -63,19 +63,22 @@ std::set<int> decimated_setups(const FitData& data, const std::vector<int>& all,
   return out;
 }
 
-/// Leaves set-ups whole that would lose too much; what was taken of them before comes back.
-void keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>& whole,
+/// Leaves set-ups whole that would lose too much. True if what was taken of them before has come
+/// back to the rest.
+bool keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>& whole,
                  std::vector<int>& taken, Far& far) {
   std::vector<int> out = taken;
   out.insert(out.end(), far.rows.begin(), far.rows.end());
   whole.merge(decimated_setups(data, all, out));
-  if (whole.empty()) return;
+  if (whole.empty()) return false;
+  const std::size_t before = taken.size();
   const auto stays = [&](int row) { return whole.contains(setup_of(*data.measured, row)); };
   for (auto* rows : {&taken, &far.rows}) {
     std::copy_if(rows->begin(), rows->end(), std::back_inserter(far.rest), stays);
     std::erase_if(*rows, stays);
   }
   std::sort(far.rest.begin(), far.rest.end());
+  return taken.size() < before;
 }
 
 /// Those of `taken` that the fit without them agrees with after all.
@@ -148,15 +151,15 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
     const Eigen::VectorXd distance = leverage.distances(data, solution);
     scatter = usual_scatter(distance, data.per_pose());
     Far far = far_from_the_rest(data, distance, plain_distances(data, solution));
-    keep_setups(data, all, kept_whole, taken, far);
-    if (many && far.rows.empty() && !of_this) {
+    const bool restored = keep_setups(data, all, kept_whole, taken, far);
+    if (many && far.rows.empty() && !restored && !of_this) {
       // The leverage so far is from a fit with more rows: an approximation.
       leverage = Leverage(data, solution, parameters);
       of_this = true;
       continue;
     }
     of_this = false;
-    if (!far.rows.empty()) {
+    if (!far.rows.empty() || restored) {
       taken.insert(taken.end(), far.rows.begin(), far.rows.end());
       data.rows = far.rest;
       if (static_cast<int>(taken.size()) > most_outliers(all.size())) {

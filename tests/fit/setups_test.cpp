@@ -275,6 +275,9 @@ TEST(Setups, ASmallOneIsNotTakenApartByWhatTheModelLacks) {
     const auto left_out = std::count_if(fitted.outliers.begin(), fitted.outliers.end(),
                                         [](const Outlier& o) { return o.row >= 300; });
     EXPECT_LE(left_out, static_cast<long>(few) / 3) << few << " poses";
+    // Whoever is not listed was fitted: left out again, the fit would be another one.
+    const Calibration again = calibrate(whole.cell, some, without_outliers(all, fitted.outliers));
+    EXPECT_NEAR(again.sigma0, fitted.sigma0, 1e-3 * fitted.sigma0) << few << " poses";
   }
 }
 
