@@ -24,7 +24,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/main_jump.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -172,9 +172,9 @@ class Checker {
     out_.effects = testable_effects(data_sense(cell, measured, rows));
     look_at_parameters(cell, measured, rows);
     reading_fits(cell, measured, rows);
-    const ArmState placed = out_.parameters
-                                ? out_.parameters->calibration.state
-                                : place_nominal(cell, measured, thinned(rows, kPlacedRows));
+    const ArmState placed =
+        out_.parameters ? out_.parameters->calibration.state
+                        : place_nominal(cell, measured, thinned(measured, rows, kPlacedRows));
     out_.coverage = coverage(cell, measured, rows, placed);
     out_.rounding = joint_rounding(cell, measured, rows, placed);
     add(coarse_points(measured, out_.floor));
@@ -329,7 +329,7 @@ class Checker {
   /// RMS 3-D error [m] of the rows that are no outliers.
   double left_by_fit(const MeasurementFiles& measured, const std::vector<int>& rows,
                      const ArmState& placed) const {
-    const Measurements some = pick(measured, thinned(not_outliers(rows), kPlacedRows));
+    const Measurements some = pick(measured, thinned(measured, not_outliers(rows), kPlacedRows));
     return std::sqrt(residuals(some, predict_points(placed, some)).squaredNorm() /
                      static_cast<double>(some.size()));
   }
@@ -390,8 +390,8 @@ class Checker {
         std::any_of(out_.findings.begin(), out_.findings.end(),
                     [](const Problem& p) { return p.code == "W-CHECK-SAME"; }))
       return "";
-    auto found =
-        moved_part(cell, measured, not_outliers(thinned(rows, kRowsSearchedForJump)), placed);
+    auto found = moved_part(cell, measured,
+                            not_outliers(thinned(measured, rows, kRowsSearchedForJump)), placed);
     if (!found) return "";
     out_.moved = std::move(found->words);
     add({std::move(found->finding)});

@@ -10,8 +10,8 @@
 
 #include "cell/units.hpp"
 #include "check/linear_placement.hpp"
-#include "fit/parameter_subset.hpp"
 #include "fit/solver.hpp"
+#include "fit/thinned_rows.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -41,7 +41,7 @@ struct Length {
 /// Change of every parameter that doubles all measured coordinates: J d = p_M by least squares.
 Eigen::VectorXd of_scale(const Measurements& measured, const std::vector<int>& rows,
                          const Calibration& fitted) {
-  const Measurements some = pick(measured, thinned(rows, kScaleMostRows));
+  const Measurements some = pick(measured, thinned(measured, rows, kScaleMostRows));
   FitData data;
   data.measured = &some;
   data.sigma_m = Rows3::Ones(some.size(), 3);
@@ -165,7 +165,7 @@ std::optional<GrossScale> gross_scale(const Cell& cell, const Measurements& meas
   const bool all_axes = measured.has_axis[0] && measured.has_axis[1] && measured.has_axis[2];
   if (static_cast<int>(rows.size()) < kScaleFewestRows || !all_axes || !measured.setup.empty())
     return std::nullopt;
-  const Measurements some = pick(measured, thinned(rows, kScaleMostRows));
+  const Measurements some = pick(measured, thinned(measured, rows, kScaleMostRows));
   const Chain chain(cell.nominal);
   std::vector<Transformd> X_BT;
   for (int i = 0; i < some.size(); ++i) {

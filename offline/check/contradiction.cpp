@@ -11,8 +11,8 @@
 #include "cell/table_place.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
-#include "fit/parameter_subset.hpp"
 #include "fit/quantile.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -238,7 +238,7 @@ std::optional<Problem> contradiction(const Cell& cell, const MeasurementFiles& m
                                      const std::vector<int>& rows, const ArmState& placed) {
   if (static_cast<int>(rows.size()) < kContradictionFewestRows || !measured.setup.empty())
     return std::nullopt;
-  const std::vector<int> some = thinned(rows, kContradictionMostRows);
+  const std::vector<int> some = thinned(measured, rows, kContradictionMostRows);
   if (rms_error(pick(measured, some), placed) < kGood_m) return std::nullopt;
   Majority majority(cell, measured, some);
   majority.find(placed);

@@ -8,7 +8,7 @@
 
 #include "cell/effect_option.hpp"
 #include "fit/parameter.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -35,7 +35,7 @@ std::vector<Problem> option_findings(const Cell& cell) {
 std::vector<Problem> effect_size_findings(const Cell& cell, const Measurements& measured,
                                           const std::vector<int>& rows, const ArmState& fitted) {
   std::vector<Problem> out;
-  const Measurements some = pick(measured, thinned(rows, kEffectSenseMostRows));
+  const Measurements some = pick(measured, thinned(measured, rows, kEffectSenseMostRows));
   const double most = kMostShare * reach(cell.nominal);
   const Rows3 with = predict_points(fitted, some);
   for (std::size_t k = 0; k < fitted.arm.effects.size(); ++k) {

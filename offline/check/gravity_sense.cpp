@@ -11,7 +11,7 @@
 
 #include "effects/registry.hpp"
 #include "fit/outliers.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"
 #include "plumb/runtime/chain.hpp"
 
@@ -205,7 +205,8 @@ std::vector<Problem> gravity_findings(const Cell& cell, const Measurements& meas
   const Vector3 g = full.normalized();
   if (only_geometry(cell) && measured.setup.empty() && !fitted.parameters.empty()) {
     const GravityTest test(
-        cell, measured, thinned(without_outliers(rows, fitted.outliers), kGravityMostRows), fitted);
+        cell, measured,
+        thinned(measured, without_outliers(rows, fitted.outliers), kGravityMostRows), fitted);
     const Vector3 other = test.can_tell() ? contradicted_by(test, g) : Vector3(Vector3::Zero());
     if (other.norm() > 0.0)
       return {{Severity::kWarning, "W-CHECK-GRAVITY",

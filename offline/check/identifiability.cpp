@@ -5,7 +5,7 @@
 
 #include "check/spectrum.hpp"
 #include "fit/imagined_poses.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"
 
 namespace plumb::offline {
@@ -56,7 +56,7 @@ Observability typical_observability(FitData data, const ArmState& state,
 
 IdentifiabilityReport identifiability(const Cell& cell, const Measurements& measured,
                                       const std::vector<int>& rows) {
-  const std::vector<int> thin = thinned(rows, kMostRows);
+  const std::vector<int> thin = thinned(measured, rows, kMostRows);
   IdentifiabilityReport out;
   out.calibration = calibrate(cell, measured, thin);
   const FitData data = data_of(cell, measured, thin);

@@ -11,7 +11,7 @@
 
 #include "cell/table_place.hpp"
 #include "cell/units.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -157,7 +157,7 @@ std::optional<Rounding> joint_rounding(const Cell& cell, const MeasurementFiles&
   if (out.step == 0.0) return std::nullopt;
   const Chain chain(placed.arm.calibrated);
   const Vector3 target(placed.X_TG.p[0], placed.X_TG.p[1], placed.X_TG.p[2]);
-  const auto thin = thinned(rows, kRowsLookedAt);
+  const auto thin = thinned(measured, rows, kRowsLookedAt);
   double squares = 0.0;
   ChainFrames frames;
   for (const int i : thin) {

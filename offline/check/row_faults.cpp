@@ -13,8 +13,8 @@
 #include "check/row_lines.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
-#include "fit/parameter_subset.hpp"
 #include "fit/quantile.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -87,7 +87,7 @@ class RowFaults {
   std::optional<RegularisedFit> arm_of(const Measurements& some,
                                        const std::vector<int>& rows) const {
     if (rows.size() < kFewestOfPart) return std::nullopt;
-    const auto thin = thinned(rows, kMostOfPart);
+    const auto thin = thinned(some, rows, kMostOfPart);
     RegularisedFit out =
         regularised_fit(cell_, some, thin, placed_from_the_labels(cell_, some, thin).state);
     if (out.rms_m > kPartFits * reach(cell_.nominal)) return std::nullopt;

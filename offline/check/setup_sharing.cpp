@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "fit/calibrate.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -42,7 +42,7 @@ double distance(const format::Pose& a, const format::Pose& b) {
 class Sharing {
  public:
   Sharing(const Cell& cell, const Measurements& measured, const std::vector<int>& rows)
-      : cell_(cell), measured_(measured), rows_(thinned(rows, kSharingMostRows)) {}
+      : cell_(cell), measured_(measured), rows_(thinned(measured, rows, kSharingMostRows)) {}
 
   std::vector<Problem> findings() {
     const auto& setups = cell_.measurement.setups;

@@ -15,7 +15,7 @@
 #include "fit/controller_base.hpp"
 #include "fit/main_jump.hpp"
 #include "fit/moving_part.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 #include "fit/verdict.hpp"
 #include "show/fit_view.hpp"
 #include "show/units.hpp"
@@ -142,7 +142,7 @@ std::string jump_words(const Cell& cell, const MeasurementFiles& measured, const
   for (int i = 0; i < measured.size(); ++i)
     if (fit.split.used[i]) used.push_back(i);
   const auto rows = without_outliers(
-      without_outliers(thinned(used, kRowsSearchedForJump), fit.calibration.outliers),
+      without_outliers(thinned(measured, used, kRowsSearchedForJump), fit.calibration.outliers),
       fit.held_outliers);
   const auto step = main_jump(fit.calibration.state, measured, rows);
   if (!step) return "";

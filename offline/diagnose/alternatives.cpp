@@ -49,6 +49,12 @@ std::vector<const Found*> near(const std::vector<Found>& all, const Found& first
   return out;
 }
 
+/// Laws of the library that change with time or a temperature.
+bool is_slow(const EffectEntry& entry) {
+  const EffectInfo* law = descriptor_of(entry.name).law;
+  return law != nullptr && (law->needs & (kNeedsTime | kNeedsTemperature)) != 0;
+}
+
 Alternative alternative(const Found& first, const Found& other) {
   Alternative out;
   out.entry = other.entry;
@@ -95,6 +101,22 @@ std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& l
     out.back().measure = why->measure;
   }
   return out;
+}
+
+const Found* slow_motion_instead_of(const Scan& look, const Found& first,
+                                    const std::vector<Alternative>& others) {
+  const std::optional<Found>& slow = look.slow;
+  const bool near = slow && is_change_point(first.entry.name) && slow->score > kSupported &&
+                    slow->gain.clear && slow->ln_bayes() > first.ln_bayes() - kTold_nats;
+  if (!near) return nullptr;
+  const double lesser = std::min(slow->ln_bayes(), first.ln_bayes());
+  const auto describes_it = [&](const Found& found) {
+    return is_slow(found.entry) && found.ln_bayes() > lesser - kTold_nats;
+  };
+  const bool has_a_law =
+      std::any_of(look.library.begin(), look.library.end(), describes_it) ||
+      std::any_of(others.begin(), others.end(), [](const auto& o) { return is_slow(o.entry); });
+  return has_a_law ? nullptr : &*slow;
 }
 
 bool names_what_is_not_shown(const std::vector<Alternative>& all) {

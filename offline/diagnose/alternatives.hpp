@@ -22,6 +22,16 @@ namespace plumb::offline {
 std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
                                       const Found& first, const std::vector<Testable>& excluded);
 
+/// The slow motion that a step, `first`, may be instead: supported, and within 10 nats of it or
+/// ahead. A step has a place that was chosen among all, so it imitates whatever moves slowly.
+///
+/// @param others  Alternatives of `first`.
+/// @return  Of `look`. Null where `first` is no step, or where a law of the library, as a drift,
+/// may
+///          describe the slow motion: then that law is the alternative.
+const Found* slow_motion_instead_of(const Scan& look, const Found& first,
+                                    const std::vector<Alternative>& others);
+
 /// Whether one of them is a law that the data cannot show.
 bool names_what_is_not_shown(const std::vector<Alternative>& alternatives);
 

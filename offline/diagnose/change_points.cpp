@@ -74,9 +74,10 @@ class CutSearch {
     return cuts_of(VisitRun{0, poses()}, static_cast<int>(kFewestBesideStep));
   }
 
-  /// The columns of these cuts become part of the model.
-  void beside(const std::vector<int>& cuts) {
-    const Eigen::MatrixXd others = cleared(s_, columns(cuts));
+  /// The columns of these cuts become part of the model: of this part's, or of another one's.
+  void beside(const std::vector<int>& cuts) { beside(*this, cuts); }
+  void beside(const CutSearch& part, const std::vector<int>& cuts) {
+    const Eigen::MatrixXd others = cleared(s_, part.columns(cuts));
     scale_ = evidence_scale(s_);
     scale_.lines = std::max(1.0, scale_.lines - static_cast<double>(others.cols()));
     U_.resize(s_.fit_lines, s_.rank + others.cols());
@@ -195,8 +196,30 @@ double price_of_place(Eigen::Index poses) {
   return std::log(static_cast<double>(std::max<Eigen::Index>(1, poses)));
 }
 
+/// The evidence of the best single move of a part beside those of another one.
+double best_move_beside(CutSearch& part, const CutSearch& other, const std::vector<int>& cuts) {
+  part.beside(other, cuts);
+  const auto best = best_cut(
+      part.poses(), part.cuts(), [&](int visit) { part.pass(visit); },
+      [&](int) -> std::optional<double> { return part.ln_bayes(); });
+  return best ? best->score : 0.0;
+}
+
+/// Whether a single move of the tool explains more than a further one of the base, or the other
+/// way round: several moves of the one can imitate a move of the other.
+bool other_body_moved(const WhitenedFit& s, const MovingPart& moving, const CutSearch& part,
+                      const std::vector<int>& cuts, double further_nats) {
+  for (const MovingPart& other : moving_parts(s.joints())) {
+    if (other.joint >= 0 || other.source == moving.source) continue;
+    CutSearch body(s, other);
+    if (best_move_beside(body, part, cuts) > further_nats) return true;
+  }
+  return false;
+}
+
 /// Further moves of the part, as long as the evidence pays for their places.
-std::vector<int> further_moves(const WhitenedFit& s, CutSearch& part, int first) {
+std::vector<int> further_moves(const WhitenedFit& s, const MovingPart& moving, CutSearch& part,
+                               int first) {
   std::vector<int> out{first};
   double ln_bayes = part.ln_bayes(out);
   while (ln_bayes > 0.0 && out.size() < kMostMoves) {
@@ -207,6 +230,7 @@ std::vector<int> further_moves(const WhitenedFit& s, CutSearch& part, int first)
     settle(part, more, part.poses());
     const double with = part.ln_bayes(more);
     if (with < ln_bayes + kSupported + price_of_place(s.fit_poses())) break;
+    if (other_body_moved(s, moving, part, out, with - ln_bayes)) break;
     out = std::move(more);
     ln_bayes = with;
   }
@@ -234,9 +258,9 @@ std::vector<ChangePoint> change_points(const WhitenedFit& s, int& tried) {
           return part.ln_bayes();
         });
     if (!best) continue;
-    out.push_back(at_cuts(
-        s, part,
-        moving.joint >= 0 ? std::vector<int>{best->cut} : further_moves(s, part, best->cut)));
+    out.push_back(at_cuts(s, part,
+                          moving.joint >= 0 ? std::vector<int>{best->cut}
+                                            : further_moves(s, moving, part, best->cut)));
   }
   return out;
 }

@@ -373,7 +373,10 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.candidates = candidates_of(whitened, plain, first);
   if (out.finding == Finding::kMissing) {
     out.alternatives = alternatives(whitened, first, *first.supported(), w.excluded);
-    if (names_what_is_not_shown(out.alternatives)) out.finding = Finding::kUndecidable;
+    if (const Found* slow = slow_motion_instead_of(first, *first.supported(), out.alternatives))
+      out.slow_motion = unknown_structure(whitened, *slow);
+    if (names_what_is_not_shown(out.alternatives) || out.slow_motion)
+      out.finding = Finding::kUndecidable;
   }
   if (const Found* other =
           out.finding == Finding::kMissing ? tied_with_first(whitened, first) : nullptr) {

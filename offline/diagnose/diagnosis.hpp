@@ -118,12 +118,15 @@ struct OtherGravity {
 };
 
 /// Why a selection ended: an effect and its alternatives, some of which would be compiled and some
-/// not. Adding either would decide what the compiled arm is, so neither is added.
+/// not, or a step that may be a slow motion. Adding any would decide what the compiled arm is, so
+/// none is added.
 struct Undecided {
   EffectEntry entry;
   std::vector<double> cycles;
   std::string domain;
   std::vector<Alternative> alternatives;
+  std::optional<UnknownStructure> slow_motion =
+      {};  // as in Diagnosis; then there are no alternatives
 };
 
 struct Diagnosis {
@@ -142,6 +145,9 @@ struct Diagnosis {
   /// What the first candidate may be instead: within 10 nats of it, and mutually confounded with
   /// it.
   std::vector<Alternative> alternatives;
+  /// What the first candidate, a step, may be instead: a part that moves slowly, as no law of the
+  /// library describes.
+  std::optional<UnknownStructure> slow_motion;
   /// Gravity acts in another direction, or may do so. Where it is certain, `candidates` are those
   /// under it, and nothing is added before the cell says so.
   std::optional<OtherGravity> gravity;

@@ -160,8 +160,18 @@ std::string telling_words(const Cell& cell, const EffectEntry& first,
   return out;
 }
 
+/// "joint 3 moves with time, as no law of the library does (61 % of what the model leaves, ...)".
+std::string slow_words(const Cell& cell, const UnknownStructure& slow) {
+  return unknown_words(cell, slow) + ", which no law of the library describes";
+}
+
+constexpr const char* kTellsStepFromSlowMotion =
+    "To tell a step from a slow motion: measure a few poses again and again through one session, "
+    "also when the arm is cold.";
+
 std::string sure_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
+  if (d.slow_motion) return kTellsStepFromSlowMotion;
   if (!d.alternatives.empty()) return telling_words(cell, best.entry, d.alternatives);
   if (explains_little(d))
     return fmt::format(
@@ -182,7 +192,8 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
   const std::string peaks = best.peaks.empty() ? "" : ", " + best.peaks;
   std::string effect = either_words(cell, effect_sentence(cell, best) + peaks, d.alternatives);
-  if (!d.alternatives.empty()) effect += ": these poses cannot tell";
+  if (d.slow_motion) effect += ", or " + slow_words(cell, *d.slow_motion);
+  if (may_be_another(d)) effect += ": these poses cannot tell";
   if (!falls(d.before.mean, best.alone.mean))
     return fmt::format(
         "Doubtful: perhaps {}. The fitted poses speak for it, but {}, {}. More poses would tell.",
@@ -192,7 +203,7 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
                      undecidable          ? "Undecidable"
                      : explains_little(d) ? "Perhaps"
                                           : "Missing",
-                     effect, d.alternatives.empty() ? "it" : "the first",
+                     effect, may_be_another(d) ? "the first" : "it",
                      fall_words(d.before.mean, best.alone.mean), floor_words(d.floor),
                      sure_words(cell, d));
 }
@@ -212,6 +223,11 @@ std::string unsure_words(const Cell& cell, const Diagnosis& d) {
 /// Why an effect was not added, though it is supported: "joint compliance (joint_compliance:J2) is
 /// supported, but it may be drift (drift) instead ...".
 std::string undecided_words(const Cell& cell, const Undecided& u) {
+  if (u.slow_motion)
+    return fmt::format(
+        "{} is supported, but it may be instead that {}: these poses cannot tell. {}",
+        in_words(cell, u.entry, u.cycles), slow_words(cell, *u.slow_motion),
+        kTellsStepFromSlowMotion);
   const auto other =
       std::find_if(u.alternatives.begin(), u.alternatives.end(),
                    [&](const Alternative& a) { return a.compiled != is_compiled(u.entry); });
@@ -258,8 +274,10 @@ bool falls(double before_m, double after_m) {
   return digits(after_m) != digits(before_m) && after_m < before_m;
 }
 
+bool may_be_another(const Diagnosis& d) { return !d.alternatives.empty() || d.slow_motion; }
+
 bool is_either(const Diagnosis& d, const EffectEntry& entry) {
-  if (d.alternatives.empty()) return false;
+  if (!may_be_another(d)) return false;
   return same_effect(d.candidates.front().entry, entry) ||
          std::any_of(d.alternatives.begin(), d.alternatives.end(),
                      [&](const Alternative& other) { return same_effect(other.entry, entry); });
@@ -357,7 +375,7 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
           "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
           unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
-      if (!d.tied && (!d.alternatives.empty() || (d.gravity && !d.candidates.empty())))
+      if (!d.tied && (may_be_another(d) || (d.gravity && !d.candidates.empty())))
         return missing_words(cell, d);
       if (d.tied)
         return fmt::format(

@@ -37,6 +37,9 @@ std::string waves_words(const std::vector<double>& cycles);
 /// Whether the error on unseen poses falls, in the digits that are shown.
 bool falls(double before_m, double after_m);
 
+/// Whether the first candidate may be another effect, or a slow motion, instead.
+bool may_be_another(const Diagnosis& diagnosis);
+
 /// Whether an effect is the first candidate or one of what it may be instead.
 bool is_either(const Diagnosis& diagnosis, const EffectEntry& entry);
 

@@ -2,7 +2,9 @@
 #include "diagnose/exchange.hpp"
 
 #include <algorithm>
+#include <set>
 
+#include "cell/effects_edit.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_without.hpp"
 #include "diagnose/found_list.hpp"
@@ -13,10 +15,22 @@
 namespace plumb::offline {
 namespace {
 
-/// An effect that replaces this one better, in the model without it; or null.
+bool same_places(const Found& a, const Found& b) {
+  const auto a_entries = a.entries(), b_entries = b.entries();
+  return std::equal(a_entries.begin(), a_entries.end(), b_entries.begin(), b_entries.end(),
+                    same_effect);
+}
+
+/// An effect that replaces this one better, in the model without it; or null. It may be the same
+/// step with other moves: what else has been added since may have been one of them.
 const Found* better_than(const Selection& s, const JudgedModel& without, const Found& found) {
   const Found* other = without.look.supported();
-  if (other == nullptr || s.key(other->entry) == s.key(found.entry)) return nullptr;
+  if (other == nullptr) return nullptr;
+  if (s.key(other->entry) == s.key(found.entry)) {
+    const bool moves_otherwise = is_change_point(found.entry.name) && !same_places(*other, found) &&
+                                 other->ln_bayes() > evidence_as_it_is(without, found);
+    return moves_otherwise ? other : nullptr;
+  }
   return other->ln_bayes() < evidence_without(without, found) + kSupported ? nullptr : other;
 }
 
@@ -30,12 +44,17 @@ bool exchange_one(Selection& s, const Found& found) {
   return true;
 }
 
-/// Effects of the model that gravity or the payload causes.
-std::size_t loads_in(const Selection& s) {
+/// Effects of the model that a step may have been mistaken for in part: what gravity or the payload
+/// causes, and steps of other parts.
+std::size_t like_steps_in(const Selection& s) {
   const auto& effects = s.cell().effects;
-  return static_cast<std::size_t>(
-      std::count_if(effects.begin(), effects.end(),
-                    [](const EffectEntry& e) { return grows_with_load(descriptor_of(e.name)); }));
+  const auto loads = std::count_if(effects.begin(), effects.end(), [](const EffectEntry& e) {
+    return grows_with_load(descriptor_of(e.name));
+  });
+  std::set<std::string> steps;
+  for (const EffectEntry& e : effects)
+    if (is_change_point(e.name)) steps.insert(s.key(e));
+  return static_cast<std::size_t>(loads) + steps.size();
 }
 
 /// Whether an effect is to be taken out now; remembers that it was.
@@ -43,9 +62,9 @@ bool is_due(Selection& s, const EffectEntry& entry) {
   const std::string key = s.key(entry);
   if (is_wave(entry.name) || is_series(entry.name)) return false;
   if (is_change_point(entry.name)) {
-    const auto [last, fresh] = s.steps_ranked.try_emplace(key, loads_in(s));
-    if (!fresh && last->second == loads_in(s)) return false;
-    last->second = loads_in(s);
+    const auto [last, fresh] = s.steps_ranked.try_emplace(key, like_steps_in(s));
+    if (!fresh && last->second == like_steps_in(s)) return false;
+    last->second = like_steps_in(s);
     return true;
   }
   return s.exchanged.size() < kMostExchanges && s.exchanged.insert(key).second;

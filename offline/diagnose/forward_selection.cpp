@@ -31,11 +31,20 @@ Found as_many_as_fit(const Selection& s, Found found) {
 
 /// Whether an effect may be added. Of several that these poses cannot tell apart the first is added
 /// where all share its fate, since the prediction is as good with any of them. Where some would be
-/// compiled and others thrown away, it would be a guess about the arm.
+/// compiled and others thrown away, it would be a guess about the arm; so would be a step in place
+/// of a slow motion.
 bool may_be_added(Selection& s, const Found& best, ForwardSelection& out) {
   auto others = alternatives(s.whitened(), s.look(), best, s.start().excluded);
   if (of_different_fate(best.entry, others)) {
     out.undecided = Undecided{best.entry, best.cycles, domain_word(best.entry), std::move(others)};
+    return false;
+  }
+  if (const Found* slow = slow_motion_instead_of(s.look(), best, others)) {
+    out.undecided = Undecided{best.entry,
+                              best.cycles,
+                              domain_word(best.entry),
+                              {},
+                              unknown_structure(s.whitened(), *slow)};
     return false;
   }
   s.unsure[s.key(best.entry)] = std::move(others);

@@ -60,6 +60,7 @@ void pay(Scan& look, double nats) {
   };
   std::for_each(look.library.begin(), look.library.end(), pays);
   if (look.pattern) pays(*look.pattern);
+  if (look.slow) pays(*look.slow);
 }
 
 Repeatability scatter_seen(const WhitenedFit& whitened, const ScatterLines& lines,

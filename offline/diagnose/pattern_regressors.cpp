@@ -147,14 +147,14 @@ void visit_pairs(const std::vector<Input>& q, const std::vector<int>& turning,
 void visit_surroundings(const WhitenedFit& s, const std::vector<int>& turning,
                         const RegressorVisitor& visit) {
   for (const auto& input : surroundings(s)) {
-    const Pattern pattern{{}, "moves with the " + input.plainly, {input.name}, 0.0};
+    const Pattern pattern{{}, "moves with the " + input.plainly, {input.name}, 0.0, true};
     for (int j : turning) visit(on_joint(j, pattern, {input.value}));
     visit(on_body(s, true, pattern, {input.value}));
     visit(on_body(s, false, pattern, {input.value}));
   }
   const auto time = time_input(s);
   if (!time) return;
-  const Pattern pattern{{}, "moves with " + time->plainly, {time->name}, 0.0};
+  const Pattern pattern{{}, "moves with " + time->plainly, {time->name}, 0.0, true};
   for (int j : turning)
     visit(on_joint(j, pattern, {time->value, time->value.square() - 1.0 / 3.0}));
   visit(on_body(s, false, pattern, {time->value, time->value.square() - 1.0 / 3.0}));

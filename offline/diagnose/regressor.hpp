@@ -18,6 +18,7 @@ struct Pattern {
   std::string words;                    // "depends on q4 and q6 together"
   std::vector<std::string> depends_on;  // "q4", "t", "temp_base"
   double harmonic = 0.0;                // 0: none
+  bool slow = false;                    // moves with time, a temperature or another slow reading
   bool empty() const { return subject.empty(); }
 };
 

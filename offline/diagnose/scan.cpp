@@ -112,9 +112,9 @@ class Collector {
   }
   void take_pattern(const Regressor& regressor) {
     ++regressors_;
-    if (!keep(pattern_, regressor, scorer_.score(regressor)) || regressor.joint < 0) return;
-    const Eigen::VectorXd fitted = regressor.columns * pattern_->scored.theta;
-    pattern_->rms_joint = std::sqrt(fitted.squaredNorm() / static_cast<double>(fitted.size()));
+    const RegressorScore scored = scorer_.score(regressor);
+    keep_pattern(pattern_, regressor, scored);
+    if (regressor.pattern.slow) keep_pattern(slow_, regressor, scored);
   }
   void take(Found found) {
     ++regressors_;
@@ -126,7 +126,7 @@ class Collector {
   void count(int more) { regressors_ += more; }
 
   std::map<std::string, std::optional<Found>> best_;
-  std::optional<Found> pattern_;
+  std::optional<Found> pattern_, slow_;
   double regressors_ = 0.0;
 
  private:
@@ -134,6 +134,12 @@ class Collector {
     if (best && best->ln_bayes() >= scored.evidence.ln_bayes) return false;
     best = Found{regressor.entry, regressor.pattern, std::move(scored), {}, 0.0, {}, 0.0};
     return true;
+  }
+  static void keep_pattern(std::optional<Found>& best, const Regressor& regressor,
+                           const RegressorScore& scored) {
+    if (!keep(best, regressor, scored) || regressor.joint < 0) return;
+    const Eigen::VectorXd fitted = regressor.columns * best->scored.theta;
+    best->rms_joint = std::sqrt(fitted.squaredNorm() / static_cast<double>(fitted.size()));
   }
   const WhitenedFit& whitened_;
   const Scorer& scorer_;
@@ -409,11 +415,14 @@ Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testa
     if (!is_out(whitened, banned, key_of(*whitened.cell, group.entry), group.entry))
       out.library.push_back(std::move(group));
   out.pattern = std::move(all.pattern_);
-  if (out.pattern) out.pattern->score = out.pattern->ln_bayes() - paid;
+  out.slow = std::move(all.slow_);
+  for (std::optional<Found>* pattern : {&out.pattern, &out.slow})
+    if (*pattern) (*pattern)->score = (*pattern)->ln_bayes() - paid;
   sort_by_evidence(out);
   for (auto& found : out.library)
     if (found.score > kSupported) found.gain = gain_of(scorer, found, out.regressors);
-  if (out.pattern) out.pattern->gain = scorer.gain(out.pattern->scored);
+  for (std::optional<Found>* pattern : {&out.pattern, &out.slow})
+    if (*pattern) (*pattern)->gain = scorer.gain((*pattern)->scored);
   if (!contains(not_testable, wave_effect())) {
     add_fast_waves(scorer, banned, out);
     sort_by_evidence(out);

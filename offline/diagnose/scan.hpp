@@ -36,6 +36,7 @@ Regressor regressor_of(const WhitenedFit& whitened, const Found& found);
 struct Scan {
   std::vector<Found> library;    // by ln B, best first; gains known wherever score > kSupported
   std::optional<Found> pattern;  // the best one
+  std::optional<Found> slow;     // the best of those that move slowly; with its gain
   double regressors = 0.0;       // tried
 
   /// First of the library that evidence and held-out poses support, and `also` lets pass; or null.

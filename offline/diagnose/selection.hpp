@@ -78,10 +78,11 @@ class Selection {
   std::map<std::string, int> dropped;                      // how often each was taken out, by key
   std::set<std::string> exchanged;                         // taken out once and looked for again
   std::set<std::string> sizes_doubted;                     // taken out once because of their size
-  std::map<std::string, std::size_t> steps_ranked;  // by key: loads in the model when it was ranked
-  bool untrimmed = false;                           // the first and last poses were looked at again
-  std::set<std::string> doubted;                    // their rivals were followed
-  std::set<std::string> renewed;                    // waves that were looked for again, together
+  /// By key: how many loads and other steps were in the model when a step was last ranked.
+  std::map<std::string, std::size_t> steps_ranked;
+  bool untrimmed = false;         // the first and last poses were looked at again
+  std::set<std::string> doubted;  // their rivals were followed
+  std::set<std::string> renewed;  // waves that were looked for again, together
   const std::vector<FittedModel>& seen() const { return seen_; }  // the present one is the last
 
  private:

@@ -24,6 +24,7 @@
 #include "fit/pose_sense.hpp"
 #include "fit/prior_lines.hpp"
 #include "fit/series_solver.hpp"
+#include "fit/thinned_rows.hpp"
 #include "fit/unknown_numbers.hpp"
 #include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
@@ -142,7 +143,7 @@ FitData weighed_for_series(const FitData& stated, const ParameterSubset& subset,
   };
   for (int pass = 0; pass < 2; ++pass) {
     FitData some = widened();
-    some.rows = thinned(stated.rows, kEnoughRows);
+    some.rows = thinned(stated, kEnoughRows);
     solution = solve(some, ArmState(solution.state), subset.kept, kRoughly);
   }
   return widened();
@@ -354,10 +355,9 @@ void add_judgement(const Judgement& judged, const EarlierArm& earlier, const Fit
   out.decided += judged.decided - static_cast<double>(judged.arm.names.size());
   FitData readings = data;
   readings.arm = {};
-  readings.rows = thinned(data.rows, kManyRows);
-  const double thinning =
-      std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(readings.rows.size()));
-  const Eigen::MatrixXd J = thinning * evaluate(readings, solution.state, out.parameters).jacobian;
+  FitData some = readings;
+  some.rows = thinned(readings, kManyRows);
+  const Eigen::MatrixXd J = jacobian_for_all(readings, some, solution.state, out.parameters);
   out.covariance = covariance_with(judged.arm, J, out.parameters);
   for (std::size_t i = 0; i < out.estimates.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -423,7 +423,7 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   FitData even = data;
   even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
   // Some of many rows tell the noise and a start as well as all do; outliers among them are found.
-  even.rows = thinned(even.rows, kManyRows);
+  even.rows = thinned(even, kManyRows);
   std::vector<ArmState> starts;
   if (start != nullptr)
     starts.push_back(*start);
@@ -481,7 +481,7 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
     data = weighed_for_series(weakly_held, subset, solution);
   } else {
     // This tells only what the model still lacks, and a start.
-    data.rows = thinned(stated.rows, kEnoughRows);
+    data.rows = thinned(stated, kEnoughRows);
     solution = solve(data, ArmState(solution.state), subset.kept, kRoughly);
     data = weakly_held;
     widen(data, excess_of(data, solution, subset.kept.size()));

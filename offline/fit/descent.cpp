@@ -6,8 +6,8 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/fit_judgement.hpp"
-#include "fit/parameter_subset.hpp"
 #include "fit/row_sums.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -82,7 +82,7 @@ namespace {
 Sums sums_nearer(const FitData& data, const std::vector<Parameter>& parameters, ArmState& state,
                  Sums here) {
   FitData few = data;
-  few.rows = thinned(data.rows, static_cast<int>(kFirstRows));
+  few.rows = thinned(data, static_cast<int>(kFirstRows));
   const Descent first =
       descend(few, state, sums_at(few, state, parameters), parameters, kFirstTolerance);
   Sums there = sums_at(data, first.state, parameters);

@@ -14,7 +14,7 @@
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/many_rows.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 #include "program/file.hpp"
 
 namespace plumb::offline {
@@ -153,7 +153,7 @@ Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter
   FitData some = data;
   some.arm = {};
   some.weak = {};
-  some.rows = thinned(data.rows, kManyRows);
+  some.rows = thinned(data, kManyRows);
   const Solution here = evaluate(some, at, order);
   const Eigen::Index columns = here.jacobian.cols(), lines = here.jacobian.rows();
   Eigen::MatrixXd A(lines, columns + 1);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "fit/thinned_rows.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -25,26 +27,18 @@ ParameterSubset identifiable_parameters(const FitData& data, const ArmState& sta
                                         const Identifiability& limits) {
   FitData thin = data;
   thin.weak = {};  // what the poses say is asked, not what nominal says
-  thin.rows = thinned(data.rows, kRankPoses);
-  const double thinning =
-      std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(thin.rows.size()));
-  Eigen::MatrixXd J = evaluate(thin, state, candidates).jacobian;
+  thin.rows = thinned(data, kRankPoses);
+  Eigen::MatrixXd J = jacobian_for_all(data, thin, state, candidates);
+  const double lines = std::sqrt(static_cast<double>(data.residual_count()));
   const double sigma = data.sigma_m.row(thin.rows.front()).mean();
   for (Eigen::Index k = 0; k < J.cols(); ++k) {
-    const double rms = J.col(k).norm() / std::sqrt(static_cast<double>(J.rows())) * sigma;
-    J.col(k) *= plausible_size(candidates[static_cast<std::size_t>(k)], rms) * thinning;
+    const double rms = J.col(k).norm() / lines * sigma;
+    J.col(k) *= plausible_size(candidates[static_cast<std::size_t>(k)], rms);
   }
   const Subset subset = identifiable(J, limits);
   ParameterSubset out;
   for (int i : subset.kept) out.kept.push_back(candidates[i]);
   for (int i : subset.dropped) out.held.push_back(candidates[i].name);
-  return out;
-}
-
-std::vector<int> thinned(const std::vector<int>& rows, int most) {
-  if (static_cast<int>(rows.size()) <= most) return rows;
-  std::vector<int> out;
-  for (int i = 0; i < most; ++i) out.push_back(rows[rows.size() * i / most]);
   return out;
 }
 

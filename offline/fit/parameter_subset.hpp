@@ -22,7 +22,4 @@ ParameterSubset identifiable_parameters(const FitData& data, const ArmState& sta
                                         const std::vector<Parameter>& candidates,
                                         const Identifiability& limits);
 
-/// At most `most` rows, evenly picked.
-std::vector<int> thinned(const std::vector<int>& rows, int most);
-
 }  // namespace plumb::offline

@@ -6,6 +6,7 @@
 
 #include "fit/frame_start.hpp"
 #include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -62,7 +63,7 @@ std::vector<Parameter> placing_of(const std::vector<Parameter>& candidates) {
 
 FitData fewer(const FitData& data, int most) {
   FitData out = data;
-  out.rows = thinned(data.rows, most);
+  out.rows = thinned(data, most);
   return out;
 }
 

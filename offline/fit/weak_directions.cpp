@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -65,13 +65,11 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   order.insert(order.end(), out.parameters.begin(), out.parameters.end());
   FitData thin = data;
   thin.weak = {};
-  thin.rows = thinned(data.rows, kMostRows);
-  const double thinning =
-      std::sqrt(static_cast<double>(data.rows.size()) / static_cast<double>(thin.rows.size()));
+  thin.rows = thinned(data, kMostRows);
   const Eigen::Map<const Eigen::VectorXd> sigma(prior.data(),
                                                 static_cast<Eigen::Index>(prior.size()));
   const Eigen::MatrixXd shown =
-      thinning * less_the_first(evaluate(thin, state, order).jacobian, first) * sigma.asDiagonal();
+      less_the_first(jacobian_for_all(data, thin, state, order), first) * sigma.asDiagonal();
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
   square.topRows(std::min(shown.rows(), square.rows())) =
       shown.topRows(std::min(shown.rows(), square.rows()));

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "fit/outliers.hpp"
-#include "fit/parameter_subset.hpp"
+#include "fit/thinned_rows.hpp"
 #include "recheck/refit.hpp"
 
 namespace plumb::offline::recheck {
@@ -26,7 +26,7 @@ std::vector<int> different_poses(const Run& calibrated, const Measurements& own)
     out.push_back(i);
   }
   out = without_outliers(std::move(out), calibrated.fit.calibration.outliers);
-  return thinned(out, kMostPoses);
+  return thinned(own, out, kMostPoses);
 }
 
 /// Derivatives by the numbers of all changes, per typical size and noise, row by row.

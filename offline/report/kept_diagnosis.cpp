@@ -93,6 +93,24 @@ Alternative alternative_of(const Json& j) {
           .measure = j.at("measure")};
 }
 
+Json unknown_to(const UnknownStructure& u) {
+  return {{"subject", u.pattern.subject},
+          {"words", u.pattern.words},
+          {"depends_on", u.pattern.depends_on},
+          {"size", {u.share, u.rms_m, u.rms_rad}}};
+}
+
+UnknownStructure unknown_of(const Json& j) {
+  UnknownStructure out;
+  out.pattern.subject = j.at("subject");
+  out.pattern.words = j.at("words");
+  out.pattern.depends_on = j.at("depends_on").get<std::vector<std::string>>();
+  out.share = j.at("size").at(0);
+  out.rms_m = j.at("size").at(1);
+  out.rms_rad = j.at("size").at(2);
+  return out;
+}
+
 Json found_to(const Diagnosis& d) {
   Json out{{"finding", static_cast<int>(d.finding)},
            {"text", d.text},
@@ -113,6 +131,7 @@ Json found_to(const Diagnosis& d) {
   if (d.gravity)
     out["gravity"] = {d.gravity->stated, d.gravity->found, d.gravity->nats_ahead,
                       d.gravity->certain};
+  if (d.slow_motion) out["slow_motion"] = unknown_to(*d.slow_motion);
   for (const auto& a : d.alternatives) out["alternatives"].push_back(alternative_to(a));
   for (const auto& c : d.candidates) out["candidates"].push_back(candidate_to(c));
   for (const auto& t : d.not_testable)
@@ -146,6 +165,7 @@ Diagnosis found_of(const Json& j) {
                  .nats_ahead = gravity.at(2),
                  .certain = gravity.at(3)};
   }
+  if (j.contains("slow_motion")) d.slow_motion = unknown_of(j.at("slow_motion"));
   for (const auto& a : j.at("alternatives")) d.alternatives.push_back(alternative_of(a));
   for (const auto& c : j.at("candidates")) d.candidates.push_back(candidate_of(c));
   for (const auto& t : j.at("not_testable"))

@@ -165,6 +165,9 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
                         {"cycles_per_turn", d.undecided->cycles},
                         {"domain", d.undecided->domain},
                         {"alternatives", alternatives_json(cell, d.undecided->alternatives)}};
+  if (d.undecided && d.undecided->slow_motion)
+    out["not_added"]["slow_motion"] = unknown_json(*d.undecided->slow_motion);
+  if (d.slow_motion) out["slow_motion"] = unknown_json(*d.slow_motion);
   if (d.gravity) {
     out["gravity"] = {{"stated", d.gravity->stated},
                       {"found", d.gravity->found},

@@ -113,7 +113,8 @@ std::string support_words(const Diagnosis& d, const Candidate& c) {
   if (!c.supported && !either) return "no";
   if (!c.plausible) return "unlikely";
   if (!falls(d.before.mean, c.alone.mean)) return "no gain";
-  return either ? fmt::format("one of {}", 1 + d.alternatives.size()) : "yes";
+  return either ? fmt::format("one of {}", 1 + d.alternatives.size() + (d.slow_motion ? 1 : 0))
+                : "yes";
 }
 
 std::string first_candidate_text(const Cell& cell, const Diagnosis& d) {
@@ -169,6 +170,10 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
     return out;
   }
   if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
+  const bool step_or_slow = d.undecided ? d.undecided->slow_motion.has_value()
+                                        : d.slow_motion && !d.finding_after;
+  if (step_or_slow)
+    return {"compare   # the errors in order of time: do they jump, or creep?"};
   if (d.undecided)
     for (const auto& other : d.undecided->alternatives)
       if (other.compiled != is_compiled(d.undecided->entry))

@@ -57,7 +57,7 @@ bool acts_on_new_poses(const HiddenCase& drawn) {
 Claims claims_of(const HiddenCase& drawn, const Diagnosis& d) {
   Claims out;
   const auto others = alternatives_of(d);
-  out.either = !others.empty();
+  out.either = !others.empty() || d.slow_motion;
   out.alarm = d.finding == Finding::kMissing || d.finding == Finding::kUnknown || out.either ||
               !d.added.empty() || d.unknown_after.has_value();
   for (const auto& added : d.added) out.unrelated += !is_related(drawn, added);
