@@ -522,6 +522,11 @@ constexpr Explanation kCodes[] = {
     {"W-FIT-SETUP",
      "A set-up has so few poses that all of them are needed to find where its tracker and its "
      "reflector are, so none is held out. The held-out error is that of the other set-ups."},
+    {"W-FIT-SETUP-OPEN",
+     "A set-up has so few readings, or readings so much in one line, that they do not tell where "
+     "its tracker stood: some numbers of that frame stay as the fit guessed them. The arm itself "
+     "is "
+     "calibrated by the other set-ups; predictions in the frame of this one may be far off."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
      "out. State [measurement] sigma_urad to use them."},

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <string>
 
 #include "diagnose/constants.hpp"
+#include "diagnose/evidence.hpp"
+#include "diagnose/evidence_scale.hpp"
+#include "diagnose/regressor_score.hpp"
 #include "diagnose/thinned_fit.hpp"
 #include "effects/registry.hpp"
 #include "plumb/runtime/detail/effects/gravity_compensator.hpp"
@@ -29,13 +33,20 @@ bool gravity_turns_joint(const EffectDescriptor& effect) {
          effect.name == effects::GravityCompensator::kInfo.name;
 }
 
+/// Laws of which the pose decides, and nothing else, how the arm errs: what a load does to an arm
+/// of unknown weights may look like any of them.
+bool depends_on_pose_alone(const EffectDescriptor& effect) {
+  return effect.law != nullptr && !is_wave(effect.name) && !is_series(effect.name) &&
+         (effect.law->needs & ~(kNeedsMasses | kNeedsTracker)) == 0;
+}
+
 /// Laws by which something else than a joint yields to its load. They are linear in the loads.
 bool yields_beside_joints(const EffectDescriptor& effect) {
   return effect.law != nullptr && (effect.law->needs & kNeedsMasses) != 0 &&
          !effect.turns_listed_joint_only;
 }
 
-std::vector<EffectEntry> laws_of(const WhitenedFit& s) {
+std::vector<EffectEntry> laws_beside_joints(const WhitenedFit& s) {
   std::vector<EffectEntry> out;
   for (const EffectDescriptor* effect : effect_descriptors()) {
     if (!yields_beside_joints(*effect)) continue;
@@ -79,69 +90,134 @@ Eigen::VectorXd motion_under(const WhitenedFit& s, const EffectEntry& entry,
   return out;
 }
 
-/// A law at these places, under the loads that are known and under every weight of the links, each
-/// column as large as a typical effect.
-Regressor under_any_weights(const WhitenedFit& s, const std::vector<EffectEntry>& places) {
+/// A law under the loads that are known and under every weight of the links, each column as large
+/// as a typical effect. Shape (lines, columns that move anything).
+Eigen::MatrixXd under_any_weights(const WhitenedFit& s, const EffectEntry& entry) {
   constexpr int kLoadsOfLink = 4;
-  std::vector<Eigen::VectorXd> motions;
-  for (const EffectEntry& entry : places) {
-    motions.push_back(motion_under(s, entry, s.loads));
-    for (int link = 0; link < s.joints(); ++link)
-      for (int k = 0; k < kLoadsOfLink; ++k)
-        motions.push_back(motion_under(s, entry, loads_of_link(s, link, k - 1)));
-  }
+  std::vector<Eigen::VectorXd> motions{motion_under(s, entry, s.loads)};
+  for (int link = 0; link < s.joints(); ++link)
+    for (int k = 0; k < kLoadsOfLink; ++k)
+      motions.push_back(motion_under(s, entry, loads_of_link(s, link, k - 1)));
   double largest = 0.0;
   for (const auto& motion : motions) largest = std::max(largest, motion.norm());
   std::erase_if(motions, [&](const auto& m) { return !(m.norm() > kMovesNothing * largest); });
   const double typical = kTypicalMotion_m / s.sigma_m *
                          std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, s.poses())));
-  Regressor out;
-  out.entry = places.front();
-  const auto count = static_cast<Eigen::Index>(motions.size());
-  out.typical.resize(count);
-  out.columns.resize(s.poses() * s.axes, count);
-  for (Eigen::Index c = 0; c < count; ++c) {
-    const Eigen::VectorXd& motion = motions[static_cast<std::size_t>(c)];
-    out.typical(c) = typical / motion.norm();
-    out.columns.col(c) = motion * out.typical(c);
-  }
+  Eigen::MatrixXd out(s.fit_lines, static_cast<Eigen::Index>(motions.size()));
+  for (std::size_t c = 0; c < motions.size(); ++c)
+    out.col(static_cast<Eigen::Index>(c)) =
+        motions[c].head(s.fit_lines) * (typical / motions[c].norm());
   return out;
 }
 
-/// The evidence of a joint that yields: as the candidate it is, or under any weights and the
-/// payload's known one together, as its rivals have them.
-double evidence_of_joints(const WhitenedFit& s, const Scorer& scorer, const Found& first) {
-  std::vector<EffectEntry> places;
-  for (const int joint : first.entry.joints)
-    places.push_back({.name = std::string(effects::JointCompliance::kInfo.name),
-                      .joints = {joint},
-                      .options = {},
-                      .place = {}});
-  return std::max(scorer.score(regressor_of(s, first)).evidence.ln_bayes,
-                  scorer.score(under_any_weights(s, places)).evidence.ln_bayes);
+EffectEntry yielding(int joint) {
+  return {.name = std::string(effects::JointCompliance::kInfo.name),
+          .joints = {joint},
+          .options = {},
+          .place = {}};
+}
+
+/// The evidence of several laws together, each under any weights.
+class Together {
+ public:
+  Together(const WhitenedFit& s, const std::vector<EffectEntry>& laws) : s_(s) {
+    std::vector<Eigen::MatrixXd> parts;
+    Eigen::Index columns = 0;
+    for (const EffectEntry& law : laws) {
+      parts.push_back(under_any_weights(s, law));
+      first_.push_back(columns);
+      columns += parts.back().cols();
+    }
+    first_.push_back(columns);
+    Eigen::MatrixXd X(s.fit_lines, columns);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      X.middleCols(first_[i], parts[i].cols()) = parts[i];
+    const auto U = s.U.topRows(s.fit_lines);
+    X -= U * (U.transpose() * X).eval();
+    gram_ = X.transpose() * X;
+    v_ = X.transpose() * s.y.head(s.fit_lines);
+  }
+
+  bool moves_anything(std::size_t law) const { return first_[law + 1] > first_[law]; }
+
+  double ln_bayes(const std::vector<std::size_t>& laws) const {
+    std::vector<Eigen::Index> at;
+    for (const std::size_t law : laws)
+      for (Eigen::Index c = first_[law]; c < first_[law + 1]; ++c) at.push_back(c);
+    return evidence(gram_(at, at), v_(at), s_.Q, evidence_scale(s_)).ln_bayes;
+  }
+
+ private:
+  const WhitenedFit& s_;
+  std::vector<Eigen::Index> first_;  // column of each law; then their number
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd v_;
+};
+
+/// The columns of a candidate on other poses than those it was found on.
+Regressor regressor_there(const WhitenedFit& s, const Found& found) {
+  if (found.pattern.empty()) return regressor_of(s, found);
+  Regressor out;
+  visit_patterns(s, [&](const Regressor& one) {
+    if (one.pattern.subject == found.pattern.subject && one.pattern.words == found.pattern.words)
+      out = one;
+  });
+  return out;
+}
+
+/// Explanations by laws beside the joints: each alone, and in the place of several joints that
+/// yield also two of them, or one of them and a joint.
+std::vector<std::vector<std::size_t>> explanations(const Together& all, std::size_t joints,
+                                                   std::size_t laws, bool in_pairs) {
+  std::vector<std::vector<std::size_t>> out;
+  for (std::size_t law = joints; law < joints + laws; ++law) {
+    if (!all.moves_anything(law)) continue;
+    out.push_back({law});
+    for (std::size_t other = 0; in_pairs && other < law; ++other)
+      if (all.moves_anything(other)) out.push_back({law, other});
+  }
+  return out;
 }
 
 }  // namespace
 
 std::vector<Found> rivals_under_unknown_weights(const WhitenedFit& whitened, const Found& first) {
   std::vector<Found> out;
-  if (!gravity_turns_joint(descriptor_of(first.entry.name)) || !states_no_mass(*whitened.cell))
+  const bool by_name = first.pattern.empty();
+  if (!states_no_mass(*whitened.cell) ||
+      (by_name ? !depends_on_pose_alone(descriptor_of(first.entry.name)) : first.pattern.slow))
     return out;
+  const bool turned = by_name && gravity_turns_joint(descriptor_of(first.entry.name));
   const WhitenedFit s = thinned(whitened, std::min(whitened.fit_poses(), kComparedPoses));
-  const Scorer scorer(s);
-  const double own = evidence_of_joints(s, scorer, first);
+  std::vector<EffectEntry> laws;
+  if (turned)
+    for (const int joint : first.entry.joints) laws.push_back(yielding(joint));
+  const std::size_t joints = laws.size();
+  for (const EffectEntry& law : laws_beside_joints(s)) laws.push_back(law);
+  const Together all(s, laws);
+  const Regressor regressor = regressor_there(s, first);
+  double own = regressor.columns.cols() > 0 ? Scorer(s).score(regressor).evidence.ln_bayes : 0.0;
+  if (turned) {
+    // As the candidate it is, or under any weights and the known payload, as its rivals are.
+    std::vector<std::size_t> places(joints);
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    own = std::max(own, all.ln_bayes(places));
+  }
   double best = own;
-  for (const EffectEntry& entry : laws_of(s)) {
-    const Regressor regressor = under_any_weights(s, {entry});
-    if (regressor.columns.cols() == 0) continue;
-    out.push_back({entry, {}, scorer.score(regressor), {}, 0.0, {}, 0.0});
-    best = std::max(best, out.back().ln_bayes());
+  for (const auto& places : explanations(all, joints, laws.size() - joints, joints > 1)) {
+    const double ln_bayes = all.ln_bayes(places);
+    best = std::max(best, ln_bayes);
+    for (const std::size_t place : places) {
+      if (place < joints) continue;
+      out.push_back({laws[place], {}, {}, {}, 0.0, {}, 0.0});
+      out.back().scored.evidence.ln_bayes = ln_bayes;
+    }
   }
   std::erase_if(out, [best](const Found& found) { return found.ln_bayes() < best - kTold_nats; });
-  std::sort(out.begin(), out.end(),
-            [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
-  std::set<std::string> laws;
-  std::erase_if(out, [&](const Found& found) { return !laws.insert(found.entry.name).second; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Found& a, const Found& b) { return a.ln_bayes() > b.ln_bayes(); });
+  std::set<std::string> names;
+  std::erase_if(out, [&](const Found& found) { return !names.insert(found.entry.name).second; });
   for (Found& found : out) found.scored.evidence.ln_bayes += first.ln_bayes() - own;
   return out;
 }

@@ -235,6 +235,27 @@ void remark_on_setups_without_held(const Cell& cell, const Measurements& measure
        .help = "measure at least 10 poses in each set-up"});
 }
 
+/// Set-ups whose readings leave open where their tracker stands: two of them, or all in line.
+void remark_on_open_setups(const Cell& cell, const Measurements& measured, Fit& out) {
+  if (measured.setup.empty()) return;
+  for (int k = 0; k < setup_count(cell.measurement); ++k) {
+    const std::string frame = fmt::format("frame[{}].", setup_name(cell.measurement, k));
+    std::vector<std::string> open;
+    for (const std::string& name : out.calibration.held)
+      if (name.starts_with(frame)) open.push_back(name);
+    if (open.empty()) continue;
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-FIT-SETUP-OPEN",
+         .message = fmt::format("the readings of set-up {} do not tell where its tracker stands: "
+                                "{} {} only guessed, and positions of that set-up are not to be "
+                                "used",
+                                setup_name(cell.measurement, k), fmt::join(open, ", "),
+                                open.size() == 1 ? "is" : "are"),
+         .help = "measure at least 3 poses of it, far apart and not in one line"});
+  }
+}
+
 void remark_on_repeats_of_held(Fit& out) {
   if (out.split.repeats_of_held == 0) return;
   out.remarks.push_back(
@@ -323,6 +344,7 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   out.remarks = out.calibration.remarks;
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);
+  remark_on_open_setups(cell, measured, out);
   remark_on_setups_without_held(cell, measured, out);
   remark_on_marks(cell, out);
   remark_on_still_joints(out);

@@ -81,7 +81,7 @@ Html parameters_page(const ReportData& data, const ReportFigures& figures) {
   figures.put(Page::kParameters, html);
   html.table(parameters_table(c.estimates));
   html.heading("Where tracker and reflector stood");
-  html.preformatted("Frame and target", show::measurement_text(data.cell, c.state));
+  html.preformatted("Frame and target", show::measurement_text(data.cell, c.state, c.held));
   return html;
 }
 

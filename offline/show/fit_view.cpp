@@ -95,16 +95,25 @@ Json setups_json(const MeasurementSettings& m, const ArmState& state) {
 }
 
 /// One line for each of several set-ups.
-std::string setups_text(const MeasurementSettings& m, const ArmState& state) {
+///
+/// @param held  Names of parameters that the readings leave open.
+std::string setups_text(const MeasurementSettings& m, const ArmState& state,
+                        const std::vector<std::string>& held) {
   TextTable table({"set-up [mm]", "frame", "x", "y", "z", "target", "x", "y", "z"});
   const auto how = [&](bool fitted, int root, int k) {
     return root != k ? "as " + setup_name(m, root) : std::string(fitted ? "fitted" : "given");
   };
+  const auto frame_how = [&](int k) -> std::string {
+    const std::string frame = "frame[" + setup_name(m, k) + "].";
+    const bool open = std::any_of(held.begin(), held.end(),
+                                  [&](const std::string& name) { return name.starts_with(frame); });
+    return open ? "guessed" : how(setup_rule(m, k).fit_frame, frame_root(m, k), k);
+  };
   for (int k = 0; k < state.setups(); ++k) {
     const Setup rule = setup_rule(m, k);
     const auto &f = state.frame(k).p, &t = state.target(k).p;
-    table.add({setup_name(m, k), how(rule.fit_frame, frame_root(m, k), k), mm(f[0]), mm(f[1]),
-               mm(f[2]), how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
+    table.add({setup_name(m, k), frame_how(k), mm(f[0]), mm(f[1]), mm(f[2]),
+               how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
   }
   return table.text() +
          "  frame: base in the measurement frame; target: reflector in the tool frame\n";
@@ -130,7 +139,9 @@ Json outliers_json(const Fit& fit, const std::vector<std::string>& pose) {
   return out;
 }
 
-std::string held_text(const std::vector<std::string>& held) {
+/// Frames of set-ups have no nominal place; the table of set-ups says which of them are guessed.
+std::string held_text(std::vector<std::string> held) {
+  std::erase_if(held, [](const std::string& name) { return name.starts_with("frame["); });
   if (held.empty()) return "";
   return fmt::format("  kept at nominal, because these poses say too little about them: {}\n",
                      fmt::join(held, ", "));
@@ -144,8 +155,9 @@ std::string series_text(const Cell& cell, const ArmState& state) {
 
 }  // namespace
 
-std::string measurement_text(const Cell& cell, const ArmState& state) {
-  if (state.setups() > 1) return setups_text(cell.measurement, state);
+std::string measurement_text(const Cell& cell, const ArmState& state,
+                             const std::vector<std::string>& held) {
+  if (state.setups() > 1) return setups_text(cell.measurement, state, held);
   const Setup rule = setup_rule(cell.measurement, 0);
   const auto& f = state.X_MB;
   const auto& t = state.X_TG.p;
@@ -206,7 +218,7 @@ std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& 
       compare::full_verdict(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += likeness_text(c);
-  out += series_text(cell, c.state) + measurement_text(cell, c.state) + tree_text(fit);
+  out += series_text(cell, c.state) + measurement_text(cell, c.state, c.held) + tree_text(fit);
   return out + fmt::format("  {} numbers fitted, frame and target included; {} iterations\n",
                            c.estimates.size(), c.iterations);
 }

@@ -17,6 +17,9 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit);
 std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit);
 
 /// Where base and reflector stood, of each set-up, as indented lines.
-std::string measurement_text(const Cell& cell, const ArmState& state);
+///
+/// @param held  Names of the parameters that the readings leave open.
+std::string measurement_text(const Cell& cell, const ArmState& state,
+                             const std::vector<std::string>& held);
 
 }  // namespace plumb::offline::show
