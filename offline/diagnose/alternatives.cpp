@@ -73,13 +73,9 @@ std::vector<std::string> names_of(const std::vector<Testable>& excluded) {
 
 }  // namespace
 
-std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
-                                      const Found& first, const std::vector<Testable>& excluded) {
+std::vector<Alternative> alternatives_under_unknown_weights(const WhitenedFit& whitened,
+                                                            const Found& first) {
   std::vector<Alternative> out;
-  const std::vector<const Found*> searched = near(look.library, first);
-  const std::vector<double> alike = mutual_reproduction(whitened, first, searched);
-  for (std::size_t i = 0; i < searched.size(); ++i)
-    if (alike[i] >= kConfounded) out.push_back(alternative(first, *searched[i]));
   for (const Found& other : rivals_under_unknown_weights(whitened, first)) {
     out.push_back(alternative(first, other));
     out.back().not_shown = "no mass of a link is stated";
@@ -87,6 +83,18 @@ std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& l
         "state the masses of the links in cell.toml (mass_kg, com_mm), or measure the same poses "
         "with and without payload";
   }
+  return out;
+}
+
+std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
+                                      const Found& first, const std::vector<Testable>& excluded) {
+  std::vector<Alternative> out;
+  const std::vector<const Found*> searched = near(look.library, first);
+  const std::vector<double> alike = mutual_reproduction(whitened, first, searched);
+  for (std::size_t i = 0; i < searched.size(); ++i)
+    if (alike[i] >= kConfounded) out.push_back(alternative(first, *searched[i]));
+  for (Alternative& other : alternatives_under_unknown_weights(whitened, first))
+    out.push_back(std::move(other));
   if (excluded.empty()) return out;
   const std::vector<Found> laws = excluded_laws(whitened, names_of(excluded));
   const std::vector<const Found*> hidden = near(laws, first);

@@ -22,6 +22,11 @@ namespace plumb::offline {
 std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& look,
                                       const Found& first, const std::vector<Testable>& excluded);
 
+/// Laws that a candidate or a pattern may be instead under other weights than the cell knows (see
+/// rivals_under_unknown_weights), each with what to measure.
+std::vector<Alternative> alternatives_under_unknown_weights(const WhitenedFit& whitened,
+                                                            const Found& first);
+
 /// The slow motion that a step, `first`, may be instead: supported, and within 10 nats of it or
 /// ahead. A step has a place that was chosen among all, so it imitates whatever moves slowly.
 ///

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/candidates.hpp"
 
+#include "diagnose/alternatives.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -258,6 +260,7 @@ UnknownStructure unknown_structure(const WhitenedFit& s, const Found& found) {
   const double lines = static_cast<double>(std::max<Eigen::Index>(1, s.fit_poses()));
   out.rms_m = std::sqrt(std::max(0.0, found.scored.explained) * s.Q / lines) * s.sigma_m;
   out.rms_rad = joint_rms(s, found.pattern);
+  out.alternatives = alternatives_under_unknown_weights(s, found);
   return out;
 }
 

@@ -97,6 +97,7 @@ struct UnknownStructure {
   double rms_rad = 0.0;  // of the joint; 0: no joint
   /// The effect of the library that would explain it, were its size not what it is.
   std::optional<Oversized> instead;
+  std::vector<Alternative> alternatives;  // laws that these data cannot show, which may explain it
 };
 
 struct Addition {

@@ -37,22 +37,6 @@ std::string repeatability_words(const Cell& cell, const Diagnosis& d) {
                      in_words(cell, d.repeatability));
 }
 
-std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
-  std::string size = mm(unknown.rms_m);
-  if (unknown.rms_rad > 0.0) size = fmt::format("{:.0f} µrad, {}", unknown.rms_rad * 1e6, size);
-  std::string out =
-      fmt::format("{} {} ({:.0f} % of what the model leaves, {} RMS)", unknown.pattern.subject,
-                  unknown.pattern.words, 100.0 * unknown.share, size);
-  if (unknown.instead && unknown.instead->possible)
-    out += fmt::format("; the {} that imitates it would be {:.0f} times its usual size",
-                       in_words(cell, unknown.instead->entry), unknown.instead->times);
-  else if (unknown.instead)
-    out +=
-        fmt::format("; the {} that imitates it would need a sign or a size that its law rules out",
-                    in_words(cell, unknown.instead->entry));
-  return out;
-}
-
 enum class Held { kSay, kSaid };
 
 /// @param said  Whether the held-out error stands in the same sentence already.
@@ -119,6 +103,22 @@ std::string not_shown_words(const Cell& cell, const std::vector<Alternative>& ot
       out += fmt::format(" ({})", others[i].not_shown);
   }
   return out;
+}
+
+std::string unknown_words(const Cell& cell, const UnknownStructure& unknown) {
+  std::string size = mm(unknown.rms_m);
+  if (unknown.rms_rad > 0.0) size = fmt::format("{:.0f} µrad, {}", unknown.rms_rad * 1e6, size);
+  std::string out =
+      fmt::format("{} {} ({:.0f} % of what the model leaves, {} RMS)", unknown.pattern.subject,
+                  unknown.pattern.words, 100.0 * unknown.share, size);
+  if (unknown.instead && unknown.instead->possible)
+    out += fmt::format("; the {} that imitates it would be {:.0f} times its usual size",
+                       in_words(cell, unknown.instead->entry), unknown.instead->times);
+  else if (unknown.instead)
+    out +=
+        fmt::format("; the {} that imitates it would need a sign or a size that its law rules out",
+                    in_words(cell, unknown.instead->entry));
+  return out + not_shown_words(cell, unknown.alternatives);
 }
 
 /// "J2 yields under load, or the error of J3 repeats once and twice a turn": an effect and what it
@@ -372,8 +372,10 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
       return missing_words(cell, d);
     case Finding::kUnknown:
       return fmt::format(
-          "Unknown: {}; no effect of the library explains it. Held-out error {}, {}.",
-          unknown_words(cell, *d.unknown), mm(d.before.mean), floor_words(d.floor));
+          "Unknown: {}; no effect of the library explains it{}. Held-out error {}, {}.",
+          unknown_words(cell, *d.unknown),
+          d.unknown->alternatives.empty() ? "" : " under the loads that cell.toml states",
+          mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
       if (!d.tied && (may_be_another(d) || (d.gravity && !d.candidates.empty())))
         return missing_words(cell, d);
@@ -432,7 +434,7 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
                                              mm(d.before.mean), mm(d.after.mean));
   switch (*d.finding_after) {
     case Finding::kUnknown:
-      return fmt::format("{}; {}: {}.", fall,
+      return fmt::format("{}{}; {}: {}.", fall, unsure_words(cell, d),
                          d.unknown_after->instead ? "but something unknown is behind it"
                                                   : "unknown structure is left",
                          unknown_words(cell, *d.unknown_after));

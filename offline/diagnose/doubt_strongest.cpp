@@ -28,6 +28,7 @@ bool replace(Selection& s, const Found& found) {
   const auto better = better_explanation(without.whitened, without.look, s.key(found.entry),
                                          s.start().not_testable, s.banned());
   if (!better) return false;
+  s.remember_alternatives(without, better->effects.front());
   auto effects = without.model.cell->effects;
   for (const auto& one : better->effects) effects = with_found(std::move(effects), one);
   s.look_at(s.fitted(effects));

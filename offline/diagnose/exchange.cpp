@@ -38,6 +38,7 @@ bool exchange_one(Selection& s, const Found& found) {
   const JudgedModel without = s.without(found.entries(), s.banned());
   const Found* other = better_than(s, without, found);
   if (other == nullptr) return false;
+  s.remember_alternatives(without, *other);
   s.look_at(s.fitted(with_found(without.model.cell->effects, *other)));
   for (const auto& entry : found.entries()) forget(s.added, entry);
   s.added.push_back(*other);
@@ -89,6 +90,7 @@ bool exchange_for_size(Selection& s, const EffectEntry& entry) {
   if (is_oversized(*next.cell, whitened, next.calibration, s.start().cell.effects, other->entry))
     return false;
   const Found chosen = *other;
+  s.remember_alternatives(without, chosen);
   s.look_at(std::move(next), std::move(whitened));
   forget(s.added, entry);
   s.added.push_back(chosen);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/selection.hpp"
 
+#include "diagnose/alternatives.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/judged_fit.hpp"
@@ -52,6 +53,10 @@ JudgedModel Selection::without(const std::vector<EffectEntry>& entries,
   FittedModel model = fitted(left);
   JudgedFit found = judged(whitened_fit_of(model), start_.not_testable, banned);
   return {std::move(model), std::move(found.whitened), std::move(found.look)};
+}
+
+void Selection::remember_alternatives(const JudgedModel& without, const Found& found) {
+  unsure[key(found.entry)] = alternatives(without.whitened, without.look, found, start_.excluded);
 }
 
 void Selection::go_to(JudgedModel there) {

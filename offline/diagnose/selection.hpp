@@ -46,6 +46,9 @@ class Selection {
   JudgedModel without(const std::vector<EffectEntry>& entries,
                       const std::vector<std::string>& banned) const;
 
+  /// Remembers what an effect, found in the model without the one that it replaces, may be instead.
+  void remember_alternatives(const JudgedModel& without, const Found& found);
+
   /// Stands at another model from now on. look_at: what was set aside is tried again there.
   void go_to(JudgedModel there);
   void look_at(FittedModel model, WhitenedFit whitened);

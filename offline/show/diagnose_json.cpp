@@ -110,7 +110,7 @@ Json alternatives_json(const Cell& cell, const std::vector<Alternative>& all) {
   return out;
 }
 
-Json unknown_json(const UnknownStructure& unknown) {
+Json unknown_json(const Cell& cell, const UnknownStructure& unknown) {
   Json out{{"subject", unknown.pattern.subject},
            {"words", unknown.pattern.words},
            {"depends_on", unknown.pattern.depends_on}};
@@ -119,6 +119,8 @@ Json unknown_json(const UnknownStructure& unknown) {
   put(out, "share_pct", 100.0 * unknown.share);
   put(out, "rms_mm", to_mm(unknown.rms_m));
   put(out, "rms_urad", unknown.rms_rad > 0.0 ? unknown.rms_rad * 1e6 : NAN, "it is no joint's");
+  if (!unknown.alternatives.empty())
+    out["alternatives"] = alternatives_json(cell, unknown.alternatives);
   return out;
 }
 
@@ -166,8 +168,8 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
                         {"domain", d.undecided->domain},
                         {"alternatives", alternatives_json(cell, d.undecided->alternatives)}};
   if (d.undecided && d.undecided->slow_motion)
-    out["not_added"]["slow_motion"] = unknown_json(*d.undecided->slow_motion);
-  if (d.slow_motion) out["slow_motion"] = unknown_json(*d.slow_motion);
+    out["not_added"]["slow_motion"] = unknown_json(cell, *d.undecided->slow_motion);
+  if (d.slow_motion) out["slow_motion"] = unknown_json(cell, *d.slow_motion);
   if (d.gravity) {
     out["gravity"] = {{"stated", d.gravity->stated},
                       {"found", d.gravity->found},
@@ -179,7 +181,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
     out["not_testable"].push_back({{"effect", t.effect}, {"why", t.why}, {"measure", t.measure}});
   const auto& unknown = d.unknown_after ? d.unknown_after : d.unknown;
   if (unknown)
-    out["unknown"] = unknown_json(*unknown);
+    out["unknown"] = unknown_json(cell, *unknown);
   else
     put_null(out, "unknown", "no such structure was found");
   if (d.finding_after) {
