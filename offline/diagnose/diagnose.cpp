@@ -206,6 +206,12 @@ std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
   return sound ? added.size() : kept;
 }
 
+/// Whether the whole choice, made anew without each fold, makes poses that had no say worse: on
+/// average, or the worst of them so much that their RMS rises.
+bool rises_over(const ErrorStats& before, const ErrorStats& after) {
+  return after.mean > before.mean || after.rms > before.rms;
+}
+
 void say_what_was_refused(const Cell& cell, const std::vector<Addition>& added, std::size_t kept,
                           double least_m, double rose_to_m, Diagnosis& out) {
   std::vector<std::string> names;
@@ -237,6 +243,17 @@ void take_over_first(Diagnosis& out) {
     first.alone = first.after = added.held;
 }
 
+/// Where far more is left than the noise, nothing is complete: these poses do not tell what is
+/// missing. What was refused is not missing for certain.
+void settle_findings(Diagnosis& out) {
+  const bool much_is_left = out.held_out_excess && out.held_out_excess->lack_of_fit();
+  if ((out.finding == Finding::kComplete && much_is_left) ||
+      (out.finding == Finding::kMissing && out.refused))
+    out.finding = Finding::kUndecidable;
+  if (out.finding_after == Finding::kComplete && much_is_left)
+    out.finding_after = Finding::kUndecidable;
+}
+
 void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
                     const Scan& first, Diagnosis& out) {
   ForwardSelection found = forward_selection(w.start(w.choosing, false), base, whitened, first);
@@ -248,9 +265,10 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   }
   std::optional<HeldOut> nested;
   if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
-  const bool rises = nested && nested->stats().mean > out.before.mean;
+  const bool rises = nested && rises_over(out.before, nested->stats());
   const std::size_t kept = rises ? 0 : steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
+  if (rises) out.refused = nested->stats();
   if (refused) {
     say_what_was_refused(w.cell, out.added, kept,
                          kept == 0 ? out.before.mean : out.added[kept - 1].held.mean,
@@ -397,6 +415,7 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   take_over_first(out);
   // Whatever was added would be compiled with the gravity that the cell states.
   if (request.apply && other_gravity) out.finding_after = Finding::kUndecidable;
+  settle_findings(out);
   out.text = verdict_text(w.cell, out);
   out.text_after = verdict_after_text(w.cell, out);
   return out;

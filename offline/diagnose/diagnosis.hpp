@@ -24,7 +24,8 @@ enum class Finding {
   kComplete,    // nothing more is supported
   kMissing,     // an effect of the library is
   kUnknown,     // structure that none of them explains
-  kUndecidable  // too few poses, no noise floor, an exact tie, or a law that they cannot show
+  kUndecidable  // too few poses, no noise floor, an exact tie, a law or a slow motion that they
+                // cannot show, or far more than the noise is left and nothing says of what kind
 };
 
 constexpr const char* name_of(Finding finding) {
@@ -153,6 +154,9 @@ struct Diagnosis {
   /// under it, and nothing is added before the cell says so.
   std::optional<OtherGravity> gravity;
   std::optional<Undecided> undecided;  // with `apply`: where it stopped for that reason
+  /// With `apply`, where all was refused that the fitted poses speak for: the error on unseen poses
+  /// of effects chosen anew without each fold.
+  std::optional<ErrorStats> refused;
   bool full = false;                   // more would be supported, but a model holds no more effects
   std::vector<Candidate> candidates;   // by ln B
   std::vector<Testable> not_testable;

@@ -198,6 +198,14 @@ std::string missing_words(const Cell& cell, const Diagnosis& d) {
     return fmt::format(
         "Doubtful: perhaps {}. The fitted poses speak for it, but {}, {}. More poses would tell.",
         effect, fall_words(d.before.mean, best.alone.mean), floor_words(d.floor));
+  if (d.refused)
+    return fmt::format(
+        "Undecidable: perhaps {}. The fitted poses speak for it, but chosen anew without some of "
+        "them it does not predict these better: {} -> {} on average, {} -> {} RMS, {}. More poses "
+        "would "
+        "tell.",
+        effect, digits(d.before.mean), mm(d.refused->mean), digits(d.before.rms),
+        mm(d.refused->rms), floor_words(d.floor));
   const bool undecidable = d.finding == Finding::kUndecidable;
   return fmt::format("{}: {}. Adding {}: {}, {}. {}",
                      undecidable          ? "Undecidable"
@@ -377,7 +385,7 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
           d.unknown->alternatives.empty() ? "" : " under the loads that cell.toml states",
           mm(d.before.mean), floor_words(d.floor));
     case Finding::kUndecidable:
-      if (!d.tied && (may_be_another(d) || (d.gravity && !d.candidates.empty())))
+      if (!d.tied && (may_be_another(d) || d.refused || (d.gravity && !d.candidates.empty())))
         return missing_words(cell, d);
       if (d.tied)
         return fmt::format(
@@ -391,6 +399,9 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
             "Undecidable: nothing is supported, but without a noise floor nobody "
             "knows whether {} is good: repeat some poses, or state sigma_um.",
             mm(d.before.mean));
+      if (d.held_out_excess && d.held_out_excess->lack_of_fit())
+        return "Undecidable: " + complete_words(d, d.before, Held::kSay) + "." +
+               repeatability_words(cell, d);
       return fmt::format("Undecidable: {} poses cannot tell what is missing.", d.poses_fit);
     default:
       return "Complete: " + complete_words(d, d.before, Held::kSay) + "." +
@@ -443,7 +454,7 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
         return fmt::format("{}{}; {}", fall, unsure_words(cell, d),
                            undecided_words(cell, *d.undecided));
       if (d.tied && !d.added.empty()) return fmt::format("{}; {}.", fall, tie_words(cell, d));
-      if (d.floor.source == NoiseFloor::Source::kNone || unsure_words(cell, d).empty())
+      if (d.floor.source == NoiseFloor::Source::kNone)
         return fmt::format("{}{}; what is left cannot be judged without a noise floor.", fall,
                            unsure_words(cell, d));
       break;

@@ -71,8 +71,8 @@ Eigen::MatrixXd motions_under(const WhitenedFit& whitened, const EffectEntry& en
 Regressor ripple_regressor(const WhitenedFit& whitened, int joint,
                            const std::vector<double>& cycles);
 
-/// Wave numbers that a scan tries at a joint, in steps that its range can tell apart. Usual: up to
-/// 40 cycles a turn, and once and twice a turn of the motor if the gear ratio is given; fast: from
+/// Wave numbers that a scan tries at a joint, in steps that its range can tell apart; behind these
+/// stand single ones. Usual: up to 40 cycles a turn, whole numbers of slow waves from 3 on, and once and twice a turn of the motor if the gear ratio is given; fast: from
 /// there to 200, and all those of the motor.
 std::vector<double> ripple_grid(const WhitenedFit& whitened, int joint);
 std::vector<double> fast_ripple_grid(const WhitenedFit& whitened, int joint);

@@ -36,6 +36,9 @@ std::vector<double> ripple_grid(const WhitenedFit& s, int joint) {
   const int last = static_cast<int>(std::floor(kLastRipple / step));
   for (int k = static_cast<int>(std::ceil(first_ripple(range) / step)); k <= last; ++k)
     out.push_back(k * step);
+  // Slower ones only in whole numbers, as gears have them, and with a period in the range at least.
+  for (double k = kFirstWholeWave; k < first_ripple(range) - 0.5 * step; ++k)
+    if (k * range >= 2.0 * M_PI) out.push_back(k);
   if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
     for (const double waves : kAlwaysMotorWaves)
       if (waves * std::abs(*ratio) > kLastRipple) out.push_back(waves * std::abs(*ratio));
@@ -66,19 +69,16 @@ Regressor ripple_regressor(const WhitenedFit& s, int joint, const std::vector<do
   const auto count = static_cast<Eigen::Index>(cycles.size());
   out.columns.resize(s.poses(), 2 * count);
   out.typical = Eigen::VectorXd::Constant(2 * count, typical);
-  bool even = count > 2;
-  for (Eigen::Index k = 2; even && k < count; ++k)
-    even = std::abs(cycles[k] - 2.0 * cycles[k - 1] + cycles[k - 2]) < 1e-9;
   if (!cycles.empty()) set_option(out.entry, OptionKey::kCyclesPerTurn, cycles.front());
   for (Eigen::Index c = 0; c < 2 * count; ++c) out.members.push_back(static_cast<int>(c % 2));
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
     const double q = s.q(i)[joint];
     // In equal steps one vector turns on: four products instead of two transcendental functions.
-    const double step = even ? cycles[1] - cycles[0] : 0.0;
+    const double step = count > 1 ? cycles[1] - cycles[0] : 0.0;
     const double turn_sin = std::sin(step * q), turn_cos = std::cos(step * q);
     double sin = 0.0, cos = 0.0;
     for (Eigen::Index k = 0; k < count; ++k) {
-      if (k == 0 || !even) {
+      if (k == 0 || std::abs(cycles[k] - cycles[k - 1] - step) > 1e-9) {
         sin = std::sin(cycles[k] * q) * typical;
         cos = std::cos(cycles[k] * q) * typical;
       } else {

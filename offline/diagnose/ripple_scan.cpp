@@ -173,8 +173,9 @@ std::vector<std::vector<double>> waves_without_folds(const Scorer& scorer, int j
                                                      double regressors) {
   const WhitenedFit& s = scorer.whitened();
   std::vector<double> grid = ripple_grid(s, joint);
-  const bool fast = chosen.size() == 1 && !grid.empty() &&
-                    chosen.front() > grid.back() + kLeastSteps * step_of(grid);
+  const bool fast =
+      chosen.size() == 1 && !grid.empty() &&
+      chosen.front() > *std::max_element(grid.begin(), grid.end()) + kLeastSteps * step_of(grid);
   if (fast) grid = fast_ripple_grid(s, joint);
   std::vector<std::vector<double>> out(s.folds.size());
   if (grid.empty()) return out;
