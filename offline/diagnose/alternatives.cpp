@@ -119,7 +119,8 @@ const Found* slow_motion_instead_of(const Scan& look, const Found& first,
   if (!near) return nullptr;
   const double lesser = std::min(slow->ln_bayes(), first.ln_bayes());
   const auto describes_it = [&](const Found& found) {
-    return is_slow(found.entry) && found.ln_bayes() > lesser - kTold_nats;
+    return is_slow(found.entry) && found.score > kSupported &&
+           found.ln_bayes() > lesser - kTold_nats;
   };
   const bool has_a_law =
       std::any_of(look.library.begin(), look.library.end(), describes_it) ||

@@ -153,6 +153,8 @@ inline constexpr double kWholeWave = 0.15;
 
 /// Harmonics of another joint's angle. cost.
 inline constexpr int kHarmonics = 3;
+/// Settling times of a joint that warms up, as shares of the series. cost.
+inline constexpr std::array kSettlingShares = {0.03, 0.1, 0.3};
 /// Half periods of the series over time. cost.
 inline constexpr int kHalfPeriods = 40;
 /// Encoders are at rest below it [rad or m]. data.

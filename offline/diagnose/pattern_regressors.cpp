@@ -158,6 +158,16 @@ void visit_surroundings(const WhitenedFit& s, const std::vector<int>& turning,
   for (int j : turning)
     visit(on_joint(j, pattern, {time->value, time->value.square() - 1.0 / 3.0}));
   visit(on_body(s, false, pattern, {time->value, time->value.square() - 1.0 / 3.0}));
+  for (const double share : kSettlingShares) {
+    const Pattern settling{{},
+                           fmt::format("settles with {}, two thirds of it in {:g} % of the series",
+                                       time->plainly, 100.0 * share),
+                           {time->name},
+                           0.0,
+                           true};
+    for (int j : turning)
+      visit(on_joint(j, settling, {(-(time->value + 1.0) / (2.0 * share)).exp()}));
+  }
 }
 
 void visit_periods(const WhitenedFit& s, const RegressorVisitor& visit) {

@@ -281,5 +281,39 @@ TEST(Setups, ASmallOneIsNotTakenApartByWhatTheModelLacks) {
   }
 }
 
+/// Many poses of one station and the first few of another one, with the same reflector.
+Case with_few_of_another(int many, int few) {
+  Case out = measured_from({station(0, {0.08, 0.02, 0.11}), station(1, {0.08, 0.02, 0.11})}, many);
+  std::vector<int> rows(static_cast<std::size_t>(many + few));
+  std::iota(rows.begin(), rows.end(), 0);
+  out.measured = pick(out.measured, rows);
+  out.cell.measurement.setups[1].target_of = 0;
+  return out;
+}
+
+/// Where many rows are thinned, the few of a small set-up must not be. Two of five were left, one
+/// number of the frame could then not be told, and stayed where the start had put it.
+TEST(Setups, ASmallOneAmongThousandsOfRowsStandsWhereItStands) {
+  const Case both = with_few_of_another(6000, 5);
+  std::vector<int> rows(static_cast<std::size_t>(both.measured.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  const Calibration fitted = calibrate(both.cell, both.measured, rows);
+  for (const std::string& name : fitted.held) EXPECT_FALSE(name.starts_with("frame[")) << name;
+  const std::vector<int> few(rows.end() - 5, rows.end());
+  const Measurements there = pick(both.measured, few);
+  const Rows3 error = residuals(there, predict_points(fitted.state, there));
+  EXPECT_LT(error.rowwise().norm().maxCoeff(), 5.0 * kNoise_m);
+}
+
+TEST(Setups, OneThatItsReadingsLeaveOpenIsSaidToBeGuessed) {
+  for (const int few : {2, 5}) {
+    const Case both = with_few_of_another(100, few);
+    const Fit fit = fit_cell(both.cell, both.measured);
+    const bool said = std::any_of(fit.remarks.begin(), fit.remarks.end(),
+                                  [](const Problem& p) { return p.code == "W-FIT-SETUP-OPEN"; });
+    EXPECT_EQ(said, few == 2) << few << " readings";
+  }
+}
+
 }  // namespace
 }  // namespace plumb::offline
