@@ -120,8 +120,9 @@ constexpr Explanation kTerms[] = {
      "sentence names what it depends on, and how much of the error it is."},
     {"Undecidable",
      "Of a diagnosis: these readings cannot tell: there are too few poses, no noise is known, two "
-     "effects explain them exactly as well, or an effect that so few poses cannot show would "
-     "explain them as well."},
+     "effects explain them exactly as well, an effect that these poses cannot show or a part that "
+     "moves slowly would explain them as well, or far more than the noise is left and nothing says "
+     "what."},
     {"these poses cannot tell",
      "Of a diagnosis: two or more effects explain the readings nearly as well (a lead of less "
      "than 10 nats names the wrong one in every third case), and each can imitate the other. The "

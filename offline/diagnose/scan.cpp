@@ -22,7 +22,8 @@
 namespace plumb::offline {
 namespace {
 
-bool contains(const std::vector<std::string>& all, const std::string& one) {
+template <class T>
+bool contains(const std::vector<T>& all, const T& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
@@ -185,8 +186,8 @@ std::optional<Found> series_at(const Scorer& scorer, const std::vector<int>& joi
 /// waves make way for it as soon as it is ahead; a law that says it in fewer numbers keeps its name
 /// unless the series also explains clearly more.
 bool takes_the_place(const Found& series, const Found& best) {
-  if (series.score < best.score + kAhead_nats) return false;
-  return best.cycles.size() >= kFewestForSeries ||
+  if (best.cycles.size() >= kFewestForSeries) return series.score > best.score;
+  return series.score > best.score + kAhead_nats &&
          series.scored.explained > best.scored.explained + kAhead_share;
 }
 
@@ -432,6 +433,11 @@ Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testa
     if (auto series = found_series(scorer, out.library, paid);
         series && !contains(banned, key_of(*whitened.cell, series->entry))) {
       if (series->score > kSupported) series->gain = scorer.gain(series->scored);
+      // Each of several waves was searched for, which their evidence does not show.
+      std::erase_if(out.library, [&](const Found& f) {
+        return f.cycles.size() >= kFewestForSeries &&
+               contains(series->entry.joints, f.entry.joints.front());
+      });
       out.library.push_back(std::move(*series));
       sort_by_evidence(out);
     }

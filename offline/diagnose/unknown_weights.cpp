@@ -144,7 +144,7 @@ class Together {
     std::vector<Eigen::Index> at;
     for (const std::size_t law : laws)
       for (Eigen::Index c = first_[law]; c < first_[law + 1]; ++c) at.push_back(c);
-    return evidence(gram_(at, at), v_(at), s_.Q, evidence_scale(s_)).ln_bayes;
+    return evidence(gram_(at, at), v_(at), s_.Q, evidence_scale(s_)).ln_bayes - s_.scatter_nats;
   }
 
  private:
@@ -207,6 +207,8 @@ std::vector<Found> rivals_under_unknown_weights(const WhitenedFit& whitened, con
   for (const auto& places : explanations(all, joints, laws.size() - joints, joints > 1)) {
     const double ln_bayes = all.ln_bayes(places);
     best = std::max(best, ln_bayes);
+    // Two laws of so many weights describe joints that yield nearly as well as these do.
+    if (ln_bayes < own && places.size() > 1) continue;
     for (const std::size_t place : places) {
       if (place < joints) continue;
       out.push_back({laws[place], {}, {}, {}, 0.0, {}, 0.0});

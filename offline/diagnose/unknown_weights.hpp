@@ -17,7 +17,8 @@ namespace plumb::offline {
 ///
 /// @param first  A candidate of the library, or a pattern.
 /// @return  Those within 10 nats of the best explanation, `first` among these, best first: of each
-///          law the link that explains most. Their evidence is as far from that of `first` as it is
+///          law the link that explains most. Two laws together only where they explain more
+///          than `first`. Their evidence is as far from that of `first` as it is
 ///          on the poses that are compared. Empty unless `first` depends on the pose alone and no
 ///          mass is stated. None can be added: their numbers are products of compliances and
 ///          weights.
