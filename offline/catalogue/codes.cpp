@@ -527,6 +527,10 @@ constexpr Explanation kCodes[] = {
      "its tracker stood: some numbers of that frame stay as the fit guessed them. The arm itself "
      "is "
      "calibrated by the other set-ups; predictions in the frame of this one may be far off."},
+    {"W-FIT-SETUP-TIGHT",
+     "A set-up has hardly more readings than the numbers of its own frame and reflector, so that "
+     "these fit whatever was read and no residual shows an error. The arm is calibrated by the "
+     "other set-ups; predictions in this one's frame may be off by millimetres."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
      "out. State [measurement] sigma_urad to use them."},

@@ -7,6 +7,7 @@
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/excluded_laws.hpp"
+#include "diagnose/gradual_motion.hpp"
 #include "diagnose/unknown_weights.hpp"
 #include "effects/registry.hpp"
 
@@ -71,6 +72,17 @@ std::vector<std::string> names_of(const std::vector<Testable>& excluded) {
   return out;
 }
 
+/// Whether a part has moved as often as a search allows moves, or an encoder that is in the model
+/// with a step slips again: so many steps describe whatever moves slowly.
+bool moves_on_and_on(const WhitenedFit& whitened, const Found& step) {
+  const auto& effects = whitened.cell->effects;
+  return step.moves.size() >= kMostMoves ||
+         std::any_of(effects.begin(), effects.end(), [&](const EffectEntry& e) {
+           return is_change_point(e.name) &&
+                  key_of(*whitened.cell, e) == key_of(*whitened.cell, step.entry);
+         });
+}
+
 }  // namespace
 
 std::vector<Alternative> alternatives_under_unknown_weights(const WhitenedFit& whitened,
@@ -111,12 +123,15 @@ std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& l
   return out;
 }
 
-const Found* slow_motion_instead_of(const Scan& look, const Found& first,
-                                    const std::vector<Alternative>& others) {
+std::optional<Found> slow_motion_instead_of(const WhitenedFit& whitened, const Scan& look,
+                                            const Found& first,
+                                            const std::vector<Alternative>& others) {
+  if (!is_change_point(first.entry.name)) return std::nullopt;
+  if (auto gradual = gradual_motion_instead_of(whitened, first)) return gradual;
   const std::optional<Found>& slow = look.slow;
-  const bool near = slow && is_change_point(first.entry.name) && slow->score > kSupported &&
-                    slow->gain.clear && slow->ln_bayes() > first.ln_bayes() - kTold_nats;
-  if (!near) return nullptr;
+  if (!slow || !(slow->score > kSupported) || !slow->gain.clear) return std::nullopt;
+  const bool near = slow->ln_bayes() > first.ln_bayes() - kTold_nats;
+  if (!near && !moves_on_and_on(whitened, first)) return std::nullopt;
   const double lesser = std::min(slow->ln_bayes(), first.ln_bayes());
   const auto describes_it = [&](const Found& found) {
     return is_slow(found.entry) && found.score > kSupported &&
@@ -125,7 +140,7 @@ const Found* slow_motion_instead_of(const Scan& look, const Found& first,
   const bool has_a_law =
       std::any_of(look.library.begin(), look.library.end(), describes_it) ||
       std::any_of(others.begin(), others.end(), [](const auto& o) { return is_slow(o.entry); });
-  return has_a_law ? nullptr : &*slow;
+  return has_a_law ? std::nullopt : slow;
 }
 
 bool names_what_is_not_shown(const std::vector<Alternative>& all) {

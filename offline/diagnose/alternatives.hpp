@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,15 +28,17 @@ std::vector<Alternative> alternatives(const WhitenedFit& whitened, const Scan& l
 std::vector<Alternative> alternatives_under_unknown_weights(const WhitenedFit& whitened,
                                                             const Found& first);
 
-/// The slow motion that a step, `first`, may be instead: supported, and within 10 nats of it or
-/// ahead. A step has a place that was chosen among all, so it imitates whatever moves slowly.
+/// The slow motion that a step, `first`, may be instead: of the same part and not abrupt (see
+/// gradual_motion.hpp); or of any part, supported, and within 10 nats of it or ahead: a step has a
+/// place that was chosen among all, so it imitates whatever moves slowly. Where a part seems to
+/// move again and again, any slow motion that is supported is one.
 ///
 /// @param others  Alternatives of `first`.
-/// @return  Of `look`. Null where `first` is no step, or where a law of the library, as a drift,
-/// may
+/// @return  Nothing where `first` is no step, or where a law of the library, as a drift, may
 ///          describe the slow motion: then that law is the alternative.
-const Found* slow_motion_instead_of(const Scan& look, const Found& first,
-                                    const std::vector<Alternative>& others);
+std::optional<Found> slow_motion_instead_of(const WhitenedFit& whitened, const Scan& look,
+                                            const Found& first,
+                                            const std::vector<Alternative>& others);
 
 /// Whether one of them is a law that the data cannot show.
 bool names_what_is_not_shown(const std::vector<Alternative>& alternatives);

@@ -157,6 +157,8 @@ inline constexpr int kHarmonics = 3;
 inline constexpr std::array kSettlingShares = {0.03, 0.1, 0.3};
 /// Half periods of the series over time. cost.
 inline constexpr int kHalfPeriods = 40;
+/// The same of a joint, whose drive warms up and cools down. cost.
+inline constexpr int kHalfPeriodsOfJoint = 8;
 /// Encoders are at rest below it [rad or m]. data.
 inline constexpr double kNoMove = 1e-5;
 /// A joint that moves less shows no harmonic [rad]. data.

@@ -192,6 +192,15 @@ void say_what_was_not_judged(const ForwardSelection& found, Diagnosis& out) {
 /// can only refuse: where the error on them leaps, or ends clearly above its smallest value, the
 /// steps behind that value are not taken.
 std::size_t steps_kept(double before_m, const std::vector<Addition>& added) {
+  // On the way there may be moves that only the effects behind them have put right.
+  const auto is_less = [](const Addition& a, const Addition& b) {
+    return a.held.mean < b.held.mean;
+  };
+  if (added.empty() ||
+      added.back().held.mean <=
+          std::min(before_m,
+                   kMostRise * std::min_element(added.begin(), added.end(), is_less)->held.mean))
+    return added.size();
   double least = before_m;
   std::size_t kept = 0, seen = 0;
   while (seen < added.size() && added[seen].held.mean <= kLeap * least) {
@@ -391,7 +400,8 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.candidates = candidates_of(whitened, plain, first);
   if (out.finding == Finding::kMissing) {
     out.alternatives = alternatives(whitened, first, *first.supported(), w.excluded);
-    if (const Found* slow = slow_motion_instead_of(first, *first.supported(), out.alternatives))
+    if (const auto slow =
+            slow_motion_instead_of(whitened, first, *first.supported(), out.alternatives))
       out.slow_motion = unknown_structure(whitened, *slow);
     if (names_what_is_not_shown(out.alternatives) || out.slow_motion)
       out.finding = Finding::kUndecidable;

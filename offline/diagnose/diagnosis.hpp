@@ -157,8 +157,8 @@ struct Diagnosis {
   /// With `apply`, where all was refused that the fitted poses speak for: the error on unseen poses
   /// of effects chosen anew without each fold.
   std::optional<ErrorStats> refused;
-  bool full = false;                   // more would be supported, but a model holds no more effects
-  std::vector<Candidate> candidates;   // by ln B
+  bool full = false;                  // more would be supported, but a model holds no more effects
+  std::vector<Candidate> candidates;  // by ln B
   std::vector<Testable> not_testable;
   std::optional<UnknownStructure> unknown;        // at the start
   std::optional<UnknownStructure> unknown_after;  // at the end

@@ -21,21 +21,30 @@ bool same_places(const Found& a, const Found& b) {
                     same_effect);
 }
 
-/// An effect that replaces this one better, in the model without it; or null. It may be the same
-/// step with other moves: what else has been added since may have been one of them.
+/// The same step with other moves, where these explain more: what else has been added since may
+/// have been one of them. Null where it stays as it is.
+const Found* moves_otherwise(const Selection& s, const JudgedModel& without, const Found& found) {
+  if (!is_change_point(found.entry.name)) return nullptr;
+  const Found* again = without.look.find(s.cell(), s.key(found.entry));
+  const bool better = again != nullptr && again->score > kSupported &&
+                      !same_places(*again, found) &&
+                      again->ln_bayes() > evidence_as_it_is(without, found);
+  return better ? again : nullptr;
+}
+
+/// An effect that replaces this one better, in the model without it; or null.
 const Found* better_than(const Selection& s, const JudgedModel& without, const Found& found) {
+  if (const Found* again = moves_otherwise(s, without, found)) return again;
   const Found* other = without.look.supported();
-  if (other == nullptr) return nullptr;
-  if (s.key(other->entry) == s.key(found.entry)) {
-    const bool moves_otherwise = is_change_point(found.entry.name) && !same_places(*other, found) &&
-                                 other->ln_bayes() > evidence_as_it_is(without, found);
-    return moves_otherwise ? other : nullptr;
-  }
+  if (other == nullptr || s.key(other->entry) == s.key(found.entry)) return nullptr;
   return other->ln_bayes() < evidence_without(without, found) + kSupported ? nullptr : other;
 }
 
 bool exchange_one(Selection& s, const Found& found) {
-  const JudgedModel without = s.without(found.entries(), s.banned());
+  // A step stays out for good once one of its moves was dropped; here all of them are tried again.
+  std::vector<std::string> banned = s.banned();
+  if (is_change_point(found.entry.name)) std::erase(banned, s.key(found.entry));
+  const JudgedModel without = s.without(found.entries(), banned);
   const Found* other = better_than(s, without, found);
   if (other == nullptr) return false;
   s.remember_alternatives(without, *other);
@@ -45,17 +54,12 @@ bool exchange_one(Selection& s, const Found& found) {
   return true;
 }
 
-/// Effects of the model that a step may have been mistaken for in part: what gravity or the payload
-/// causes, and steps of other parts.
-std::size_t like_steps_in(const Selection& s) {
-  const auto& effects = s.cell().effects;
-  const auto loads = std::count_if(effects.begin(), effects.end(), [](const EffectEntry& e) {
-    return grows_with_load(descriptor_of(e.name));
-  });
-  std::set<std::string> steps;
-  for (const EffectEntry& e : effects)
-    if (is_change_point(e.name)) steps.insert(s.key(e));
-  return static_cast<std::size_t>(loads) + steps.size();
+/// Effects of the model, several waves or moves of one part counted once: a move may have been part
+/// of any of them.
+std::size_t findings_in(const Selection& s) {
+  std::set<std::string> out;
+  for (const EffectEntry& e : s.cell().effects) out.insert(s.key(e));
+  return out.size();
 }
 
 /// Whether an effect is to be taken out now; remembers that it was.
@@ -63,9 +67,9 @@ bool is_due(Selection& s, const EffectEntry& entry) {
   const std::string key = s.key(entry);
   if (is_wave(entry.name) || is_series(entry.name)) return false;
   if (is_change_point(entry.name)) {
-    const auto [last, fresh] = s.steps_ranked.try_emplace(key, like_steps_in(s));
-    if (!fresh && last->second == like_steps_in(s)) return false;
-    last->second = like_steps_in(s);
+    const auto [last, fresh] = s.steps_ranked.try_emplace(key, findings_in(s));
+    if (!fresh && last->second == findings_in(s)) return false;
+    last->second = findings_in(s);
     return true;
   }
   return s.exchanged.size() < kMostExchanges && s.exchanged.insert(key).second;

@@ -39,7 +39,7 @@ bool may_be_added(Selection& s, const Found& best, ForwardSelection& out) {
     out.undecided = Undecided{best.entry, best.cycles, domain_word(best.entry), std::move(others)};
     return false;
   }
-  if (const Found* slow = slow_motion_instead_of(s.look(), best, others)) {
+  if (const auto slow = slow_motion_instead_of(s.whitened(), s.look(), best, others)) {
     out.undecided = Undecided{best.entry,
                               best.cycles,
                               domain_word(best.entry),

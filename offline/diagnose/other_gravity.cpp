@@ -258,10 +258,13 @@ std::optional<UnderOtherGravity> under_other_gravity(
       !grows_with_load(descriptor_of(best->entry.name)))
     return std::nullopt;
   out.gravity.nats_ahead = best->ln_bayes() + fits - price - to_beat;
-  const bool clearly = leaves_noise(out.judged.whitened, best->scored.explained) ||
-                       now == nullptr ||
+  const bool all_explained = leaves_noise(out.judged.whitened, best->scored.explained);
+  const bool clearly = all_explained || now == nullptr ||
                        best->scored.explained > now->scored.explained + kAhead_share;
-  out.gravity.certain = clearly && out.gravity.nats_ahead > kAhead_nats;
+  // A tilt by any angle imitates much; an arm on a wall or a ceiling does not.
+  const bool at_axis = along.cwiseAbs().maxCoeff() > std::cos(kSameAsStated) * along.norm();
+  out.gravity.certain =
+      clearly && (all_explained || at_axis) && out.gravity.nats_ahead > kAhead_nats;
   if (!clearly || out.gravity.nats_ahead < kSupported) return std::nullopt;
   return out;
 }

@@ -5,6 +5,8 @@
 
 #include "diagnose/constants.hpp"
 #include "diagnose/regressor.hpp"
+#include "effects/effect_option.hpp"
+#include "fit/moving_part.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -170,7 +172,8 @@ void visit_surroundings(const WhitenedFit& s, const std::vector<int>& turning,
   }
 }
 
-void visit_periods(const WhitenedFit& s, const RegressorVisitor& visit) {
+void visit_periods(const WhitenedFit& s, const std::vector<int>& turning,
+                   const RegressorVisitor& visit) {
   const auto time = time_input(s);
   if (!time) return;
   for (int half = 2; half <= kHalfPeriods; ++half) {
@@ -179,8 +182,11 @@ void visit_periods(const WhitenedFit& s, const RegressorVisitor& visit) {
                           fmt::format("moves to and fro with {}, {:g} times in the series",
                                       time->plainly, half / 2.0),
                           {time->name},
-                          half / 2.0};
+                          half / 2.0,
+                          true};
     for (bool base : {true, false}) visit(on_body(s, base, pattern, {phase.sin(), phase.cos()}));
+    if (half > kHalfPeriodsOfJoint) continue;
+    for (int j : turning) visit(on_joint(j, pattern, {phase.sin(), phase.cos()}));
   }
 }
 
@@ -220,6 +226,13 @@ void visit_history(const WhitenedFit& s, const std::vector<Input>& q,
 
 }  // namespace
 
+Regressor pattern_of_part(const WhitenedFit& s, const EffectEntry& step, Pattern pattern,
+                          const Eigen::ArrayXd& shape) {
+  if (!step.joints.empty()) return on_joint(step.joints.front(), std::move(pattern), {shape});
+  const bool base = text_option(step, OptionKey::kOf, "") == name_of(MotionSource::kBase);
+  return on_body(s, base, std::move(pattern), {shape});
+}
+
 void visit_patterns(const WhitenedFit& s, const RegressorVisitor& visit) {
   std::vector<int> turning;
   for (int j = 0; j < s.joints(); ++j)
@@ -228,7 +241,7 @@ void visit_patterns(const WhitenedFit& s, const RegressorVisitor& visit) {
   visit_other_joints(q, turning, visit);
   visit_pairs(q, turning, visit);
   visit_surroundings(s, turning, visit);
-  visit_periods(s, visit);
+  visit_periods(s, turning, visit);
   visit_history(s, q, turning, visit);
 }
 

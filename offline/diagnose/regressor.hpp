@@ -72,13 +72,18 @@ Regressor ripple_regressor(const WhitenedFit& whitened, int joint,
                            const std::vector<double>& cycles);
 
 /// Wave numbers that a scan tries at a joint, in steps that its range can tell apart; behind these
-/// stand single ones. Usual: up to 40 cycles a turn, whole numbers of slow waves from 3 on, and once and twice a turn of the motor if the gear ratio is given; fast: from
-/// there to 200, and all those of the motor.
+/// stand single ones. Usual: up to 40 cycles a turn, whole numbers of slow waves from 3 on, and
+/// once and twice a turn of the motor if the gear ratio is given; fast: from there to 200, and all
+/// those of the motor.
 std::vector<double> ripple_grid(const WhitenedFit& whitened, int joint);
 std::vector<double> fast_ripple_grid(const WhitenedFit& whitened, int joint);
 
 /// Largest torque on a joint at the poses [N m].
 double largest_torque(const WhitenedFit& whitened, int joint);
+
+/// The part that a step says moved, moving as `shape` says instead, pose by pose.
+Regressor pattern_of_part(const WhitenedFit& whitened, const EffectEntry& step, Pattern pattern,
+                          const Eigen::ArrayXd& shape);
 
 /// Visits generic patterns, so that an error that no law explains is not attributed to one.
 void visit_patterns(const WhitenedFit& whitened, const RegressorVisitor& visit);

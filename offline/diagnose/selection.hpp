@@ -81,7 +81,7 @@ class Selection {
   std::map<std::string, int> dropped;                      // how often each was taken out, by key
   std::set<std::string> exchanged;                         // taken out once and looked for again
   std::set<std::string> sizes_doubted;                     // taken out once because of their size
-  /// By key: how many loads and other steps were in the model when a step was last ranked.
+  /// By key: how many effects were in the model when a step was last ranked.
   std::map<std::string, std::size_t> steps_ranked;
   bool untrimmed = false;         // the first and last poses were looked at again
   std::set<std::string> doubted;  // their rivals were followed

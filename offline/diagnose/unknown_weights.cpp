@@ -193,7 +193,8 @@ std::vector<Found> rivals_under_unknown_weights(const WhitenedFit& whitened, con
   if (turned)
     for (const int joint : first.entry.joints) laws.push_back(yielding(joint));
   const std::size_t joints = laws.size();
-  for (const EffectEntry& law : laws_beside_joints(s)) laws.push_back(law);
+  for (const EffectEntry& law : laws_beside_joints(s))
+    if (law.name != first.entry.name) laws.push_back(law);
   const Together all(s, laws);
   const Regressor regressor = regressor_there(s, first);
   double own = regressor.columns.cols() > 0 ? Scorer(s).score(regressor).evidence.ln_bayes : 0.0;

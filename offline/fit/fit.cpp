@@ -24,6 +24,7 @@ namespace {
 constexpr double kFarTimes = 6.0;              // the usual scatter: an outlier
 constexpr double kSmallestScatter_m = 0.1e-6;  // of noise-free data
 constexpr std::size_t kListed = 5;
+constexpr int kSpareOfSetup = 6;   // coordinates beyond its own numbers: two readings
 constexpr double kAnyError = 1e3;  // noise floors, which few poses may leave
 
 const EffectEntry* find_local_tree(const Cell& cell) {
@@ -235,6 +236,32 @@ void remark_on_setups_without_held(const Cell& cell, const Measurements& measure
        .help = "measure at least 10 poses in each set-up"});
 }
 
+/// Numbers of frame and target that a set-up has for itself.
+int own_numbers(const MeasurementSettings& settings, int setup) {
+  const Setup rule = setup_rule(settings, setup);
+  return (rule.fit_frame && frame_root(settings, setup) == setup ? 6 : 0) +
+         (rule.fit_target && target_root(settings, setup) == setup ? 3 : 0);
+}
+
+/// Set-ups with hardly more readings than numbers of their own: these fit whatever was read.
+void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit& out) {
+  if (measured.setup.empty()) return;
+  const auto axes = std::count(measured.has_axis.begin(), measured.has_axis.end(), true);
+  for (int k = 0; k < setup_count(cell.measurement); ++k) {
+    const auto readings = std::count(measured.setup.begin(), measured.setup.end(), k);
+    const int numbers = own_numbers(cell.measurement, k);
+    if (readings == 0 || numbers == 0 || axes * readings >= numbers + kSpareOfSetup) continue;
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-FIT-SETUP-TIGHT",
+         .message = fmt::format("set-up {} has {} readings for {} numbers of its own (frame, "
+                                "reflector): they fit whatever was read, and may be off by "
+                                "millimetres",
+                                setup_name(cell.measurement, k), readings, numbers),
+         .help = "measure at least 10 poses in each set-up, far apart"});
+  }
+}
+
 /// Set-ups whose readings leave open where their tracker stands: two of them, or all in line.
 void remark_on_open_setups(const Cell& cell, const Measurements& measured, Fit& out) {
   if (measured.setup.empty()) return;
@@ -345,6 +372,7 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   remark_on_outliers(measured, out);
   remark_on_repeats_of_held(out);
   remark_on_open_setups(cell, measured, out);
+  remark_on_tight_setups(cell, measured, out);
   remark_on_setups_without_held(cell, measured, out);
   remark_on_marks(cell, out);
   remark_on_still_joints(out);
