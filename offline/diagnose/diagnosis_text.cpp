@@ -169,8 +169,22 @@ constexpr const char* kTellsStepFromSlowMotion =
     "To tell a step from a slow motion: measure a few poses again and again through one session, "
     "also when the arm is cold.";
 
+/// The step that was added in the place of the first candidate, beside others: with other moves.
+const Addition* moved_otherwise(const Cell& cell, const Diagnosis& d) {
+  const Candidate& best = d.candidates.front();
+  if (best.moves.empty()) return nullptr;
+  for (const Addition& added : d.added)
+    if (key_of(cell, added.entry) == key_of(cell, best.entry) &&
+        added.moves.size() != best.moves.size())
+      return &added;
+  return nullptr;
+}
+
 std::string sure_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
+  if (const Addition* added = moved_otherwise(cell, d))
+    return fmt::format("Beside the other effects that were added, only this is left of it: {}.",
+                       effect_sentence(cell, *added));
   if (d.slow_motion) return kTellsStepFromSlowMotion;
   if (!d.alternatives.empty()) return telling_words(cell, best.entry, d.alternatives);
   if (explains_little(d))

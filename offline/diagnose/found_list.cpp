@@ -31,6 +31,7 @@ void forget(std::vector<Found>& all, const EffectEntry& entry) {
         found.entry.name.clear();
       else
         set_option(found.entry, OptionKey::kAfterRow, found.moves.front().after_row);
+      if (found.moves.size() == 1) found.moves.clear();  // an ordinary step
       continue;
     }
     const auto rest = without_effect({found.entry}, entry);
