@@ -117,7 +117,7 @@ inline constexpr int kScatterRounds = 2;
 // Waves of a joint [cycles a turn].
 
 /// The slowest wave; slower ones are the first two harmonics of a joint. arms.
-inline constexpr double kFirstWholeWave = 3.0;
+inline constexpr int kFirstWholeWave = 3;
 /// Slow waves: up to the last one, in such steps or finer where the joint turns far. arms.
 inline constexpr double kLastRipple = 40.0, kRippleStep = 0.5;
 /// Fast ones: strain wave gears have twice as many waves as their ratio, seldom above 100. arms.

@@ -37,7 +37,7 @@ std::vector<double> ripple_grid(const WhitenedFit& s, int joint) {
   for (int k = static_cast<int>(std::ceil(first_ripple(range) / step)); k <= last; ++k)
     out.push_back(k * step);
   // Slower ones only in whole numbers, as gears have them, and with a period in the range at least.
-  for (double k = kFirstWholeWave; k < first_ripple(range) - 0.5 * step; ++k)
+  for (int k = kFirstWholeWave; k < first_ripple(range) - 0.5 * step; ++k)
     if (k * range >= 2.0 * M_PI) out.push_back(k);
   if (const auto& ratio = s.cell->mechanics[static_cast<std::size_t>(joint)].gear_ratio)
     for (const double waves : kAlwaysMotorWaves)

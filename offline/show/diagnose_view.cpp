@@ -170,10 +170,9 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
     return out;
   }
   if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};
-  const bool step_or_slow = d.undecided ? d.undecided->slow_motion.has_value()
-                                        : d.slow_motion && !d.finding_after;
-  if (step_or_slow)
-    return {"compare   # the errors in order of time: do they jump, or creep?"};
+  const bool step_or_slow =
+      d.undecided ? d.undecided->slow_motion.has_value() : d.slow_motion && !d.finding_after;
+  if (step_or_slow) return {"compare   # the errors in order of time: do they jump, or creep?"};
   if (d.undecided)
     for (const auto& other : d.undecided->alternatives)
       if (other.compiled != is_compiled(d.undecided->entry))

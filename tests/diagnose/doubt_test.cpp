@@ -57,6 +57,25 @@ TEST(Doubt, AStepThatMayBeASlowMotionIsNotNamedForCertain) {
   EXPECT_GE(slow, 1) << "a case in which the two are near each other must occur";
 }
 
+/// The zero of a joint moves on from 30 to 60 % of the session, or jumps and settles behind that.
+TEST(Doubt, WhatMovesGraduallyInAPartOfTheSeriesIsNoStep) {
+  constexpr double kSize_rad = 250e-6;
+  for (const bool settles : {false, true})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      BlindCase blind = make_blind_case(arm_hiding({}, 150, seed));
+      Measurements& m = blind.measured.measured;
+      for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
+        const double behind = static_cast<double>(i) / static_cast<double>(m.q.rows()) - 0.3;
+        const double moved = settles ? (behind < 0.0 ? 0.0 : std::exp(-behind / 0.15))
+                                     : std::clamp(behind / 0.3, 0.0, 1.0);
+        m.q(i, 3) -= kSize_rad * moved;
+      }
+      const Diagnosis d = applied(blind);
+      EXPECT_NE(d.finding, Finding::kMissing) << seed << ": " << d.text;
+      EXPECT_FALSE(adds(d, "step")) << seed << ": " << d.text_after;
+    }
+}
+
 TEST(Doubt, AStepThatNoSlowMotionImitatesIsNamed) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Diagnosis d = applied(make_blind_case(arm_hiding({"step_encoder:J3:3"}, 120, seed)));
