@@ -2,6 +2,7 @@
 #include "modbus_owner.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "link_thread.hpp"
 #include "modbus_settings.hpp"
@@ -69,6 +70,7 @@ void ModbusOwner::begin() noexcept {
   looks_.clear();
   for (const ModbusSpan& span : spans_) looks_.push_back({.span = span});
   token_held_ = token_register_.has_value();
+  watched_ = watched_ || state_ == State::kWatches;
   state_ = State::kUnseen;
 }
 
@@ -205,6 +207,12 @@ bool ModbusOwner::decide(std::int64_t now_ns) {
       quiet_since_ns_ = now_ns;
     }
     return now_ns - quiet_since_ns_ < watch_ns_ || claim();
+  }
+  // What it watched has not changed while there was no connection: the other one had none either.
+  if (first_sight && std::exchange(watched_, false)) {
+    if (sight_.foreign > 0) ++counters_.foreign_senders;
+    watch(now_ns);
+    return true;
   }
   if (first_sight && at_start) {
     if (!sight_.in_use) return claim();

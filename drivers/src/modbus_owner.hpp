@@ -117,6 +117,7 @@ class ModbusOwner {
   State state_ = State::kUnseen;
   Sight sight_;
   std::int64_t quiet_since_ns_ = 0;
+  bool watched_ = false;  // when the connection was lost: with the next one the watch begins anew
 };
 
 }  // namespace plumb::drivers

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whose the registers of a controller are: plumb-rt as client of a controller made of sockets,
 // beside a second plumb-rt, beside another client, and with a controller that starts again.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/drivers/deployed.hpp"
@@ -168,6 +169,24 @@ TEST_F(RegistersOfOne, AnotherTokenSilencesAnOwnerUntilItRests) {
   expect_no_step();
 }
 
+/// What another one's token says is not undone by a new connection: where the controller lets both
+/// wait, nothing changes meanwhile, and the one that watched would take what is not at rest.
+TEST_F(RegistersOfOne, AWatchBeginsAnewWithANewConnection) {
+  ClientOf plumb(server, kWithOwner);
+  activate();
+  server.put(RawServer::kOwner, {0x1234, 0x5678});
+  EXPECT_TRUE(becomes([&] { return plumb.status()["fault"] == "foreign-sender"; }));
+  server.put(RawServer::kOwner, {0x1234, 0x5679});
+  std::this_thread::sleep_for(20ms);  // it looks every millisecond
+  server.forget_writes();
+  for (int i = 0; i < 10; ++i) {
+    server.hang_up();
+    std::this_thread::sleep_for(100ms);
+  }
+  EXPECT_EQ(server.writes().size(), 0U);
+  EXPECT_TRUE(comes(kFault)) << "as nobody uses them, it takes the registers again";
+}
+
 /// Whether a client took registers into which nobody had written for a while, as it may: its first
 /// write came that long after the last one of the others, or after `since`.
 bool took_what_rested(RawServer& server, int client, std::chrono::steady_clock::time_point since) {
@@ -177,6 +196,17 @@ bool took_what_rested(RawServer& server, int client, std::chrono::steady_clock::
     since = write.time;
   }
   return false;
+}
+
+/// "client 1 at 12 ms: 5 registers from 40", write by write.
+std::string timeline(const std::vector<RawServer::Write>& writes,
+                     std::chrono::steady_clock::time_point since) {
+  std::string out;
+  for (const auto& write : writes)
+    out += fmt::format("client {} at {:.1f} ms: {} registers from {}\n", write.client,
+                       std::chrono::duration<double, std::milli>(write.time - since).count(),
+                       write.words.size(), write.first);
+  return out;
 }
 
 /// The first client of a server is stopped until a second one has taken its registers. False where
@@ -203,7 +233,8 @@ bool a_stopped_client_writes_nothing() {
   first.run->kill(SIGCONT);
   if (!first.becomes_foreign() || took_what_rested(server, old, continued)) return false;
   const auto writes = server.writes();
-  EXPECT_EQ(std::ranges::count(writes, old, &RawServer::Write::client), 0);
+  EXPECT_EQ(std::ranges::count(writes, old, &RawServer::Write::client), 0)
+      << timeline(writes, continued);
   EXPECT_TRUE(server.sees(kActive));
   EXPECT_LE(server.largest_speed_m_s(), 1.0001 * Deployed::arm().guard.slew_m_per_s);
   return true;
