@@ -86,7 +86,7 @@ bool ModbusOwner::round(std::int64_t now_ns) {
     const bool same = i < looks_.size() && looks_.size() == before && looks_[i].span.first == first;
     if (same) ++i;
   }
-  return decide(now_ns);
+  return decide();
 }
 
 bool ModbusOwner::look_before(std::uint16_t first, std::uint16_t count, std::int64_t now_ns) {
@@ -97,7 +97,7 @@ bool ModbusOwner::look_before(std::uint16_t first, std::uint16_t count, std::int
     seen = true;
     if (looks_[i].fresh) continue;
     if (!look(i, now_ns)) return false;
-    return decide(now_ns);
+    return decide();
   }
   // A server that does not let these be read cannot show that they are another's.
   if (!seen) looked_ns_ = MonotonicTime::now_ns();
@@ -194,7 +194,7 @@ void ModbusOwner::adopt(const Part& part, Words found) noexcept {
 }
 
 /// Judges the sights of this round. Returns false if the connection can no longer be used.
-bool ModbusOwner::decide(std::int64_t now_ns) {
+bool ModbusOwner::decide() {
   const bool first_sight = state_ == State::kUnseen;
   if (first_sight && !sight_.complete) return true;
   const bool at_start = !known_;
@@ -204,30 +204,31 @@ bool ModbusOwner::decide(std::int64_t now_ns) {
     talk_.note_unclean();
     if (sight_.foreign > 0) {
       ++counters_.foreign_senders;
-      quiet_since_ns_ = now_ns;
+      quiet_since_ns_ = MonotonicTime::now_ns();
     }
-    return now_ns - quiet_since_ns_ < watch_ns_ || claim();
+    const bool rest = looked_ns_ - quiet_since_ns_ >= watch_ns_ && !sight_is_old();
+    return !rest || claim();
   }
   // What it watched has not changed while there was no connection: the other one had none either.
   if (first_sight && std::exchange(watched_, false)) {
     if (sight_.foreign > 0) ++counters_.foreign_senders;
-    watch(now_ns);
+    watch();
     return true;
   }
   if (first_sight && at_start) {
     if (!sight_.in_use) return claim();
-    watch(now_ns);
+    watch();
     return true;
   }
   if (first_sight && sight_.foreign > 0) {
     // It may be from before, kept by a controller that was switched off: if it is alive, it shows.
     ++counters_.restarts;
-    watch(now_ns);
+    watch();
     return true;
   }
   if (sight_.foreign > 0) ++counters_.foreign_senders;
   if (sight_.token_foreign) {
-    watch(now_ns);
+    watch();
     return true;
   }
   if (sight_.zeroed > 0) ++counters_.restarts;
@@ -237,10 +238,11 @@ bool ModbusOwner::decide(std::int64_t now_ns) {
   return true;
 }
 
-void ModbusOwner::watch(std::int64_t now_ns) noexcept {
+/// The time of the round may be from before the process was stopped: the clock is read.
+void ModbusOwner::watch() noexcept {
   talk_.note_unclean();
   state_ = State::kWatches;
-  quiet_since_ns_ = now_ns;
+  quiet_since_ns_ = MonotonicTime::now_ns();
 }
 
 /// Writes the token, which the next round must find before anything else is written.

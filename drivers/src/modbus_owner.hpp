@@ -93,8 +93,8 @@ class ModbusOwner {
   void compare(const ModbusSpan& span) noexcept;
   Verdict judge(Part& part, Words found) noexcept;
   void adopt(const Part& part, Words found) noexcept;
-  bool decide(std::int64_t now_ns);
-  void watch(std::int64_t now_ns) noexcept;
+  bool decide();
+  void watch() noexcept;
   bool claim();
   template <class Do>
   void for_written(std::uint16_t first, Words content, Do act) noexcept;
