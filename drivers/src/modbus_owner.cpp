@@ -86,6 +86,8 @@ bool ModbusOwner::round(std::int64_t now_ns) {
     const bool same = i < looks_.size() && looks_.size() == before && looks_[i].span.first == first;
     if (same) ++i;
   }
+  // A server that lets nothing be read cannot show that it is another's.
+  if (looks_.empty()) looked_ns_ = MonotonicTime::now_ns();
   return decide();
 }
 

@@ -423,7 +423,8 @@ Scan scan(const WhitenedFit& whitened, const std::vector<std::string>& not_testa
   for (auto& found : out.library)
     if (found.score > kSupported) found.gain = gain_of(scorer, found, out.regressors);
   for (std::optional<Found>* pattern : {&out.pattern, &out.slow})
-    if (*pattern) (*pattern)->gain = scorer.gain((*pattern)->scored);
+    if (*pattern && (*pattern)->score > kSupported)
+      (*pattern)->gain = scorer.gain((*pattern)->scored);
   if (!contains(not_testable, wave_effect())) {
     add_fast_waves(scorer, banned, out);
     sort_by_evidence(out);

@@ -266,7 +266,7 @@ void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit&
 void remark_on_open_setups(const Cell& cell, const Measurements& measured, Fit& out) {
   if (measured.setup.empty()) return;
   for (int k = 0; k < setup_count(cell.measurement); ++k) {
-    const std::string frame = fmt::format("frame[{}].", setup_name(cell.measurement, k));
+    const std::string frame = frame_prefix(cell.measurement, k);
     std::vector<std::string> open;
     for (const std::string& name : out.calibration.held)
       if (name.starts_with(frame)) open.push_back(name);

@@ -57,14 +57,19 @@ void add_twist_candidates(const Cell& cell, std::vector<Parameter>& out) {
           {Kind::kLinkTwist, i, k, cell.nominal.joints[i].name + ".post." + kTwistNames[k]});
 }
 
+/// ".", with several set-ups "[day 2].".
+std::string of_setup(const MeasurementSettings& m, int setup) {
+  const std::string name = setup_name(m, setup);
+  return name.empty() ? "." : "[" + name + "].";
+}
+
 /// "frame.x", with several set-ups "frame[day 2].x"; what is shared belongs to the first that has
 /// it.
 void add_placing_candidates(const MeasurementSettings& m, Orientation orientation,
                             std::vector<Parameter>& out) {
   for (int s = 0; s < setup_count(m); ++s) {
     const Setup rule = setup_rule(m, s);
-    const std::string name = setup_name(m, s);
-    const std::string of = name.empty() ? "." : "[" + name + "].";
+    const std::string of = of_setup(m, s);
     const auto add = [&](Kind kind, int component, const char* pose_name) {
       const char* what = kind == Kind::kFrame ? "frame" : "target";
       out.push_back({kind, 0, component, what + of + pose_name, s});
@@ -102,6 +107,10 @@ double reach(const format::Chain& chain) {
   double sum = 0.0;
   for (const auto& row : chain.joints) sum += std::abs(row.a) + std::abs(row.d);
   return std::max(0.1, sum);
+}
+
+std::string frame_prefix(const MeasurementSettings& settings, int setup) {
+  return "frame" + of_setup(settings, setup);
 }
 
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {

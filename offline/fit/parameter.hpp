@@ -45,6 +45,10 @@ double reach(const format::Chain& chain);
 enum class Orientation { kIgnored, kUsed };
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation);
 
+/// What the names of the numbers of a set-up's frame begin with: "frame.", with several set-ups
+/// "frame[day 2].".
+std::string frame_prefix(const MeasurementSettings& settings, int setup);
+
 /// Every parameter of the effects that `arm` carries, effect by effect.
 std::vector<Parameter> effect_parameters(const format::Model& arm);
 

@@ -104,7 +104,7 @@ std::string setups_text(const MeasurementSettings& m, const ArmState& state,
     return root != k ? "as " + setup_name(m, root) : std::string(fitted ? "fitted" : "given");
   };
   const auto frame_how = [&](int k) -> std::string {
-    const std::string frame = "frame[" + setup_name(m, k) + "].";
+    const std::string frame = frame_prefix(m, k);
     const bool open = std::any_of(held.begin(), held.end(),
                                   [&](const std::string& name) { return name.starts_with(frame); });
     return open ? "guessed" : how(setup_rule(m, k).fit_frame, frame_root(m, k), k);

@@ -15,22 +15,10 @@
 #include "diagnose/excluded_laws.hpp"
 #include "effects/registry.hpp"
 #include "simulate/blind_case.hpp"
+#include "tests/diagnose/hiding.hpp"
 
 namespace plumb::offline {
 namespace {
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
-BlindRequest hiding(const std::vector<std::string>& effects, int poses, std::uint64_t seed = 1) {
-  BlindRequest out;
-  out.poses = poses;
-  out.fresh_poses = 1;
-  out.effects = effects;
-  out.seed = seed;
-  return out;
-}
 
 /// A calibrated arm and the whitened fit of all its poses.
 struct Looked {

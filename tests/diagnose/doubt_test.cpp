@@ -6,23 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cell/effects_edit.hpp"
 #include "diagnose/diagnosis.hpp"
-#include "effects/effect_option.hpp"
 #include "effects/registry.hpp"
 #include "simulate/blind_case.hpp"
+#include "tests/diagnose/hiding.hpp"
 
 namespace plumb::offline {
 namespace {
-
-BlindRequest arm_hiding(const std::vector<std::string>& effects, int poses, std::uint64_t seed) {
-  BlindRequest out;
-  out.poses = poses;
-  out.fresh_poses = 1;
-  out.effects = effects;
-  out.seed = seed;
-  return out;
-}
 
 Diagnosis applied(const BlindCase& blind) {
   return diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
@@ -33,16 +23,12 @@ bool adds(const Diagnosis& d, const char* effect) {
                      [&](const Addition& added) { return added.entry.name == effect; });
 }
 
-bool says_so(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
 /// The zero of a joint creeps with the temperature of its drive; no law of the library does that.
 TEST(Doubt, AStepThatMayBeASlowMotionIsNotNamedForCertain) {
   int slow = 0;
   for (const char* hidden : {"warm_encoder:J2:0.6", "warm_encoder:J2:1", "warm_encoder:J4:0.8"})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const BlindCase blind = make_blind_case(arm_hiding({hidden}, 80, seed));
+      const BlindCase blind = make_blind_case(hiding({hidden}, 80, seed));
       const Diagnosis d = applied(blind);
       const bool step_first =
           d.finding == Finding::kMissing && is_change_point(d.candidates.front().entry.name);
@@ -51,8 +37,8 @@ TEST(Doubt, AStepThatMayBeASlowMotionIsNotNamedForCertain) {
       if (!d.slow_motion) continue;
       ++slow;
       EXPECT_EQ(d.finding, Finding::kUndecidable);
-      EXPECT_TRUE(says_so(d.text, "these poses cannot tell")) << d.text;
-      EXPECT_FALSE(says_so(d.text, "Certain")) << d.text;
+      EXPECT_TRUE(says(d.text, "these poses cannot tell")) << d.text;
+      EXPECT_FALSE(says(d.text, "Certain")) << d.text;
     }
   EXPECT_GE(slow, 1) << "a case in which the two are near each other must occur";
 }
@@ -62,7 +48,7 @@ TEST(Doubt, WhatMovesGraduallyInAPartOfTheSeriesIsNoStep) {
   constexpr double kSize_rad = 250e-6;
   for (const bool settles : {false, true})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      BlindCase blind = make_blind_case(arm_hiding({}, 150, seed));
+      BlindCase blind = make_blind_case(hiding({}, 150, seed));
       Measurements& m = blind.measured.measured;
       for (Eigen::Index i = 0; i < m.q.rows(); ++i) {
         const double behind = static_cast<double>(i) / static_cast<double>(m.q.rows()) - 0.3;
@@ -78,7 +64,7 @@ TEST(Doubt, WhatMovesGraduallyInAPartOfTheSeriesIsNoStep) {
 
 TEST(Doubt, AStepThatNoSlowMotionImitatesIsNamed) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Diagnosis d = applied(make_blind_case(arm_hiding({"step_encoder:J3:3"}, 120, seed)));
+    const Diagnosis d = applied(make_blind_case(hiding({"step_encoder:J3:3"}, 120, seed)));
     EXPECT_EQ(d.finding, Finding::kMissing) << d.text;
     EXPECT_FALSE(d.slow_motion) << d.text;
     EXPECT_TRUE(adds(d, "step")) << d.text_after;
@@ -89,7 +75,7 @@ TEST(Doubt, AStepThatNoSlowMotionImitatesIsNamed) {
 TEST(Doubt, AMoveOfTheBaseAndOneOfTheReflectorAreOneMoveEach) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const BlindCase blind =
-        make_blind_case(arm_hiding({"step_base::5", "step_reflector::3"}, 200, seed));
+        make_blind_case(hiding({"step_base::5", "step_reflector::3"}, 200, seed));
     const Diagnosis d = applied(blind);
     ASSERT_EQ(d.added.size(), 2U) << seed << ": " << d.text_after;
     for (const Addition& added : d.added) {
@@ -105,7 +91,7 @@ TEST(Doubt, AMoveOfTheBaseAndOneOfTheReflectorAreOneMoveEach) {
 TEST(Doubt, UnderUnknownWeightsEveryEffectOfThePoseMayBeTheBase) {
   int beside = 0, doubted = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    BlindRequest request = arm_hiding({"base_compliance::8"}, 100, seed);
+    BlindRequest request = hiding({"base_compliance::8"}, 100, seed);
     request.masses = StatedMasses::kNone;
     const Diagnosis d = applied(make_blind_case(request));
     if (d.candidates.front().entry.name == "base_compliance") continue;  // rightly
@@ -126,7 +112,7 @@ TEST(Doubt, ASlowWaveIsOneWaveOfItsOwnNumber) {
   constexpr double kCycles = 3.0, kSize_rad = 150e-6;
   constexpr Eigen::Index kJoint = 2;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    BlindRequest request = arm_hiding({}, 150, seed);
+    BlindRequest request = hiding({}, 150, seed);
     const BlindCase first = make_blind_case(request);
     const auto q = first.measured.measured.q.col(kJoint);
     request.choice.range = std::min(1.0, M_PI / (q.maxCoeff() - q.minCoeff()));
@@ -134,7 +120,7 @@ TEST(Doubt, ASlowWaveIsOneWaveOfItsOwnNumber) {
     Measurements& m = blind.measured.measured;
     for (Eigen::Index i = 0; i < m.q.rows(); ++i)
       m.q(i, kJoint) -= kSize_rad * std::sin(kCycles * m.q(i, kJoint) + static_cast<double>(seed));
-    const Diagnosis d = diagnose(blind.cell, blind.measured.measured, {.apply = true, .tell = {}});
+    const Diagnosis d = applied(blind);
     ASSERT_EQ(d.finding, Finding::kMissing) << d.text;
     const Candidate& best = d.candidates.front();
     EXPECT_TRUE(is_wave(best.entry.name)) << d.text;

@@ -223,7 +223,7 @@ bool a_stopped_client_writes_nothing() {
     return there && comes(kActive);
   };
   ClientOf first(server, kWithOwner);
-  if (!activated()) return false;
+  if (!activated() || !becomes([&] { return server.largest_correction_m(1) > 1e-4; })) return false;
   const int old = server.newest_client();
   first.run->kill(SIGSTOP);
   ClientOf second(server, kWithOwner);

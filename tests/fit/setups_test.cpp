@@ -309,9 +309,12 @@ TEST(Setups, OneThatItsReadingsLeaveOpenIsSaidToBeGuessed) {
   for (const int few : {2, 5}) {
     const Case both = with_few_of_another(100, few);
     const Fit fit = fit_cell(both.cell, both.measured);
-    const bool said = std::any_of(fit.remarks.begin(), fit.remarks.end(),
-                                  [](const Problem& p) { return p.code == "W-FIT-SETUP-OPEN"; });
-    EXPECT_EQ(said, few == 2) << few << " readings";
+    const auto said = [&](const std::string& code) {
+      return std::any_of(fit.remarks.begin(), fit.remarks.end(),
+                         [&](const Problem& p) { return p.code == code; });
+    };
+    EXPECT_EQ(said("W-FIT-SETUP-OPEN"), few == 2) << few << " readings";
+    EXPECT_EQ(said("W-FIT-SETUP-TIGHT"), few == 2) << few << " readings";
   }
 }
 
