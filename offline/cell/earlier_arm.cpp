@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "cell/packed_matrix.hpp"
 #include "cell/run_checksum.hpp"
+#include "numbers/cholesky.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/json.hpp"
@@ -118,7 +118,7 @@ bool sound(const EarlierArm& arm) {
   const Eigen::VectorXd per_sigma = variance.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd correlation =
       per_sigma.asDiagonal() * arm.covariance * per_sigma.asDiagonal();
-  return Eigen::LLT<Eigen::MatrixXd>(correlation).info() == Eigen::Success;
+  return Cholesky(correlation).exists();
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/arm_shape.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "numbers/rotation_fit.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -16,8 +16,7 @@ bool lie_in_a_plane(const Measurements& measured, const std::vector<int>& rows) 
   const Rows3 points = measured.p_M(rows, Eigen::all);
   const Rows3 centred = points.rowwise() - points.colwise().mean();
   const Eigen::Matrix3d spread = centred.transpose() * centred;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);
-  const auto& w = eigen.eigenvalues();
+  const Eigen::Vector3d w = symmetric_eigenvalues(spread);
   return std::max(0.0, w(0)) < kFlat * kFlat * w(2);
 }
 

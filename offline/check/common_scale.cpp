@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "check/linear_placement.hpp"
 #include "fit/solver.hpp"
 #include "fit/thinned_rows.hpp"
+#include "numbers/pivoted_qr.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -52,7 +52,7 @@ Eigen::VectorXd of_scale(const Measurements& measured, const std::vector<int>& r
   for (int i = 0; i < some.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (some.has_axis[static_cast<std::size_t>(k)]) points(line++) = some.p_M(i, k);
-  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(here.jacobian).solve(points);
+  return PivotedQr(here.jacobian).solve(points);
 }
 
 /// Longest first.

@@ -11,8 +11,8 @@
 #include "cell/table_place.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
-#include "fit/quantile.hpp"
 #include "fit/thinned_rows.hpp"
+#include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,6 +12,8 @@
 #include "fit/outliers.hpp"
 #include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"
+#include "numbers/lu.hpp"
+#include "numbers/pivoted_qr.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -45,9 +46,8 @@ class GravityTest {
     data.sigma_m = Rows3::Ones(some_.size(), 3);
     for (int i = 0; i < some_.size(); ++i) data.rows.push_back(i);
     const Solution here = evaluate(data, state_, fitted.parameters);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(here.jacobian);
     const auto count = static_cast<Eigen::Index>(fitted.parameters.size());
-    basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(here.jacobian.rows(), count);
+    basis_ = householder_basis(here.jacobian, count);
     residual_ = without_geometry(here.residual);
   }
 
@@ -68,7 +68,7 @@ class GravityTest {
     if (used.empty()) return out;
     Eigen::MatrixXd N = B.transpose() * B;
     N.diagonal() *= 1.0 + 1e-9;
-    const Eigen::MatrixXd inverse = N.inverse();
+    const Eigen::MatrixXd inverse = plumb::offline::inverse(N);
     const Eigen::VectorXd k = inverse * (B.transpose() * residual_);
     out.left = (residual_ - B * k).squaredNorm();
     const auto freedom = static_cast<double>(residual_.size() - basis_.cols() -
@@ -89,8 +89,7 @@ class GravityTest {
         turns([&](int i, int j, const Vector3&, const Vector3&) { return std::sin(angle(i, j)); })),
         without_geometry(turns(
             [&](int i, int j, const Vector3&, const Vector3&) { return std::cos(angle(i, j)); }));
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(B);
-    return (residual_ - B * qr.solve(residual_)).squaredNorm();
+    return (residual_ - B * PivotedQr(B).solve(residual_)).squaredNorm();
   }
 
  private:

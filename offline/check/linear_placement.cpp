@@ -3,9 +3,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "numbers/pivoted_qr.hpp"
+#include "numbers/rotation_fit.hpp"
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -32,16 +34,12 @@ LinearPlacer::LinearPlacer(const Rows3& p_M, const std::array<bool, 3>& has_axis
   for (int k = 0; k < 3; ++k)
     if (!has_axis[k]) centred.col(k).setZero();
   spread_ = centred.transpose() * centred / static_cast<double>(n);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  qr.setThreshold(kFlatCloud);
+  const PivotedQr qr(A, kFlatCloud);
   const Eigen::Index rank = qr.rank();
-  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(n, rank);
+  basis_ = qr.basis(rank);
   Eigen::MatrixXd R_inverse = Eigen::MatrixXd::Zero(axes_ + 1, rank);
-  R_inverse.topRows(rank) = qr.matrixR()
-                                .topLeftCorner(rank, rank)
-                                .triangularView<Eigen::Upper>()
-                                .solve(Eigen::MatrixXd::Identity(rank, rank));
-  to_map_ = qr.colsPermutation() * R_inverse;
+  R_inverse.topRows(rank) = upper_solved(qr.triangle(rank), Eigen::MatrixXd::Identity(rank, rank));
+  to_map_ = qr.in_place(R_inverse);
   sides_.resize(n, 12);
 }
 
@@ -88,10 +86,8 @@ LinearPlacement LinearPlacer::place(const std::vector<Transformd>& X_BT) {
 void LinearPlacer::tighten(LinearPlacement& placement) const {
   // min over s, Q of tr[(M - s Q) C (M - s Q)^T]: Q from the SVD of M C, s = sum of its singular
   // values over tr C.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(placement.M * spread_,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d Q = svd.matrixU() * svd.matrixV().transpose();
-  placement.ratio = svd.singularValues().sum() / spread_.trace();
+  const auto [Q, sum] = nearest_orthogonal(placement.M * spread_);
+  placement.ratio = sum / spread_.trace();
   placement.left_handed = axes_ == 3 && Q.determinant() < 0.0;
   const Eigen::Matrix3d off = placement.M - placement.ratio * Q;
   const double away = (off * spread_ * off.transpose()).trace();

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/regularised_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +8,8 @@
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/solver.hpp"
+#include "numbers/cholesky.hpp"
+#include "numbers/rotation_fit.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -87,7 +86,7 @@ class PulledFit {
     for (int attempt = 0; attempt < 8; ++attempt, damping *= 10.0) {
       Eigen::MatrixXd damped = N;
       damped.diagonal() += (damping * N.diagonal()).array().max(floor).matrix();
-      const ArmState next = moved(state, parameters_, damped.ldlt().solve(g));
+      const ArmState next = moved(state, parameters_, SymmetricSolver(damped).solve(g));
       const double cost_next = cost(next);
       if (!(cost_next < cost_now)) continue;
       const bool worth = cost_now - cost_next > kEnoughFall * cost_now;
@@ -178,10 +177,8 @@ ArmState state_near(const Cell& cell, const Measurements& measured, const std::v
   ArmState out;
   out.arm.calibrated = cell.nominal;
   for (int k = 0; k < 3; ++k) out.X_TG.p[k] = target_T(k);
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   Transformd X_MB;
-  X_MB.R = svd.matrixV() * Vector3(1, 1, handed).asDiagonal() * svd.matrixU().transpose();
+  X_MB.R = nearest_rotation(M).transpose();
   out.X_MB = to_pose(X_MB);
   const Measurements some = pick(measured, rows);
   const Rows3 shift = residuals(some, predict_points(out, some.q));

@@ -13,8 +13,8 @@
 #include "check/row_lines.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
-#include "fit/quantile.hpp"
 #include "fit/thinned_rows.hpp"
+#include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {

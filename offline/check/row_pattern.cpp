@@ -11,7 +11,7 @@
 #include "cell/table_place.hpp"
 #include "check/row_lines.hpp"
 #include "check/tool_errors.hpp"
-#include "fit/quantile.hpp"
+#include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {

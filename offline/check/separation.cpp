@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "check/arm_shape.hpp"
 #include "fit/imagined_poses.hpp"
 #include "fit/parameter_subset.hpp"
+#include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -39,7 +39,7 @@ Mixture mixture(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column) {
     out.left = 1.0;
     return out;
   }
-  const Eigen::VectorXd x = kept.colPivHouseholderQr().solve(column);
+  const Eigen::VectorXd x = PivotedQr(kept).solve(column);
   out.left = (column - kept * x).norm() / whole;
   std::vector<std::pair<double, int>> shares;
   for (Eigen::Index i = 0; i < x.size(); ++i) {

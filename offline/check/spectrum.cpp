@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/spectrum.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "numbers/spectrum.hpp"
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -14,12 +14,7 @@ constexpr double kNothing = 1e-7;  // of the largest: what the fit counts as no 
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& J) {
   if (J.size() == 0) return {};
   // R of J = Q R has the same ones and is small.
-  const Eigen::Index rows = std::min(J.rows(), J.cols());
-  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(J)
-                                .matrixQR()
-                                .topRows(rows)
-                                .triangularView<Eigen::Upper>();
-  return R.jacobiSvd().singularValues();
+  return jacobi_singular_values(householder_triangle(J));
 }
 
 Spectrum spectrum(const Eigen::MatrixXd& J) {

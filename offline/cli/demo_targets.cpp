@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
-
 #include "cell/random.hpp"
 #include "fit/parameter.hpp"
+#include "numbers/spectrum.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "show/units.hpp"
 
@@ -34,7 +33,7 @@ double dexterity(const Chain& arm, const std::vector<double>& q, double reach_m)
   jacobian(arm, frames, J);
   Eigen::MatrixXd scaled = J.leftCols(arm.joints());
   scaled.topRows<3>() /= reach_m;
-  return scaled.jacobiSvd().singularValues()(std::min(6, arm.joints()) - 1);
+  return jacobi_singular_values(scaled)(std::min(6, arm.joints()) - 1);
 }
 
 std::string header(const Cell& cell) {

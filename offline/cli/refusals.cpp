@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "cell/units.hpp"
+#include "numbers/spectrum.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -93,8 +93,7 @@ std::string Refusals::singular_joints(std::span<const double> seed) const {
   jacobian(chain, frames, J);
   J.topRows<3>() /= corrector_->limits().length_scale_m;
   const Eigen::MatrixXd all = J.leftCols(chain.joints());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinV);
-  const Eigen::VectorXd still = svd.matrixV().col(svd.matrixV().cols() - 1);
+  const Eigen::VectorXd still = right_singular(all).vectors.rightCols<1>();
   std::vector<std::string> names;
   for (Eigen::Index j = 0; j < still.size(); ++j)
     if (std::abs(still(j)) > kTakesPart) names.push_back(fmt::format("J{}", j + 1));

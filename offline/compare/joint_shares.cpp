@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tree/f_tail.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {
@@ -35,7 +35,7 @@ JointShare share_of(const StepMotions& motions, int joint, const Eigen::VectorXd
   const double whole = motions.squares(), coordinates = static_cast<double>(motions.axes()) * n;
   const double left = whole - explained, free = coordinates - out.bins;
   if (!(left > 0.0) || free < 1.0) return out;
-  out.ln_p = ln_f_tail(explained / out.bins / (left / free), out.bins, free);
+  out.ln_p = f_test(explained, out.bins, left, free).ln_p;
   out.share = std::max(0.0, 1.0 - left / free / (whole / coordinates));
   out.rms_rad = std::sqrt(turns / n);
   return out;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "tree/f_tail.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {

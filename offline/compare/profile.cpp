@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tree/f_tail.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {
@@ -92,8 +92,7 @@ void explain(const std::vector<Sample>& samples, const std::vector<int>& bin, Er
   // Errors that are all alike differ by rounding only.
   if (!(whole > 1e-20 * squares) || !(left > 0.0)) return;
   out.explained = (between - mean_part) / whole;
-  out.ln_p = ln_f_tail((between - mean_part) / (filled - 1.0) / (left / (n - filled)), filled - 1.0,
-                       n - filled);
+  out.ln_p = f_test(between - mean_part, filled - 1.0, left, n - filled).ln_p;
 }
 
 }  // namespace

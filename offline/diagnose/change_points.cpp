@@ -2,7 +2,6 @@
 #include "diagnose/change_points.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,6 +13,7 @@
 #include "fit/cut_search.hpp"
 #include "fit/moving_part.hpp"
 #include "fit/running_sums.hpp"
+#include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -47,9 +47,8 @@ Eigen::MatrixXd cleared(const WhitenedFit& s, Eigen::MatrixXd X) {
   if (X.cols() == 0) return X;
   const auto U = s.U.topRows(s.fit_lines);
   for (int pass = 0; pass < 2; ++pass) X -= U * (U.transpose() * X).eval();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
-  qr.setThreshold(kIndependent);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(X.rows(), qr.rank());
+  const PivotedQr qr(X, kIndependent);
+  return qr.basis(qr.rank());
 }
 
 /// A part that may have moved, and what is summed of its motions over the poses behind a cut. Its

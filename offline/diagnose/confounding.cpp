@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/confounding.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "diagnose/constants.hpp"
 #include "effects/registry.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 struct Seen {
   Eigen::MatrixXd X;  // columns cleared of the model, over the fit lines
   Eigen::VectorXd motion;
-  Eigen::LDLT<Eigen::MatrixXd> gram;
+  SymmetricSolver gram;
 };
 
 Seen seen_of(const WhitenedFit& s, const Found& found) {
@@ -27,7 +27,7 @@ Seen seen_of(const WhitenedFit& s, const Found& found) {
   Eigen::MatrixXd gram = out.X.transpose() * out.X;
   // Columns that repeat each other are common; a trace of the largest keeps this solvable.
   gram.diagonal().array() += 1e-10 * gram.diagonal().maxCoeff();
-  out.gram.compute(gram);
+  out.gram = SymmetricSolver(gram);
   return out;
 }
 

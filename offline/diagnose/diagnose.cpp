@@ -21,8 +21,8 @@
 #include "diagnose/sharpen_steps.hpp"
 #include "effects/registry.hpp"
 #include "fit/few_poses.hpp"
-#include "fit/quantile.hpp"
 #include "fit/split.hpp"
+#include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/evidence.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "diagnose/constants.hpp"
+#include "numbers/gaussian.hpp"
+#include "numbers/spectrum.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kNothingLeft = 1e-12;  // share of Q: rounding
-
 double ln_bayes_at(double tau, const Eigen::ArrayXd& w, const Eigen::ArrayXd& v, double Q,
                    const EvidenceScale& scale) {
   const double ridge = scale.variance / (tau * tau);
-  const double paid = -0.5 * (1.0 + w / ridge).log().sum();
-  const double before = scale.dof * scale.variance + Q;
-  const double after = before - (v.square() / (w + ridge)).sum();
-  return paid - 0.5 * (scale.lines + scale.dof) *
-                    std::log(std::max(after, kNothingLeft * before) / before);
+  return evidence_gain((1.0 + w / ridge).log().sum(), scale.dof * scale.variance + Q,
+                       (v.square() / (w + ridge)).sum(), scale.lines + scale.dof)
+      .ln_bayes;
 }
 
 }  // namespace
@@ -35,9 +32,9 @@ Evidence evidence(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double 
     w = gram.diagonal().array();
     u = v.array();
   } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-    w = eigen.eigenvalues().array();
-    u = (eigen.eigenvectors().transpose() * v).array();
+    const SymmetricEigen eigen = symmetric_eigen(gram);
+    w = eigen.values.array();
+    u = (eigen.vectors.transpose() * v).array();
   }
   w = w.max(0.0);
   std::array<double, kPriorWidths.size()> ln{};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/extension.hpp"
 
-#include <Eigen/QR>
-
 #include "diagnose/series_scan.hpp"
+#include "numbers/pivoted_qr.hpp"
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -28,12 +28,10 @@ WhitenedFit extended(const WhitenedFit& whitened, const Regressor& regressor,
   // Twice: what the first pass leaves of the model is rounding of large numbers.
   for (int pass = 0; pass < 2; ++pass)
     X -= whitened.U * (whitened.U.topRows(fit).transpose() * X.topRows(fit)).eval();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X.topRows(fit));
+  const PivotedQr qr(X.topRows(fit));
   Eigen::Index rank = 0;
-  while (rank < X.cols() && std::abs(qr.matrixQR()(rank, rank)) > kIndependentColumn) ++rank;
-  Eigen::MatrixXd fresh = (X * qr.colsPermutation()).leftCols(rank);
-  const Eigen::MatrixXd R = qr.matrixQR().topLeftCorner(rank, rank);
-  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(fresh);
+  while (rank < X.cols() && qr.pivot(rank) > kIndependentColumn) ++rank;
+  const Eigen::MatrixXd fresh = divided_by_upper(qr.ordered(X).leftCols(rank), qr.triangle(rank));
   const Eigen::VectorXd explained = fresh.topRows(fit).transpose() * out.y.head(fit);
   out.y -= fresh * explained;
   out.Q = out.y.head(fit).squaredNorm();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/fitted_size.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -29,7 +30,7 @@ FittedSize fitted_size(const RegressorScore& scored, const Eigen::VectorXd& prio
     Eigen::MatrixXd sum = own;
     sum.diagonal() += weight;
     sum.diagonal().array() += kSolvable * std::max(own.diagonal().maxCoeff(), 1e-300);
-    C = sum.ldlt().solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
+    C = SymmetricSolver(sum).inverse();
     const Eigen::VectorXd next = C * v;
     const double change = (next - theta).norm();
     theta = next;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/model_parts.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,6 +13,7 @@
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -74,7 +74,7 @@ double evidence_of(const Part& part, const WhitenedFit& whitened, const Calibrat
     C.row(i) /= typical;
     C.col(i) /= typical;
   }
-  const Eigen::MatrixXd gram = C.ldlt().solve(Eigen::MatrixXd::Identity(b, b));
+  const Eigen::MatrixXd gram = SymmetricSolver(C).inverse();
   const Eigen::VectorXd v = gram * theta;
   EvidenceScale scale = evidence_scale(whitened);
   scale.lines += static_cast<double>(b);
@@ -87,7 +87,7 @@ double motion_of(const Part& part, const WhitenedFit& whitened, const Calibratio
   for (Eigen::Index i = 0; i < theta.size(); ++i)
     theta(i) = value_of(calibration.state, calibration.parameters[part.index[i]]);
   const Eigen::MatrixXd C = covariance_of(part, whitened);
-  return std::sqrt(std::max(0.0, theta.dot(C.ldlt().solve(theta))));
+  return std::sqrt(std::max(0.0, theta.dot(SymmetricSolver(C).solve(theta))));
 }
 
 /// A pattern of no law has a cause of its own.

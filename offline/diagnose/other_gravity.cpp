@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "diagnose/thinned_fit.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
+#include "numbers/cholesky.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::offline {
@@ -104,7 +104,7 @@ Eigen::MatrixXd along(const Load& load, const Vector3& d) {
 /// Sizes that explain most, with a little damping, so that what moves nothing stays 0.
 Eigen::VectorXd solved(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double variance) {
   const double ridge = variance / std::pow(kPriorWidths.back(), 2);
-  return (gram + ridge * Eigen::MatrixXd::Identity(v.size(), v.size())).ldlt().solve(v);
+  return SymmetricSolver(gram + ridge * Eigen::MatrixXd::Identity(v.size(), v.size())).solve(v);
 }
 
 /// The direction that explains most, by turns: sizes under a direction, the direction under sizes.

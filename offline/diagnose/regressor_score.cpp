@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/regressor_score.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
 #include "diagnose/series_scan.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -100,7 +100,7 @@ Scorer::Scorer(const WhitenedFit& whitened)
     fold.UU = fold.UU.selfadjointView<Eigen::Lower>();
     fold.Uy = U.transpose() * y;
     fold.yy = y.squaredNorm();
-    fold.without = (I * (1.0 + kRidge) - fold.UU).llt().solve(I);
+    fold.without = Cholesky(I * (1.0 + kRidge) - fold.UU).solve(I);
     const Eigen::VectorXd a = -(fold.without * fold.Uy);
     fold.error = fold.yy - 2.0 * a.dot(fold.Uy) + a.dot(fold.UU * a);
     folds_.push_back(std::move(fold));
@@ -147,7 +147,8 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
     out.variance = variance_with(gram, v, out.evidence.width);
     const double ridge = out.variance / std::pow(out.evidence.width, 2);
     const Eigen::VectorXd theta =
-        (gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).ldlt().solve(v);
+        SymmetricSolver(gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols()))
+            .solve(v);
     const Eigen::Index worst = most_negative(regressor, out.active, theta);
     if (worst < 0) {
       out.theta(out.active) = theta;
@@ -174,7 +175,7 @@ double Scorer::variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd&
                              double width) const {
   const double ridge = scale_.variance / std::pow(width, 2);
   const Eigen::MatrixXd damped = gram + ridge * Eigen::MatrixXd::Identity(v.size(), v.size());
-  const double left = std::max(0.0, whitened_.Q - v.dot(damped.ldlt().solve(v)));
+  const double left = std::max(0.0, whitened_.Q - v.dot(SymmetricSolver(damped).solve(v)));
   return std::max(kLeastVariance, (scale_.dof * scale_.variance + left) /
                                       (scale_.dof + std::max(1.0, scale_.lines)));
 }
@@ -199,7 +200,8 @@ Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) con
   const Eigen::MatrixXd AB = fold.without * B;
   const Eigen::MatrixXd S =
       all.XX - held.XX - B.transpose() * AB + ridge * Eigen::MatrixXd::Identity(b, b);
-  const Eigen::VectorXd theta = S.ldlt().solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
+  const Eigen::VectorXd theta =
+      SymmetricSolver(S).solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
   Without out{-(fold.without * fold.Uy) - AB * theta, Eigen::VectorXd::Zero(scored.theta.size())};
   out.regressor(scored.active) = theta;
   return out;

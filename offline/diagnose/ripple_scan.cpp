@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/ripple_scan.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnose/constants.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -107,7 +107,7 @@ void refine(const Scorer& scorer, Ripples& out, double step) {
     const double left = scorer.whitened().Q * (1.0 - now.explained) / scorer.scale().lines /
                         std::pow(0.25 * step, 2);
     gram.diagonal().tail(m).array() += left;
-    const Eigen::VectorXd theta = gram.ldlt().solve(all.Xy);
+    const Eigen::VectorXd theta = SymmetricSolver(gram).solve(all.Xy);
     const Eigen::VectorXd change = theta.tail(m).cwiseMax(-0.5 * step).cwiseMin(0.5 * step);
     bool better = false;
     for (double share = 1.0; share > kLeastShare && !better; share *= 0.5) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/series_scan.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "diagnose/few_digits.hpp"
 #include "effects/registry.hpp"
 #include "fit/series_numbers.hpp"
+#include "numbers/gaussian.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -119,14 +119,13 @@ SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
   const Eigen::VectorXd sigma = sigmas(sums, prior);
   Eigen::MatrixXd scaled = sigma.asDiagonal() * sums.gram * sigma.asDiagonal();
   scaled.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(scaled);
-  if (llt.info() != Eigen::Success) return {prior};
+  const Cholesky llt(scaled);
+  if (!llt.exists()) return {prior};
   const Eigen::VectorXd v = sigma.cwiseProduct(sums.v);
-  const double before = sums.scale.dof * sums.scale.variance + sums.Q;
-  const double after = std::max(1e-12 * before, before - v.dot(llt.solve(v)));
   const double n = sums.scale.lines + sums.scale.dof;
-  const double paid = llt.matrixLLT().diagonal().array().log().sum();
-  return {prior, -paid - 0.5 * n * std::log(after / before), std::sqrt(after / n)};
+  const EvidenceGain gain = evidence_gain(
+      llt.ln_det(), sums.scale.dof * sums.scale.variance + sums.Q, v.dot(llt.solve(v)), n);
+  return {prior, gain.ln_bayes, std::sqrt(gain.after / n)};
 }
 
 /// Whether a gear may be expected to have such waves. Where poses leave a range of the joint out,
@@ -281,15 +280,14 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   for (int turn = 0; turn < 4; ++turn) {
     Eigen::MatrixXd held = gram;
     held.diagonal().array() += left;
-    const Eigen::LLT<Eigen::MatrixXd> llt(held);
+    const Cholesky llt(held);
     out.theta = llt.solve(all.Xy);
-    const double before = scale.dof * scale.variance + s.Q;
-    const double after = std::max(1e-12 * before, before - all.Xy.dot(out.theta));
     const double n = scale.lines + scale.dof;
-    const double paid = llt.matrixLLT().diagonal().array().log().sum() -
-                        0.5 * static_cast<double>(all.Xy.size()) * std::log(left);
-    out.evidence = {-paid - 0.5 * n * std::log(after / before), 1.0};
-    left = after / n;
+    const EvidenceGain gain =
+        evidence_gain(llt.ln_det() - static_cast<double>(all.Xy.size()) * std::log(left),
+                      scale.dof * scale.variance + s.Q, all.Xy.dot(out.theta), n);
+    out.evidence = {gain.ln_bayes, 1.0};
+    left = gain.after / n;
   }
   out.variance = left;
   out.evidence.ln_bayes -= s.scatter_nats;

@@ -11,6 +11,7 @@
 #include "draw/sheet.hpp"
 #include "figures/words.hpp"
 #include "fit/noise_floor.hpp"
+#include "numbers/cholesky.hpp"
 #include "plan/design_space.hpp"
 #include "plan/information.hpp"
 #include "plan/plan_steps.hpp"
@@ -92,7 +93,7 @@ std::vector<PoseGain> gains_of(Gains poses, Gains judged, Eigen::MatrixXd covari
     const Eigen::MatrixXd& A = poses.lines(best);
     Eigen::MatrixXd grown = A * covariance * A.transpose();
     grown.diagonal().array() += 1.0;
-    const Eigen::MatrixXd half = Eigen::LLT<Eigen::MatrixXd>(grown).matrixL().solve(A * covariance);
+    const Eigen::MatrixXd half = Cholesky(grown).whitened(A * covariance);
     const double nats = poses.nats(best);
     covariance.noalias() -= half.transpose() * half;
     poses.add(half);

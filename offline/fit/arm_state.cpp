@@ -2,7 +2,7 @@
 #include "fit/arm_state.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/measured_arm.hpp"
-#include "tree/jobs.hpp"
+#include "numbers/jobs.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -28,6 +26,8 @@
 #include "fit/unknown_numbers.hpp"
 #include "fit/weak_directions.hpp"
 #include "fit/weights.hpp"
+#include "numbers/spectrum.hpp"
+#include "numbers/triangle.hpp"
 #include "program/file.hpp"
 
 namespace plumb::offline {
@@ -46,11 +46,9 @@ constexpr Identifiability kRank{.min_independent_share = 1e-7};
 
 /// (J^T J)^-1 by QR of the scaled Jacobian.
 Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
-  const Eigen::VectorXd scale = J.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J * scale.asDiagonal());
-  const Eigen::MatrixXd R_inverse =
-      qr.matrixQR().topRows(J.cols()).triangularView<Eigen::Upper>().solve(
-          Eigen::MatrixXd::Identity(J.cols(), J.cols()));
+  const Eigen::VectorXd scale = per_norm(J);
+  const Eigen::MatrixXd R_inverse = upper_solved(householder_triangle(J * scale.asDiagonal()),
+                                                 Eigen::MatrixXd::Identity(J.cols(), J.cols()));
   const Eigen::MatrixXd half = scale.asDiagonal() * R_inverse;
   return (half * half.transpose()).selfadjointView<Eigen::Lower>();
 }
@@ -62,7 +60,7 @@ double calibrability(const Eigen::MatrixXd& information, const std::vector<Param
     if (parameters[i].of_robot()) robot.push_back(static_cast<Eigen::Index>(i));
   if (robot.empty()) return 0.0;
   const Eigen::MatrixXd part = information(robot, robot);
-  const Eigen::VectorXd w = part.jacobiSvd().singularValues();
+  const Eigen::VectorXd w = jacobi_singular_values(part);
   return w(w.size() - 1) > 0 ? w(0) / w(w.size() - 1) : 0.0;
 }
 

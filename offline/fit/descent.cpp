@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/descent.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "fit/arm_change.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/row_sums.hpp"
 #include "fit/thinned_rows.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -27,7 +27,7 @@ Eigen::VectorXd step_of(const Sums& at, double damping) {
   const Eigen::VectorXd scale = (length.array() > 0.0).select(length.cwiseInverse(), 0.0);
   Eigen::MatrixXd unit = scale.asDiagonal() * at.information * scale.asDiagonal();
   unit.diagonal().setConstant(1.0 + damping);
-  return -(scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * at.gradient));
+  return -(scale.asDiagonal() * SymmetricSolver(unit).solve(scale.asDiagonal() * at.gradient));
 }
 
 /// Gauss-Newton steps from `state`, damped if they raise the cost (Levenberg-Marquardt).
@@ -71,8 +71,7 @@ Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd scale = length.cwiseInverse();
   Eigen::MatrixXd unit = scale.asDiagonal() * information * scale.asDiagonal();
   unit.diagonal().setConstant(1.0 + kLeastDamping);
-  const Eigen::MatrixXd R = unit.llt().matrixU();
-  return R * length.asDiagonal();
+  return Cholesky(unit).lower().transpose() * length.asDiagonal();
 }
 
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/explained.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "tree/f_tail.hpp"
+#include "numbers/cholesky.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -122,7 +122,7 @@ std::optional<Explained> drift_of(const MotionSums& sums, const VisitRun& s,
     along += x.transpose() * what.error.col(i);
   }
   gram.diagonal().array() += 1e-9 * s.size();
-  const Eigen::VectorXd numbers = gram.llt().solve(along);
+  const Eigen::VectorXd numbers = Cholesky(gram).solve(along);
   Explained out;
   out.sums = &sums;
   out.gain = numbers.dot(along) - sums.explained(s.first, s.last);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/frame_start.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
-
 #include "cell/setups.hpp"
 #include "fit/measured_arm.hpp"
+#include "numbers/rotation_fit.hpp"
 
 namespace plumb::offline {
 
@@ -13,10 +11,8 @@ format::Pose align(const Rows3& p_B, const Rows3& p_M) {
   const Eigen::RowVector3d mean_B = p_B.colwise().mean();
   const Eigen::RowVector3d mean_M = p_M.colwise().mean();
   const Matrix3 H = (p_M.rowwise() - mean_M).transpose() * (p_B.rowwise() - mean_B);
-  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   Transformd X_MB;
-  X_MB.R = svd.matrixU() * Vector3(1, 1, handed).asDiagonal() * svd.matrixV().transpose();
+  X_MB.R = nearest_rotation(H);
   X_MB.p = mean_M.transpose() - X_MB.R * mean_B.transpose();
   return to_pose(X_MB);
 }
@@ -47,9 +43,7 @@ std::array<double, 4> align_target(const ArmState& state, const Measurements& me
     const Eigen::Map<const Eigen::Vector4d> v(q_TG.data());
     sum += v * v.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(sum);
-  Eigen::Vector4d mean = eigen.eigenvectors().col(3);
-  if (mean(0) < 0) mean = -mean;
+  const Eigen::Vector4d mean = mean_quaternion(sum);
   return {mean(0), mean(1), mean(2), mean(3)};
 }
 

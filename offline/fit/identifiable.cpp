@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/identifiable.hpp"
 
-#include <Eigen/QR>
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 
 Subset identifiable(const Eigen::MatrixXd& J, const Identifiability& limits) {
   const Eigen::Index columns = J.cols();
   const Eigen::Index rows = std::min(J.rows(), columns);
-  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(J)
-                                .matrixQR()
-                                .topRows(rows)
-                                .triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd R = householder_triangle(J);
   Eigen::MatrixXd basis(rows, rows);
   Eigen::Index rank = 0;
   Subset out;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/joint_scatter.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -45,11 +46,10 @@ Whitened whitened_by(const ScatterLines& s, const JointScatter& at, bool with_mo
   }
   double ln_determinant = 0.0;
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance_at(s, at, i));
-    const auto L = root.matrixL();
+    const Cholesky root(covariance_at(s, at, i));
     const Eigen::Index line = i * s.axes;
-    ln_determinant += 2.0 * root.matrixLLT().diagonal().array().log().sum();
-    const auto divide = [&](auto&& lines) { L.solveInPlace(lines); };
+    ln_determinant += root.ln_det();
+    const auto divide = [&](auto&& lines) { lines = root.whitened(lines); };
     divide(out.residual.segment(line, s.axes));
     divide(out.model.middleRows(line, s.axes));
     if (!with_motions) continue;
@@ -58,11 +58,10 @@ Whitened whitened_by(const ScatterLines& s, const JointScatter& at, bool with_mo
   }
   Eigen::MatrixXd information = out.model.transpose() * out.model;
   information.diagonal().array() *= 1.0 + kScatterRidge;
-  const Eigen::LLT<Eigen::MatrixXd> root(information);
-  root.matrixU().solveInPlace<Eigen::OnTheRight>(out.model);
+  const Cholesky root(information);
+  out.model = root.orthonormal(out.model);
   out.residual -= out.model * (out.model.transpose() * out.residual).eval();
-  const double ln_information = 2.0 * root.matrixLLT().diagonal().array().log().sum();
-  out.ln_determinants = ln_determinant + ln_information;
+  out.ln_determinants = ln_determinant + root.ln_det();
   return out;
 }
 
@@ -142,7 +141,7 @@ JointScatter estimated_scatter(const ScatterLines& s, const JointScatter& start,
 
 JointScatter noise_alone(const ScatterLines& s) {
   // Without scatter the iterations have a closed end.
-  const Eigen::LLT<Eigen::MatrixXd> information(s.U.transpose() * s.U);
+  const Cholesky information(s.U.transpose() * s.U);
   const Eigen::VectorXd r = s.y - s.U * information.solve(s.U.transpose() * s.y);
   const double free = std::max(1.0, static_cast<double>(s.y.size() - s.U.cols()));
   const double variance = (r.squaredNorm() + s.noise_dof * s.noise_variance) / (free + s.noise_dof);

@@ -6,16 +6,17 @@
 #include <cmath>
 
 #include "fit/many_rows.hpp"
+#include "numbers/cholesky.hpp"
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 namespace {
 
 /// J L^-T, L L^T = J^T J of scaled columns: its rows are those of an orthonormal basis of J.
 Eigen::MatrixXd orthonormal_rows(const Eigen::MatrixXd& J) {
-  const Eigen::VectorXd scale = J.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::VectorXd scale = per_norm(J);
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> llt(scaled.transpose() * scaled);
-  return llt.matrixU().solve<Eigen::OnTheRight>(scaled);
+  return Cholesky(scaled.transpose() * scaled).orthonormal(scaled);
 }
 
 /// The lines of one pose: at most six.
@@ -54,9 +55,9 @@ Leverage::Leverage(const FitData& data, const Solution& at,
     from_jacobian(at);
     return;
   }
-  const auto R = at.jacobian.triangularView<Eigen::Upper>();
   visit_jacobian(data, at.state, parameters, [&](int first, const RowMajorMatrix& J) {
-    const Eigen::MatrixXd Q = R.transpose().solve(J.transpose());  // columns: lines
+    const Eigen::MatrixXd Q =
+        upper_transposed_solved(at.jacobian, J.transpose());  // columns: lines
     for (Eigen::Index i = 0; i < J.rows() / lines_; ++i)
       put(first + i, Q.middleCols(lines_ * i, lines_).transpose());
   });

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +12,9 @@
 #include "fit/effect_binding.hpp"
 #include "fit/many_rows.hpp"
 #include "fit/thinned_rows.hpp"
+#include "numbers/gaussian.hpp"
+#include "numbers/spectrum.hpp"
+#include "numbers/triangle.hpp"
 #include "program/file.hpp"
 
 namespace plumb::offline {
@@ -161,11 +161,7 @@ Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter
   A.rightCols(1) = here.residual;
   A.middleCols(free, built.size()) *= built.asDiagonal();
   for (Eigen::Index k = 0; k < free; ++k) A.col(k) /= std::max(A.col(k).norm(), 1e-300);
-  const Eigen::Index top = std::min(lines, columns + 1);
-  const Eigen::MatrixXd triangle = Eigen::HouseholderQR<Eigen::MatrixXd>(A)
-                                       .matrixQR()
-                                       .topRows(top)
-                                       .triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd triangle = householder_triangle(A);
   const Eigen::Index told = std::max<Eigen::Index>(0, std::min(lines, columns) - free);
   Shown out;
   out.R = triangle.block(free, free, told, built.size());
@@ -175,12 +171,6 @@ Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter
     out.rest_lines = static_cast<double>(lines - columns);
   }
   return out;
-}
-
-/// ln of the normal density of x with zero mean, constants left out.
-double ln_normal(const Eigen::VectorXd& x, const Eigen::MatrixXd& S) {
-  const Eigen::LLT<Eigen::MatrixXd> llt(S);
-  return -0.5 * x.dot(llt.solve(x)) - llt.matrixLLT().diagonal().array().log().sum();
 }
 
 /// One degree of likeness: this arm is N(mean, P), in which the number `changed` may be anything.
@@ -248,7 +238,7 @@ class Mixture {
     const Eigen::MatrixXd across = out.P * shown_.R.transpose();
     Eigen::MatrixXd S = shown_.R * across;
     S.diagonal().array() += h.noise * h.noise;
-    const Eigen::LLT<Eigen::MatrixXd> llt(S);
+    const Cholesky llt(S);
     const Eigen::VectorXd off = shown_.z - shown_.R * (out.mean - u0_);
     out.mean += across * llt.solve(off);
     out.P -= across * llt.solve(across.transpose());
@@ -259,8 +249,8 @@ class Mixture {
     const Eigen::Index count = earlier_.x.size();
     const Eigen::MatrixXd T = scale * scale * Eigen::MatrixXd::Identity(count, count);
     const Eigen::MatrixXd of_run = earlier_.C + T;
-    const Eigen::LLT<Eigen::MatrixXd> llt(of_run);
-    const double ln_earlier = ln_normal(earlier_.x, of_run);
+    const Cholesky llt(of_run);
+    const double ln_earlier = ln_normal(earlier_.x, llt);
     const Eigen::VectorXd d = T * llt.solve(earlier_.x);
     const Eigen::MatrixXd V = T - T * llt.solve(T);
     for (const double spread : kSpreads) {
@@ -277,13 +267,13 @@ class Mixture {
     const Base& base = bases_.back();
     const Eigen::VectorXd z = shown_.z - shown_.R * (base.mean - u0_);
     const Eigen::MatrixXd seen = shown_.R * base.P * shown_.R.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(seen);
-    const Eigen::MatrixXd Ut = eigen.eigenvectors().transpose();
+    const SymmetricEigen eigen = symmetric_eigen(seen);
+    const Eigen::MatrixXd Ut = eigen.vectors.transpose();
     const Eigen::ArrayXd w = Ut * z;
     const Eigen::MatrixXd moved = Ut * shown_.R * (kChangeTimes * scale);
     const bool may_change = spread <= kMostWithChange;
     for (const double noise : kNoises) {
-      const Eigen::ArrayXd S = eigen.eigenvalues().array().max(0.0) + noise * noise;
+      const Eigen::ArrayXd S = eigen.values.array().max(0.0) + noise * noise;
       const Eigen::ArrayXd Sw = w / S;
       const double ln = ln_before - 0.5 * ((w * Sw).sum() + S.log().sum()) -
                         0.5 * shown_.rest / (noise * noise) - shown_.rest_lines * std::log(noise) -
@@ -314,9 +304,9 @@ class Mixture {
     const Eigen::MatrixXd V = Ut * shown_.R(Eigen::all, offsets_) * (kChangeTimes * h.scale);
     Eigen::MatrixXd more = V.transpose() * S.inverse().matrix().asDiagonal() * V;
     more.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> llt(more);
+    const Cholesky llt(more);
     const Eigen::VectorXd towards = V.transpose() * Sw.matrix();
-    return 0.5 * towards.dot(llt.solve(towards)) - llt.matrixLLT().diagonal().array().log().sum();
+    return 0.5 * towards.dot(llt.solve(towards)) - 0.5 * llt.ln_det();
   }
 
   /// Hypotheses that weigh nothing are dropped.

@@ -7,24 +7,12 @@
 #include <numeric>
 
 #include "fit/arm_state.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kNormal975 = 1.959963984540054;
 constexpr std::size_t kFewestPoses = 3;
-
-/// 97.5 % quantile of Student's t [Abramowitz & Stegun 1964, 26.7.5]; within 1 % from two degrees
-/// of freedom on.
-double student975(double dof) {
-  const double z = kNormal975, z2 = z * z;
-  const double g1 = z * (z2 + 1.0) / 4.0;
-  const double g2 = z * ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0;
-  const double g3 = z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0;
-  const double g4 =
-      z * ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92160.0;
-  return z + (g1 + (g2 + (g3 + g4 / dof) / dof) / dof) / dof;
-}
 
 }  // namespace
 
@@ -39,7 +27,7 @@ MeanInterval mean_interval(const std::vector<double>& errors_m, const std::vecto
   double squares = 0.0;
   for (const auto& [group, sum] : sums) squares += sum * sum;
   const double se = std::sqrt(poses / (poses - 1.0) * squares) / n;
-  const double half = student975(poses - 1.0) * se;
+  const double half = student_quantile(0.975, poses - 1.0) * se;
   return {std::max(0.0, mean - half), mean + half, se};
 }
 

@@ -2,8 +2,9 @@
 #include "fit/motion_sums.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "numbers/spectrum.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -20,12 +21,12 @@ MotionSums::MotionSums(const StepMotions& motions, const MovingPart& part) : par
     columns_.emplace_back(motions.columns(i, part.source, part.joint));
     gram += columns_.back().transpose() * columns_.back();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram / std::max(1, n));
+  const SymmetricEigen eigen = symmetric_eigen(gram / std::max(1, n));
   combine_.resize(k, k);
   for (int i = 0; i < k; ++i) {
-    const double size = eigen.eigenvalues()(i);
-    if (size > kSeen * eigen.eigenvalues()(k - 1) && size > 1e-12)
-      combine_.col(rank_++) = eigen.eigenvectors().col(i) / std::sqrt(size);
+    const double size = eigen.values(i);
+    if (size > kSeen * eigen.values(k - 1) && size > 1e-12)
+      combine_.col(rank_++) = eigen.vectors.col(i) / std::sqrt(size);
   }
   combine_.conservativeResize(k, rank_);
   for (auto& c : columns_) c = Columns(c * combine_);

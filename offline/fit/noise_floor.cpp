@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "fit/quantile.hpp"
+#include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {

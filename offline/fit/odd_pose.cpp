@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/odd_pose.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "fit/orthonormal.hpp"
+#include "numbers/lu.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -28,9 +28,9 @@ std::optional<std::size_t> odd_pose(const FitData& data, const Solution& solutio
     const Eigen::Index at = lines * static_cast<Eigen::Index>(i);
     const Eigen::MatrixXd own = Q.middleRows(at, lines);
     const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(lines, lines) - own * own.transpose();
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(rest);
-    if (!lu.isInvertible()) continue;  // it alone decides something
-    const Eigen::VectorXd e = lu.solve(solution.residual.segment(at, lines));
+    const auto alone = solved_if_regular(rest, solution.residual.segment(at, lines));
+    if (!alone) continue;  // it alone decides something
+    const Eigen::VectorXd& e = *alone;
     Eigen::VectorXd others = solution.residual + Q * (own.transpose() * e);
     others.segment(at, lines).setZero();
     const double scatter = std::max(1.0, std::sqrt(others.squaredNorm() / left));

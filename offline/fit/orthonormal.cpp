@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/orthonormal.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "numbers/pivoted_qr.hpp"
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -19,10 +21,7 @@ Eigen::MatrixXd triangle_by_parts(const Eigen::Ref<const Eigen::MatrixXd>& J) {
     const Eigen::Index lines = std::min(part, J.rows() - first);
     Eigen::MatrixXd stack(R.rows() + lines, count);
     stack << R, J.middleRows(first, lines);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stack);
-    R = qr.matrixQR()
-            .topRows(std::min(stack.rows(), count))
-            .template triangularView<Eigen::Upper>();
+    R = householder_triangle(stack);
   }
   return R;
 }
@@ -30,20 +29,16 @@ Eigen::MatrixXd triangle_by_parts(const Eigen::Ref<const Eigen::MatrixXd>& J) {
 }  // namespace
 
 Orthonormal orthonormal(const Eigen::MatrixXd& J, Eigen::Index fit_lines) {
-  const Eigen::VectorXd scale =
-      J.topRows(fit_lines).colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::VectorXd scale = per_norm(J.topRows(fit_lines));
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle_by_parts(scaled.topRows(fit_lines)));
-  qr.setThreshold(kIndependent);
+  const PivotedQr qr(triangle_by_parts(scaled.topRows(fit_lines)), kIndependent);
   const Eigen::Index rank = qr.rank();
   Orthonormal out;
-  out.U = (scaled * qr.colsPermutation()).leftCols(rank);
-  const Eigen::MatrixXd R = qr.matrixQR().topLeftCorner(rank, rank);
-  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(out.U);
+  const Eigen::MatrixXd R = qr.triangle(rank);
+  out.U = divided_by_upper(qr.ordered(scaled).leftCols(rank), R);
   out.half = Eigen::MatrixXd::Zero(J.cols(), rank);
-  out.half.topRows(rank) =
-      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(rank, rank));
-  out.half = scale.asDiagonal() * (qr.colsPermutation() * out.half);
+  out.half.topRows(rank) = upper_solved(R, Eigen::MatrixXd::Identity(rank, rank));
+  out.half = scale.asDiagonal() * qr.in_place(out.half);
   return out;
 }
 

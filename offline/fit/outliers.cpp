@@ -10,7 +10,7 @@
 
 #include "fit/leverage.hpp"
 #include "fit/many_rows.hpp"
-#include "fit/quantile.hpp"
+#include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/prior_lines.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +8,7 @@
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/many_rows.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -91,8 +91,8 @@ PriorLines::EarlierNumbers PriorLines::earlier_numbers(const FitData& data,
   const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
   const Eigen::MatrixXd correlation =
       sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> llt(correlation);
-  out.whitening = llt.matrixL().solve(Eigen::MatrixXd(sigma.cwiseInverse().asDiagonal()));
+  out.whitening =
+      Cholesky(correlation).whitened(Eigen::MatrixXd(sigma.cwiseInverse().asDiagonal()));
   return out;
 }
 

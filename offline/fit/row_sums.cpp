@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fit/prior_lines.hpp"
-#include "tree/jobs.hpp"
+#include "numbers/jobs.hpp"
 
 namespace plumb::offline {
 namespace {

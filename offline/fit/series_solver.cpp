@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/series_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "effects/registry.hpp"
@@ -9,6 +8,7 @@
 #include "fit/descent.hpp"
 #include "fit/many_rows.hpp"
 #include "fit/series_numbers.hpp"
+#include "numbers/cholesky.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -165,7 +165,7 @@ class SeriesEquations {
 
   void damp(double damping) {
     matrix_.diagonal().setConstant(1.0 + damping);
-    llt_.compute(matrix_);
+    llt_ = Cholesky(matrix_);
   }
 
   Eigen::VectorXd solve(const Eigen::VectorXd& descent) const {
@@ -175,13 +175,13 @@ class SeriesEquations {
   /// Diagonal of the inverse over the last `count` unknowns, and what information is left of the
   /// first ones.
   Eigen::VectorXd variances(Eigen::Index count) const {
-    const Eigen::MatrixXd half = llt_.matrixL().solve(
+    const Eigen::MatrixXd half = llt_.whitened(
         Eigen::MatrixXd(Eigen::MatrixXd::Identity(scale_.size(), scale_.size()).rightCols(count)));
     return half.colwise().squaredNorm().transpose().cwiseProduct(scale_.tail(count).cwiseAbs2());
   }
   Eigen::MatrixXd marginal(Eigen::Index first) const {
     const Eigen::Index last = scale_.size() - first;
-    const Eigen::LLT<Eigen::MatrixXd> of_last(matrix_.bottomRightCorner(last, last));
+    const Cholesky of_last(matrix_.bottomRightCorner(last, last));
     const Eigen::MatrixXd across = matrix_.bottomLeftCorner(last, first);
     const Eigen::MatrixXd left =
         matrix_.topLeftCorner(first, first) - across.transpose() * of_last.solve(across);
@@ -192,7 +192,7 @@ class SeriesEquations {
  private:
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd scale_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Cholesky llt_;
 };
 
 }  // namespace

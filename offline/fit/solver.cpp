@@ -15,7 +15,7 @@
 #include "fit/pose_lines.hpp"
 #include "fit/prior_lines.hpp"
 #include "fit/series_solver.hpp"
-#include "tree/jobs.hpp"
+#include "numbers/jobs.hpp"
 
 namespace plumb::offline {
 namespace {

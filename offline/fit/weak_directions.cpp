@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "fit/thinned_rows.hpp"
+#include "numbers/spectrum.hpp"
+#include "numbers/triangle.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -31,13 +31,10 @@ double prior_of(const Parameter& p, const FitData& data) {
 
 /// Last columns of J, less what the first ones explain: the lower right block of R.
 Eigen::MatrixXd less_the_first(const Eigen::MatrixXd& J, Eigen::Index first) {
-  const Eigen::VectorXd scale = J.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::VectorXd scale = per_norm(J);
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
   const Eigen::Index rows = std::min(J.rows(), J.cols());
-  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(scaled)
-                                .matrixQR()
-                                .topRows(rows)
-                                .triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd R = householder_triangle(scaled);
   const Eigen::Index last = J.cols() - first;
   return R.bottomRightCorner(std::max<Eigen::Index>(0, rows - first), last) *
          scale.tail(last).cwiseInverse().asDiagonal();
@@ -73,10 +70,9 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
   square.topRows(std::min(shown.rows(), square.rows())) =
       shown.topRows(std::min(shown.rows(), square.rows()));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
-  const auto& s = svd.singularValues();
+  const auto [s, every] = right_singular(square);
   const auto strong = static_cast<Eigen::Index>((s.array() >= kWeak).count());
-  const Eigen::MatrixXd V = svd.matrixV().rightCols(sigma.size() - strong);
+  const Eigen::MatrixXd V = every.rightCols(sigma.size() - strong);
   out.weights = V.transpose() * sigma.cwiseInverse().asDiagonal();
   out.share = V.rowwise().squaredNorm();
   return out;

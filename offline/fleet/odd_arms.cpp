@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/odd_arms.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "numbers/cholesky.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline::fleet {
 namespace {
@@ -11,11 +13,9 @@ namespace {
 constexpr std::size_t kFew = 60;  // arms: each is judged against the others
 
 /// Probability that chi2 / n exceeds what it is by chance, where the variances are known by so many
-/// degrees of freedom: F(n, dof) by the cube-root transform [Paulson 1942].
+/// degrees of freedom.
 double chance_of(double chi2, double n, double dof) {
-  const double a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * dof), root = std::cbrt(chi2 / n);
-  const double z = ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
-  return 0.5 * std::erfc(z / std::sqrt(2.0));
+  return std::exp(ln_f_tail(chi2 / n, n, dof));
 }
 
 /// Degrees of freedom with which the variance of a difference is known: the spread from arm to arm
@@ -58,7 +58,7 @@ OddArm oddness(const CellSummary& arm, const std::vector<Typical>& typical, std:
     out.mean = t.mean;
     out.times = times;
   }
-  const double chi2 = away.dot(S.ldlt().solve(away));
+  const double chi2 = away.dot(SymmetricSolver(S).solve(away));
   // Either the whole of it, or one number alone.
   const double numbers = static_cast<double>(away.size());
   out.chance = std::min(1.0, 2.0 * static_cast<double>(arms) *

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/typical.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline::fleet {
 namespace {
@@ -51,7 +52,7 @@ Arm arm_of(const CellSummary& summary, const std::vector<Typical>& numbers) {
     out.x(static_cast<Eigen::Index>(i)) = summary.numbers[static_cast<std::size_t>(own[i])].value;
   const Eigen::MatrixXd C = summary.covariance(own, own);
   out.variance = C.diagonal();
-  out.information = C.ldlt().solve(Eigen::MatrixXd::Identity(C.rows(), C.cols()));
+  out.information = SymmetricSolver(C).inverse();
   return out;
 }
 
@@ -98,7 +99,7 @@ std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms,
       const Eigen::VectorXd tau = sd(arm.place), center = mu(arm.place);
       Eigen::MatrixXd information = arm.information;
       information.diagonal() += tau.array().square().inverse().matrix();
-      const Eigen::LLT<Eigen::MatrixXd> llt(information);
+      const Cholesky llt(information);
       const Eigen::MatrixXd V =
           llt.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
       m.push_back(center + V * (arm.information * (arm.x - center)));

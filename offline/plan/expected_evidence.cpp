@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/expected_evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "numbers/gaussian.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -13,7 +14,6 @@ using Law = Rivals::Law;
 constexpr int kMostExchangeRounds = 3;
 constexpr double kWorthExchanging = 0.05;  // [nats]
 constexpr double kBothCount = 0.02;  // of the sum of both leads, where the smaller one is level
-constexpr double kRoundingShare = 1e-12;
 
 /// Q of the residual: what is expected without noise, and the noise of the lines to come.
 double expected_square(const Rivals& rivals, const Eigen::MatrixXd& S, Eigen::Index y,
@@ -26,13 +26,11 @@ double quick_ln_bayes(const Eigen::MatrixXd& S, const Law::Variant& law, Eigen::
   const double ridge = scale.variance / (law.width * law.width);
   Eigen::MatrixXd M = S.block(law.first, law.first, law.count, law.count);
   M.diagonal().array() += ridge;
-  const Eigen::LLT<Eigen::MatrixXd> llt(M);
-  const Eigen::VectorXd half = llt.matrixL().solve(S.block(law.first, y, law.count, 1));
-  const double paid = -llt.matrixLLT().diagonal().array().log().sum() +
-                      0.5 * static_cast<double>(law.count) * std::log(ridge);
-  const double before = scale.dof * scale.variance + Q;
-  const double left = std::max(before - half.squaredNorm(), kRoundingShare * before);
-  return paid - 0.5 * (lines + scale.dof) * std::log(left / before);
+  const Cholesky of_law(M);
+  const Eigen::VectorXd half = of_law.whitened(S.col(y).segment(law.first, law.count));
+  return evidence_gain(of_law.ln_det() - static_cast<double>(law.count) * std::log(ridge),
+                       scale.dof * scale.variance + Q, half.squaredNorm(), lines + scale.dof)
+      .ln_bayes;
 }
 
 template <class LnBayes>
@@ -52,7 +50,7 @@ double value_of_leads(const Leads& leads) {
 ClearedProducts::ClearedProducts(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Z) {
   const Eigen::Index p = G.cols();
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(p, p);
-  covariance_ = Eigen::LLT<Eigen::MatrixXd>(I + G.transpose() * G).solve(I);
+  covariance_ = Cholesky(I + G.transpose() * G).solve(I);
   cross_ = G.transpose() * Z;
   products_ = Z.transpose() * Z - cross_.transpose() * covariance_ * cross_;
 }
@@ -60,8 +58,8 @@ ClearedProducts::ClearedProducts(const Eigen::MatrixXd& G, const Eigen::MatrixXd
 Eigen::MatrixXd ClearedProducts::with(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Z) const {
   const Eigen::MatrixXd GC = G * covariance_;
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(G.rows(), G.rows());
-  const Eigen::LLT<Eigen::MatrixXd> llt(I + GC * G.transpose());
-  const Eigen::MatrixXd surprise = llt.matrixL().solve(Z - GC * cross_);
+  const Cholesky llt(I + GC * G.transpose());
+  const Eigen::MatrixXd surprise = llt.whitened(Z - GC * cross_);
   return products_ + surprise.transpose() * surprise;
 }
 
@@ -69,8 +67,8 @@ void ClearedProducts::add(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Z) {
   products_ = with(G, Z);
   const Eigen::MatrixXd GC = G * covariance_;
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(G.rows(), G.rows());
-  const Eigen::LLT<Eigen::MatrixXd> llt(I + GC * G.transpose());
-  const Eigen::MatrixXd half = llt.matrixL().solve(GC);
+  const Cholesky llt(I + GC * G.transpose());
+  const Eigen::MatrixXd half = llt.whitened(GC);
   covariance_ -= half.transpose() * half;
   cross_ += G.transpose() * Z;
 }

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/information.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
-
-double ln_det(const Eigen::LLT<Eigen::MatrixXd>& llt) {
-  return 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-}
 
 /// I + sign A M^-1 A^T.
 Eigen::MatrixXd grown(const Eigen::MatrixXd& A, const Eigen::MatrixXd& covariance, double sign) {
@@ -26,28 +21,28 @@ Information::Information(const Eigen::VectorXd& prior)
 void Information::add(const Eigen::MatrixXd& A) {
   if (A.rows() == 0) return;
   if (A.rows() >= A.cols()) {
-    const auto identity = Eigen::MatrixXd::Identity(A.cols(), A.cols());
-    const Eigen::MatrixXd M = covariance_.llt().solve(identity) + A.transpose() * A;
-    const Eigen::LLT<Eigen::MatrixXd> llt(M);
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(A.cols(), A.cols());
+    const Eigen::MatrixXd M = Cholesky(covariance_).solve(identity) + A.transpose() * A;
+    const Cholesky llt(M);
     covariance_ = llt.solve(identity);
-    ln_det_ = plumb::offline::ln_det(llt);
+    ln_det_ = llt.ln_det();
     return;
   }
-  const Eigen::LLT<Eigen::MatrixXd> llt(grown(A, covariance_, 1.0));
-  const Eigen::MatrixXd half = llt.matrixL().solve(A * covariance_);
+  const Cholesky llt(grown(A, covariance_, 1.0));
+  const Eigen::MatrixXd half = llt.whitened(A * covariance_);
   covariance_ -= half.transpose() * half;
-  ln_det_ += plumb::offline::ln_det(llt);
+  ln_det_ += llt.ln_det();
 }
 
 void Information::remove(const Eigen::MatrixXd& A) {
-  const Eigen::LLT<Eigen::MatrixXd> llt(grown(A, covariance_, -1.0));
-  const Eigen::MatrixXd half = llt.matrixL().solve(A * covariance_);
+  const Cholesky llt(grown(A, covariance_, -1.0));
+  const Eigen::MatrixXd half = llt.whitened(A * covariance_);
   covariance_ += half.transpose() * half;
-  ln_det_ += plumb::offline::ln_det(llt);
+  ln_det_ += llt.ln_det();
 }
 
 double Information::gain(const Eigen::MatrixXd& A) const {
-  return plumb::offline::ln_det(Eigen::LLT<Eigen::MatrixXd>(grown(A, covariance_, 1.0)));
+  return Cholesky(grown(A, covariance_, 1.0)).ln_det();
 }
 
 }  // namespace plumb::offline

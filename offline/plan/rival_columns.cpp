@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/rival_columns.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -16,6 +15,7 @@
 #include "fit/solver.hpp"
 #include "fit/split.hpp"
 #include "fit/weights.hpp"
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -179,7 +179,7 @@ RivalColumns rival_columns(const Cell& cell, const PlanStart& start, const Effec
   const auto known = G.topRows(lines);
   Eigen::MatrixXd information = known.transpose() * known;
   information.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(information);
+  const Cholesky llt(information);
   const auto expect = [&](const Variant& variant, Eigen::Index column) {
     const Eigen::VectorXd motion = variant.columns * variant.size;
     Z.col(column) = motion;

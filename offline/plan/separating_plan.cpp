@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/cholesky.hpp"
 #include "plan/plan_steps.hpp"
 #include "plan/rival_columns.hpp"
 
@@ -28,7 +28,7 @@ std::optional<double> reproduced(const Eigen::MatrixXd& S, const Law::Variant& o
   Eigen::MatrixXd B = S.block(other.first, other.first, other.count, other.count);
   B.diagonal().array() += kTrace * B.diagonal().maxCoeff() + 1e-300;
   const auto AB = S.block(own.first, other.first, own.count, other.count);
-  const double share = (AB * B.ldlt().solve(Eigen::MatrixXd(AB.transpose()))).trace();
+  const double share = (AB * SymmetricSolver(B).solve(AB.transpose())).trace();
   return std::clamp(share / A.trace(), 0.0, 1.0);
 }
 
@@ -43,7 +43,7 @@ Eigen::VectorXd sigma_of_sizes(const Eigen::MatrixXd& S, const RivalColumns& col
   for (const auto& number : columns.numbers) both.push_back(number.column);
   Eigen::MatrixXd M = S(both, both);
   M.diagonal().array() += 1e-12 * M.diagonal().maxCoeff() + 1e-300;
-  const Eigen::MatrixXd C = M.ldlt().solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+  const Eigen::MatrixXd C = SymmetricSolver(M).inverse();
   return (C.diagonal().cwiseMax(0.0) * columns.noise_variance).cwiseSqrt();
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "fit/arm_change.hpp"
 #include "fit/frame_start.hpp"
+#include "numbers/gaussian.hpp"
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline::recheck {
@@ -25,17 +25,6 @@ std::vector<Parameter> parameters_of(const std::vector<Change>& changes) {
 }
 
 Eigen::Index count_of(const Change& change) { return change.typical.size(); }
-
-double ln_sum(const std::vector<double>& ln) {
-  const double most = *std::max_element(ln.begin(), ln.end());
-  double sum = 0.0;
-  for (const double one : ln) sum += std::exp(one - most);
-  return most + std::log(sum);
-}
-
-double ln_determinant(const Eigen::LLT<Eigen::MatrixXd>& llt) {
-  return 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-}
 
 /// 1 sigma of each number, for one choice of scales.
 Eigen::VectorXd spread_of(const std::vector<Change>& changes, const std::vector<std::size_t>& at) {
@@ -60,23 +49,23 @@ bool advance(const std::vector<Change>& changes, std::vector<std::size_t>& at) {
 }
 
 /// ln of the evidence of r for one view, averaged over the scales.
-double ln_evidence(const Eigen::LLT<Eigen::MatrixXd>& S, const Eigen::VectorXd& r,
-                   const Eigen::MatrixXd& B, const std::vector<Change>& changes) {
-  const Eigen::VectorXd w = S.matrixL().solve(r);
-  const Eigen::MatrixXd V = S.matrixL().solve(B);
+double ln_evidence(const Cholesky& S, const Eigen::VectorXd& r, const Eigen::MatrixXd& B,
+                   const std::vector<Change>& changes) {
+  const Eigen::VectorXd w = S.whitened(r);
+  const Eigen::MatrixXd V = S.whitened(B);
   const Eigen::MatrixXd VV = V.transpose() * V;
   const Eigen::VectorXd Vw = V.transpose() * w;
   const double n = static_cast<double>(r.size()), square = w.squaredNorm();
-  const double base = -0.5 * ln_determinant(S);
+  const double base = -0.5 * S.ln_det();
   std::vector<double> ln;
   std::vector<std::size_t> at(changes.size(), 0);
   do {
     const Eigen::VectorXd t = spread_of(changes, at);
     const Eigen::MatrixXd A = t.asDiagonal() * VV * t.asDiagonal();
-    const Eigen::LLT<Eigen::MatrixXd> llt(A + Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+    const Cholesky llt(A + Eigen::MatrixXd::Identity(A.rows(), A.cols()));
     const Eigen::VectorXd tv = t.cwiseProduct(Vw);
     const double Q = square - (t.size() > 0 ? tv.dot(llt.solve(tv)) : 0.0);
-    ln.push_back(base - (t.size() > 0 ? 0.5 * ln_determinant(llt) : 0.0) -
+    ln.push_back(base - (t.size() > 0 ? 0.5 * llt.ln_det() : 0.0) -
                  0.5 * (Judge::kTrusted + n) * std::log1p(std::max(0.0, Q) / Judge::kTrusted));
   } while (advance(changes, at));
   return ln_sum(ln) - std::log(static_cast<double>(ln.size()));
@@ -178,13 +167,13 @@ Judged Judge::judge(const std::vector<Change>& given) const {
   Eigen::VectorXd in_state = out.change;  // how far `state` has gone
   for (int step = 0;; ++step) {
     linearise(state, changes, in_state, out);
-    const Eigen::LLT<Eigen::MatrixXd> S(out.S);
+    const Cholesky S(out.S);
     const Eigen::MatrixXd SB = S.solve(out.B);
     Eigen::MatrixXd information = out.B.transpose() * SB;
     information.diagonal() += out.prior.array().square().inverse().matrix();
-    const Eigen::LDLT<Eigen::MatrixXd> ldlt(information);
+    const SymmetricSolver ldlt(information);
     out.gain = ldlt.solve(SB.transpose());
-    out.x_covariance = ldlt.solve(Eigen::MatrixXd::Identity(count, count));
+    out.x_covariance = ldlt.inverse();
     out.change = out.gain * out.r;
     const Eigen::VectorXd left = out.r - out.B * out.change;
     out.chi2 = left.dot(S.solve(left)) + out.change.cwiseQuotient(out.prior).squaredNorm();
@@ -219,7 +208,7 @@ void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
         mean.segment(axes * i, axes) = to_lines * view.mean_B.row(i).transpose();
       }
     const Eigen::MatrixXd S = view.covariance + J_view * known_.covariance * J_view.transpose();
-    const Eigen::LLT<Eigen::MatrixXd> llt(S);
+    const Cholesky llt(S);
     views.push_back(ln_evidence(llt, missed - mean, out.B, changes));
     if (views.back() < *std::max_element(views.begin(), views.end())) continue;
     out.E = view.covariance;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/left_out.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -13,11 +14,11 @@ Eigen::VectorXd refitted_without(const Judged& judged, int reading, int axes) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index line = 0; line < judged.r.size(); ++line)
     if (line / axes != reading) kept.push_back(line);
-  const Eigen::LLT<Eigen::MatrixXd> S(judged.S(kept, kept));
+  const Cholesky S(judged.S(kept, kept));
   const Eigen::MatrixXd B = judged.B(kept, Eigen::all);
   Eigen::MatrixXd information = B.transpose() * S.solve(B);
   information.diagonal() += judged.prior.array().square().inverse().matrix();
-  return information.ldlt().solve(B.transpose() * S.solve(judged.r(kept)));
+  return SymmetricSolver(information).solve(B.transpose() * S.solve(judged.r(kept)));
 }
 
 }  // namespace

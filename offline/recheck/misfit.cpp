@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/misfit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "numbers/cholesky.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -56,10 +57,9 @@ Eigen::MatrixXd correlation(const Eigen::MatrixXd& distance, double length) {
 }
 
 /// Of the readings' residuals, without what is common to all lengths.
-double ln_likelihood(const Eigen::LLT<Eigen::MatrixXd>& llt, const Eigen::MatrixXd& error,
-                     double lacks, int axes) {
-  const Eigen::MatrixXd white = llt.matrixL().solve(error);
-  return -axes * llt.matrixLLT().diagonal().array().log().sum() - 0.5 * white.squaredNorm() / lacks;
+double ln_likelihood(const Cholesky& llt, const Eigen::MatrixXd& error, double lacks, int axes) {
+  const Eigen::MatrixXd white = llt.whitened(error);
+  return -0.5 * axes * llt.ln_det() - 0.5 * white.squaredNorm() / lacks;
 }
 
 }  // namespace
@@ -76,11 +76,11 @@ Misfit expected_misfit(const Measurements& own, const std::vector<int>& known, c
   const double lacks = size.lacks_m * size.lacks_m;
   const double noise = size.noise_m * size.noise_m / lacks;
   double best = -std::numeric_limits<double>::infinity(), length = kLengths[0];
-  Eigen::LLT<Eigen::MatrixXd> chosen;
+  Cholesky chosen;
   for (const double one : kLengths) {
     Eigen::MatrixXd K = correlation(among, one);
     K.diagonal().array() += noise;
-    Eigen::LLT<Eigen::MatrixXd> llt(K);
+    Cholesky llt(K);
     const double ln = ln_likelihood(llt, error, lacks, size.axes);
     if (ln <= best) continue;
     best = ln;

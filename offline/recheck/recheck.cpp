@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "fit/arm_change.hpp"
+#include "numbers/tails.hpp"
 #include "recheck/left_out.hpp"
 #include "recheck/refit.hpp"
 #include "recheck/search.hpp"
@@ -29,14 +30,8 @@ void place_at_the_end(const Measurements& own, Measurements& rows) {
   if (std::isfinite(last)) rows.context.time_s = Eigen::VectorXd::Constant(rows.size(), last);
 }
 
-/// ln of the probability that F(n, trusted) exceeds chi2 / n, by the Wilson-Hilferty cube root of
-/// both parts [Paulson 1942].
-double ln_chance_of(double chi2, double n) {
-  const double f = chi2 / n, a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * Judge::kTrusted);
-  const double root = std::cbrt(f);
-  const double z = ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
-  return z < 0.0 ? std::log(0.5) : std::log(0.5 * std::erfc(z / std::sqrt(2.0)) + 1e-300);
-}
+/// ln of the probability that F(n, trusted) exceeds chi2 / n.
+double ln_chance_of(double chi2, double n) { return ln_f_tail(chi2 / n, n, Judge::kTrusted); }
 
 /// RMS distance of the measured points that two states predict, over some poses.
 double motion_of(const Measurements& own, const ArmState& a, const ArmState& b) {

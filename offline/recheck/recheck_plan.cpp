@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/recheck_plan.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "fit/outliers.hpp"
 #include "fit/thinned_rows.hpp"
+#include "numbers/cholesky.hpp"
+#include "numbers/lu.hpp"
 #include "recheck/refit.hpp"
 
 namespace plumb::offline::recheck {
@@ -57,13 +57,13 @@ std::vector<int> best_rows(const Eigen::MatrixXd& columns, int axes, int n) {
       if (taken[static_cast<std::size_t>(i)]) continue;
       const auto B = columns.middleRows(i * axes, axes);
       const double gain =
-          (Eigen::MatrixXd::Identity(axes, axes) + B * covariance * B.transpose()).determinant();
+          determinant(Eigen::MatrixXd::Identity(axes, axes) + B * covariance * B.transpose());
       if (best < 0 || gain > most) best = i, most = gain;
     }
     const Eigen::MatrixXd B = columns.middleRows(best * axes, axes);
     const Eigen::MatrixXd CB = covariance * B.transpose();
     covariance -=
-        CB * (Eigen::MatrixXd::Identity(axes, axes) + B * CB).ldlt().solve(CB.transpose());
+        CB * SymmetricSolver(Eigen::MatrixXd::Identity(axes, axes) + B * CB).solve(CB.transpose());
     taken[static_cast<std::size_t>(best)] = true;
     out.push_back(best);
   }

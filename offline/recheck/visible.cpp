@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/visible.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "numbers/cholesky.hpp"
+#include "numbers/spectrum.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -16,20 +17,19 @@ constexpr double kWidest = 10.0;   // typical sizes: a change is hardly ever lar
 std::vector<Visibility> visibility(const std::vector<Change>& changes, const Measurements& rows,
                                    const Measurements& own, const ArmState& state,
                                    const Eigen::MatrixXd& S) {
-  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  const Cholesky llt(S);
   std::vector<Visibility> out;
   for (const auto& change : changes) {
     if (change.part == Part::kReading) continue;
-    const Eigen::MatrixXd seen = llt.matrixL().solve(derivatives(rows, state, change.parameters) *
-                                                     change.typical.asDiagonal());
+    const Eigen::MatrixXd seen =
+        llt.whitened(derivatives(rows, state, change.parameters) * change.typical.asDiagonal());
     const Eigen::MatrixXd motion =
         derivatives(own, state, change.parameters) * change.typical.asDiagonal();
     const Eigen::MatrixXd square = motion.transpose() * motion / own.size();
     Eigen::MatrixXd information = seen.transpose() * seen;
     information.diagonal().array() += kNoticed / (kWidest * kWidest);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(square, information,
-                                                                          Eigen::EigenvaluesOnly);
-    out.push_back({change, std::sqrt(kNoticed * std::max(0.0, eigen.eigenvalues().maxCoeff()))});
+    const double most = largest_generalised_eigenvalue(square, information);
+    out.push_back({change, std::sqrt(kNoticed * std::max(0.0, most))});
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/verdict.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {

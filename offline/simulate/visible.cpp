@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/visible.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline::sim {
 namespace {
@@ -57,9 +58,8 @@ Visible::Visible(const World& world, const std::array<bool, 3>& measured_axes) {
     const Columns columns = twist_columns(world, row);
     for (const int axis : axes_) all.row(line++) = columns.row(axis);
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(all);
-  qr.setThreshold(kRankTolerance);
-  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(values, qr.rank());
+  const PivotedQr qr(all, kRankTolerance);
+  basis_ = qr.basis(qr.rank());
 }
 
 Eigen::VectorXd Visible::stacked(const Rows3& shift_M) const {

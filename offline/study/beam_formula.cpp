@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/beam_formula.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
+
+#include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline::study {
 namespace {
@@ -34,7 +35,7 @@ BeamFormula fit_beams(const PlanarPoses& measured) {
   }
   A.col(4) << bent.col(0) / scale, bent.col(1) / scale;
   b << measured.p_AC_A.col(0), measured.p_AC_A.col(1);
-  const Eigen::VectorXd x = A.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd x = PivotedQr(A).solve(b);
   return {x.head<4>(), x(4) / scale};
 }
 

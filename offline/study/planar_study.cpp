@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "numbers/jobs.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "study/beam_formula.hpp"
 #include "study/planar_physics.hpp"
@@ -16,7 +17,6 @@
 #include "tree/blended_path.hpp"
 #include "tree/choice.hpp"
 #include "tree/domain.hpp"
-#include "tree/jobs.hpp"
 #include "tree/stop_rules.hpp"
 
 namespace plumb::offline::study {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/textbook_trees.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline::study {
 namespace {
@@ -48,7 +49,7 @@ void fit_locally(std::vector<Cell>& cells, const Samples& u, const VectorXd& y,
   const MatrixXd weight = validity(cells, u), X = with_constant(u);
   for (std::size_t k : which) {
     const VectorXd root = weight.col(static_cast<Eigen::Index>(k)).cwiseSqrt();
-    cells[k].w = (root.asDiagonal() * X).colPivHouseholderQr().solve(root.cwiseProduct(y));
+    cells[k].w = PivotedQr(root.asDiagonal() * X).solve(root.cwiseProduct(y));
   }
 }
 

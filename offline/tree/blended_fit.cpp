@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/cholesky.hpp"
+#include "numbers/jobs.hpp"
 #include "plumb/runtime/detail/tree.hpp"
-#include "tree/jobs.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -230,7 +231,7 @@ struct BlendedFit::Design {
       b += x * y.row(i);
     }
     A.diagonal().array() += kRootRidge * static_cast<double>(u.rows());
-    const MatrixXd local = A.ldlt().solve(b);
+    const MatrixXd local = SymmetricSolver(A).solve(b);
     MatrixXd out(terms, y.cols());
     for (Index k = 0; k < y.cols(); ++k)
       to_inputs(frame, inputs, tree.degree, local.col(k).data(), out.col(k).data());
@@ -263,9 +264,9 @@ struct BlendedFit::Design {
     if (dense.size() > 0) {
       MatrixXd A = dense;
       A.diagonal().array() += added;
-      const Eigen::LLT<MatrixXd> factor(A);  // reads the lower triangle
-      if (factor.info() == Eigen::Success) return factor.solve(b);
-      return A.selfadjointView<Eigen::Lower>().ldlt().solve(b);
+      const Cholesky factor(A);  // reads the lower triangle
+      if (factor.exists()) return factor.solve(b);
+      return SymmetricSolver(A).solve(b);
     }
     Sparse A = sparse;
     for (int k = 0; k < unknowns(); ++k) A.coeffRef(k, k) += added;
@@ -331,7 +332,7 @@ std::vector<format::Tree> BlendedFit::solve_locally(const Samples& y) const {
       b += x * (std::sqrt(entry.weight) * y.row(entry.index));
     }
     A.diagonal().array() += kRootRidge * std::max(1.0, A.trace());
-    c.middleRows(k * d.terms, d.terms) = A.ldlt().solve(b);
+    c.middleRows(k * d.terms, d.terms) = SymmetricSolver(A).solve(b);
   }
   const MatrixXd nothing = MatrixXd::Zero(d.terms, y.cols());
   std::vector<format::Tree> out;

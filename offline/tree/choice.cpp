@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/jobs.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "tree/domain.hpp"
 #include "tree/folds.hpp"
-#include "tree/jobs.hpp"
 #include "tree/rows.hpp"
 #include "tree/validation.hpp"
 

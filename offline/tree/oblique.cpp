@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tree/oblique.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
+
+#include "numbers/pivoted_qr.hpp"
+#include "numbers/spectrum.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -36,13 +37,11 @@ Cell cell_of(const TrainingRows& rows, std::span<const int> which) {
 MatrixXd slopes(const Cell& cell) {
   MatrixXd A(cell.u.rows(), cell.u.cols() + 1);
   A << VectorXd::Ones(cell.u.rows()), cell.u;
-  return A.colPivHouseholderQr().solve(cell.y).bottomRows(cell.u.cols());
+  return PivotedQr(A).solve(cell.y).bottomRows(cell.u.cols());
 }
 
 /// The eigenvector with the largest eigenvalue of a symmetric matrix.
-VectorXd leading(const MatrixXd& S) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(S).eigenvectors().rightCols<1>();
-}
+VectorXd leading(const MatrixXd& S) { return symmetric_eigen(S).vectors.rightCols<1>(); }
 
 /// The direction of the strongest curvature; empty if there are too few rows.
 VectorXd curved_most(const Cell& cell) {
@@ -52,7 +51,7 @@ VectorXd curved_most(const Cell& cell) {
   A.leftCols(p + 1) << VectorXd::Ones(cell.u.rows()), cell.u;
   for (Eigen::Index i = 0, next = p + 1; i < p; ++i)
     for (Eigen::Index k = i; k < p; ++k) A.col(next++) = cell.u.col(i).cwiseProduct(cell.u.col(k));
-  const MatrixXd w = A.colPivHouseholderQr().solve(cell.y);
+  const MatrixXd w = PivotedQr(A).solve(cell.y);
   MatrixXd S = MatrixXd::Zero(p, p);
   for (Eigen::Index output = 0; output < cell.y.cols(); ++output) {
     MatrixXd H(p, p);

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "numbers/tails.hpp"
 #include "plumb/format/model.hpp"
-#include "tree/f_tail.hpp"
 
 namespace plumb::offline {
 namespace {

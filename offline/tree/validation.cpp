@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/jobs.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "tree/blended_path.hpp"
 #include "tree/domain.hpp"
 #include "tree/folds.hpp"
-#include "tree/jobs.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "twin/nominal_arm.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
+
+#include "numbers/cholesky.hpp"
+#include "numbers/lu.hpp"
+#include "numbers/spectrum.hpp"
 
 namespace plumb::offline::twin {
 namespace {
@@ -52,19 +54,18 @@ bool NominalArm::inverse(const Isometry3d& X_BT, VectorXd& q) const {
     const Eigen::MatrixXd J = jacobian(now);
     Eigen::MatrixXd H = J.transpose() * J;
     H.diagonal().array() += kDamping;
-    now += H.ldlt().solve(J.transpose() * miss);
+    now += SymmetricSolver(H).solve(J.transpose() * miss);
   }
   return false;
 }
 
 double NominalArm::dexterity(const VectorXd& q) const {
-  const auto values = Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian(q)).singularValues();
-  return values(std::min(6, joints()) - 1);
+  return jacobi_singular_values(jacobian(q))(std::min(6, joints()) - 1);
 }
 
 int NominalArm::configuration(const VectorXd& q) const {
   if (joints() != 6) return 0;
-  return jacobian(q).determinant() > 0.0 ? 1 : -1;
+  return determinant(jacobian(q)) > 0.0 ? 1 : -1;
 }
 
 }  // namespace plumb::offline::twin

@@ -6,8 +6,8 @@
 
 #include "compare/autocorrelation.hpp"
 #include "compare/lack_of_fit.hpp"
+#include "numbers/tails.hpp"
 #include "residual_cases.hpp"
-#include "tree/f_tail.hpp"
 
 namespace plumb::offline::compare {
 namespace {

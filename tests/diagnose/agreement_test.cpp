@@ -11,9 +11,9 @@
 #include "diagnose/diagnosis_text.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/verdict.hpp"
+#include "numbers/tails.hpp"
 #include "show/compare_words.hpp"
 #include "tests/random_numbers.hpp"
-#include "tree/f_tail.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "tree/f_tail.hpp"
+#include "numbers/tails.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tree/f_tail.hpp"
+#include "numbers/tails.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace plumb::offline {
@@ -45,6 +46,15 @@ double ln_f_tail(double f, double a, double b) {
   if (x < (p + 1.0) / (p + q + 2.0))
     return std::min(0.0, ln_front(p, q, x, y) + std::log(fraction(p, q, x) / p));
   return std::log1p(-std::min(1.0, std::exp(ln_front(q, p, y, x)) * fraction(q, p, y) / q));
+}
+
+FTest f_test(double explained, double numbers, double left, double free) {
+  const double ratio = explained / numbers / (left / free);
+  return {ratio, ln_f_tail(ratio, numbers, free)};
+}
+
+double student_quantile(double share, double dof) {
+  return boost::math::quantile(boost::math::students_t(dof), share);
 }
 
 }  // namespace plumb::offline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "numbers/cholesky.hpp"
+
+namespace plumb::offline {
+
+/// ln of the normal density of x with zero mean and the covariance S, without the constant
+/// -n/2 ln 2 pi.
+double ln_normal(const Eigen::VectorXd& x, const Cholesky& S);
+
+/// How much a linear model raises ln of the evidence of readings whose noise is known by some
+/// degrees of freedom only (so that their distribution is Student's): [O'Hagan & Forster 2004, 11]
+///   -1/2 ln det(I + prior information^-1 X^T X) - (lines / 2) ln(after / before)
+struct EvidenceGain {
+  double ln_bayes = 0.0;
+  double after = 0.0;  // sum of squares that is left
+};
+
+/// ln_det: of the matrix above. before: sum of squares without the model, those of the known noise
+/// included. explained: how much of it the model takes away. lines: degrees of freedom of `before`.
+EvidenceGain evidence_gain(double ln_det, double before, double explained, double lines);
+
+/// ln of the sum of exp(ln), without overflow; -infinity for none.
+double ln_sum(std::span<const double> ln);
+
+}  // namespace plumb::offline
