@@ -37,6 +37,29 @@ class Readme(unittest.TestCase):
             self.assertIn(f"docs/{page.name}", README)
 
 
+def stages(script):
+    """What a script of tests runs, in order: names of stages, and presets."""
+    text = re.sub(r"(?s)\n\w+\(\) \{.*?\n\}\n", "\n", script.read_text().replace("\\\n", " "))
+    some = {"-LE slow": ", fast tests", "-L slow": ", slow tests", "": ""}
+    for line in text.splitlines():
+        if named := re.match(r'(?:stage|tally) "([^"]+)"', line):
+            yield named[1]
+        elif preset := re.match(r'built_and_tested (\S+) "[^"]*" ?(.*)', line):
+            yield f"preset {preset[1]}{some[preset[2].strip()]}"
+        elif preset := re.match(r"tested (\S+) ", line):
+            yield f"preset {preset[1]}, some tests"
+
+
+class Ci(unittest.TestCase):
+
+    def test_the_page_names_what_the_scripts_run(self):
+        page = (SOURCE / "docs/ci.md").read_text()
+        for name in ("test", "test-gates", "test-nightly"):
+            said = re.findall(r"(?m)^\* (.*)$", page.partition(f"## `scripts/{name}`\n")[2].partition("\n## ")[0])
+            self.assertEqual(said, list(stages(SOURCE / "scripts" / name)), name)
+            self.assertTrue(said, name)
+
+
 class Pages(unittest.TestCase):
 
     def test_every_link_leads_somewhere(self):
