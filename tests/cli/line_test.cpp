@@ -84,7 +84,7 @@ TEST(New, ReportsEveryMistakeOfTheTableAtOnce) {
   EXPECT_FALSE(std::filesystem::exists(box.path() / "cell"));
 }
 
-TEST(Simulate, TheSameSeedGivesTheSameBytes) {
+TEST(SimulateVerb, TheSameSeedGivesTheSameBytes) {
   const Sandbox box;
   ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);
   for (const auto* name : {"a", "b"})
