@@ -12,11 +12,13 @@ ALLOWED = ("drivers/program/", "model_format/")
 
 
 def sources(ninja, build, library, top):
-    """Every source file of ours that ninja compiles on the way to the library, from the top."""
+    """Every source file of ours that ninja compiles on the way to the library, from the top; none that the build wrote,
+    such as the empty one of a precompiled header."""
     target = os.path.relpath(library, build)
     inputs = subprocess.run([ninja, "-C", build, "-t", "inputs", target], check=True, capture_output=True, text=True)
-    paths = [os.path.relpath(os.path.join(build, line.strip()), top) for line in inputs.stdout.splitlines()]
-    return [path for path in paths if path.endswith((".cpp", ".fbs"))]
+    here = [os.path.abspath(os.path.join(build, line.strip())) for line in inputs.stdout.splitlines()]
+    written = os.path.abspath(build) + os.sep
+    return [os.path.relpath(path, top) for path in here if path.endswith((".cpp", ".fbs")) and not path.startswith(written)]
 
 
 if __name__ == "__main__":
