@@ -25,8 +25,9 @@ constexpr int kAlive_ms = 2000;
 }  // namespace
 
 std::string name_of_run(const std::filesystem::path& dir) {
-  constexpr std::size_t kDigits = 12;
-  return "plumb-rt-" + sha256(std::filesystem::weakly_canonical(dir).string()).substr(0, kDigits);
+  constexpr std::size_t kDigitsOfName = 12;
+  return "plumb-rt-" +
+         sha256(std::filesystem::weakly_canonical(dir).string()).substr(0, kDigitsOfName);
 }
 
 std::vector<std::filesystem::path> control_paths(const std::filesystem::path& dir) {

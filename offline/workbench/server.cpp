@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that includes Boost, which takes half a minute to compile.
+// The only file that uses Boost, whose headers take long to compile; boost_functions.cpp holds the rest of it.
 #include "workbench/server.hpp"
 
 #include <fmt/format.h>

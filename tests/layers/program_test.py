@@ -5,6 +5,7 @@
     program_test.py NINJA BUILD_FOLDER LIBRARY SOURCE_FOLDER
 """
 import os
+import re
 import subprocess
 import sys
 
@@ -12,13 +13,18 @@ ALLOWED = ("drivers/program/", "model_format/")
 
 
 def sources(ninja, build, library, top):
-    """Every source file of ours that ninja compiles on the way to the library, from the top; none that the build wrote,
-    such as the empty one of a precompiled header."""
+    """Every source file of ours that ninja compiles on the way to the library, from the top. Of what the build wrote, a
+    file of a unity build stands for those it includes, and the empty one of a precompiled header for none."""
     target = os.path.relpath(library, build)
     inputs = subprocess.run([ninja, "-C", build, "-t", "inputs", target], check=True, capture_output=True, text=True)
     here = [os.path.abspath(os.path.join(build, line.strip())) for line in inputs.stdout.splitlines()]
     written = os.path.abspath(build) + os.sep
-    return [os.path.relpath(path, top) for path in here if path.endswith((".cpp", ".fbs")) and not path.startswith(written)]
+    ours = [path for path in here if not path.startswith(written)]
+    for path in here:
+        if path.startswith(written) and "/Unity/" in path and path.endswith(".cxx"):
+            with open(path, encoding="utf-8") as unity:
+                ours += re.findall(r'#include "(.+)"', unity.read())
+    return [os.path.relpath(path, top) for path in ours if path.endswith((".cpp", ".fbs"))]
 
 
 if __name__ == "__main__":

@@ -12,8 +12,10 @@ if(PLUMB_STRICT)
     target_compile_options(plumb_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
 endif()
-# The distribution's Ceres and KDL align Eigen's heap to 16 bytes; code compiled for AVX would expect 32 of them.
-target_compile_definitions(plumb_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+# The distribution's Ceres and KDL align Eigen's heap to 16 bytes; code compiled for AVX would expect 32 of them. And Eigen
+# computes one number at a time, in both halves alike: the linker keeps one copy of an Eigen function that both use, and
+# sums of two kinds would make the last digits of a result depend on which copy that was.
+target_compile_definitions(plumb_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
 if(PLUMB_SANITIZE)
   # Without the three checks of every access, which double the time a build takes; the half that is embedded, where
   # memory is laid out by hand, asks for them (plumb_embedded_options).

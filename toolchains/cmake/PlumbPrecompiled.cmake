@@ -7,7 +7,7 @@
 # What reads and prints is compiled with -O1, and so are the tests, which call what is optimised: a fifth to a third of the
 # time of compiling is saved. What computes is compiled with -O2, what runs on the cycle's thread with -O3. None of them
 # lets the compiler reorder arithmetic, and -ffp-contract=off keeps machines from fusing two operations.
-option(PLUMB_PRECOMPILED "Read the headers of other libraries once (GCC)" ${PROJECT_IS_TOP_LEVEL})
+option(PLUMB_PRECOMPILED "Read the headers of other libraries once" ${PROJECT_IS_TOP_LEVEL})
 if(PROJECT_IS_TOP_LEVEL AND CMAKE_BUILD_TYPE STREQUAL "Release")
   set(PLUMB_COMPUTES -O2)
   set(PLUMB_READS_AND_PRINTS -O1)
@@ -26,7 +26,7 @@ function(plumb_precompiled_header name optimisation)
     <Eigen/Dense> <fmt/format.h> <fmt/ranges.h> ${arg_HEADERS})
 endfunction()
 
-if(PLUMB_PRECOMPILED AND PLUMB_OFFLINE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CROSSCOMPILING)
+if(PLUMB_PRECOMPILED AND PLUMB_OFFLINE AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CROSSCOMPILING)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
   if(NOT EXISTS ${CMAKE_BINARY_DIR}/precompiled.cpp)  # touched only once: all that reads it is compiled after it
@@ -60,6 +60,7 @@ function(plumb_use_precompiled_headers target)
   endif()
   target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt)
   # With it GCC 12 inlines more of std::string, and sees copies of impossible sizes that are none (GCC bug 105329).
-  target_compile_options(${target} PRIVATE -fPIC -Wno-stringop-overflow -Wno-stringop-overread)
+  target_compile_options(${target} PRIVATE
+    -fPIC $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow$<SEMICOLON>-Wno-stringop-overread>)
   target_precompile_headers(${target} REUSE_FROM ${header})
 endfunction()
