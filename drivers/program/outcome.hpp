@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct InputFile {
 // NOLINTNEXTLINE(bugprone-exception-escape)
 struct Outcome {
   std::vector<InputFile> inputs;
+  /// Files, and folders with all that is in them, that belong to what the verb works on: no output
+  /// of it may replace them.
+  std::vector<std::filesystem::path> kept;
   std::vector<Problem> remarks;  // warnings and notes
   Json result;                   // null until there is one
   std::string text;              // for people; the first line is the verdict

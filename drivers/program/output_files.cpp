@@ -69,13 +69,43 @@ std::optional<Problem> folder_note(const fs::path& file, const WriteOptions& opt
                  .help = "ls " + shell_word(display_name(made))};
 }
 
-void OutputFiles::check(const WriteOptions& options) const {
+namespace {
+
+/// Whether it is that file, or lies in that folder.
+bool belongs_to(const fs::path& file, const fs::path& kept) {
+  std::error_code ignored;
+  if (fs::equivalent(file, kept, ignored)) return true;
+  if (!fs::is_directory(kept, ignored)) return false;
+  fs::path folder = fs::weakly_canonical(file, ignored).parent_path();
+  for (; folder.has_relative_path(); folder = folder.parent_path())
+    if (fs::equivalent(folder, kept, ignored)) return true;
+  return false;
+}
+
+}  // namespace
+
+void refuse_kept(const fs::path& file, const Outcome& outcome) {
+  if (!would_replace(file)) return;
+  const auto refuse = [&](const char* why) {
+    throw Failure(Exit::kUsage,
+                  {.code = "E-OUTPUT-INPUT",
+                   .message = fmt::format("{} would be replaced, and {}", display_name(file), why),
+                   .help = "name another file to write"});
+  };
+  for (const InputFile& input : outcome.inputs)
+    if (belongs_to(file, input.file)) refuse("this command reads it");
+  for (const fs::path& kept : outcome.kept)
+    if (belongs_to(file, kept)) refuse("it is what this command works on, not what it makes");
+}
+
+void OutputFiles::check(const WriteOptions& options, const Outcome& outcome) const {
   refuse_folders();
+  for (const auto& [file, bytes] : files_) refuse_kept(file, outcome);
   if (!options.force) refuse_existing();
 }
 
 void OutputFiles::commit(const WriteOptions& options, Outcome& outcome) const {
-  check(options);
+  check(options, outcome);
   Json names = Json::array();
   for (const auto& [file, bytes] : files_) names.push_back(file.string());
   outcome.result["files"] = names;

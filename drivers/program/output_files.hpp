@@ -28,9 +28,10 @@ class OutputFiles {
 
   void add(std::filesystem::path file, std::string bytes);
 
-  /// Refuses names of folders (E-USAGE) and, without --force, names of existing files (E-EXISTS).
-  /// For a verb that first computes for long.
-  void check(const WriteOptions& options) const;
+  /// Refuses names of folders (E-USAGE), names of files that `outcome` keeps or that were read
+  /// (refuse_kept) and, without --force, names of existing files (E-EXISTS). For a verb that first
+  /// computes for long.
+  void check(const WriteOptions& options, const Outcome& outcome) const;
 
   /// Checks, creates folders, with a note unless the user asked for them, and writes each file
   /// completely or not at all. Adds `files` and `dry_run` to the result, which must be an object.
@@ -44,6 +45,10 @@ class OutputFiles {
   std::filesystem::path folder_;
   std::vector<std::pair<std::filesystem::path, std::string>> files_;
 };
+
+/// Refuses (kUsage, E-OUTPUT-INPUT) a file that was read as input, or belongs to `outcome.kept`,
+/// whatever path names it: --force replaces results, never what they were made from.
+void refuse_kept(const std::filesystem::path& file, const Outcome& outcome);
 
 /// N-WRITE-FOLDER if the folder of this file does not exist yet, so that writing makes it.
 std::optional<Problem> folder_note(const std::filesystem::path& file, const WriteOptions& options);

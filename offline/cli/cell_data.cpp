@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/earlier_arm.hpp"
+#include "cell/setups.hpp"
 #include "cli/cell_lock.hpp"
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
@@ -42,8 +43,27 @@ fs::path cell_file(const Globals& globals) {
                  .help = "make one: plumb new DIR --dh F.csv --convention standard"});
 }
 
-Cell open_cell(const Globals& globals, Outcome& outcome) {
+void keep_files(const Cell& cell, Makes makes, Outcome& outcome) {
+  auto& kept = outcome.kept;
+  for (const char* name : {"cell.toml", "twin.toml", "runs"}) kept.push_back(cell.directory / name);
+  if (makes != Makes::kModel) kept.push_back(cell.directory / "robot.plumb");
+  if (makes == Makes::kMeasurements) return;
+  for (const auto& file : measurement_files(cell.measurement)) kept.push_back(file);
+}
+
+void keep_nearest_cell(const Globals& globals, Outcome& outcome) {
+  fs::path file;
+  try {
+    file = cell_file(globals);
+    keep_files(read_cell(file), Makes::kNone, outcome);
+  } catch (const Failure&) {  // none, or one that cannot be read
+    if (!file.empty()) outcome.kept.push_back(file);
+  }
+}
+
+Cell open_cell(const Globals& globals, Outcome& outcome, Makes makes) {
   Cell cell = read_cell(cell_file(globals));
+  keep_files(cell, makes, outcome);
   outcome.inputs.push_back({cell.file.string(), sha256(cell.text)});
   if (!cell.fit.prior_from.empty()) {
     const fs::path taught = cell.fit.earlier ? cell.fit.earlier->run / "run.json"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "cell/cell.hpp"
@@ -15,8 +16,18 @@ namespace plumb::offline::cli {
 /// The cell.toml of -C, or the nearest one upward. Throws Failure (kInput, E-CELL-NONE).
 std::filesystem::path cell_file(const Globals& globals);
 
+/// What of a cell's own files a verb makes; the others are kept from its outputs (refuse_kept).
+enum class Makes : std::uint8_t { kNone, kMeasurements, kModel };
+
 /// The cell of -C, or the nearest one upward; its file and remarks go to `outcome`.
-Cell open_cell(const Globals& globals, Outcome& outcome);
+Cell open_cell(const Globals& globals, Outcome& outcome, Makes makes = Makes::kNone);
+
+/// Keeps the files of this cell from the outputs of a verb.
+void keep_files(const Cell& cell, Makes makes, Outcome& outcome);
+
+/// The same of the cell of -C, or the nearest one upward, if there is one, for a verb that does
+/// not read it.
+void keep_nearest_cell(const Globals& globals, Outcome& outcome);
 
 /// The cell's measurements; files and remarks go to `outcome`.
 MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome);

@@ -21,11 +21,11 @@ void check_output(const CsvOutput& output, const Globals& globals) {
                                .help = "add -o out.csv"});
 }
 
-void refuse_existing(const CsvOutput& output) {
-  if (output.write.force || output.file.empty() || !would_replace(output.file)) return;
-  throw Failure(Exit::kUsage, {.code = "E-EXISTS",
-                               .message = fmt::format("{} is already there", output.file),
-                               .help = "to replace it add --force"});
+void refuse_existing(const CsvOutput& output, const Outcome& outcome) {
+  if (output.file.empty()) return;
+  OutputFiles files;
+  files.add(output.file, "");
+  files.check(output.write, outcome);
 }
 
 std::vector<Problem> replaced_notes(const std::vector<std::string>& columns) {

@@ -22,8 +22,9 @@ struct CsvOutput {
 /// Refuses --json and --dry-run without -o.
 void check_output(const CsvOutput& output, const Globals& globals);
 
-/// Refuses (kUsage, E-EXISTS) to replace a file without --force.
-void refuse_existing(const CsvOutput& output);
+/// Refuses to replace a file without --force (E-EXISTS), or one that belongs to what the verb works
+/// on (E-OUTPUT-INPUT).
+void refuse_existing(const CsvOutput& output, const Outcome& outcome);
 
 /// N-CSV-REPLACED of each of these columns.
 std::vector<Problem> replaced_notes(const std::vector<std::string>& columns);

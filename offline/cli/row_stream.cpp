@@ -186,9 +186,10 @@ class Pass {
 }  // namespace
 
 RowStream::RowStream(std::filesystem::path file, std::vector<std::string> columns,
-                     const CsvOutput& output)
+                     const CsvOutput& output, Outcome& outcome)
     : file_(std::move(file)), columns_(std::move(columns)), output_(output), spool_(output.file) {
-  refuse_existing(output);
+  outcome.kept.push_back(file_);
+  refuse_existing(output, outcome);
 }
 
 void RowStream::run(const Work& work, Outcome& outcome) {

@@ -49,7 +49,9 @@ class RowStream {
   /// Of a block, by any thread. Throws Failure with what is wrong with the rows.
   using Work = std::function<Computed(Table, const show::PassThrough&)>;
 
-  RowStream(std::filesystem::path file, std::vector<std::string> columns, const CsvOutput& output);
+  /// Throws Failure (kUsage) if the output may not be written: it is the file that is read, say.
+  RowStream(std::filesystem::path file, std::vector<std::string> columns, const CsvOutput& output,
+            Outcome& outcome);
 
   /// Reads and computes everything. File and remarks go to `outcome`.
   void run(const Work& work, Outcome& outcome);

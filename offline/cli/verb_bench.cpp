@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bench/benchmark.hpp"
+#include "cli/cell_data.hpp"
 #include "cli/model_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
@@ -25,11 +26,11 @@ struct BenchArguments {
 };
 
 /// Checked before the timing, which takes seconds.
-void refuse_existing(const BenchArguments& options) {
+void refuse_existing(const BenchArguments& options, const Outcome& outcome) {
   if (options.figure.empty()) return;
   OutputFiles files;
   files.add(options.figure, "");
-  files.check(options.write);
+  files.check(options.write, outcome);
 }
 
 bench::Benchmark timed(const BenchArguments& options, const format::Model& model) {
@@ -66,9 +67,10 @@ void draw(const BenchArguments& options, const bench::Benchmark& found, Outcome&
   outcome.text += "\n" + wrote(options.figure, options.write) + "\n";
 }
 
-void bench_model(const BenchArguments& options, Outcome& outcome) {
+void bench_model(const BenchArguments& options, const Globals& globals, Outcome& outcome) {
+  keep_nearest_cell(globals, outcome);
   const format::Model model = open_model(options.model, outcome);
-  refuse_existing(options);
+  refuse_existing(options, outcome);
   const bench::Benchmark found = timed(options, model);
   outcome.result = show::bench_json(found);
   outcome.text = show::bench_text(found);
@@ -86,7 +88,7 @@ void add_bench(Program& program) {
                     .examples = "  plumb bench robot.plumb\n"
                                 "  plumb bench robot.plumb --max-us 10 -o latency.svg --json",
                     .in_cell = false},
-                   [options](const Globals&, Outcome& o) { bench_model(*options, o); });
+                   [options](const Globals& g, Outcome& o) { bench_model(*options, g, o); });
   verb.add_option("MODEL", options->model, "Model file of plumb compile").required();
   verb.add_option(
           "--calls", options->request.calls,

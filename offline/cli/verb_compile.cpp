@@ -56,12 +56,13 @@ fs::path model_file(const CompileArguments& options, const Cell& cell) {
   return file;
 }
 
-/// The model, and if asked for the same tree as C.
+/// The model, and if asked for the same tree as C; without a model, their names alone.
 OutputFiles files_of(const CompileArguments& options, const fs::path& file,
-                     const format::Model& model) {
+                     const format::Model* model = nullptr) {
   OutputFiles out;
-  out.add(file, model_bytes(model));
-  if (!options.c_output.empty()) out.add(options.c_output, emit_c(model, options.c_output));
+  out.add(file, model ? model_bytes(*model) : "");
+  if (!options.c_output.empty())
+    out.add(options.c_output, model ? emit_c(*model, options.c_output) : "");
   return out;
 }
 
@@ -72,11 +73,12 @@ std::string wrote_text(const CompileArguments& options, const fs::path& file) {
 }
 
 void compile_cell(const CompileArguments& options, const Globals& globals, Outcome& outcome) {
-  const Cell cell = open_cell(globals, outcome);
+  const Cell cell = open_cell(globals, outcome, Makes::kModel);
   const fs::path file = model_file(options, cell);
+  files_of(options, file).check(options.write, outcome);
   const Compiled made = compiled(cell, options.compile, options.write, outcome);
   const format::Model& model = made.model;
-  const OutputFiles files = files_of(options, file, model);
+  const OutputFiles files = files_of(options, file, &model);
   const Audit found = audit(model);
   outcome.remark(found.remarks);
   const bench::StepCost cost = bench::step_cost(model);

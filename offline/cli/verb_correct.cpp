@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/cell_data.hpp"
 #include "cli/csv_output.hpp"
 #include "cli/model_file.hpp"
 #include "cli/target_rows.hpp"
@@ -138,8 +139,9 @@ std::string summary(const Found& found) {
 void correct(const CorrectArguments& options, const Globals& globals, Outcome& outcome) {
   check_output(options.output, globals);
   const format::Model model = open_model(options.model, outcome);
+  keep_nearest_cell(globals, outcome);
   TargetRows rows(model, start_of(options, model.nominal));
-  RowStream stream(options.data, TargetRows::columns(), options.output);
+  RowStream stream(options.data, TargetRows::columns(), options.output, outcome);
   stream.run(
       [&](Table table, const show::PassThrough& columns) {
         return rows.compute(std::move(table), columns);

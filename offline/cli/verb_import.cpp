@@ -189,6 +189,7 @@ void import(const ImportArguments& options, const Globals& globals, Outcome& out
     missing->code = "W-IMPORT-MISSING";
     outcome.remark({*missing});
   }
+  if (cell) keep_files(*cell, Makes::kMeasurements, outcome);
   const fs::path target = target_of(options, cell);
   outcome.result = {{"rows", data.rows()},
                     {"separator", data.separator},

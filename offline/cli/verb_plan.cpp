@@ -125,21 +125,28 @@ fs::path new_measurements(const Cell& cell) {
       return file;
 }
 
+/// The table of poses; its name alone before there is one.
+OutputFiles planned_file(const PlanArguments& options, std::string table = "") {
+  OutputFiles out;
+  out.add(options.output, std::move(table));
+  return out;
+}
+
 /// Poses of the calibration that tell best what has changed since.
 void plan_the_recheck(const PlanArguments& options, const Globals& globals, Outcome& outcome) {
   if (!options.separate.empty() || !options.boxes.empty() || !options.limits.empty())
     usage("--recheck chooses among the poses of the calibration",
           "leave out --separate, --box and --joint-limits: plumb plan --recheck --n 12");
   const Cell cell = open_cell(globals, outcome);
+  planned_file(options).check(options.write, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = latest_recheck(cell, current_or_new_run(cell, measured, Keep::kRun, outcome));
   const Run calibrated = calibrated_run(cell, run);
   const int n = options.n > 0 ? options.n : kRecheckPoses;
   const recheck::RecheckPlan found = recheck::plan_recheck(cell, calibrated, run, measured, n);
   outcome.result = show::recheck_plan_json(cell, found, run, measured);
-  OutputFiles files;
-  files.add(options.output, show::recheck_plan_csv(cell, found, measured));
-  files.commit(options.write, outcome);
+  planned_file(options, show::recheck_plan_csv(cell, found, measured))
+      .commit(options.write, outcome);
   outcome.text =
       show::recheck_plan_text(cell, found, run) + "\n" + wrote(options.output, options.write) +
       "\nMeasure these poses, then join what the tracker wrote with their joint angles.\n";
@@ -154,6 +161,7 @@ void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome
   if (options.recheck) return plan_the_recheck(options, globals, outcome);
   const Cell cell = open_cell(globals, outcome);
   const PlanRequest request = request_of(options, cell);
+  planned_file(options).check(options.write, outcome);
   const MeasurementFiles measured = measured_already(cell)
                                         ? open_measurements(cell, outcome)
                                         : MeasurementFiles{nothing_measured(cell), {}};
@@ -161,9 +169,7 @@ void plan(const PlanArguments& options, const Globals& globals, Outcome& outcome
   const PosePlan found = plan_poses(cell, measured, request);
   outcome.remark(found.remarks);
   outcome.result = show::plan_json(cell, request, found);
-  OutputFiles files;
-  files.add(options.output, show::plan_csv(cell, request, found));
-  files.commit(options.write, outcome);
+  planned_file(options, show::plan_csv(cell, request, found)).commit(options.write, outcome);
   outcome.text = show::plan_text(request, found) + "\n" + wrote(options.output, options.write) +
                  "\nMeasure these poses in this order. Then join what the tracker wrote with the "
                  "joint angles of this plan, and name the new file in cell.toml.\n";

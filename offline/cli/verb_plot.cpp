@@ -125,7 +125,7 @@ void plot(const PlotArguments& options, const Globals& globals, Outcome& outcome
   const std::string file = options.output.empty() ? options.name + ".svg" : options.output;
   OutputFiles before;
   before.add(file, "");
-  before.check(options.write);
+  before.check(options.write, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   outcome.result = {{"figure", options.name}, {"width_px", options.width}};
   OutputFiles files;

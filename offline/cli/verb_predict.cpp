@@ -163,10 +163,11 @@ class ModelRows {
 };
 
 /// The tool centre point in the base frame, through the runtime.
-void predict_model(const PredictArguments& options, Outcome& outcome) {
+void predict_model(const PredictArguments& options, const Globals& globals, Outcome& outcome) {
+  keep_nearest_cell(globals, outcome);
   const format::Model model = open_model(options.model, outcome);
   ModelRows rows(model);
-  RowStream stream(options.data, ModelRows::columns(), options.output);
+  RowStream stream(options.data, ModelRows::columns(), options.output, outcome);
   stream.run(
       [&](Table table, const show::PassThrough& columns) {
         return rows.compute(std::move(table), columns);
@@ -245,6 +246,7 @@ void finish(const PredictArguments& options, const std::vector<Status>& status,
 void predict_as_measured(const PredictArguments& options, const Globals& globals,
                          Outcome& outcome) {
   const Cell cell = open_cell(globals, outcome);
+  refuse_existing(options.output, outcome);
   const MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = chosen_run(options, cell, measured, outcome);
   const bool own = options.data.empty();
@@ -272,7 +274,7 @@ void predict(const PredictArguments& options, const Globals& globals, Outcome& o
   if (options.as_measured)
     predict_as_measured(options, globals, outcome);
   else
-    predict_model(options, outcome);
+    predict_model(options, globals, outcome);
 }
 
 }  // namespace

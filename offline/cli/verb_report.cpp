@@ -150,7 +150,7 @@ void write_report(const ReportArguments& options, const Globals& globals, Outcom
   OutputFiles before;
   before.add(file, "");
   if (options.pdf) before.add(pdf, "");
-  before.check(options.write);
+  before.check(options.write, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
   const Run run = run_to_report(options, cell, measured, outcome);
   stand_on_base_of(run, cell, measured);

@@ -80,7 +80,7 @@ void require_finite(const Simulation& simulation) {
 
 void simulate_cell(const SimulateOptions& options, const Globals& globals, Outcome& outcome) {
   if (options.list) return list_effects(outcome);
-  const Cell whole = open_cell(globals, outcome);
+  const Cell whole = open_cell(globals, outcome, Makes::kMeasurements);
   if (whole.measurement.setups.size() > 1) note_setup(whole, outcome);
   const Cell cell = cell_of_setup(whole, 0);
   const Progress progress(fmt::format("simulating {} poses", options.poses));
