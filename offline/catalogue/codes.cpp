@@ -94,6 +94,15 @@ constexpr Explanation kCodes[] = {
      "A single reading contradicts all others: no part of the arm or the measurement could have "
      "moved so that one pose alone sees it. It was left out; at most a fifth of the readings can "
      "be."},
+    {"W-COMPILE-RECHECK",
+     "A recheck found that the arm had changed, and what is compiled does not know it: the model "
+     "was changed and fitted again since, or --refit-all asks for the calibration alone. The model "
+     "is that of the arm before the change. Recheck the new run with the same readings: plumb "
+     "recheck --data FILE."},
+    {"E-OUTPUT-INPUT",
+     "The file to be written is one that the command reads, or one of the cell's own that another "
+     "command makes. --force replaces earlier results, never what they were made from. Name "
+     "another file."},
     {"N-COMPILE-RECHECK",
      "The arm has been rechecked since it was calibrated, so what is compiled is the latest "
      "recheck: "

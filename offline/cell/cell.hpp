@@ -143,9 +143,13 @@ Cell read_cell(const std::filesystem::path& cell_toml);
 /// The same for a text that is, or will be, the content of that file.
 Cell parse_cell(std::string text, const std::filesystem::path& cell_toml);
 
-/// sha256 of the file, and of what it takes over from a fleet: two cells of one hash and one set of
-/// measurements are fitted alike.
+/// sha256 of the file, and of what it takes over from a fleet or an earlier run.
 std::string hash_of(const Cell& cell);
+
+/// sha256 of what a fit reads of it: the keys as parsed and what is taken over, without comments,
+/// order, names, tolerance and [deploy]. Two cells of one such hash and one set of measurements are
+/// fitted alike.
+std::string fit_hash(const Cell& cell);
 
 /// cell.toml in `start` or the nearest folder above it. Throws Failure (kInput) with help if none.
 std::filesystem::path find_cell(const std::filesystem::path& start);

@@ -7,6 +7,7 @@
 #include "effects/registry.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
+#include "program/json.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -97,10 +98,38 @@ Cell read_cell(const fs::path& cell_toml) {
   return parse_cell(read_file_up_to(cell_toml, kMostCellBytes), cell_toml);
 }
 
-std::string hash_of(const Cell& cell) {
-  std::string taught = fleet_priors_text(cell.fit);
-  if (cell.fit.earlier) taught += cell.fit.earlier->check_sum;
-  return sha256(cell.text + taught);
+namespace {
+
+std::string taken_over(const Cell& cell) {
+  return fleet_priors_text(cell.fit) + (cell.fit.earlier ? cell.fit.earlier->check_sum : "");
+}
+
+/// The same value however it is written: 5 and 5.0, tables in one line or in many, in any order.
+Json canonical(const toml::node& node) {
+  if (const auto* table = node.as_table()) {
+    Json out = Json::object();
+    for (const auto& [key, value] : *table) out[std::string(key.str())] = canonical(value);
+    return out;
+  }
+  if (const auto* array = node.as_array()) {
+    Json out = Json::array();
+    for (const auto& value : *array) out.push_back(canonical(value));
+    return out;
+  }
+  if (const auto number = node.value<double>()) return *number;
+  if (const auto truth = node.value<bool>()) return *truth;
+  return node.value_or(std::string());
+}
+
+}  // namespace
+
+std::string hash_of(const Cell& cell) { return sha256(cell.text + taken_over(cell)); }
+
+std::string fit_hash(const Cell& cell) {
+  TomlSource source(display_name(cell.file), cell.text);
+  Json read = canonical(source.parse());
+  for (const char* unread : {"cell", "deploy"}) read.erase(unread);
+  return sha256(read.dump() + taken_over(cell));
 }
 
 fs::path find_cell(const fs::path& start) {

@@ -21,4 +21,17 @@ std::string reading_digest(const Measurements& measured, int row) {
   return sha256({bytes, values.size() * sizeof(std::int64_t)}).substr(0, kDigits);
 }
 
+std::unordered_set<std::string> reading_digests(const Measurements& measured) {
+  std::unordered_set<std::string> out;
+  for (int i = 0; i < measured.size(); ++i) out.insert(reading_digest(measured, i));
+  return out;
+}
+
+int count_known(const Measurements& measured, const std::unordered_set<std::string>& known) {
+  int out = 0;
+  for (int i = 0; i < measured.size(); ++i)
+    out += known.contains(reading_digest(measured, i)) ? 1 : 0;
+  return out;
+}
+
 }  // namespace plumb::offline

@@ -147,7 +147,7 @@ void check_known_to_runtime(const Run& run, const MeasurementFiles& measured) {
 
 show::ListedRun::State state_of(const Run& run, const Cell& cell,
                                 const MeasurementFiles& measured) {
-  const bool current = run.cell_sha256 == hash_of(cell) && is_of_data(run, measured);
+  const bool current = is_of_cell(run, cell) && is_of_data(run, measured);
   return current ? show::ListedRun::State::kCurrent : show::ListedRun::State::kOther;
 }
 

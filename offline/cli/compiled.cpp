@@ -10,6 +10,7 @@
 #include "compile/compiler.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
+#include "program/shell_word.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -84,6 +85,21 @@ Run rechecked(const Cell& cell, Run run, Outcome& outcome) {
   return run;
 }
 
+void warn_of_left_out(const Cell& cell, const Run& run, Outcome& outcome) {
+  const auto recheck = left_out_recheck(cell, run);
+  if (!recheck) return;
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-COMPILE-RECHECK",
+       .message =
+           fmt::format("what recheck {} found is not in this model, which is that of the arm "
+                       "before: {}",
+                       recheck->number, recheck->recheck->words),
+       .help = fmt::format("recheck again with its readings, then compile: plumb recheck --data {}",
+                           shell_word(recheck->inputs.empty() ? std::string("FILE")
+                                                              : recheck->inputs.front().name))});
+}
+
 }  // namespace
 
 void CompileOptions::add_to(VerbOptions& verb) {
@@ -110,6 +126,7 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
   stand_on_base_of(run, cell, measured);
   check_known_to_runtime(run, measured);
   if (!options.refit_all) run = rechecked(cell, std::move(run), outcome);
+  warn_of_left_out(cell, run, outcome);
   const int number = run.number;
   const std::string kept = number > 0 ? fmt::format("{:04}", number) : "not kept";
   if (options.refit_all) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <tuple>
 
+#include "cell/reading_digest.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/cell_lock.hpp"
 #include "cli/next_line.hpp"
@@ -35,6 +36,13 @@ struct NewReadings {
   int in_file = 0;  // that are not marked 'ignore'
 };
 
+/// Whether they are readings of the calibration: its file, or rows of it in a file of another form.
+bool of_calibration(const MeasurementFiles& rows, const MeasurementFiles& own) {
+  for (const auto& mine : own.tables)
+    if (mine.sha256 == rows.tables.front().sha256) return true;
+  return count_known(rows, reading_digests(own)) == rows.size();
+}
+
 /// Refuses (E-RECHECK-OWN) the readings of the calibration itself.
 NewReadings new_readings(const std::string& file, const Cell& cell, const MeasurementFiles& own,
                          Outcome& outcome) {
@@ -43,13 +51,12 @@ NewReadings new_readings(const std::string& file, const Cell& cell, const Measur
   const Table& table = all.tables.front();
   outcome.inputs.push_back({table.file, table.sha256});
   outcome.remark(table.remarks);
-  for (const auto& mine : own.tables)
-    if (mine.sha256 == table.sha256)
-      throw Failure(Exit::kInput,
-                    {.code = "E-RECHECK-OWN",
-                     .message = fmt::format("{} holds the readings of the calibration itself",
-                                            display_name(file)),
-                     .help = "measure again: plumb plan --recheck -o plan.csv"});
+  if (of_calibration(all, own))
+    throw Failure(Exit::kInput,
+                  {.code = "E-RECHECK-OWN",
+                   .message = fmt::format("{} holds the readings of the calibration itself",
+                                          display_name(file)),
+                   .help = "measure again: plumb plan --recheck -o plan.csv"});
   std::vector<int> used;
   for (int i = 0; i < all.size(); ++i)
     if (all.set[static_cast<std::size_t>(i)] != SetMark::kIgnore) used.push_back(i);

@@ -121,15 +121,12 @@ std::vector<bool> joint_is_angle(const Cell& cell) {
 void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
   if (!cell.fit.earlier) return;
   const EarlierArm& earlier = *cell.fit.earlier;
-  int known = 0;
-  for (int i = 0; i < measured.size(); ++i)
-    known += earlier.readings.contains(reading_digest(measured, i)) ? 1 : 0;
+  const int known = count_known(measured, earlier.readings);
   const bool of_a_file =
       std::any_of(measured.tables.begin(), measured.tables.end(), [&](const Table& table) {
         return std::find(earlier.inputs.begin(), earlier.inputs.end(), table.sha256) !=
                earlier.inputs.end();
       });
-  // A point that was measured twice may by chance be the same to 10 um.
   if (known < kSeenShare * measured.size() && !of_a_file) return;
   throw Failure(
       Exit::kInput,

@@ -205,6 +205,7 @@ Json run_to_json(const Run& run) {
               {"number", run.number},
               {"created", run.created},
               {"cell_sha256", run.cell_sha256},
+              {"fit_sha256", run.fit_sha256},
               {"inputs", run.inputs},
               {"effects", run.effects},
               {"base", name_of(fit.base)},
@@ -237,6 +238,7 @@ Run run_from_json(const Json& j) {
   j.at("number").get_to(run.number);
   j.at("created").get_to(run.created);
   j.at("cell_sha256").get_to(run.cell_sha256);
+  run.fit_sha256 = j.value("fit_sha256", run.cell_sha256);
   j.at("inputs").get_to(run.inputs);
   j.at("effects").get_to(run.effects);
   Fit& fit = run.fit;

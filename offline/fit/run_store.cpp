@@ -157,6 +157,7 @@ Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
   Run run;
   run.created = iso_utc(std::time(nullptr));
   run.cell_sha256 = hash_of(cell);
+  run.fit_sha256 = fit_hash(cell);
   run.inputs = inputs_of(measured);
   for (const auto& effect : cell.effects)
     run.effects.push_back(
@@ -275,13 +276,16 @@ Run load_run(const Cell& cell, int number) {
   }
 }
 
+bool is_of_cell(const Run& run, const Cell& cell) {
+  return run.fit_sha256 == fit_hash(cell) || run.fit_sha256 == hash_of(cell);
+}
+
 std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured) {
   const auto numbers = list_runs(cell);
-  const std::string hash = hash_of(cell);
   const auto inputs = inputs_of(measured);
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
     Run run = load_run(cell, *it);
-    if (!run.recheck && run.cell_sha256 == hash && run.inputs == inputs) return run;
+    if (!run.recheck && is_of_cell(run, cell) && run.inputs == inputs) return run;
   }
   return std::nullopt;
 }
@@ -301,6 +305,23 @@ Run latest_recheck(const Cell& cell, Run run) {
     if (joins_line(later, line)) run = std::move(later);
   }
   return run;
+}
+
+std::optional<Run> left_out_recheck(const Cell& cell, const Run& run) {
+  std::vector<int> known{run.number};  // this run and those it goes back to
+  Run start = run;
+  for (; start.recheck; known.push_back(start.number))
+    start = load_run(cell, start.recheck->parent);
+  const auto numbers = list_runs(cell);
+  for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
+    if (run.recheck && *it <= run.number) break;  // the arm was looked at again since
+    if (std::find(known.begin(), known.end(), *it) != known.end()) continue;
+    Run other = load_run(cell, *it);
+    if (other.recheck && other.recheck->verdict == "changed" &&
+        calibrated_run(cell, other).inputs == start.inputs)
+      return other;
+  }
+  return std::nullopt;
 }
 
 Run calibrated_run(const Cell& cell, Run run) {

@@ -36,6 +36,7 @@ struct Run {
   std::filesystem::path directory;
   std::string created;      // ISO 8601, UTC
   std::string cell_sha256;  // of cell.toml as it was
+  std::string fit_sha256;   // fit_hash of it; of a run of an earlier version, its cell_sha256
   std::vector<format::InputHash> inputs;
   std::vector<std::string> effects;
   Fit fit;
@@ -65,6 +66,9 @@ std::vector<int> list_runs(const Cell& cell);
 /// Throws Failure (kInput) if there is no such run or a file of it was edited or cut off.
 Run load_run(const Cell& cell, int number);
 
+/// Whether the run was made of what a fit reads of this cell.
+bool is_of_cell(const Run& run, const Cell& cell);
+
 /// The latest run of the present cell and data, rechecks not counted. Throws on a damaged later
 /// one: was it that?
 std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured);
@@ -75,6 +79,11 @@ bool joins_line(const Run& later, std::vector<int>& line);
 /// What is known of the arm now: the latest recheck that goes back to this run, or the run itself.
 /// Throws on a damaged later one.
 Run latest_recheck(const Cell& cell, Run run);
+
+/// The latest recheck that found the arm changed and that this run does not go back to, though both
+/// go back to the same readings of a calibration: the run is of the arm before. Throws on a damaged
+/// run.
+std::optional<Run> left_out_recheck(const Cell& cell, const Run& run);
 
 /// The calibration that a recheck goes back to; a run that is no recheck is returned as it is.
 Run calibrated_run(const Cell& cell, Run run);

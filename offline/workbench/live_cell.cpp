@@ -119,7 +119,8 @@ void LiveCell::read_cell_again() {
     text_ = read_file_up_to(file_, kMostCellBytes);
     cell_ = std::make_shared<const Cell>(parse_cell(text_, file_));
   });
-  cell_sha256_ = cell_ ? hash_of(*cell_) : sha256(text_);
+  cell_sha256_ = cell_ ? hash_of(*cell_) : "";
+  fit_sha256_ = cell_ ? fit_hash(*cell_) : "";
 }
 
 void LiveCell::read_data_again() {
@@ -177,10 +178,10 @@ void LiveCell::look_at_runs() {
       rows.emplace(number, std::move(old->second));
       continue;
     }
-    RunRow row{.stamp = stamp, .row = nullptr, .cell_sha256 = {}, .data = {}, .problem = {}};
+    RunRow row{.stamp = stamp, .row = nullptr, .fit_sha256 = {}, .data = {}, .problem = {}};
     row.problem = problem_in([&] {
       Run run = load_run(cell, number);
-      row.cell_sha256 = run.cell_sha256;
+      row.fit_sha256 = run.fit_sha256;
       for (const auto& input : run.inputs) row.data.push_back(input.sha256);
       row.row = show::runs_json({{std::move(run), show::ListedRun::State::kOther}})["runs"][0];
     });
@@ -190,7 +191,8 @@ void LiveCell::look_at_runs() {
 }
 
 bool LiveCell::is_current(const RunRow& row) const {
-  return data_ && !row.problem && row.cell_sha256 == cell_sha256_ && row.data == data_sha256_;
+  const bool of_cell = row.fit_sha256 == fit_sha256_ || row.fit_sha256 == cell_sha256_;
+  return data_ && !row.problem && of_cell && row.data == data_sha256_;
 }
 
 /// The latest run of the present cell and data; 0 if there is none.

@@ -61,7 +61,7 @@ class LiveCell {
   struct RunRow {
     std::string stamp;
     Json row;  // as `plumb runs --json` lists it; null if the run is damaged
-    std::string cell_sha256;
+    std::string fit_sha256;
     std::vector<std::string> data;
     std::optional<Problem> problem;
   };
@@ -92,7 +92,7 @@ class LiveCell {
   std::string text_;                      // of cell.toml
   std::shared_ptr<const Cell> cell_;      // null: it cannot be read
   std::optional<MeasurementFiles> data_;  // none: they cannot be read
-  std::string cell_sha256_;
+  std::string cell_sha256_, fit_sha256_;
   std::vector<std::string> data_sha256_;
   std::optional<Problem> cell_problem_, data_problem_;
   std::map<int, RunRow> rows_;
