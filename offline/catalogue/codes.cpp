@@ -648,7 +648,14 @@ constexpr Explanation kCodes[] = {
     {"N-CSV-REPLACED",
      "The input already had a column of that name, perhaps from an earlier predict; it was "
      "replaced."},
-    {"E-DH-COLUMN", "The DH table needs alpha_deg, a_mm, d_mm and theta_deg (or rad, m, in)."},
+    {"E-DH-COLUMN",
+     "The DH table needs alpha_deg, a_mm, d_mm and theta_deg (or rad, m, in), and may have joint, "
+     "type, beta, offset, q_min and q_max. Another column would be left out, which may describe "
+     "another arm."},
+    {"E-DH-OFFSET", "The offset of a joint that turns is an angle, of one that slides a length."},
+    {"W-DH-RADIANS",
+     "Angles of arms are mostly quarter turns. All those of this table are multiples of pi/4 as "
+     "numbers, though their header says degrees: 1.570796 is perhaps pi/2."},
     {"E-DH-JOINTS", "The DH table has more joints than a model can have."},
     {"E-DH-LIMITS", "A joint's limits are not two rising numbers in its own unit."},
     {"E-DH-TYPE", "A joint is revolute or prismatic."},

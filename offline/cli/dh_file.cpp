@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "cell/assumed_limits.hpp"
@@ -16,7 +18,8 @@ namespace plumb::offline::cli {
 namespace {
 
 constexpr const char* kHeader =
-    "header: joint,alpha_deg,a_mm,d_mm,theta_deg,q_min_deg,q_max_deg,q_min_mm,q_max_mm,type";
+    "header: joint,alpha_deg,a_mm,d_mm,theta_deg,q_min_deg,q_max_deg,q_min_mm,q_max_mm,type; also "
+    "beta_deg, and offset_deg or offset_mm, which is added to the joint's value";
 
 /// The columns of a DH table, checked; problems of the whole file are collected.
 class DhReader {
@@ -26,14 +29,18 @@ class DhReader {
   std::vector<format::JointRow> rows(Outcome& outcome) {
     std::vector<format::JointRow> out(table_.rows());
     check_count();
+    check_columns();
     for (int i = 0; i < table_.rows(); ++i) name(i, out[i]);
     fill("alpha", Quantity::kAngle, &format::JointRow::alpha, out);
     fill("a", Quantity::kLength, &format::JointRow::a, out);
     fill("d", Quantity::kLength, &format::JointRow::d, out);
     fill("theta", Quantity::kAngle, &format::JointRow::theta, out);
+    if (table_.find("beta")) fill("beta", Quantity::kAngle, &format::JointRow::beta, out);
+    for (int i = 0; i < table_.rows(); ++i) offset(i, out[i]);
     for (int i = 0; i < table_.rows(); ++i) limits(i, out[i]);
     if (!problems_.empty()) throw Failure(Exit::kInput, std::move(problems_));
     if (std::find(assumed_.begin(), assumed_.end(), true) != assumed_.end()) note_limits(outcome);
+    warn_of_radians(outcome);
     return out;
   }
 
@@ -55,6 +62,16 @@ class DhReader {
       problem("E-DH-JOINTS",
               fmt::format("{} joints; plumb goes up to {}", table_.rows(), format::kMaxJoints),
               "one row a joint, from base to tip");
+  }
+
+  /// A column that is left out describes another arm.
+  void check_columns() {
+    constexpr std::array kRead{"joint", "alpha",  "a",     "d",     "theta",
+                               "beta",  "offset", "q_min", "q_max", "type"};
+    for (const Column& column : table_.columns)
+      if (std::find(kRead.begin(), kRead.end(), column.name) == kRead.end())
+        problem("E-DH-COLUMN", fmt::format("column '{}' is none of a DH table", column.header),
+                fmt::format("rename it, or remove it if it says nothing of the arm; {}", kHeader));
   }
 
   const std::string* text(const char* column, int row) const {
@@ -81,6 +98,43 @@ class DhReader {
     if (!column || column->quantity != quantity)
       return problem("E-DH-COLUMN", fmt::format("column '{}_{}' is missing", name, unit), kHeader);
     for (int i = 0; i < table_.rows(); ++i) rows[i].*field = column->values[i];
+  }
+
+  void offset(int i, format::JointRow& row) {
+    const bool slide = show::slides(row);
+    const auto kind = slide ? Quantity::kLength : Quantity::kAngle;
+    const auto other = slide ? Quantity::kAngle : Quantity::kLength;
+    row.offset = limit("offset", kind, i).value_or(0.0);
+    if (limit("offset", other, i).value_or(0.0) != 0.0)
+      problem("E-DH-OFFSET",
+              fmt::format("joint {} {}, but its offset is {}", row.name, slide ? "slides" : "turns",
+                          slide ? "an angle" : "a length"),
+              slide ? "write it into offset_mm" : "write it into offset_deg", i);
+  }
+
+  /// Angles of arms are mostly quarter turns: numbers in degrees that are multiples of pi/4 are
+  /// not.
+  void warn_of_radians(Outcome& outcome) const {
+    constexpr double kEighth = std::numbers::pi / 4.0, kRounded = 2e-4;
+    std::vector<std::string> seen;
+    for (const Column& column : table_.columns) {
+      if (column.unit != "deg" || column.name.starts_with("q_")) continue;
+      for (const double angle : column.values) {
+        const double written = show::to_deg(angle), steps = std::round(written / kEighth);
+        if (steps == 0.0 || std::isnan(written)) continue;
+        if (std::abs(written - steps * kEighth) > kRounded || std::abs(steps) > 8.0) return;
+        seen.push_back(fmt::format("{} of {}", show::shortest(written), column.header));
+      }
+    }
+    if (seen.empty()) return;
+    outcome.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-DH-RADIANS",
+         .message = fmt::format("every angle but zero is a multiple of pi/4, so these degrees look "
+                                "like radians: {}",
+                                fmt::join(seen, ", ")),
+         .place = Place{.file = table_.file, .line = table_.header_line},
+         .help = "if they are, write _rad instead of _deg into the header"});
   }
 
   /// What stands in the column of that kind; nothing if there is none, or the cell is empty.

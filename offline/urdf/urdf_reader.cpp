@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cell/assumed_limits.hpp"
 #include "program/bounded_file.hpp"
@@ -121,6 +122,7 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
 
   Cell read(format::Convention convention) {
+    check_tree();
     walk();
     if (axes_.empty()) fail("E-URDF-JOINT", "no joint moves between root and tip", tips_help());
     if (axes_.size() > static_cast<std::size_t>(format::kMaxJoints))
@@ -176,6 +178,19 @@ class Reader {
     const auto guess = did_you_mean(tip_, names);
     fail("E-URDF-TIP", fmt::format("the file has no link '{}'", tip_),
          guess ? fmt::format("did you mean '{}'?", *guess) : tips_help());
+  }
+
+  /// Of two joints that move one link the parser keeps the last, and what is behind the other one
+  /// is lost.
+  void check_tree() {
+    std::map<std::string, std::vector<std::string>> above;
+    for (const auto& [name, joint] : tree_->joints_) above[joint->child_link_name].push_back(name);
+    for (const auto& [link, joints] : above)
+      if (joints.size() > 1)
+        fail("E-URDF",
+             fmt::format("link '{}' is the child of several joints: {}", link,
+                         fmt::join(joints, ", ")),
+             "a URDF is a tree: let every link be the child of one joint");
   }
 
   void walk() {

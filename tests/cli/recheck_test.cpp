@@ -217,6 +217,59 @@ TEST_F(RecheckVerb, CompileTakesTheLatestRecheck) {
   EXPECT_EQ(all.json()["result"]["run"], runs);
 }
 
+TEST_F(RecheckVerb, WhatTheFitDoesNotReadLeavesARecheckInTheModel) {
+  box->write("now.csv", readings(some(14), [](int, Point p) {
+               return Point{p[0] + 0.4, p[1], p[2]};
+             }));
+  ASSERT_EQ(recheck().json()["result"]["verdict"], "changed");
+  const std::string cell = box->read("cell/cell.toml");
+  const auto compiled = [&](const std::string& text) {
+    box->write("cell/cell.toml", text);
+    const Ran ran = box->plumb({"-C", "cell", "compile", "-o", "now.plumb", "--force", "--json"});
+    EXPECT_EQ(ran.exit, 0) << ran.err << ran.out;
+    return ran;
+  };
+  const auto with = [&](const std::string& old, const std::string& now) {
+    const auto at = cell.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    return std::string(cell).replace(at, old.size(), now);
+  };
+  for (const std::string& text :
+       {"# a comment\n" + cell, with("tolerance_mm = ", "tolerance_mm = 1"),
+        with("serial = ", "serial = \"another\" #"),
+        cell + "\n[deploy]\nmax_correction_mm = 2.0\n"}) {
+    const Ran ran = compiled(text);
+    EXPECT_EQ(ran.json()["result"]["run"], runs + 1) << text.substr(0, 40);
+    EXPECT_EQ(ran.out.find("N-RUN-NEW"), std::string::npos);
+    EXPECT_EQ(ran.out.find("W-COMPILE-RECHECK"), std::string::npos);
+  }
+  const Ran refitted = compiled(cell + "\n[fit]\nfixed = [\"J2.d\"]\n");
+  EXPECT_EQ(refitted.json()["result"]["run"], runs + 2);
+  EXPECT_NE(refitted.out.find("W-COMPILE-RECHECK"), std::string::npos);
+  EXPECT_NE(refitted.out.find("plumb recheck --data now.csv"), std::string::npos);
+  ASSERT_EQ(recheck().exit, 0);
+  EXPECT_EQ(compiled(box->read("cell/cell.toml")).out.find("W-COMPILE-RECHECK"), std::string::npos);
+  box->write("cell/cell.toml", cell);
+  const Ran all =
+      box->plumb({"-C", "cell", "compile", "--refit-all", "-o", "all.plumb", "--force", "--json"});
+  EXPECT_NE(all.out.find("W-COMPILE-RECHECK"), std::string::npos) << all.out;
+}
+
+TEST_F(RecheckVerb, ReadingsOfTheCalibrationAreNoneOfTodayInWhateverForm) {
+  const Csv own = box->csv("cell/measurements.csv");
+  std::string text = "x_mm,y_mm,z_mm";
+  for (int j = 6; j >= 1; --j) text += ",q" + std::to_string(j) + "_deg";
+  for (std::size_t i = 20; i-- > 4;) {
+    text += "\n" + own.columns.at("x_mm")[i] + "," + own.columns.at("y_mm")[i] + "," +
+            own.columns.at("z_mm")[i];
+    for (int j = 6; j >= 1; --j) text += "," + own.columns.at("q" + std::to_string(j) + "_deg")[i];
+  }
+  box->write("now.csv", text + "\n");
+  const Ran ran = recheck();
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.out.find("E-RECHECK-OWN"), std::string::npos) << ran.out;
+}
+
 TEST_F(RecheckVerb, ARecheckIsRecheckedNext) {
   box->write("now.csv", readings(some(14), [](int, Point p) {
                return Point{p[0] + 0.4, p[1], p[2]};
