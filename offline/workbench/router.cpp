@@ -79,13 +79,16 @@ std::string text_of(const Json& object, const char* key) {
 
 Response page(const Call& call) {
   const auto& path = call.target.path;
-  const auto out = call.services.page(path.empty() ? "index.html" : path.front());
+  auto out = call.services.page(path.empty() ? "index.html" : path.front());
   if (!out)
     return error_response(404, {.code = "E-SERVE-PATH",
                                 .message = "this plumb was built without its page",
                                 .help = "build it with node and npm installed: docs/workbench.md"});
-  if (!out->etag.empty() && call.request.if_none_match == '"' + out->etag + '"')
-    return {.status = 304, .type = out->type, .body = bytes(""), .etag = out->etag};
+  // Its headers replace those that the browser kept with the page, the policy too.
+  if (!out->etag.empty() && call.request.if_none_match == '"' + out->etag + '"') {
+    out->status = 304;
+    out->body = bytes("");
+  }
   return *out;
 }
 

@@ -122,6 +122,20 @@ TEST(Router, NoAnswerLetsAnotherOriginRead) {
   EXPECT_EQ(status_of(again), 304);
 }
 
+// A browser puts the headers of a 304 in the place of those that it kept with the page.
+TEST(Router, WhatIsUnchangedIsSaidWithTheHeadersOfTheWhole) {
+  NoServices services;
+  for (const char* target : {"/", "/fig/order.svg"}) {
+    Request request = to("GET", target);
+    const Response whole = answer(request, kAccess, services);
+    request.if_none_match = '"' + whole.etag + '"';
+    const Response unchanged = answer(request, kAccess, services);
+    EXPECT_EQ(unchanged.status, 304) << target;
+    EXPECT_TRUE(unchanged.body->empty()) << target;
+    EXPECT_EQ(headers_of(unchanged), headers_of(whole)) << target;
+  }
+}
+
 TEST(Job, OnlyVerbsOfACellOnFilesOfItsFolder) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("plumb-job-" + std::to_string(::getpid()));
