@@ -15,7 +15,10 @@ class NoServices final : public Services {
 
   std::optional<Response> page(const std::string& name) override {
     names.push_back(name);
-    return Response{.type = "text/html", .body = bytes("page"), .etag = "abc"};
+    return Response{.type = "text/html",
+                    .body = bytes("page"),
+                    .etag = "abc",
+                    .content = Response::Content::kPage};
   }
   std::int64_t state() override { return 17; }
   Bytes cell() override { return said("cell"); }
