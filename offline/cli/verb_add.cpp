@@ -128,10 +128,10 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);
   outcome.result["run_before"] = before.number;
-  const std::string verdict = compare::full_verdict(edited, measured, fitted);
-  outcome.result["verdict"] = verdict;
+  show::add_verdict(edited, measured, fitted, outcome.result);
   outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
-                 before_and_after(measured, before.fit, fitted) + "\n" + verdict + "\n";
+                 before_and_after(measured, before.fit, fitted) + "\n" +
+                 outcome.result["verdict"].get<std::string>() + "\n";
   if (change.adds && outcome.result["effect"] == "formula" &&
       globals.output == Globals::Output::kJson)
     outcome.result["figure"] = formula_figure(edited, measured, fitted);

@@ -114,6 +114,57 @@ Quality quality(const Fit& fit, double tolerance_m) {
   return within ? quality_within(fit) : quality_beyond(fit);
 }
 
+Grade grade(const Fit& fit, double tolerance_m) {
+  switch (quality(fit, tolerance_m)) {
+    case Quality::kNotHeldOut:
+      return Grade::kUnknown;
+    case Quality::kGood:
+    case Quality::kGoodNoiseUnknown:
+      return fit.still.empty() ? Grade::kGood : Grade::kPartly;
+    case Quality::kRepeatsDisagree:
+    case Quality::kSigmaTooLarge:
+    case Quality::kGoodNotComplete:
+    case Quality::kWorstPoseIsFar:
+    case Quality::kLimitedByNoise:
+      return Grade::kPartly;
+    default:
+      return Grade::kBad;
+  }
+}
+
+const char* name_of(Grade grade) {
+  switch (grade) {
+    case Grade::kGood:
+      return "good";
+    case Grade::kPartly:
+      return "partly";
+    case Grade::kBad:
+      return "bad";
+    default:
+      return "unknown";
+  }
+}
+
+std::string verdict_head(const Fit& fit, double tolerance_m) {
+  switch (quality(fit, tolerance_m)) {
+    case Quality::kNotHeldOut:
+      return "Accuracy unknown";
+    case Quality::kGood:
+    case Quality::kGoodNoiseUnknown:
+      return good(fit);
+    case Quality::kRepeatsDisagree:
+    case Quality::kSigmaTooLarge:
+    case Quality::kGoodNotComplete:
+      return good(fit) + ", not complete";
+    case Quality::kWorstPoseIsFar:
+      return "Not good everywhere";
+    case Quality::kLimitedByNoise:
+      return fit.floor.holds_scatter ? "Limited by the arm" : "Limited by the measurement";
+    default:
+      return "Not good enough";
+  }
+}
+
 std::string verdict(const Fit& fit, double tolerance_m) {
   const std::string size = size_words(fit.held), tolerance = mm(tolerance_m);
   switch (quality(fit, tolerance_m)) {

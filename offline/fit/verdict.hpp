@@ -28,6 +28,19 @@ enum class Quality {
 
 Quality quality(const Fit& fit, double tolerance_m);
 
+/// The colour of the answer, the same in terminal, report, page and JSON.
+enum class Grade {
+  kGood,
+  kPartly,  // good, but not everywhere, or something is missing; or the measurement sets the limit
+  kBad,
+  kUnknown  // nothing was held out
+};
+Grade grade(const Fit& fit, double tolerance_m);
+const char* name_of(Grade grade);  // "good", "partly", "bad", "unknown"
+
+/// The answer in few words: "Good", "Not good everywhere", "Limited by the measurement".
+std::string verdict_head(const Fit& fit, double tolerance_m);
+
 /// What the calibrated arm leaves on the held-out poses, without those that stand out, which say
 /// nothing about physics. Nothing without held-out poses or a noise floor.
 std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit);

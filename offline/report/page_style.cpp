@@ -24,7 +24,7 @@ nav ol{columns:2;padding-left:1.6rem;font-size:.9rem}
 .verdict{border:2px solid;border-left-width:.6rem;border-radius:4px;padding:.6rem 1rem;margin:1rem 0}
 .verdict strong{display:block;font-size:1.25rem}
 .verdict p{margin:.25rem 0;color:var(--plumb-1)}
-.good{color:var(--plumb-7)}.bad{color:var(--plumb-6)}.open{color:var(--plumb-9)}
+.good{color:var(--plumb-7)}.bad{color:var(--plumb-6)}.partly,.unknown{color:var(--plumb-9)}
 .scroll{overflow-x:auto;margin:1rem 0}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums;width:100%}
 caption{text-align:left;padding:0 0 .3rem}

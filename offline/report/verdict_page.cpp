@@ -23,11 +23,14 @@ namespace {
 using show::mm;
 
 void put_verdict(const ReportData& data, Html& html) {
-  const auto good = is_good(data.run, data.cell.tolerance_m);
-  const char* kind = !good ? "open" : *good ? "good" : "bad";
-  const char* word = !good ? "? Cannot be judged" : *good ? "✓ Good" : "✗ Not good";
+  const Grade found = grade(data.run.fit, data.cell.tolerance_m);
+  const char* const mark = found == Grade::kGood     ? "✓"
+                           : found == Grade::kPartly ? "◐"
+                           : found == Grade::kBad    ? "✗"
+                                                     : "?";
   html.raw(fmt::format(
-      "<div class=\"verdict {}\" role=\"note\"><strong>{}</strong><p>{}</p></div>\n", kind, word,
+      "<div class=\"verdict {}\" role=\"note\"><strong>{} {}</strong><p>{}</p></div>\n",
+      name_of(found), mark, draw::escaped(verdict_head(data.run.fit, data.cell.tolerance_m)),
       draw::escaped(compare::full_verdict(data.cell, data.measured, data.run.fit))));
 }
 
@@ -151,18 +154,8 @@ void put_facts(const ReportData& data, Html& html) {
 }  // namespace
 
 std::optional<bool> is_good(const Run& run, double tolerance_m) {
-  switch (quality(run.fit, tolerance_m)) {
-    case Quality::kNotHeldOut:
-      return std::nullopt;
-    case Quality::kGood:
-    case Quality::kRepeatsDisagree:
-    case Quality::kSigmaTooLarge:
-    case Quality::kGoodNoiseUnknown:
-    case Quality::kGoodNotComplete:
-      return true;
-    default:
-      return false;
-  }
+  if (run.fit.held.n == 0) return std::nullopt;
+  return keeps(run.fit.held, tolerance_m);
 }
 
 Html verdict_page(const ReportData& data, const ReportFigures& figures) {

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/full_verdict.hpp"
 #include "fit/verdict.hpp"
 #include "show/compare_view.hpp"
 #include "show/compare_words.hpp"
 #include "show/error_table.hpp"
 #include "show/units.hpp"
+#include "show/verdict_json.hpp"
 
 namespace plumb::offline::show {
 namespace {
@@ -202,7 +202,7 @@ Json compare_json(const Cell& cell, const Measurements& measured, const Comparis
   add_floor(fit.floor, out);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["within_tolerance_pct"] = 100.0 * comparison.within_tolerance;
-  out["verdict"] = compare::full_verdict(cell, measured, fit);
+  add_verdict(cell, measured, fit, out);
   out["worst"] = worst_json(comparison);
   out["where"] = where_words(comparison);
   out["by"] = profiles_json(comparison);

@@ -16,6 +16,7 @@
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
+#include "show/verdict_json.hpp"
 
 namespace plumb::offline::show {
 namespace {
@@ -208,7 +209,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
   add_likeness(c, out);
   out["tolerance_mm"] = to_mm(cell.tolerance_m);
   out["seed"] = cell.measurement.seed;
-  out["verdict"] = compare::full_verdict(cell, measured, fit);
+  add_verdict(cell, measured, fit, out);
   return out;
 }
 

@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "compare/comparison.hpp"
-#include "compare/full_verdict.hpp"
 #include "figures/worst_band.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
 #include "show/compare_words.hpp"
+#include "show/verdict_json.hpp"
 
 namespace plumb::offline::workbench {
 namespace {
@@ -134,28 +134,28 @@ std::vector<std::string> context_names(const ContextRows& rows) {
 Json pose_columns(const RunResults& results) {
   const ArmState& state = results.run.fit.calibration.state;
   const Measurements& measured = results.measured;
-  const std::string sentence = compare::full_verdict(results.cell, measured, results.run.fit);
   Json units = Json::array(), rows = Json::array(), context = Json::object();
   for (int i = 0; i < measured.size(); ++i) rows.push_back(i);
   Json q = joints_of(results, units);
   for (const auto& [name, values] : contexts_of(measured.context))
     context[name] = column(values, 1.0);
-  return {{"run", results.run.number},
-          {"e", "measured - predicted, base frame [mm]"},
-          {"row", std::move(rows)},
-          {"pose", measured.pose},
-          {"set", sets_of(results)},
-          {"q", std::move(q)},
-          {"q_units", std::move(units)},
-          {"point_mm", axes_mm(points_B(results))},
-          {"before_mm", axes_mm(to_base(state, measured, results.before_M))},
-          {"after_mm", axes_mm(to_base(state, measured, results.after_M))},
-          {"before_norm_mm", norms_mm(results.before_M)},
-          {"after_norm_mm", norms_mm(results.after_M)},
-          {"context", std::move(context)},
-          {"worst_region", worst_region(results)},
-          {"reach_mm", shown(kMm * reach(state.arm.calibrated))},
-          {"verdict_sentence", sentence}};
+  Json out{{"run", results.run.number},
+           {"e", "measured - predicted, base frame [mm]"},
+           {"row", std::move(rows)},
+           {"pose", measured.pose},
+           {"set", sets_of(results)},
+           {"q", std::move(q)},
+           {"q_units", std::move(units)},
+           {"point_mm", axes_mm(points_B(results))},
+           {"before_mm", axes_mm(to_base(state, measured, results.before_M))},
+           {"after_mm", axes_mm(to_base(state, measured, results.after_M))},
+           {"before_norm_mm", norms_mm(results.before_M)},
+           {"after_norm_mm", norms_mm(results.after_M)},
+           {"context", std::move(context)},
+           {"worst_region", worst_region(results)},
+           {"reach_mm", shown(kMm * reach(state.arm.calibrated))}};
+  show::add_verdict(results.cell, measured, results.run.fit, out);
+  return out;
 }
 
 Json arm_frames(const RunResults& results, int row) {

@@ -54,6 +54,8 @@ export interface Parameter {
   value: number | null; std: number | null; nominal: number | null; change: number | null;
 }
 
+export type VerdictClass = "good" | "partly" | "bad" | "unknown";
+
 export interface RunDetail {
   parameters: Parameter[];
   held_out: Statistics | null;
@@ -62,6 +64,8 @@ export interface RunDetail {
   noise_floor_mm: number | null;
   tolerance_mm?: number | null;
   verdict?: string;
+  verdict_head?: string;
+  verdict_class?: VerdictClass;
   effects: { effect: string; joints: string[]; name?: string }[];
 }
 
@@ -82,7 +86,9 @@ export interface Poses {
   after_norm_mm: (number | null)[];
   worst_region: { sentence: string; rows: number[] } | null;
   reach_mm: number | null;
-  verdict_sentence: string;
+  verdict: string;
+  verdict_head: string;
+  verdict_class: VerdictClass;
 }
 
 export interface Frames { row: number; origins_mm: number[][]; axes: number[][][] }

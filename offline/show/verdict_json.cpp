@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "show/verdict_json.hpp"
+
+#include "compare/full_verdict.hpp"
+#include "fit/verdict.hpp"
+
+namespace plumb::offline::show {
+
+void add_verdict(const Cell& cell, const Measurements& measured, const Fit& fit, Json& out) {
+  out["verdict"] = compare::full_verdict(cell, measured, fit);
+  out["verdict_head"] = verdict_head(fit, cell.tolerance_m);
+  out["verdict_class"] = name_of(grade(fit, cell.tolerance_m));
+}
+
+}  // namespace plumb::offline::show
