@@ -105,6 +105,10 @@ SecretKey read_secret_key(const std::filesystem::path& file) {
 }
 
 KeyFiles write_new_keys(const std::filesystem::path& name) {
+  if (name.filename().empty())
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = fmt::format("'{}' names no key", name.string()),
+                                 .help = "for example: plumb keygen cell4"});
   const SecretKey secret = SecretKey::generate();
   KeyFiles out{.secret = name.string() + ".key",
                .shared = name.string() + ".pub",

@@ -25,6 +25,10 @@ struct EventOptions {
 /// can be read.
 std::filesystem::path file_of(const EventOptions& options) {
   if (!options.file.empty()) return options.file;
+  if (!std::filesystem::is_directory(options.dir))
+    throw Failure(Exit::kInput, {.code = "E-READ",
+                                 .message = fmt::format("there is no folder {}", options.dir),
+                                 .help = "name the folder that runs or ran: plumb-rt events DIR"});
   const auto places = journal_places(options.dir);
   for (const auto& place : places) {
     std::error_code ignored;

@@ -84,6 +84,58 @@ TEST(New, ReportsEveryMistakeOfTheTableAtOnce) {
   EXPECT_FALSE(std::filesystem::exists(box.path() / "cell"));
 }
 
+TEST(New, ReadsEveryColumnOfTheTableOrRefusesIt) {
+  const Sandbox box;
+  const auto made = [&](const std::string& more, const std::string& values) {
+    box.write("dh.csv", "joint,alpha_deg,a_mm,d_mm,theta_deg" + more + "\nJ1,0,0,118,0" + values +
+                            "\nJ2,90,0,0,0" + values + "\n");
+    return box.plumb({"new", "cell", "--dh", "dh.csv", "--convention", "modified", "--force"});
+  };
+  for (const char* column : {"b_mm", "q0_deg", "theta_offset_deg", "ratio", "note", "offsets_deg",
+                             "gear_ratio", "mass_kg", "sign"}) {
+    const Ran ran = made(std::string(",") + column, ",1");
+    EXPECT_EQ(ran.exit, 3) << column << ran.err;
+    EXPECT_NE(ran.err.find("E-DH-COLUMN"), std::string::npos) << column << ran.err;
+    EXPECT_NE(ran.err.find(std::string("'") + column + "'"), std::string::npos) << ran.err;
+  }
+  for (const auto& [column, written] :
+       {std::pair{"offset_deg", "offset = -90"}, std::pair{"offset_rad", "offset = -90"},
+        std::pair{"beta_deg", "beta = -90"}}) {
+    const bool radians = std::string(column).ends_with("_rad");
+    EXPECT_EQ(made(std::string(",") + column, radians ? ",-1.5707963267948966" : ",-90").exit, 0);
+    EXPECT_NE(box.read("cell/cell.toml").find(written), std::string::npos)
+        << column << box.read("cell/cell.toml");
+  }
+  const Ran slide = made(",offset_mm", ",35");
+  EXPECT_EQ(slide.exit, 3);
+  EXPECT_NE(slide.err.find("E-DH-OFFSET"), std::string::npos) << slide.err;
+}
+
+TEST(New, DegreesThatAreMultiplesOfPiOverFourAreQuestioned) {
+  const Sandbox box;
+  const auto warned = [&](const std::string& rows) {
+    box.write("dh.csv", "joint,alpha_deg,a_mm,d_mm,theta_deg\n" + rows);
+    const Ran ran =
+        box.plumb({"new", "c", "--dh", "dh.csv", "--convention", "modified", "--force"});
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    return ran.err.find("W-DH-RADIANS") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("J1,0,0,118,0\nJ2,1.570796,0,0,3.141593\n"));
+  EXPECT_TRUE(warned("J1,-1.5708,0,118,0\nJ2,0,0,0,0.7854\n"));
+  EXPECT_FALSE(warned("J1,0,0,118,0\nJ2,90,0,0,180\n"));
+  EXPECT_FALSE(warned("J1,0,0,118,0\nJ2,90,0,0,1.5708\n")) << "one angle is none of radians";
+  EXPECT_FALSE(warned("J1,0,0,118,0\nJ2,0,0,0,0\n"));
+  EXPECT_FALSE(warned("J1,0,0,118,0.5\nJ2,0,0,0,1.2\n"));
+}
+
+TEST(KeygenVerb, AKeyHasAName) {
+  const Sandbox box;
+  for (const char* name : {"", "folder/"}) {
+    EXPECT_EQ(box.plumb({"keygen", name}).exit, 2) << name;
+    EXPECT_TRUE(box.listing().empty()) << name;
+  }
+}
+
 TEST(SimulateVerb, TheSameSeedGivesTheSameBytes) {
   const Sandbox box;
   ASSERT_EQ(box.plumb({"demo", "clean", "cell"}).exit, 0);

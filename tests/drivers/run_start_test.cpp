@@ -107,6 +107,12 @@ TEST_F(ARunAfterAnother, AsksForAnAcknowledgementAfterACrashAndForANewModel) {
   end(SIGTERM);
 }
 
+TEST_F(ARunAfterAnother, OfAFolderThatIsNotThereNoEventsAreReported) {
+  const RtRan ran = plumb_rt({"events", (folder.folder / "gone").string()}, folder.folder);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("there is no folder"), std::string::npos) << ran.err;
+}
+
 TEST_F(ARunAfterAnother, BeginsInTheFaultThatNobodyAcknowledged) {
   start();
   ASSERT_TRUE(comes(kShadow));

@@ -204,10 +204,23 @@ TEST(Urdf, WhatIsNestedOrChainedTooDeepIsRefusedBeforeAnyParserRecurses) {
 
 TEST(Urdf, ALinkWithTwoParentsOrItsOwnAncestorEndsInAMessage) {
   const std::string links = link("r") + link("a") + link("b");
-  EXPECT_NE(
+  EXPECT_EQ(
       refusal(robot(links + joint("i", "r", "a") + joint("j", "a", "b") + joint("k", "b", "a")),
               "b"),
-      "");
+      "E-URDF");
+  for (const char* type : {"revolute", "fixed"}) {
+    const std::string arm = link("c") + joint("i", "r", "a") + joint("j", "a", "b");
+    EXPECT_EQ(
+        refusal(robot(links + arm + joint("k", "b", "c") + joint("m", "r", "c", "", type)), "c"),
+        "E-URDF");
+    EXPECT_EQ(
+        refusal(robot(links + joint("m", "r", "c", "", type) + arm + joint("k", "b", "c")), "c"),
+        "E-URDF");
+    // Beside the way to the tip, too: which of two places its mass hangs at is not said.
+    EXPECT_EQ(
+        refusal(robot(links + arm + joint("k", "a", "c") + joint("m", "r", "c", "", type)), "b"),
+        "E-URDF");
+  }
 }
 
 TEST(Urdf, AMimicJointStandsInTheWayOnlyOnTheWayToTheTip) {
