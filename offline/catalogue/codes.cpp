@@ -94,6 +94,10 @@ constexpr Explanation kCodes[] = {
      "A single reading contradicts all others: no part of the arm or the measurement could have "
      "moved so that one pose alone sees it. It was left out; at most a fifth of the readings can "
      "be."},
+    {"W-CSV-LOST",
+     "A reading is no point of this arm: exactly (0, 0, 0), which many trackers write for a lost "
+     "beam, or farther from the others than the arm and any tool reach, such as -9999. It is left "
+     "out as if column set said ignore."},
     {"W-COMPILE-RECHECK",
      "A recheck found that the arm had changed, and what is compiled does not know it: the model "
      "was changed and fitted again since, or --refit-all asks for the calibration alone. The model "

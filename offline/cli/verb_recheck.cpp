@@ -4,6 +4,7 @@
 #include <memory>
 #include <tuple>
 
+#include "cell/lost_points.hpp"
 #include "cell/reading_digest.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/cell_lock.hpp"
@@ -46,8 +47,8 @@ bool of_calibration(const MeasurementFiles& rows, const MeasurementFiles& own) {
 /// Refuses (E-RECHECK-OWN) the readings of the calibration itself.
 NewReadings new_readings(const std::string& file, const Cell& cell, const MeasurementFiles& own,
                          Outcome& outcome) {
-  const MeasurementFiles all =
-      read_measurements({file}, joint_is_angle(cell), Needs::kJointsAndPosition);
+  MeasurementFiles all = read_measurements({file}, joint_is_angle(cell), Needs::kJointsAndPosition);
+  ignore_lost_points(cell, all);
   const Table& table = all.tables.front();
   outcome.inputs.push_back({table.file, table.sha256});
   outcome.remark(table.remarks);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cell/earlier_arm.hpp"
+#include "cell/lost_points.hpp"
 #include "cell/reading_digest.hpp"
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"
@@ -142,6 +143,7 @@ MeasurementFiles read_cell_measurements(const Cell& cell) {
   const auto files = measurement_files(cell.measurement);
   MeasurementFiles out = read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
   assign_setups(cell, files, out);
+  ignore_lost_points(cell, out);
   check_rows(cell, out);
   warn_of_missing_axes(cell, out);
   check_earlier(cell, out);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -204,6 +205,60 @@ TEST(FitOfAController, WhatFollowsStandsOnItsPositionsAndIsNotCompiled) {
   EXPECT_NE(compile.err.find("E-RUN-BASE"), std::string::npos) << compile.err;
   ASSERT_EQ(box.plumb({"-C", "cell", "fit"}).exit, 0);
   EXPECT_EQ(box.plumb({"-C", "cell", "compile"}).exit, 0);
+}
+
+// Rows whose point was not measured: check and fit leave out the same ones, and say so.
+TEST(FitVerb, ReadingsThatAreNoPointsAreLeftOutByEveryVerbAlike) {
+  const Sandbox box;
+  ASSERT_EQ(box.plumb({"demo", "compliance", "cell"}).exit, 0);
+  std::vector<std::string> lines;
+  std::istringstream in(box.read("cell/measurements.csv"));
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  const auto header = static_cast<std::size_t>(
+      std::find_if(lines.begin(), lines.end(), [](const auto& l) { return l.front() != '#'; }) -
+      lines.begin());
+  std::vector<std::string> names;
+  std::istringstream head(lines[header]);
+  for (std::string name; std::getline(head, name, ',');) names.push_back(name);
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const auto with = [&](std::size_t poses, const std::string& x, const std::string& y,
+                        const std::string& z) {
+    std::string out;
+    for (std::size_t i = 0; i <= header + poses; ++i) {
+      std::vector<std::string> cells;
+      std::istringstream row(lines[i]);
+      for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+      if (i == header + 5 || i == header + 12) {
+        cells[column("x_mm")] = x;
+        cells[column("y_mm")] = y;
+        cells[column("z_mm")] = z;
+      }
+      for (std::size_t k = 0; k < cells.size(); ++k) out += (k > 0 ? "," : "") + cells[k];
+      out += "\n";
+    }
+    return out;
+  };
+  const std::string named =
+      std::to_string(header + 6) + ", " + std::to_string(header + 13);  // lines count from 1
+  for (const std::size_t poses : {24U, 90U}) {
+    for (const auto& [x, y, z] : {std::array{"-9999", "-9999", "-9999"}, std::array{"0", "0", "0"},
+                                  std::array{"0.000", "-0.0", "0"}, std::array{"1e6", "0", "0"},
+                                  std::array{"99999", "99999", "99999"}}) {
+      box.write("cell/measurements.csv", with(poses, x, y, z));
+      const Ran checked = box.plumb({"-C", "cell", "check"});
+      const Ran fitted = box.plumb({"-C", "cell", "fit", "--json"});
+      EXPECT_EQ(checked.exit, 0) << poses << x << checked.out << checked.err;
+      EXPECT_EQ(fitted.exit, 0) << poses << x << fitted.out;
+      for (const std::string& said : {checked.err, fitted.out}) {
+        EXPECT_NE(said.find("W-CSV-LOST"), std::string::npos) << said;
+        EXPECT_NE(said.find(named), std::string::npos) << said;
+      }
+      if (fitted.exit != 0) continue;
+      EXPECT_LT(fitted.json()["result"]["held_out"]["max_mm"], 3.0) << poses << x;
+    }
+  }
 }
 
 }  // namespace
