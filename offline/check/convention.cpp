@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "cell/setups.hpp"
 #include "cell/units.hpp"
@@ -114,6 +115,8 @@ Convention labelled_convention(const Cell& cell, const MeasurementFiles& measure
     out.point_unit = unit_in_file(measured, axis, out.point_unit);
   out.reversed.assign(cell.joints(), false);
   out.quarter_turns.assign(cell.joints(), 0);
+  out.column.resize(static_cast<std::size_t>(cell.joints()));
+  std::iota(out.column.begin(), out.column.end(), 0);
   return out;
 }
 
@@ -130,6 +133,7 @@ double changes(const Convention& present, const Convention& other) {
   for (std::size_t j = 0; j < other.reversed.size(); ++j) {
     out += other.reversed[j] != present.reversed[j] ? 1.0 : 0.0;
     out += other.quarter_turns[j] != present.quarter_turns[j] ? 1.2 : 0.0;
+    out += other.column[j] != present.column[j] ? 1.0 : 0.0;
   }
   return out;
 }
@@ -151,7 +155,8 @@ Measurements read_as(const Measurements& measured, const Cell& cell, const Conve
   const double turn = ratio(meant.turn_unit, present.turn_unit);
   const double slide = ratio(meant.slide_unit, present.slide_unit);
   for (int j = 0; j < cell.joints(); ++j)
-    out.q.col(j) *= (slides(cell, j) ? slide : turn) * (meant.reversed[j] ? -1.0 : 1.0);
+    out.q.col(j) = (slides(cell, j) ? slide : turn) * (meant.reversed[j] ? -1.0 : 1.0) *
+                   measured.q.col(meant.column[j]);
   out.p_M *= ratio(meant.point_unit, present.point_unit);
   mirror_points(out, meant.mirror);
   return out;
@@ -179,11 +184,13 @@ MeasurementEdit measurement_edit(const Cell& cell, const Convention& present,
   for (int j = 0; j < cell.joints(); ++j) {
     const std::string& now = slides(cell, j) ? present.slide_unit : present.turn_unit;
     const std::string& unit = slides(cell, j) ? meant.slide_unit : meant.turn_unit;
-    if (unit != now) out.units[column_of(j)] = unit;
-    if (!meant.reversed[j]) continue;
-    out.negated.insert(column_of(j));
-    out.negated.insert(fmt::format("qc{}", j + 1));
-    out.negated.insert(fmt::format("dir_j{}", j + 1));
+    const int from = meant.column[j];
+    if (unit != now) out.units[column_of(from)] = unit;
+    for (const char* prefix : {"q", "qc", "dir_j"}) {
+      const std::string held = fmt::format("{}{}", prefix, from + 1);
+      if (from != j) out.names[held] = fmt::format("{}{}", prefix, j + 1);
+      if (meant.reversed[j]) out.negated.insert(held);
+    }
   }
   const AxisChange change = axis_change(meant.mirror);
   const std::array<std::string, 3> axes{"x", "y", "z"};

@@ -22,6 +22,7 @@ struct Convention {
                                                   // joints, and of x, y, z
   std::vector<bool> reversed;                     // joints that count the other way
   std::vector<int> quarter_turns;                 // joint zeros turned by so many times 90 deg
+  std::vector<int> column;                        // per joint: the column q that holds its values
   Mirror mirror = Mirror::kNone;                  // the measured coordinates are left-handed
   bool frame_inverted = false;                    // the given frame is the tracker in the base
   bool operator==(const Convention&) const = default;

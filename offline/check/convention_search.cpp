@@ -26,6 +26,8 @@ namespace {
 constexpr int kSweepPoses = 40;        // for the loose look at thousands of readings
 constexpr int kPlacedPoses = 100;      // for the close look at some
 constexpr int kFewestPoses = 10;       // the loose look has 15 unknowns
+constexpr int kFewestOfOrders = 20;    // the same, among tens of thousands of readings
+constexpr std::size_t kAllOrders = 6;  // joints: of more, only swaps and turns of neighbours
 constexpr std::size_t kShort = 24;     // readings looked at closely
 constexpr std::size_t kFitted = 8;     // readings whose geometry is fitted
 constexpr double kClearly = 10.0;      // a reading must leave that much less than the labels
@@ -68,6 +70,12 @@ class ConventionSearch {
     if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits) {
       leads_.clear();
       sweep(2);
+      judge();
+    }
+    if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits &&
+        static_cast<int>(few_.size()) >= kFewestOfOrders) {
+      leads_.clear();
+      sweep_orders();
       judge();
     }
     conclude();
@@ -130,6 +138,52 @@ class ConventionSearch {
             c.turn_unit = turn;
             sweep_directions(c, slide, few, placer, most_turned);
           }
+  }
+
+  /// The columns of the joints in another order: sorted by name, say, or two of them swapped.
+  /// Joints that turn stay among themselves.
+  void sweep_orders() {
+    const Measurements few = pick(measured_, few_);
+    LinearPlacer placer(few.p_M, few.has_axis);
+    std::vector<int> turning;
+    for (int j = 0; j < cell_.joints(); ++j)
+      if (cell_.nominal.joints[j].type == format::JointType::kRevolute) turning.push_back(j);
+    const double slide = static_cast<int>(turning.size()) < cell_.joints() ? 1.0 : 0.0;
+    for (const auto dh : {format::Convention::kStandard, format::Convention::kModified})
+      for (const auto& order : orders_of(turning)) {
+        Convention c = labels_;
+        c.dh = dh;
+        for (std::size_t k = 0; k < turning.size(); ++k)
+          c.column[static_cast<std::size_t>(turning[k])] = order[k];
+        sweep_directions(c, slide, few, placer, 0);
+      }
+  }
+
+  static std::vector<std::vector<int>> orders_of(const std::vector<int>& joints) {
+    std::vector<std::vector<int>> out;
+    std::vector<int> order = joints;
+    if (joints.size() <= kAllOrders) {
+      while (std::next_permutation(order.begin(), order.end())) out.push_back(order);
+      return out;
+    }
+    for (std::size_t from = 0; from < joints.size(); ++from)
+      for (std::size_t to = from + 1; to < joints.size(); ++to) {
+        const auto begin = static_cast<std::ptrdiff_t>(from), end = static_cast<std::ptrdiff_t>(to);
+        order = joints;
+        std::swap(order[from], order[to]);
+        out.push_back(order);
+        if (to == from + 1) continue;
+        order = joints;
+        std::rotate(order.begin() + begin, order.begin() + begin + 1, order.begin() + end + 1);
+        out.push_back(order);
+        order = joints;
+        std::rotate(order.begin() + begin, order.begin() + end, order.begin() + end + 1);
+        out.push_back(order);
+        order = joints;
+        std::reverse(order.begin() + begin, order.begin() + end + 1);
+        out.push_back(order);
+      }
+    return out;
   }
 
   void sweep_directions(Convention c, double slide, const Measurements& few, LinearPlacer& placer,

@@ -29,12 +29,14 @@ struct Detection {
 };
 
 /// Tries how the files may be meant: DH convention, units of table and columns, the direction of
-/// each joint (all 2^n), left-handed coordinates; and if nothing of that fits, zeros turned by 90
-/// or 180 deg at up to two joints. The labels are kept unless another reading leaves less than a
-/// tenth and the present one is not reasonable. Deterministic. Of several set-ups it looks at the
-/// one with the most rows.
+/// each joint (all 2^n), left-handed coordinates; if nothing of that fits, zeros turned by 90 or
+/// 180 deg at up to two joints; and then, from 20 poses on, the columns of turning joints in
+/// another order (all of six joints; of more, swaps and neighbours in turn). The labels are kept
+/// unless another reading leaves less than a tenth and the present one is not reasonable.
+/// Deterministic. Of several set-ups it looks at the one with the most rows.
 ///
-/// Cost: about 10 us a reading on 40 poses, 5 to 50 ms in all. Throws Failure as parse_cell.
+/// Cost: about 10 us a reading on 40 poses, 5 to 50 ms in all, a second for other orders. Throws
+/// Failure as parse_cell.
 Detection detect_convention(const Cell& cell, const MeasurementFiles& measured);
 
 }  // namespace plumb::offline

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "check/convention.hpp"
 
@@ -44,6 +47,22 @@ void reversed_words(std::vector<std::string>& out, const Cell& cell,
                               names.size() == 1 ? "counts" : "count"));
 }
 
+void order_words(std::vector<std::string>& out, const Cell& cell, const std::vector<int>& column) {
+  std::vector<std::string> held, joints;
+  for (std::size_t j = 0; j < column.size(); ++j) {
+    const auto holds =
+        std::find(column.begin(), column.end(), static_cast<int>(j)) - column.begin();
+    if (holds == static_cast<std::ptrdiff_t>(j)) continue;
+    held.push_back(fmt::format("q{}", j + 1));
+    joints.push_back(cell.nominal.joints[static_cast<std::size_t>(holds)].name);
+  }
+  if (held.size() == 2)
+    out.push_back(fmt::format("columns {} and {} are swapped", held[0], held[1]));
+  else if (!held.empty())
+    out.push_back(
+        fmt::format("columns {} hold {}", fmt::join(held, ", "), fmt::join(joints, ", ")));
+}
+
 }  // namespace
 
 std::vector<std::string> in_words(const Cell& cell, const Convention& present,
@@ -57,6 +76,7 @@ std::vector<std::string> in_words(const Cell& cell, const Convention& present,
   unit_words(out, "the joint angles of the measurements", present.turn_unit, meant.turn_unit);
   unit_words(out, "the sliding joints of the measurements", present.slide_unit, meant.slide_unit);
   unit_words(out, "the measured points", present.point_unit, meant.point_unit);
+  order_words(out, cell, meant.column);
   reversed_words(out, cell, meant.reversed);
   for (int j = 0; j < cell.joints(); ++j) {
     const auto& name = cell.nominal.joints[j].name;

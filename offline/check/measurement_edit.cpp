@@ -28,7 +28,10 @@ std::string negated(std::string_view text) {
 
 std::string renamed(std::string_view header, const MeasurementEdit& edit) {
   Heading heading = split_heading(header);
-  if (heading.unit.empty()) return std::string(header);
+  if (heading.unit.empty()) {  // dir_j1
+    const auto name = edit.names.find(std::string(header));
+    return name != edit.names.end() ? name->second : std::string(header);
+  }
   if (const auto unit = edit.units.find(heading.name); unit != edit.units.end())
     heading.unit = unit->second;
   if (const auto name = edit.names.find(heading.name); name != edit.names.end())

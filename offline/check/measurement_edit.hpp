@@ -10,7 +10,7 @@ namespace plumb::offline {
 /// Changes to a measurement file; columns go by their name without the unit.
 struct MeasurementEdit {
   std::map<std::string, std::string> units;  // the unit a column really has: its label changes
-  std::map<std::string, std::string> names;  // "x" becomes "y": axes that were swapped
+  std::map<std::string, std::string> names;  // "x" becomes "y": columns in another order
   std::set<std::string> negated;             // columns whose numbers change sign
   bool empty() const { return units.empty() && names.empty() && negated.empty(); }
 };

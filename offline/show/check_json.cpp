@@ -7,8 +7,9 @@ namespace plumb::offline::show {
 namespace {
 
 Json convention_json(const Convention& c) {
-  Json reversed = Json::array(), turned = Json::array();
+  Json reversed = Json::array(), turned = Json::array(), columns = Json::array();
   for (std::size_t j = 0; j < c.reversed.size(); ++j) {
+    columns.push_back(c.column[j] + 1);
     if (c.reversed[j]) reversed.push_back(j + 1);
     if (c.quarter_turns[j] != 0)
       turned.push_back({{"joint", j + 1}, {"angle_deg", 90 * c.quarter_turns[j]}});
@@ -20,6 +21,7 @@ Json convention_json(const Convention& c) {
           {"sliding_joint_unit", c.slide_unit},
           {"point_unit", c.point_unit},
           {"reversed_joints", reversed},
+          {"joint_columns", columns},
           {"turned_zeros", turned},
           {"left_handed", c.mirror != Mirror::kNone},
           {"frame_inverted", c.frame_inverted}};

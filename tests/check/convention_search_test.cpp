@@ -140,6 +140,53 @@ TEST(ConventionSearch, FindsZerosTurnedByQuarterTurns) {
               timed.total_ms / static_cast<double>(count), timed.most_ms);
 }
 
+/// The file with the headings of its joint columns exchanged: column `from[j]` gets the name of
+/// joint j.
+Files with_columns(Files files, const std::vector<int>& from) {
+  const auto begin = files.csv.find("q1_deg"), end = files.csv.find('\n', begin);
+  std::string header = files.csv.substr(begin, end - begin);
+  for (std::size_t j = 0; j < from.size(); ++j) {
+    const std::string held = fmt::format("q{}_deg", from[j] + 1);
+    header.replace(header.find(held), held.size(), fmt::format("Q{}_deg", j + 1));
+  }
+  for (char& c : header)
+    if (c == 'Q') c = 'q';
+  files.csv.replace(begin, end - begin, header);
+  return files;
+}
+
+// Sorted by name, the wrist in another order, two of them swapped, reversed: what a list of joint
+// states looks like.
+TEST(ConventionSearch, FindsJointColumnsInAnotherOrder) {
+  const scrambled::Folder folder;
+  const std::vector<std::vector<int>> orders{{2, 1, 0, 3, 4, 5},
+                                             {0, 1, 2, 4, 5, 3},
+                                             {0, 1, 2, 3, 5, 4},
+                                             {5, 4, 3, 2, 1, 0},
+                                             {1, 2, 3, 4, 5, 0}};
+  for (const std::uint64_t seed : {1U, 2U, 5U})
+    for (const auto& order : orders) {
+      const Files sound = six_joints(seed);
+      const Case before = opened(sound, folder.path());
+      const Files broken = with_columns(sound, order);
+      const Case c = opened(broken, folder.path());
+      const Detection d = detect_convention(c.cell, c.measured);
+      EXPECT_TRUE(d.changed) << seed;
+      const Case repaired = opened(fixed(broken, c, d.best.convention), folder.path());
+      EXPECT_NEAR(
+          placed_rms(repaired.cell, repaired.measured) / placed_rms(before.cell, before.measured),
+          1.0, 0.02)
+          << seed << ": " << words(c.cell, d);
+    }
+}
+
+TEST(ConventionSearch, SaysWhichJointColumnsAreSwapped) {
+  const scrambled::Folder folder;
+  const Case c = opened(with_columns(six_joints(2), {2, 1, 0, 3, 4, 5}), folder.path());
+  EXPECT_NE(words(c.cell, detect_convention(c.cell, c.measured)).find("q1 and q3 are swapped"),
+            std::string::npos);
+}
+
 TEST(ConventionSearch, WithAGivenFrameSaysWhichAxisIsWrongAndThatTheFrameIsTheInverse) {
   const scrambled::Folder folder;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
