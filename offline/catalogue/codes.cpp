@@ -221,6 +221,10 @@ constexpr Explanation kCodes[] = {
      "--fix "
      "changes none of them. plumb check says what is wrong: correct cell.toml and the headings of "
      "the files by hand."},
+    {"E-CHECK-FRAME",
+     "[measurement] frame says where the base stands, and the points say that it stands elsewhere: "
+     "the nominal arm explains them there ten times better. The message says how the two differ. A "
+     "turn by 180 deg about z is often that between a controller's base and base_link."},
     {"E-CHECK-NOFIT",
      "Neither the labels nor any other reading of units, conventions and directions explains the "
      "points. Look for joints in another order, joints coupled by a linkage, rows that belong to "

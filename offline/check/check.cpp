@@ -15,6 +15,7 @@
 #include "check/data_findings.hpp"
 #include "check/data_sense.hpp"
 #include "check/effect_sense.hpp"
+#include "check/given_frame.hpp"
 #include "check/gravity_sense.hpp"
 #include "check/moved_part.hpp"
 #include "check/row_faults.hpp"
@@ -161,8 +162,14 @@ class Checker {
   }
 
   /// Everything else, on the files as they are meant.
-  void look(const Cell& cell, const MeasurementFiles& measured) {
+  void look(const Cell& given, const MeasurementFiles& measured) {
     const std::vector<int> rows = used_rows(measured);
+    Cell cell = given;
+    if (auto fault = frame_fault(given, measured, rows)) {
+      blame(Exit::kInput);
+      out_.findings.push_back(std::move(*fault));
+      cell.measurement.fit_frame = true;  // so that the arm is not blamed for it
+    }
     out_.floor = noise_floor(cell, measured);
     add(equal_pose_findings(measured));
     add(copy_findings(measured, out_.floor));
@@ -184,6 +191,12 @@ class Checker {
     if (out_.floor.source == NoiseFloor::Source::kNone)
       find(Severity::kNote, "N-CHECK-NOISE", "nothing says how large the noise is",
            "measure some poses twice, or state [measurement] sigma_um");
+  }
+
+  std::optional<Problem> frame_fault(const Cell& cell, const MeasurementFiles& measured,
+                                     const std::vector<int>& rows) const {
+    if (!out_.detection.why_not.empty() || out_.detection.changed) return std::nullopt;
+    return given_frame_fault(cell, measured, thinned(measured, rows, kPlacedRows));
   }
 
   void look_at_parameters(const Cell& cell, const MeasurementFiles& measured,

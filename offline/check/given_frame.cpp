@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/given_frame.hpp"
 
-#include <Eigen/Cholesky>
-#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numeric>
+
+#include "cell/rotation.hpp"
+#include "cell/units.hpp"
+#include "check/regularised_fit.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
@@ -11,13 +19,90 @@ namespace {
 
 constexpr double kFrameClearly = 10.0;
 constexpr double kFrameRidge = 1e-9;
+constexpr double kFits = 0.01;       // of the cloud's size
+constexpr double kOneAxis = 0.98;    // of a direction: it is called that axis
+constexpr double kSameFrame = 0.02;  // of its distance
+constexpr double kTurned_rad = 5e-3, kMoved_m = 5e-3, kRound_m = 1e-4, kRound_rad = M_PI / 18000.0;
 
 struct InFrame {
   Convention convention;
   double rms_m;
 };
 
+/// A length that was written in another unit than the file's; empty if none explains it.
+std::string unit_words(const Transformd& given, const Transformd& meant) {
+  for (const auto& [factor, words] : {std::pair{1e3, "its xyz is in m instead of mm"},
+                                      std::pair{1e-3, "its xyz is in mm instead of m"},
+                                      std::pair{25.4, "its xyz is in inches instead of mm"}})
+    if ((meant.p - factor * given.p).norm() < kSameFrame * meant.p.norm()) return words;
+  return "";
+}
+
+/// How the frame that fits differs from the given one: "turned by 37.0 deg about z".
+std::string difference_words(const Transformd& given, const Transformd& meant) {
+  const Transformd D = given.inverse() * meant;  // base axes as given
+  const Eigen::AngleAxisd turn(D.R);
+  std::vector<std::string> out;
+  if (turn.angle() > kTurned_rad) {
+    const Eigen::Vector3d axis = turn.axis();
+    int along = 0;
+    axis.cwiseAbs().maxCoeff(&along);
+    const bool one_axis = std::abs(axis(along)) > kOneAxis;
+    out.push_back(one_axis ? fmt::format("turned by {:.1f} deg about {}",
+                                         turn.angle() * 180.0 / M_PI, "xyz"[along])
+                           : fmt::format("turned by {:.1f} deg about ({:.2f}, {:.2f}, {:.2f})",
+                                         turn.angle() * 180.0 / M_PI, axis(0), axis(1), axis(2)));
+  }
+  if (const std::string unit = unit_words(given, meant); !unit.empty()) {
+    out.push_back(unit);
+  } else if (D.p.norm() > kMoved_m) {
+    int along = 0;
+    const double most = D.p.cwiseAbs().maxCoeff(&along);
+    out.push_back(most > kOneAxis * D.p.norm()
+                      ? fmt::format("{:.0f} mm off along its {}", 1e3 * most, "xyz"[along])
+                      : fmt::format("{:.0f} mm off", 1e3 * D.p.norm()));
+  }
+  return fmt::format("{}", fmt::join(out, " and "));
+}
+
+/// As the cell file would say it, to 0.1 mm and 0.01 deg.
+std::string frame_text(const Cell& cell, const format::Pose& X_MB) {
+  const auto list = [](const std::array<double, 3>& si, double step, const std::string& unit) {
+    std::array<double, 3> shown{};
+    for (std::size_t k = 0; k < 3; ++k)
+      shown[k] = unit_of(unit)->from_si(std::round(si[k] / step) * step) + 0.0;
+    return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", shown[0], shown[1], shown[2]);
+  };
+  return fmt::format("{{ xyz = {}, rpy = {} }}", list(X_MB.p, kRound_m, cell.length_unit),
+                     list(rpy_from_quaternion(X_MB.q), kRound_rad, cell.angle_unit));
+}
+
 }  // namespace
+
+std::optional<Problem> given_frame_fault(const Cell& cell, const Measurements& measured,
+                                         const std::vector<int>& rows) {
+  if (cell.measurement.fit_frame || !cell.measurement.setups.empty()) return std::nullopt;
+  const Measurements some = pick(measured, rows);
+  std::vector<int> all(rows.size());
+  std::iota(all.begin(), all.end(), 0);
+  const RegularisedFit free = placed_from_the_labels(cell, some, all);
+  const double size =
+      std::sqrt((some.p_M.rowwise() - some.p_M.colwise().mean().eval()).squaredNorm() /
+                static_cast<double>(some.size()));
+  if (free.rms_m > kFits * size) return std::nullopt;
+  if (misfit_in_given_frame(cell, some, all) < kFrameClearly * free.rms_m) return std::nullopt;
+  const Transformd given = from_pose(cell.measurement.X_MB), meant = from_pose(free.state.X_MB);
+  const std::string difference = difference_words(given, meant);
+  if (difference.empty()) return std::nullopt;
+  return Problem{
+      .severity = Severity::kError,
+      .code = "E-CHECK-FRAME",
+      .message = fmt::format(
+          "the given frame contradicts the points: it is {}; these points put the base at {}, to "
+          "about {:.1f} mm",
+          difference, frame_text(cell, free.state.X_MB), 1e3 * free.rms_m),
+      .help = "correct [measurement] frame, or let the readings tell it: frame = \"fit\""};
+}
 
 double misfit_in_given_frame(const Cell& cell, const Measurements& measured,
                              const std::vector<int>& rows) {

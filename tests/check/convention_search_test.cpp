@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "check/check.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "plumb/runtime/transform.hpp"
@@ -213,6 +214,50 @@ TEST(ConventionSearch, WithAGivenFrameSaysWhichAxisIsWrongAndThatTheFrameIsTheIn
     const Detection inverted = with(X_BM, -1);
     EXPECT_TRUE(inverted.best.convention.frame_inverted) << "seed " << seed;
     EXPECT_EQ(inverted.best.convention.mirror, Mirror::kNone);
+  }
+}
+
+// The frame is blamed, not the arm; a frame that is only as good as it was set up is left alone.
+TEST(GivenFrame, ThatThePointsContradictIsNamedWithTheOneThatFits) {
+  const auto said = [](const Check& check) {
+    std::string out;
+    for (const auto& problem : check.findings)
+      if (problem.severity == Severity::kError) out += problem.code + ": " + problem.message + "\n";
+    return out;
+  };
+  for (const std::uint64_t seed : {2U, 4U, 5U}) {
+    Cell cell = random_cell(seed, 6, format::Convention::kStandard, ArmKind::kRevolute);
+    cell.measurement.fit_frame = false;
+    cell.measurement.X_MB = {{2.35, -1.21, 0.64}, {0.8, 0.0, 0.36, 0.48}};
+    const Transformd truth = from_pose(cell.measurement.X_MB);
+    SimulationPlan plan;
+    plan.poses = 60;
+    plan.seed = seed;
+    plan.noise_m = 20e-6;
+    plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
+    const Simulation s = simulate(cell, plan);
+    const auto with = [&](const std::array<double, 3>& moved_B, double turned_deg, double scale) {
+      const double half = turned_deg * M_PI / 360.0;
+      const Transformd wrong =
+          truth * from_pose({moved_B, {std::cos(half), 0.0, 0.0, std::sin(half)}});
+      Cell other = cell;
+      other.measurement.X_MB = to_pose(wrong);
+      for (double& p : other.measurement.X_MB.p) p *= scale;
+      return said(check_cell(other, s.measured));
+    };
+    EXPECT_EQ(with({}, 0.0, 1.0), "") << seed;
+    EXPECT_EQ(with({1e-3, -1e-3, 0.5e-3}, 0.05, 1.0), "") << seed;
+    for (const auto& [found, words] :
+         {std::pair{with({}, 180.0, 1.0), "turned by 180.0 deg about z"},
+          std::pair{with({}, -37.0, 1.0), "turned by 37.0 deg about z"},
+          std::pair{with({0.0, 0.0, -0.3}, 0.0, 1.0), "300 mm off along its z"},
+          std::pair{with({0.25, 0.0, 0.0}, 0.0, 1.0), "250 mm off along its x"},
+          std::pair{with({}, 0.0, 1e-3), "its xyz is in m instead of mm"}}) {
+      EXPECT_EQ(found.rfind("E-CHECK-FRAME", 0), 0U) << seed << found;
+      EXPECT_NE(found.find(words), std::string::npos) << seed << found;
+      EXPECT_NE(found.find("xyz = [23"), std::string::npos) << found;
+      EXPECT_EQ(found.find("E-FIT-FAR"), std::string::npos) << seed << found;
+    }
   }
 }
 
