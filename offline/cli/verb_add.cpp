@@ -11,7 +11,6 @@
 #include "cli/model_limits.hpp"
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
-#include "compare/full_verdict.hpp"
 #include "compile/compiler.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
@@ -27,6 +26,7 @@
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
+#include "show/verdict_json.hpp"
 
 namespace plumb::offline::cli {
 namespace {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "cell/random.hpp"
 #include "plumb/runtime/corrector.hpp"
@@ -136,43 +137,77 @@ std::vector<RefusedPlace> refused_places(std::span<const PoseTried> all,
   return out;
 }
 
-RefusalShare refusal_share(const format::Model& model) {
-  const Corrector corrector(model);
-  const Chain& nominal = corrector.nominal();
+namespace {
+
+using Range = std::vector<std::pair<double, double>>;  // of each joint
+
+Range joint_limits(const format::Chain& nominal) {
+  Range out;
+  for (const auto& row : nominal.joints) out.emplace_back(row.q_min, row.q_max);
+  return out;
+}
+
+/// Of a joint that no pose tells, its limits.
+Range trained_range(const format::Model& model) {
+  Range out = joint_limits(model.nominal);
+  for (std::size_t j = 0; j < std::min(out.size(), model.domain.q_min.size()); ++j) {
+    const double low = std::max(out[j].first, model.domain.q_min[j]);
+    const double high = std::min(out[j].second, model.domain.q_max[j]);
+    if (low <= high) out[j] = {low, high};
+  }
+  return out;
+}
+
+RefusalShare::Shares tried(const Corrector& corrector, const Range& range,
+                           std::vector<PoseTried>& all) {
   Random random(1);
-  std::vector<PoseTried> all;
-  RefusalShare out{.poses = kRefusalPoses, .places = {}};
   int refusals = 0, partial = 0;
   for (int i = 0; i < kRefusalPoses; ++i) {
     PoseTried one;
-    for (const auto& row : model.nominal.joints)
-      one.q.push_back(row.q_min + random.unit() * (row.q_max - row.q_min));
+    for (const auto& [low, high] : range) one.q.push_back(low + random.unit() * (high - low));
     const Status status =
-        corrector.solve(nominal.forward(one.q), one.q, SeedKind::kCommanded).status;
+        corrector.solve(corrector.nominal().forward(one.q), one.q, SeedKind::kCommanded).status;
     one.refused = refused(status);
     refusals += one.refused;
     partial += status == Status::kPartial;
     all.push_back(std::move(one));
   }
-  out.refused = static_cast<double>(refusals) / kRefusalPoses;
-  out.partial = static_cast<double>(partial) / kRefusalPoses;
+  return {.refused = static_cast<double>(refusals) / kRefusalPoses,
+          .partial = static_cast<double>(partial) / kRefusalPoses};
+}
+
+std::string partial_words(const char* before, const RefusalShare::Shares& shares) {
+  return shares.partial > 0.0
+             ? fmt::format("{}{:.1f} % are corrected in part", before, 100.0 * shares.partial)
+             : "";
+}
+
+}  // namespace
+
+RefusalShare refusal_share(const format::Model& model) {
+  const Corrector corrector(model);
+  RefusalShare out{.poses = kRefusalPoses, .trained = {}, .limits = {}, .places = {}};
+  std::vector<PoseTried> inside, all;
+  out.trained = tried(corrector, trained_range(model), inside);
+  out.limits = tried(corrector, joint_limits(model.nominal), all);
   out.places = refused_places(all, model.nominal);
   return out;
 }
 
 std::string refusal_sentence(const RefusalShare& share, const format::Chain& nominal) {
-  std::string out = fmt::format("{:.1f} % of {} random poses between the joint limits are refused",
-                                100.0 * share.refused, share.poses);
-  double elsewhere = share.refused;
+  std::string out = fmt::format(
+      "Of {} random poses in the trained range {:.1f} % are refused{}. Between the joint limits "
+      "{:.1f} % are refused",
+      share.poses, 100.0 * share.trained.refused, partial_words(", ", share.trained),
+      100.0 * share.limits.refused);
+  double elsewhere = share.limits.refused;
   for (std::size_t i = 0; i < share.places.size(); ++i) {
     out += (i == 0 ? ": " : ", ") + place_words(share.places[i], nominal);
     elsewhere -= share.places[i].share;
   }
   if (!share.places.empty() && elsewhere > 5e-4)
     out += fmt::format(", {:.1f} % elsewhere", 100.0 * elsewhere);
-  if (share.partial > 0.0)
-    out += fmt::format("; {:.1f} % are corrected in part", 100.0 * share.partial);
-  return out + ".";
+  return out + partial_words("; ", share.limits) + ".";
 }
 
 }  // namespace plumb::offline

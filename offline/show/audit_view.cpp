@@ -64,8 +64,10 @@ Json audit_json(const Audit& audit, const format::Model& model) {
   out["active_leaves"] = audit.active_leaves;
   out["bytes"] = audit.bytes;
   out["poses_looked_at"] = kAuditPoses;
-  put(out, "refused_pct", 100.0 * audit.refusals.refused);
-  put(out, "partial_pct", 100.0 * audit.refusals.partial);
+  put(out, "refused_in_range_pct", 100.0 * audit.refusals.trained.refused);
+  put(out, "partial_in_range_pct", 100.0 * audit.refusals.trained.partial);
+  put(out, "refused_pct", 100.0 * audit.refusals.limits.refused);
+  put(out, "partial_pct", 100.0 * audit.refusals.limits.partial);
   out["refused_where"] = refused_where_json(audit, model);
   return out;
 }

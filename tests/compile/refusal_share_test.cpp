@@ -75,19 +75,38 @@ TEST(RefusalShare, OfAnArmOfUR10SizeIsAtMostThreePercentAndSaidWithItsPlaces) {
   for (const double mm : {0.5, 1.5, 3.0}) {
     const format::Model model = arm(mm);
     const RefusalShare share = refusal_share(model);
-    EXPECT_LE(share.refused, 0.03) << mm;
-    EXPECT_GT(share.refused, 0.001) << mm;
-    EXPECT_GT(share.partial, share.refused) << mm;
+    EXPECT_LE(share.limits.refused, 0.03) << mm;
+    EXPECT_GT(share.limits.refused, 0.001) << mm;
+    EXPECT_GT(share.limits.partial, share.limits.refused) << mm;
     const std::string said = refusal_sentence(share, model.nominal);
     std::printf("%s\n", said.c_str());
     EXPECT_NE(said.find("deg of 0 or 180 deg"), std::string::npos) << said;
+    EXPECT_EQ(said.rfind("Of 4000 random poses in the trained range ", 0), 0U) << said;
   }
   format::Model usual = arm(1.0);
   usual.guard.corrects = format::Corrects::kPose;
   usual.guard.min_singular_value = 0.02;
   const RefusalShare share = refusal_share(usual);
-  EXPECT_GT(share.refused, 0.1);
-  EXPECT_EQ(share.partial, 0.0);
+  EXPECT_GT(share.limits.refused, 0.1);
+  EXPECT_EQ(share.limits.partial, 0.0);
+}
+
+// Where the fit has no poses nothing is corrected, and nothing refused: the share of the trained
+// range is the one that a user meets.
+TEST(RefusalShare, OfTheTrainedRangeIsCountedByItself) {
+  format::Model model = arm(1.5);
+  model.guard.corrects = format::Corrects::kPose;
+  model.guard.min_singular_value = 0.02;
+  const std::size_t wrist = 4;
+  for (const auto& [low, high] : {std::pair{0.6, 1.2}, std::pair{-0.02, 0.02}}) {
+    model.domain.q_min[wrist] = low;
+    model.domain.q_max[wrist] = high;
+    const RefusalShare share = refusal_share(model);
+    if (low > 0.0)
+      EXPECT_LT(share.trained.refused, 0.5 * share.limits.refused);
+    else
+      EXPECT_GT(share.trained.refused, 0.9) << "the wrist is stretched everywhere";
+  }
 }
 
 TEST(RefusalShare, PlacesAreFoundWhereRefusalsWereMade) {
