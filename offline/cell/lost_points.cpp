@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "numbers/quantile.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -25,12 +27,6 @@ double farthest(const Cell& cell, const Measurements& measured) {
       out += measured.q.col(k).cwiseAbs().maxCoeff();
   }
   return out;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The rows of one set-up that hold no point.
