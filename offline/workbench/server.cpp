@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that uses Boost, whose headers take long to compile; boost_functions.cpp holds the rest of it.
+// The only file that uses Boost, whose headers take long to compile; boost_functions.cpp holds the
+// rest of it.
 #include "workbench/server.hpp"
 
 #include <fmt/format.h>
