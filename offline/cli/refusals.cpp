@@ -57,8 +57,8 @@ Matrix3 scalar_last(const Matrix3& R) {
 
 }  // namespace
 
-Refusals::Refusals(const Corrector& corrector)
-    : corrector_(&corrector), reach_m_(reach_of(corrector.nominal())) {}
+Refusals::Refusals(const Corrector& corrector, const format::Chain& arm)
+    : corrector_(&corrector), arm_(&arm), reach_m_(reach_of(corrector.nominal())) {}
 
 void Refusals::add(const Transformd& X_BD, std::span<const double> seed, Status status,
                    bool has_orientation) {
@@ -96,7 +96,8 @@ std::string Refusals::singular_joints(std::span<const double> seed) const {
   const Eigen::VectorXd still = right_singular(all).vectors.rightCols<1>();
   std::vector<std::string> names;
   for (Eigen::Index j = 0; j < still.size(); ++j)
-    if (std::abs(still(j)) > kTakesPart) names.push_back(fmt::format("J{}", j + 1));
+    if (std::abs(still(j)) > kTakesPart)
+      names.push_back(arm_->joints[static_cast<std::size_t>(j)].name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -161,6 +162,13 @@ std::string Refusals::words() const {
     out.back() += cancelling(by_joints_, rows);
   }
   return fmt::format("{}", fmt::join(out, ", "));
+}
+
+Status Refusals::commonest() const {
+  const auto most =
+      std::max_element(by_status_.begin(), by_status_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == by_status_.end() ? Status::kOk : most->first;
 }
 
 void Refusals::name_columns(const Table& targets) {

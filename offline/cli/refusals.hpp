@@ -16,7 +16,8 @@ namespace plumb::offline::cli {
 /// pose at its seed. A mistake is named only if it explains nearly all of them.
 class Refusals {
  public:
-  explicit Refusals(const Corrector& corrector);
+  /// `arm`: that of the corrector, with the names of its joints; both must outlive this object.
+  Refusals(const Corrector& corrector, const format::Chain& arm);
 
   /// Takes the names of the file's columns, "x_m" and "qc1_rad", for the messages.
   void name_columns(const Table& targets);
@@ -33,6 +34,9 @@ class Refusals {
   /// cancel: 4 of J4, J6)"
   std::string words() const;
 
+  /// Why most of them were refused; kOk if none was.
+  Status commonest() const;
+
   /// "no target is farther than 1.7 mm from the base: metres in x_mm?"; empty if no mistake
   /// explains them.
   std::string likely_mistake() const;
@@ -47,6 +51,7 @@ class Refusals {
   std::string phrase(Status status, std::size_t rows) const;
 
   const Corrector* corrector_;
+  const format::Chain* arm_;
   double reach_m_ = 0.0;
   std::size_t rows_ = 0;
   std::map<Status, std::size_t> by_status_;

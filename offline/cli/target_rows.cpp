@@ -52,7 +52,7 @@ TargetRows::TargetRows(const format::Model& model, std::vector<double> start)
       chain_(model.nominal),
       start_(start),
       last_(std::move(start)),
-      found_(corrector_, inputs_) {}
+      found_(corrector_, chain_, inputs_) {}
 
 RowStream::Computed TargetRows::compute(Table table, const show::PassThrough& columns) {
   const auto targets = std::make_shared<const Targets>(targets_of(std::move(table), is_angle_));
@@ -69,7 +69,7 @@ RowStream::Computed TargetRows::compute(Table table, const show::PassThrough& co
 /// Rows with a joint state of their own do not depend on each other.
 std::function<void(std::string&)> TargetRows::solved(const Targets& targets,
                                                      const show::PassThrough& columns) {
-  Found found(corrector_, inputs_);
+  Found found(corrector_, chain_, inputs_);
   found.refusals.name_columns(targets.table);
   std::string text;
   const auto kind = targets.commanded ? SeedKind::kCommanded : SeedKind::kMeasured;

@@ -16,8 +16,8 @@ namespace plumb::offline::cli {
 
 /// What was found out about targets, all of a file or those of a block.
 struct Found {
-  Found(const Corrector& corrector, KnownInputs unused)
-      : refusals(corrector), inputs(std::move(unused)) {}
+  Found(const Corrector& corrector, const format::Chain& arm, KnownInputs unused)
+      : refusals(corrector, arm), inputs(std::move(unused)) {}
   StatusCounts counts;
   Refusals refusals;
   KnownInputs inputs;

@@ -99,7 +99,8 @@ void judge(const Found& found, Outcome& outcome) {
              fmt::format("{} of {} targets were refused, their command is the target itself: "
                          "{}{}",
                          refused, rows, found.refusals.words(), guess.empty() ? "" : "; " + guess),
-         .help = "see the column status, and: plumb explain near-singular"});
+         .help = fmt::format("see the column status, and: plumb explain {}",
+                             to_string(found.refusals.commonest()))});
     return;
   }
   outcome.exit = Exit::kNumbersSayNo;

@@ -373,6 +373,9 @@ TEST_F(CorrectVerb, SomeRefusedTargetsAreAWarningWithTheReasons) {
   EXPECT_NE(ran.err.find("warning[W-CORRECT-REFUSED]: 1 of 21 targets were refused"),
             std::string::npos)
       << ran.err;
+  // The help explains the status that stands in the column, not another one.
+  const std::string status = box->csv("some_out.csv").columns.at("status").back();
+  EXPECT_NE(ran.err.find("plumb explain " + status), std::string::npos) << status << ran.err;
 }
 
 TEST_F(CorrectVerb, AStartThatIsNoJointStateIsAUsageError) {
