@@ -38,7 +38,7 @@ std::string unit_words(const Transformd& given, const Transformd& meant) {
   return "";
 }
 
-/// How the frame that fits differs from the given one: "turned by 37.0 deg about z".
+/// How the frame that fits differs from the given one: "it is turned by 37.0 deg about z".
 std::string difference_words(const Transformd& given, const Transformd& meant) {
   const Transformd D = given.inverse() * meant;  // base axes as given
   const Eigen::AngleAxisd turn(D.R);
@@ -48,10 +48,11 @@ std::string difference_words(const Transformd& given, const Transformd& meant) {
     int along = 0;
     axis.cwiseAbs().maxCoeff(&along);
     const bool one_axis = std::abs(axis(along)) > kOneAxis;
-    out.push_back(one_axis ? fmt::format("turned by {:.1f} deg about {}",
-                                         turn.angle() * 180.0 / M_PI, "xyz"[along])
-                           : fmt::format("turned by {:.1f} deg about ({:.2f}, {:.2f}, {:.2f})",
-                                         turn.angle() * 180.0 / M_PI, axis(0), axis(1), axis(2)));
+    out.push_back(one_axis
+                      ? fmt::format("it is turned by {:.1f} deg about {}",
+                                    turn.angle() * 180.0 / M_PI, "xyz"[along])
+                      : fmt::format("it is turned by {:.1f} deg about ({:.2f}, {:.2f}, {:.2f})",
+                                    turn.angle() * 180.0 / M_PI, axis(0), axis(1), axis(2)));
   }
   if (const std::string unit = unit_words(given, meant); !unit.empty()) {
     out.push_back(unit);
@@ -59,8 +60,8 @@ std::string difference_words(const Transformd& given, const Transformd& meant) {
     int along = 0;
     const double most = D.p.cwiseAbs().maxCoeff(&along);
     out.push_back(most > kOneAxis * D.p.norm()
-                      ? fmt::format("{:.0f} mm off along its {}", 1e3 * most, "xyz"[along])
-                      : fmt::format("{:.0f} mm off", 1e3 * D.p.norm()));
+                      ? fmt::format("it is {:.0f} mm off along its {}", 1e3 * most, "xyz"[along])
+                      : fmt::format("it is {:.0f} mm off", 1e3 * D.p.norm()));
   }
   return fmt::format("{}", fmt::join(out, " and "));
 }
@@ -98,7 +99,7 @@ std::optional<Problem> given_frame_fault(const Cell& cell, const Measurements& m
       .severity = Severity::kError,
       .code = "E-CHECK-FRAME",
       .message = fmt::format(
-          "the given frame contradicts the points: it is {}; these points put the base at {}, to "
+          "the given frame contradicts the points: {}; these points put the base at {}, to "
           "about {:.1f} mm",
           difference, frame_text(cell, free.state.X_MB), 1e3 * free.rms_m),
       .help = "correct [measurement] frame, or let the readings tell it: frame = \"fit\""};
