@@ -94,6 +94,9 @@ constexpr Explanation kCodes[] = {
      "A single reading contradicts all others: no part of the arm or the measurement could have "
      "moved so that one pose alone sees it. It was left out; at most a fifth of the readings can "
      "be."},
+    {"W-IMPORT-SKIPPED",
+     "--skip-bad left out the rows in which a cell should be a number and is none, as trackers "
+     "write --- or NaN for a point that was not measured."},
     {"W-CSV-LOST",
      "A reading is no point of this arm: exactly (0, 0, 0), which many trackers write for a lost "
      "beam, or farther from the others than the arm and any tool reach, such as -9999. It is left "

@@ -29,7 +29,7 @@ struct ImportArguments {
   std::vector<std::string> files, map, header;
   std::string output, separator, decimal, rotation, join, direction, date;
   std::optional<double> max_gap_s;
-  bool preview = false;
+  bool skip_bad = false, preview = false;
   WriteOptions write;
 };
 
@@ -99,6 +99,7 @@ Imported import_all(const ImportArguments& options, const std::optional<Cell>& c
                       .map = options.map,
                       .rotation = options.rotation,
                       .date_order = date_of(options.date),
+                      .skip_bad = options.skip_bad,
                       .preview = options.preview,
                       .elsewhere = {}};
   const auto other = [&](std::size_t file) {
@@ -108,6 +109,9 @@ Imported import_all(const ImportArguments& options, const std::optional<Cell>& c
   };
   if (!options.direction.empty() && options.direction != "from-order")
     import_usage(fmt::format("--dir: '{}' is not known", options.direction), "--dir from-order");
+  if (options.skip_bad && !options.direction.empty())
+    import_usage("--dir from-order takes every row for a move, and --skip-bad leaves rows out",
+                 "mark the rows instead: column set = ignore");
   wishes.elsewhere = other(0);
   Imported data = import_file(options.files[0], wishes);
   if (options.files.size() == 2) {
@@ -255,6 +259,8 @@ void add_import(Program& program) {
   verb.add_option("--dir", options->direction,
                   "from-order: the rows are consecutive moves; adds dir_jN and travel_jN")
       .type_name("HOW");
+  verb.add_flag("--skip-bad", options->skip_bad,
+                "Leave out rows with a cell that should be a number and is none, and list them");
   verb.add_flag("--preview", options->preview, "Show what was understood and write nothing");
   options->write.add_to(verb);
 }

@@ -27,6 +27,7 @@ constexpr double kOneTurn = 6.3;      // [rad], rounded up
 constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
 constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
 constexpr int kRowsToJudge = 8;
+constexpr std::size_t kShownLines = 10;
 constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
 
 std::string in_words(char sign) {
@@ -60,8 +61,8 @@ std::string plain_number(std::string_view cell, char decimal) {
 
 class Importer {
  public:
-  Importer(const SourceText& text, const RawRows& rows, const ImportWishes& wishes)
-      : text_(text), rows_(rows), wishes_(wishes) {}
+  Importer(const SourceText& text, RawRows rows, const ImportWishes& wishes)
+      : text_(text), rows_(std::move(rows)), wishes_(wishes) {}
 
   Imported run() {
     contents_ = column_contents(rows_);
@@ -74,6 +75,7 @@ class Importer {
     out_.sha256 = text_.sha256;
     out_.separator = in_words(rows_.dialect.separator);
     out_.decimal = in_words(rows_.dialect.decimal);
+    if (wishes_.skip_bad) skip_bad_rows(plans);
     out_.lines = rows_.lines;
     out_.comments = rows_.comments;
     out_.remarks = text_.remarks;
@@ -107,6 +109,49 @@ class Importer {
     const bool of_quaternion = plan.named.letter_q || plan.named.quaternion_part;  // said elsewhere
     if (!plan.wished && !of_quaternion && contents_[k].numeric() && !plan.from.empty())
       out_.unused.push_back({plan.from, contents_[k].largest});
+  }
+
+  static bool holds_numbers(const ColumnPlan& plan) {
+    return !plan.name.empty() && plan.name != "time" && plan.name != "date" &&
+           unitless_quantity(plan.name) != Quantity::kText;
+  }
+
+  /// Leaves out the rows with a cell that should be a number and is none: no measurement was made
+  /// there. Columns without any number are no reason.
+  void skip_bad_rows(const std::vector<ColumnPlan>& plans) {
+    std::vector<std::string> lines;
+    std::size_t kept = 0, skipped = 0;
+    for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
+      bool bad = false;
+      for (std::size_t k = 0; k < plans.size() && !bad; ++k)
+        bad = holds_numbers(plans[k]) && !contents_[k].empty &&
+              !number_in(rows_.cells[i][k], rows_.dialect.decimal);
+      if (bad) {
+        if (++skipped <= kShownLines) lines.push_back(fmt::format("{}", rows_.lines[i]));
+        continue;
+      }
+      if (kept != i) {
+        rows_.cells[kept] = std::move(rows_.cells[i]);
+        rows_.lines[kept] = rows_.lines[i];
+      }
+      ++kept;
+    }
+    rows_.cells.resize(kept);
+    rows_.lines.resize(kept);
+    if (skipped == 0) return;
+    if (skipped > lines.size()) lines.push_back(fmt::format("{} more", skipped - lines.size()));
+    out_.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-IMPORT-SKIPPED",
+         .message = fmt::format("{} without a measurement left out: line{} {}",
+                                skipped == 1 ? "1 row" : fmt::format("{} rows", skipped),
+                                skipped == 1 ? "" : "s", fmt::join(lines, ", ")),
+         .help = "measure there again"});
+    if (kept == 0)
+      throw Failure(Exit::kInput, {.code = "E-IMPORT-ROWS",
+                                   .message = "no row has a number in every column",
+                                   .place = Place{.file = text_.file},
+                                   .help = "leave a column out with --map \"NAME=-\""});
   }
 
   /// Leaves out known columns that are empty in every row; they are no errors.
@@ -403,7 +448,8 @@ class Importer {
               .length = std::max(1, static_cast<int>(cell.size())),
               .source = std::string(source),
               .label = "not a number"},
-        fmt::format("correct or delete the row; to leave the column out: --map \"{}=-\"",
+        fmt::format("leave out the rows without a measurement: --skip-bad; or the column: --map "
+                    "\"{}=-\"",
                     plan.from));
   }
 
@@ -523,7 +569,7 @@ class Importer {
   }
 
   const SourceText& text_;
-  const RawRows& rows_;
+  RawRows rows_;
   const ImportWishes& wishes_;
   std::vector<ColumnContent> contents_;
   std::size_t date_column_ = 0;
@@ -549,8 +595,8 @@ int order_of(const std::string& name) {
 Imported import_file(const std::filesystem::path& file, const ImportWishes& wishes) {
   SourceText text;
   decode(read_file(file), display_name(file), text);
-  const RawRows rows = cut(text, wishes.dialect);
-  return Importer(text, rows, wishes).run();
+  RawRows rows = cut(text, wishes.dialect);
+  return Importer(text, std::move(rows), wishes).run();
 }
 
 std::vector<std::string> column_names(const std::filesystem::path& file,

@@ -18,6 +18,7 @@ struct ImportWishes {
   std::vector<std::string> map;  // "Goal x=nx_m"
   std::string rotation;          // "xyz-moving": what rx, ry, rz mean
   DateOrder date_order = DateOrder::kUnknown;
+  bool skip_bad = false;               // rows with a cell that is no number are left out
   bool preview = false;                // a column without unit is a warning, its unit "?"
   std::vector<std::string> elsewhere;  // columns of the other file, which `map` may also name
 };

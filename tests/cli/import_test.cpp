@@ -47,6 +47,27 @@ TEST(ImportVerb, ReplacesNothingWithoutForceAndKeepsTheFirstFileWhole) {
   EXPECT_NE(box.read("measurements.csv").find("q1_deg,x_mm\n1,2\n"), std::string::npos);
 }
 
+TEST(ImportVerb, RowsWithoutAMeasurementAreLeftOutWhenAskedForAndListed) {
+  const Sandbox box;
+  for (const char* none : {"---", "NaN", "", "n/a", "#VALUE!", "inf"}) {
+    const std::string cell = none;
+    box.write("log.csv",
+              "q1_deg,x_mm,note\n0,1,a\n10," + cell + ",b\n10,3,---\n" + cell + ",4,c\n5,5,\n");
+    const Ran refused = box.plumb({"import", "log.csv", "-o", "out.csv", "--force"});
+    EXPECT_EQ(refused.exit, 3) << cell;
+    EXPECT_NE(refused.err.find("--skip-bad"), std::string::npos) << cell << refused.err;
+    const Ran ran = box.plumb({"import", "log.csv", "-o", "out.csv", "--force", "--skip-bad"});
+    EXPECT_EQ(ran.exit, 0) << cell << ran.err;
+    EXPECT_NE(ran.err.find("W-IMPORT-SKIPPED"), std::string::npos) << cell << ran.err;
+    EXPECT_NE(ran.err.find("lines 3, 5"), std::string::npos) << cell << ran.err;
+    EXPECT_EQ(box.csv("out.csv").numbers("x_mm"), (std::vector<double>{1, 3, 5})) << cell;
+  }
+  box.write("log.csv", "q1_deg,x_mm\n---,1\n---,2\n3,---\n");
+  EXPECT_EQ(box.plumb({"import", "log.csv", "-o", "o.csv", "--skip-bad"}).exit, 3);
+  EXPECT_EQ(
+      box.plumb({"import", "log.csv", "-o", "o.csv", "--skip-bad", "--dir", "from-order"}).exit, 2);
+}
+
 TEST(ImportVerb, ConsecutiveMovesGetTheirDirections) {
   const Sandbox box;
   box.write("log.csv", "q1_deg,x_mm\n0,1\n10,2\n10,3\n4,4\n");
