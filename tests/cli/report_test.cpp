@@ -257,4 +257,36 @@ TEST(Report, EscapesEveryNameAndShowsAFormula) {
   EXPECT_NE(section(html, "reproduce").find("sin(q1)"), std::string::npos);
 }
 
+// One truth: fit, compare and the report give one verdict, one class, one floor, one held-out
+// figure.
+TEST(OneVerdict, IsThatOfEveryMedium) {
+  const Sandbox box;
+  for (const char* demo : {"clean", "compliance", "mixed", "thermal", "scara", "unknown"}) {
+    const std::string cell = demo;
+    ASSERT_EQ(box.plumb({"demo", demo, cell}).exit, 0);
+    for (const char* tolerance : {"tolerance_mm = 0.02 #", "tolerance_mm = 5 #"}) {
+      std::string text = box.read(cell + "/cell.toml");
+      const auto at = text.find("tolerance_mm = ");
+      ASSERT_NE(at, std::string::npos);
+      text.replace(at, std::string("tolerance_mm = ").size(), tolerance);
+      box.write(cell + "/cell.toml", text);
+      const auto fit = box.plumb({"-C", cell, "fit", "--json"}).json()["result"];
+      const auto compare = box.plumb({"-C", cell, "compare", "--json"}).json()["result"];
+      for (const char* key : {"verdict", "verdict_head", "verdict_class", "noise_floor_mm"})
+        EXPECT_EQ(fit[key], compare[key]) << cell << " " << key;
+      EXPECT_EQ(fit["held_out"]["mean_mm"], compare["held_out"]["mean_mm"]) << cell;
+      const std::string head = fit["verdict_head"], found = fit["verdict_class"];
+      const std::string sentence = fit["verdict"];
+      EXPECT_EQ(box.plumb({"-C", cell, "fit"}).out.rfind(sentence, 0), 0U) << cell;
+      const Ran report =
+          box.plumb({"-C", cell, "report", "-o", "r.html", "--force", "--no-diagnosis", "--json"});
+      ASSERT_EQ(report.exit, 0) << report.out;
+      EXPECT_EQ(report.json()["result"]["verdict"], sentence);
+      const std::string html = box.read("r.html");
+      EXPECT_NE(html.find("<div class=\"verdict " + found + "\""), std::string::npos) << cell;
+      EXPECT_NE(html.find(" " + head + "</strong>"), std::string::npos) << cell << head;
+    }
+  }
+}
+
 }  // namespace
