@@ -97,10 +97,6 @@ constexpr Explanation kCodes[] = {
     {"W-IMPORT-SKIPPED",
      "--skip-bad left out the rows in which a cell should be a number and is none, as trackers "
      "write --- or NaN for a point that was not measured."},
-    {"W-CSV-LOST",
-     "A reading is no point of this arm: exactly (0, 0, 0), which many trackers write for a lost "
-     "beam, or farther from the others than the arm and any tool reach, such as -9999. It is left "
-     "out as if column set said ignore."},
     {"W-COMPILE-RECHECK",
      "A recheck found that the arm had changed, and what is compiled does not know it: the model "
      "was changed and fitted again since, or --refit-all asks for the calibration alone. The model "

@@ -228,6 +228,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"W-CSV-DOUBLE",
      "Rows are identical to the last digit. Copied by mistake they count twice and make the noise "
      "look smaller than it is; a true repeat has its own reading."},
+    {"W-CSV-LOST",
+     "A reading is no point of this arm: exactly (0, 0, 0), which many trackers write for a lost "
+     "beam, or farther from the others than the arm and any tool reach, such as -9999. It is left "
+     "out as if column set said ignore."},
     {"W-CSV-MIXED",
      "Some files have these columns and others do not, so they are used in none. Complete the "
      "files or delete the columns."},

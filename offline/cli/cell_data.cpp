@@ -51,14 +51,20 @@ void keep_files(const Cell& cell, Makes makes, Outcome& outcome) {
   for (const auto& file : measurement_files(cell.measurement)) kept.push_back(file);
 }
 
-void keep_nearest_cell(const Globals& globals, Outcome& outcome) {
-  fs::path file;
-  try {
-    file = cell_file(globals);
-    keep_files(read_cell(file), Makes::kNone, outcome);
-  } catch (const Failure&) {  // none, or one that cannot be read
-    if (!file.empty()) outcome.kept.push_back(file);
-  }
+void keep_cells_around(const Globals& globals, const fs::path& output, Outcome& outcome) {
+  const auto keep_cell = [&](const auto& find) {
+    fs::path file;
+    try {
+      file = find();
+      keep_files(read_cell(file), Makes::kNone, outcome);
+    } catch (const Failure&) {  // none, or one that cannot be read
+      if (!file.empty()) outcome.kept.push_back(file);
+    }
+  };
+  keep_cell([&] { return cell_file(globals); });
+  std::error_code ignored;
+  if (!output.empty())
+    keep_cell([&] { return find_cell(fs::weakly_canonical(output, ignored).parent_path()); });
 }
 
 Cell open_cell(const Globals& globals, Outcome& outcome, Makes makes) {

@@ -25,9 +25,10 @@ Cell open_cell(const Globals& globals, Outcome& outcome, Makes makes = Makes::kN
 /// Keeps the files of this cell from the outputs of a verb.
 void keep_files(const Cell& cell, Makes makes, Outcome& outcome);
 
-/// The same of the cell of -C, or the nearest one upward, if there is one, for a verb that does
-/// not read it.
-void keep_nearest_cell(const Globals& globals, Outcome& outcome);
+/// The same of the cells that a verb does not read: that of -C, or the nearest one upward, and the
+/// one in whose folder the output lies. `output` may be empty.
+void keep_cells_around(const Globals& globals, const std::filesystem::path& output,
+                       Outcome& outcome);
 
 /// The cell's measurements; files and remarks go to `outcome`.
 MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome);

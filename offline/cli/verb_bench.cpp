@@ -68,7 +68,7 @@ void draw(const BenchArguments& options, const bench::Benchmark& found, Outcome&
 }
 
 void bench_model(const BenchArguments& options, const Globals& globals, Outcome& outcome) {
-  keep_nearest_cell(globals, outcome);
+  keep_cells_around(globals, options.figure, outcome);
   const format::Model model = open_model(options.model, outcome);
   refuse_existing(options, outcome);
   const bench::Benchmark found = timed(options, model);

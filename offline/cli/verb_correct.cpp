@@ -140,7 +140,7 @@ std::string summary(const Found& found) {
 void correct(const CorrectArguments& options, const Globals& globals, Outcome& outcome) {
   check_output(options.output, globals);
   const format::Model model = open_model(options.model, outcome);
-  keep_nearest_cell(globals, outcome);
+  keep_cells_around(globals, options.output.file, outcome);
   TargetRows rows(model, start_of(options, model.nominal));
   RowStream stream(options.data, TargetRows::columns(), options.output, outcome);
   stream.run(

@@ -164,7 +164,7 @@ class ModelRows {
 
 /// The tool centre point in the base frame, through the runtime.
 void predict_model(const PredictArguments& options, const Globals& globals, Outcome& outcome) {
-  keep_nearest_cell(globals, outcome);
+  keep_cells_around(globals, options.output.file, outcome);
   const format::Model model = open_model(options.model, outcome);
   ModelRows rows(model);
   RowStream stream(options.data, ModelRows::columns(), options.output, outcome);

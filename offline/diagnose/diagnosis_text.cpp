@@ -403,8 +403,9 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
         return missing_words(cell, d);
       if (d.tied)
         return fmt::format(
-            "Undecidable: {} and {} explain these poses equally well. With either: {}, {}. To tell "
-            "them apart, measure {}.",
+            "Undecidable: {}, or {} ({} or {}): they explain these poses equally well. With "
+            "either: {}, {}. To tell them apart, measure {}.",
+            effect_sentence(cell, d.candidates.front()), effect_sentence(cell, *d.tied, {}),
             in_words(cell, d.candidates.front()), in_words(cell, *d.tied),
             fall_words(d.before.mean, d.candidates.front().alone.mean), floor_words(d.floor),
             separating_measurement(d.candidates.front().entry, *d.tied));

@@ -316,10 +316,14 @@ std::optional<Run> left_out_recheck(const Cell& cell, const Run& run) {
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
     if (run.recheck && *it <= run.number) break;  // the arm was looked at again since
     if (std::find(known.begin(), known.end(), *it) != known.end()) continue;
-    Run other = load_run(cell, *it);
-    if (other.recheck && other.recheck->verdict == "changed" &&
-        calibrated_run(cell, other).inputs == start.inputs)
-      return other;
+    try {
+      Run other = load_run(cell, *it);
+      if (other.recheck && other.recheck->verdict == "changed" &&
+          calibrated_run(cell, other).inputs == start.inputs)
+        return other;
+    } catch (const Failure&) {
+      continue;  // a damaged run says nothing
+    }
   }
   return std::nullopt;
 }

@@ -81,8 +81,8 @@ bool joins_line(const Run& later, std::vector<int>& line);
 Run latest_recheck(const Cell& cell, Run run);
 
 /// The latest recheck that found the arm changed and that this run does not go back to, though both
-/// go back to the same readings of a calibration: the run is of the arm before. Throws on a damaged
-/// run.
+/// go back to the same readings of a calibration: the run is of the arm before. Damaged runs
+/// are passed over.
 std::optional<Run> left_out_recheck(const Cell& cell, const Run& run);
 
 /// The calibration that a recheck goes back to; a run that is no recheck is returned as it is.

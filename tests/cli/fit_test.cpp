@@ -208,7 +208,7 @@ TEST(FitOfAController, WhatFollowsStandsOnItsPositionsAndIsNotCompiled) {
 }
 
 // Rows whose point was not measured: check and fit leave out the same ones, and say so.
-TEST(FitVerb, ReadingsThatAreNoPointsAreLeftOutByEveryVerbAlike) {
+TEST(LostPoints, AreLeftOutByEveryVerbAlike) {
   const Sandbox box;
   ASSERT_EQ(box.plumb({"demo", "compliance", "cell"}).exit, 0);
   std::vector<std::string> lines;

@@ -91,8 +91,8 @@ TEST(New, ReadsEveryColumnOfTheTableOrRefusesIt) {
                             "\nJ2,90,0,0,0" + values + "\n");
     return box.plumb({"new", "cell", "--dh", "dh.csv", "--convention", "modified", "--force"});
   };
-  for (const char* column : {"b_mm", "q0_deg", "theta_offset_deg", "ratio", "note", "offsets_deg",
-                             "gear_ratio", "mass_kg", "sign"}) {
+  for (const char* column :
+       {"b_mm", "q0_deg", "theta_offset_deg", "ratio", "note", "offsets_deg", "mass_kg"}) {
     const Ran ran = made(std::string(",") + column, ",1");
     EXPECT_EQ(ran.exit, 3) << column << ran.err;
     EXPECT_NE(ran.err.find("E-DH-COLUMN"), std::string::npos) << column << ran.err;

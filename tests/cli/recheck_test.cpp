@@ -237,13 +237,13 @@ TEST_F(RecheckVerb, WhatTheFitDoesNotReadLeavesARecheckInTheModel) {
   for (const std::string& text :
        {"# a comment\n" + cell, with("tolerance_mm = ", "tolerance_mm = 1"),
         with("serial = ", "serial = \"another\" #"),
-        cell + "\n[deploy]\nmax_correction_mm = 2.0\n"}) {
+        with("max_correction_mm = ", "max_correction_mm = 1")}) {
     const Ran ran = compiled(text);
     EXPECT_EQ(ran.json()["result"]["run"], runs + 1) << text.substr(0, 40);
     EXPECT_EQ(ran.out.find("N-RUN-NEW"), std::string::npos);
     EXPECT_EQ(ran.out.find("W-COMPILE-RECHECK"), std::string::npos);
   }
-  const Ran refitted = compiled(cell + "\n[fit]\nfixed = [\"J2.d\"]\n");
+  const Ran refitted = compiled(with("\n[deploy]", "\n[fit]\nfixed = [\"J2.d\"]\n\n[deploy]"));
   EXPECT_EQ(refitted.json()["result"]["run"], runs + 2);
   EXPECT_NE(refitted.out.find("W-COMPILE-RECHECK"), std::string::npos);
   EXPECT_NE(refitted.out.find("plumb recheck --data now.csv"), std::string::npos);

@@ -91,14 +91,16 @@ TEST(RefusalShare, OfAnArmOfUR10SizeIsAtMostThreePercentAndSaidWithItsPlaces) {
   EXPECT_EQ(share.limits.partial, 0.0);
 }
 
-// Where the fit has no poses nothing is corrected, and nothing refused: the share of the trained
-// range is the one that a user meets.
+// The share of the trained range is the one that a user meets: far from singular poses little is
+// refused there, whatever is between the joint limits.
 TEST(RefusalShare, OfTheTrainedRangeIsCountedByItself) {
   format::Model model = arm(1.5);
   model.guard.corrects = format::Corrects::kPose;
   model.guard.min_singular_value = 0.02;
-  const std::size_t wrist = 4;
-  for (const auto& [low, high] : {std::pair{0.6, 1.2}, std::pair{-0.02, 0.02}}) {
+  const std::size_t elbow = 2, wrist = 4;
+  model.domain.q_min[elbow] = 1.0;
+  model.domain.q_max[elbow] = 1.6;
+  for (const auto& [low, high] : {std::pair{0.8, 1.4}, std::pair{-0.02, 0.02}}) {
     model.domain.q_min[wrist] = low;
     model.domain.q_max[wrist] = high;
     const RefusalShare share = refusal_share(model);

@@ -74,9 +74,25 @@ TEST_F(RunStore, TheCurrentRunIsTheLatestOfTheSameCellFileAndData) {
   save_run(cell_, measured_, fit);
   save_run(cell_, measured_, fit);
   EXPECT_EQ(current_run(cell_, measured_)->number, 2);
-  Cell edited = cell_;
-  edited.text += "\n# edited\n";
-  EXPECT_FALSE(current_run(edited, measured_).has_value());
+  // A comment, names, tolerance and [deploy] are nothing that a fit reads; what it reads makes
+  // another cell of it, however it is written.
+  const auto current = [&](const std::string& old, const std::string& now) {
+    std::string text = write_cell(cell_);
+    const auto at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    Cell edited = cell_;
+    edited.text = text.replace(at, old.size(), now);
+    return current_run(edited, measured_).has_value();
+  };
+  cell_.text = write_cell(cell_);
+  save_run(cell_, measured_, fit);
+  EXPECT_TRUE(current("[cell]", "# edited\n[cell]"));
+  EXPECT_TRUE(current("tolerance_mm = ", "tolerance_mm = 1"));
+  EXPECT_TRUE(current("cycle_us = ", "cycle_us = 1"));
+  EXPECT_TRUE(current("name = \"", "name = \"another "));
+  EXPECT_TRUE(current("geometry = true", "\"geometry\"  =  true"));
+  EXPECT_FALSE(current("seed = ", "seed = 9"));
+  EXPECT_FALSE(current("alpha = ", "alpha = 1"));
 }
 
 TEST_F(RunStore, ADamagedOrMissingRunIsAnInputErrorAndNeverTheCurrentOne) {
