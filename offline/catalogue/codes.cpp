@@ -102,10 +102,6 @@ constexpr Explanation kCodes[] = {
      "was changed and fitted again since, or --refit-all asks for the calibration alone. The model "
      "is that of the arm before the change. Recheck the new run with the same readings: plumb "
      "recheck --data FILE."},
-    {"E-OUTPUT-INPUT",
-     "The file to be written is one that the command reads, or one of the cell's own that another "
-     "command makes. --force replaces earlier results, never what they were made from. Name "
-     "another file."},
     {"N-COMPILE-RECHECK",
      "The arm has been rechecked since it was calibrated, so what is compiled is the latest "
      "recheck: "

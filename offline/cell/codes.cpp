@@ -179,6 +179,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
     {"E-FORMULA-VARIABLE",
      "A formula reads q1 tau1 dir1 travel1 u1 and so on, t, payload, temp_NAME, x y z (the tip in "
      "the base), row, pi and its own parameters. Joints count from 1."},
+    {"E-OUTPUT-INPUT",
+     "The file to be written is one that the command reads, or one of the cell's own that another "
+     "command makes. --force replaces earlier results, never what they were made from. Name "
+     "another file."},
     {"E-READ",
      "The file cannot be read; the system's reason is given. Check the path and the "
      "permissions."},

@@ -64,7 +64,9 @@ void keep_cells_around(const Globals& globals, const fs::path& output, Outcome& 
   keep_cell([&] { return cell_file(globals); });
   std::error_code ignored;
   if (!output.empty())
-    keep_cell([&] { return find_cell(fs::weakly_canonical(output, ignored).parent_path()); });
+    keep_cell([&] {
+      return find_cell(fs::weakly_canonical(fs::absolute(output), ignored).parent_path());
+    });
 }
 
 Cell open_cell(const Globals& globals, Outcome& outcome, Makes makes) {

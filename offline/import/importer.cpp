@@ -75,12 +75,12 @@ class Importer {
     out_.sha256 = text_.sha256;
     out_.separator = in_words(rows_.dialect.separator);
     out_.decimal = in_words(rows_.dialect.decimal);
-    if (wishes_.skip_bad) skip_bad_rows(plans);
-    out_.lines = rows_.lines;
     out_.comments = rows_.comments;
     out_.remarks = text_.remarks;
     out_.remarks.insert(out_.remarks.end(), rows_.remarks.begin(), rows_.remarks.end());
     out_.remarks.insert(out_.remarks.end(), decisions.begin(), decisions.end());
+    if (wishes_.skip_bad) skip_bad_rows(plans);
+    out_.lines = rows_.lines;
     leave_out_empty(plans);
     join_date_and_time(plans);
     look_at_units(plans);

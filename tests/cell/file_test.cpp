@@ -269,5 +269,32 @@ TEST(Sha256, AgreesWithTheVectorsOfFips180) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(OutputFiles, NeverReplaceWhatWasReadOrIsKept) {
+  const Folder folder;
+  const fs::path read = folder.put("read.csv", "a"), kept = folder.put("kept.toml", "b");
+  const fs::path inside = folder.put("runs.json", "c"), other = folder.put("other.csv", "d");
+  fs::create_hard_link(read, read.parent_path() / "hard.csv");
+  fs::create_symlink(kept, read.parent_path() / "link.toml");
+  Outcome outcome;
+  outcome.inputs.push_back({read.string(), ""});
+  outcome.kept = {kept};
+  const auto code_of = [&](const fs::path& file) -> std::string {
+    try {
+      refuse_kept(file, outcome);
+      return "";
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), Exit::kUsage);
+      return failure.problems().front().code;
+    }
+  };
+  for (const char* name : {"read.csv", "kept.toml", "hard.csv", "link.toml", "./read.csv"})
+    EXPECT_EQ(code_of(read.parent_path() / name), "E-OUTPUT-INPUT") << name;
+  EXPECT_EQ(code_of(other), "");
+  EXPECT_EQ(code_of(read.parent_path() / "new.csv"), "");
+  EXPECT_EQ(code_of("/dev/null"), "");
+  outcome.kept = {read.parent_path()};
+  EXPECT_EQ(code_of(inside), "E-OUTPUT-INPUT") << "a folder is kept with all that is in it";
+}
+
 }  // namespace
 }  // namespace plumb::offline

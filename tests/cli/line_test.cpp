@@ -92,7 +92,7 @@ TEST(New, ReadsEveryColumnOfTheTableOrRefusesIt) {
     return box.plumb({"new", "cell", "--dh", "dh.csv", "--convention", "modified", "--force"});
   };
   for (const char* column :
-       {"b_mm", "q0_deg", "theta_offset_deg", "ratio", "note", "offsets_deg", "mass_kg"}) {
+       {"b_mm", "q0_deg", "theta_offset_deg", "note", "offsets_deg", "mass_kg"}) {
     const Ran ran = made(std::string(",") + column, ",1");
     EXPECT_EQ(ran.exit, 3) << column << ran.err;
     EXPECT_NE(ran.err.find("E-DH-COLUMN"), std::string::npos) << column << ran.err;

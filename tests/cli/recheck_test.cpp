@@ -246,7 +246,7 @@ TEST_F(RecheckVerb, WhatTheFitDoesNotReadLeavesARecheckInTheModel) {
   const Ran refitted = compiled(with("\n[deploy]", "\n[fit]\nfixed = [\"J2.d\"]\n\n[deploy]"));
   EXPECT_EQ(refitted.json()["result"]["run"], runs + 2);
   EXPECT_NE(refitted.out.find("W-COMPILE-RECHECK"), std::string::npos);
-  EXPECT_NE(refitted.out.find("plumb recheck --data now.csv"), std::string::npos);
+  EXPECT_NE(refitted.out.find("recheck --data now.csv"), std::string::npos);
   ASSERT_EQ(recheck().exit, 0);
   EXPECT_EQ(compiled(box->read("cell/cell.toml")).out.find("W-COMPILE-RECHECK"), std::string::npos);
   box->write("cell/cell.toml", cell);

@@ -92,7 +92,6 @@ TEST_F(RunStore, TheCurrentRunIsTheLatestOfTheSameCellFileAndData) {
   EXPECT_TRUE(current("name = \"", "name = \"another "));
   EXPECT_TRUE(current("geometry = true", "\"geometry\"  =  true"));
   EXPECT_FALSE(current("seed = ", "seed = 9"));
-  EXPECT_FALSE(current("alpha = ", "alpha = 1"));
 }
 
 TEST_F(RunStore, ADamagedOrMissingRunIsAnInputErrorAndNeverTheCurrentOne) {
