@@ -24,7 +24,8 @@ Seen seen(int readings) {
   for (int i = 0; i < readings; ++i) m.p_M.row(i) << 2.5 + 0.01 * i, -1.0 + 0.02 * (i % 7), 0.5;
   m.set.assign(static_cast<std::size_t>(readings), SetMark::kUnmarked);
   m.file.assign(static_cast<std::size_t>(readings), 0);
-  Table table{.file = "m.csv"};
+  Table table;
+  table.file = "m.csv";
   table.lines.resize(static_cast<std::size_t>(readings));
   std::iota(table.lines.begin(), table.lines.end(), 2);
   m.tables.push_back(std::move(table));
