@@ -85,7 +85,7 @@ std::string request_to_operator(const Json& status) {
 }  // namespace
 
 std::string cause_text(const SessionMoment& moment) {
-  const std::string lost = fmt::format("{}", fmt::join(lost_words(moment.lost), ", "));
+  std::string lost = fmt::format("{}", fmt::join(lost_words(moment.lost), ", "));
   const bool shadow = moment.mode == CorrectionMode::kShadow;
   switch (moment.state) {
     case SessionState::kFault:
