@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <regex>
 
 #include "draw/sheet.hpp"
@@ -13,7 +14,7 @@
 namespace plumb::offline::draw {
 namespace {
 
-constexpr double kNan = std::nan("");
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Panel, PutsTheEndsOfItsAxesAtTheCornersOfItsFrame) {
   Svg svg(500.0);
