@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kFrameClearly = 10.0;
 constexpr double kFrameRidge = 1e-9;
-constexpr double kFits = 0.01;       // of the cloud's size
+constexpr double kFrameFits = 0.01;  // of the cloud's size
 constexpr double kOneAxis = 0.98;    // of a direction: it is called that axis
 constexpr double kSameFrame = 0.02;  // of its distance
 constexpr double kTurned_rad = 5e-3, kMoved_m = 5e-3, kRound_m = 1e-4, kRound_rad = M_PI / 18000.0;
@@ -90,7 +90,7 @@ std::optional<Problem> given_frame_fault(const Cell& cell, const Measurements& m
   const double size =
       std::sqrt((some.p_M.rowwise() - some.p_M.colwise().mean().eval()).squaredNorm() /
                 static_cast<double>(some.size()));
-  if (free.rms_m > kFits * size) return std::nullopt;
+  if (free.rms_m > kFrameFits * size) return std::nullopt;
   if (misfit_in_given_frame(cell, some, all) < kFrameClearly * free.rms_m) return std::nullopt;
   const Transformd given = from_pose(cell.measurement.X_MB), meant = from_pose(free.state.X_MB);
   const std::string difference = difference_words(given, meant);

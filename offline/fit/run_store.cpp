@@ -285,7 +285,7 @@ std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measure
   const auto inputs = inputs_of(measured);
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
     Run run = load_run(cell, *it);
-    if (!run.recheck && is_of_cell(run, cell) && run.inputs == inputs) return run;
+    if (!run.recheck && run.inputs == inputs && is_of_cell(run, cell)) return run;
   }
   return std::nullopt;
 }
