@@ -10,13 +10,16 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 #include <fstream>
-#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <tuple>
 
 #include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
+#include "program/problem.hpp"
 #include "rt/lost_words.hpp"
+#include "rt/standard_error.hpp"
 #include "rt/utc.hpp"
 
 namespace plumb::drivers::rt {
@@ -25,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kJournalName = "events.jsonl";
-constexpr std::int64_t kNanosInSecond = 1'000'000'000;
+constexpr std::int64_t kMinute_ns = 60'000'000'000, kSeries_ns = 10 * kMinute_ns;
 constexpr std::uintmax_t kMostRead = 4 * Journal::kMostBytes;
 
 /// The wall time of a moment of CLOCK_MONOTONIC in UTC, ISO 8601 with milliseconds.
@@ -48,6 +51,39 @@ bool ends_within_line(const fs::path& file, off_t size) {
 }
 
 fs::path older(const fs::path& file) { return file.string() + ".1"; }
+fs::path of_fault(const fs::path& file) { return file.string() + ".fault"; }
+
+/// The end of a file, from the beginning of a line on; empty if it cannot be read.
+std::string last_lines(const fs::path& file, std::uint64_t most) {
+  std::error_code error;
+  const std::uintmax_t size = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
+  std::ifstream in(file, std::ios::binary);
+  if (error || size == 0) return "";
+  std::string cut;
+  if (size > most) {
+    in.seekg(static_cast<std::streamoff>(size - most));
+    std::getline(in, cut);
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::optional<Json> event_in(const std::string& line) {
+  Json out = Json::parse(line, nullptr, false);
+  const bool sound = out.is_object() && out.contains("event") && out["event"].is_string();
+  return sound ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::string time_of(const Json& event) {
+  return event.contains("time") && event["time"].is_string() ? event["time"].get<std::string>()
+                                                             : "";
+}
+
+/// With the reason where the input is not one that comes over the bus.
+Json lost_details(const SessionMoment& now) {
+  Json out{{"inputs", lost_words(now.lost)}};
+  if (now.refusal.any()) out["refused"] = refusal_text(now.refusal);
+  return out;
+}
 
 /// The name in a folder that is not the deploy folder itself, so that several do not collide.
 std::string name_elsewhere(const fs::path& folder) {
@@ -63,16 +99,16 @@ Journal::Journal(fs::path file, Echo echo) : file_(std::move(file)), echo_(echo)
 
 void Journal::note(const char* event, const Json& details) {
   const std::int64_t now_ns = MonotonicTime::now_ns();
-  if (room(now_ns)) write(now_ns, event, details);
+  if (room(now_ns, event)) write(now_ns, event, details);
 }
 
 void Journal::note_change(const SessionMoment& now) {
   const auto say = [&](const char* event, const Json& details) {
-    if (room(now.time_ns)) write(now.time_ns, event, details);
+    if (room(now.time_ns, event)) write(now.time_ns, event, details);
   };
   if (now.model != before_.model) say("model", {{"fingerprint", now.model}});
   if (now.link != before_.link) say("link", {{"state", word_of(now.link)}});
-  if (now.lost != before_.lost) say("lost", {{"inputs", lost_words(now.lost)}});
+  if (now.lost != before_.lost) say("lost", lost_details(now));
   if (now.state != before_.state) {
     Json details{{"from", to_string(before_.state)},
                  {"to", to_string(now.state)},
@@ -81,30 +117,36 @@ void Journal::note_change(const SessionMoment& now) {
     if (now.state == SessionState::kHold) details["inputs"] = lost_words(now.lost);
     write(now.time_ns, "state", details);
   }
-  if (now.cause != before_.cause && now.cause != FaultCause::kNone)
+  if (now.cause != before_.cause && now.cause != FaultCause::kNone) {
     write(now.time_ns, "fault",
           {{"cause", to_string(now.cause)},
            {"applied_um", 1e6 * now.applied_m},
            {"pose_difference_um", 1e6 * now.difference_m},
            {"fingerprint", now.model}});
+    keep_what_led_to_fault(now.time_ns);
+  }
   if (refused(now.status) != refused(before_.status))
     say(refused(now.status) ? "refused" : "solved", {{"status", plumb::to_string(now.status)}});
   before_ = now;
 }
 
-/// True if this second has room for one event more; else it is counted.
-bool Journal::room(std::int64_t monotonic_ns) {
-  const std::int64_t second = monotonic_ns / kNanosInSecond;
-  if (second != second_) {
-    const std::uint64_t left_out = suppressed_;
-    second_ = second;
-    in_second_ = 0;
-    suppressed_ = 0;
-    if (left_out > 0) write(monotonic_ns, "left-out", {{"events", left_out}});
-  }
-  if (++in_second_ <= kMostPerSecond) return true;
-  ++suppressed_;
+/// True if this minute has room for one event more of the kind; else it is counted.
+bool Journal::room(std::int64_t monotonic_ns, const char* event) {
+  tend(monotonic_ns);
+  Minute& minute = minutes_.try_emplace(event, Minute{.begin_ns = monotonic_ns}).first->second;
+  if (++minute.written <= kMostPerMinute) return true;
+  ++minute.left_out;
   return false;
+}
+
+void Journal::tend(std::int64_t monotonic_ns) {
+  std::erase_if(minutes_, [&](const auto& of) {
+    const auto& [event, minute] = of;
+    if (monotonic_ns - minute.begin_ns < kMinute_ns) return false;
+    if (minute.left_out > 0)
+      write(monotonic_ns, "left-out", {{"of", event}, {"events", minute.left_out}});
+    return true;
+  });
 }
 
 void Journal::write(std::int64_t monotonic_ns, const char* event, const Json& details) {
@@ -112,7 +154,7 @@ void Journal::write(std::int64_t monotonic_ns, const char* event, const Json& de
             {"monotonic_s", 1e-9 * static_cast<double>(monotonic_ns)},
             {"event", event}};
   line.update(details);
-  if (echo_ == Echo::kStderr) std::cerr << "plumb-rt: " << event_text(line) << std::endl;
+  if (echo_ == Echo::kStderr) std::ignore = say_at_once("plumb-rt: " + event_text(line) + "\n");
   append(line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
@@ -130,6 +172,19 @@ void Journal::append(const std::string& line) {
       plain && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   failure_ = written ? "" : plain || fd < 0 ? std::strerror(errno) : "not a regular file";
   if (fd >= 0) ::close(fd);
+}
+
+/// A series of faults has one cause, which lies before the first of them.
+void Journal::keep_what_led_to_fault(std::int64_t monotonic_ns) {
+  if (file_.empty() || (fault_ns_ && monotonic_ns - *fault_ns_ < kSeries_ns)) return;
+  const std::string newest = last_lines(file_, kMostOfFault);
+  try {
+    write_file_atomically(of_fault(file_),
+                          last_lines(older(file_), kMostOfFault - newest.size()) + newest);
+    fault_ns_ = monotonic_ns;
+  } catch (const Failure& failure) {
+    failure_ = failure.problems().front().message;
+  }
 }
 
 std::vector<fs::path> journal_places(const fs::path& folder) {
@@ -151,29 +206,31 @@ fs::path journal_file(const fs::path& folder, const fs::path& configured) {
 
 ReadEvents read_events(const fs::path& file, std::size_t most) {
   ReadEvents out;
-  std::deque<Json> newest;
-  for (const fs::path& part : {older(file), file}) {
-    std::error_code error;
-    if (!fs::is_regular_file(part, error)) continue;
-    const std::uintmax_t size = fs::file_size(part, error);
-    if (error) continue;
-    std::ifstream in(part, std::ios::binary);
-    std::string line;
-    if (size > kMostRead) {
-      in.seekg(static_cast<std::streamoff>(size - kMostRead));
-      std::getline(in, line);  // the rest of a line
-    }
-    while (std::getline(in, line)) {
-      Json event = Json::parse(line, nullptr, false);
-      if (!event.is_object() || !event.contains("event") || !event["event"].is_string()) {
+  const auto read = [&](const fs::path& part) {
+    std::vector<Json> events;
+    std::istringstream in(last_lines(part, kMostRead));
+    for (std::string line; std::getline(in, line);) {
+      if (auto event = event_in(line))
+        events.push_back(std::move(*event));
+      else
         out.damaged += line.empty() ? 0 : 1;
-        continue;
-      }
-      newest.push_back(std::move(event));
-      if (newest.size() > most) newest.pop_front();
     }
-  }
-  out.events.assign(newest.begin(), newest.end());
+    return events;
+  };
+  const auto add = [&](std::vector<Json> events) {
+    std::ranges::move(events, std::back_inserter(out.events));
+  };
+  std::vector<Json> led_to_fault = read(of_fault(file));
+  add(read(older(file)));
+  add(read(file));
+  if (!out.events.empty())  // of the others they are a copy
+    std::erase_if(led_to_fault, [first = time_of(out.events.front())](const Json& event) {
+      return time_of(event) >= first;
+    });
+  out.events.insert(out.events.begin(), std::move_iterator(led_to_fault.begin()),
+                    std::move_iterator(led_to_fault.end()));
+  if (out.events.size() > most)
+    out.events.erase(out.events.begin(), out.events.end() - static_cast<std::ptrdiff_t>(most));
   return out;
 }
 

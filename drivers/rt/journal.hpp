@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,16 +18,22 @@ namespace plumb::drivers::rt {
 /// of bounded size and a short line on stderr, which systemd passes to journald.
 ///
 /// When the file would exceed kMostBytes, it is renamed to NAME.1, whose content before is lost; so
-/// at most twice as many bytes are kept. More than kMostPerSecond events in a second are counted
-/// and not written one by one, except "state" and "fault", which cannot come so often. While the
-/// file cannot be written the lines on stderr go on. Where a killed program left a part of a line,
-/// the next event begins on a line of its own.
+/// at most twice as many bytes are kept. Of each kind of event kMostPerMinute are written in a
+/// minute, which begins with the first; the others are counted, and at its end "left-out" says how
+/// many. "state" and "fault" are always written. What led to a fault is copied to NAME.fault, so
+/// that whatever follows cannot push it out: the last kMostOfFault bytes, unless an earlier fault's
+/// were copied in the last ten minutes.
+///
+/// Nobody who reads stderr, or has stopped reading it, can hold the journal up. While the file
+/// cannot be written the lines on stderr go on. Where a killed program left a part of a line, the
+/// next event begins on a line of its own.
 ///
 /// Thread: one, without real-time priority. System calls: yes.
 class Journal {
  public:
   static constexpr std::uint64_t kMostBytes = 1'000'000;
-  static constexpr int kMostPerSecond = 50;
+  static constexpr std::uint64_t kMostOfFault = 200'000;
+  static constexpr int kMostPerMinute = 20;
 
   enum class Echo { kStderr, kNone };
 
@@ -40,21 +48,31 @@ class Journal {
   /// moment is compared with a session that has not begun.
   void note_change(const SessionMoment& now);
 
+  /// Says what was left out in minutes that are over.
+  void tend(std::int64_t monotonic_ns);
+
   const std::filesystem::path& file() const noexcept { return file_; }
   const std::string& failure() const noexcept { return failure_; }  // of the file; empty: none
 
  private:
   void write(std::int64_t monotonic_ns, const char* event, const Json& details);
-  bool room(std::int64_t monotonic_ns);
+  bool room(std::int64_t monotonic_ns, const char* event);
   void append(const std::string& line);
+  void keep_what_led_to_fault(std::int64_t monotonic_ns);
+
+  /// Events of one kind in the minute that began with the first of them.
+  struct Minute {
+    std::int64_t begin_ns = 0;
+    int written = 0;
+    std::uint64_t left_out = 0;
+  };
 
   std::filesystem::path file_;
   Echo echo_;
   std::string failure_;
   SessionMoment before_;
-  std::int64_t second_ = 0;  // whole second of the last event
-  int in_second_ = 0;
-  std::uint64_t suppressed_ = 0;
+  std::map<std::string, Minute> minutes_;  // by kind of event
+  std::optional<std::int64_t> fault_ns_;   // when NAME.fault was written
 };
 
 /// Where the journal of a folder stands: `configured` if it is not empty, else events.jsonl in the
@@ -72,9 +90,9 @@ struct ReadEvents {
   std::uint64_t damaged = 0;  // lines that are no event
 };
 
-/// The events of a journal, those of NAME.1 included, at most `most` of them, the newest. A line
-/// that is no event is left out and counted; the last line of a program that was killed while it
-/// wrote may be one. Of a longer file than a journal can be only the end is read.
+/// The events of a journal, those of NAME.fault and NAME.1 included, at most `most` of them, the
+/// newest. A line that is no event is left out and counted; the last line of a program that was
+/// killed while it wrote may be one. Of a longer file than a journal can be only the end is read.
 ReadEvents read_events(const std::filesystem::path& file, std::size_t most);
 
 /// "2026-11-25 03:50:46.123  fault  pose-mismatch" for people.

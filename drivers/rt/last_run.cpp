@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <iostream>
 #include <stdexcept>
+#include <tuple>
 
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/json.hpp"
 #include "program/problem.hpp"
 #include "rt/control_path.hpp"
+#include "rt/standard_error.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -96,11 +97,11 @@ bool LastRun::write(const Content& content) {
     need_regular(file_);
     write_file_atomically(file_, json.dump(2) + "\n");
   } catch (const Failure& failure) {
-    std::cerr << render(Problem{.severity = Severity::kWarning,
-                                .code = "W-RT-STATE",
-                                .message = failure.problems().front().message,
-                                .help = "without it every start needs an acknowledgement"})
-              << '\n';
+    const Problem problem{.severity = Severity::kWarning,
+                          .code = "W-RT-STATE",
+                          .message = failure.problems().front().message,
+                          .help = "without it every start needs an acknowledgement"};
+    std::ignore = say_at_once(render(problem) + "\n");
     failed_ = true;
     return false;
   }

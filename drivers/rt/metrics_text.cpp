@@ -124,6 +124,8 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   out.counter("not_sent", "Messages that the link did not take", port.not_sent);
   out.counter("restarts", "Times the controller was seen to have been restarted", port.restarts);
   out.counter("foreign_senders", "Our identifiers, sent by someone else", port.foreign_senders);
+  out.counter("refused_writes", "Writes that the controller answered with an exception",
+              port.refused_writes);
   out.counter("cycles", "Ticks of the clock", snapshot.clock.ticks);
   out.counter("cycles_missed", "Points of the grid skipped", snapshot.clock.missed);
   const RecordFacts& record = facts.record;

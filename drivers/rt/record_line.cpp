@@ -9,7 +9,7 @@ namespace plumb::drivers::rt {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000, kMicro_ns = 1'000;
-constexpr std::uint8_t kStopFlag = 1, kSleptFlag = 2, kRestartedFlag = 4;
+constexpr std::uint8_t kStopFlag = 1, kSleptFlag = 2, kRestartedFlag = 4, kRefusedFlag = 8;
 constexpr std::uint8_t kAcknowledgeFlag = 1;
 
 template <class T>
@@ -89,6 +89,7 @@ CanFrame tick_frame(const RecordedTick& tick) {
   if (tick.told.run == SessionTick::Run::kStop) out.data[0] |= kStopFlag;
   if (tick.told.host == SessionTick::Host::kSlept) out.data[0] |= kSleptFlag;
   if (tick.told.peer == SessionTick::Peer::kRestarted) out.data[0] |= kRestartedFlag;
+  if (tick.told.answers == SessionTick::Answers::kRefused) out.data[0] |= kRefusedFlag;
   for (unsigned i = 0; i < 3; ++i)
     out.data[1 + i] = static_cast<std::uint8_t>(tick.model >> (8 * i));
   for (unsigned i = 0; i < 4; ++i)
@@ -105,6 +106,7 @@ RecordedTick tick_in(const CanFrame& frame) {
   if ((frame.data[0] & kStopFlag) != 0) out.told.run = SessionTick::Run::kStop;
   if ((frame.data[0] & kSleptFlag) != 0) out.told.host = SessionTick::Host::kSlept;
   if ((frame.data[0] & kRestartedFlag) != 0) out.told.peer = SessionTick::Peer::kRestarted;
+  if ((frame.data[0] & kRefusedFlag) != 0) out.told.answers = SessionTick::Answers::kRefused;
   return out;
 }
 

@@ -169,6 +169,7 @@ void Service::write_down() {
     journal_.note_change(moment);
     note_state(moment);
   }
+  journal_.tend(MonotonicTime::now_ns());
   for (const RecordNotice& notice : recorder_->take_notices())
     journal_.note(notice.event, notice.details);
   facts_.events_failure = journal_.failure();

@@ -19,7 +19,7 @@ constexpr std::size_t kStampSize = std::string_view("20261125T093012.123Z-").siz
 
 constexpr Lost kNobodysDoing = Lost::kTarget | Lost::kJoints | Lost::kController | Lost::kRobot |
                                Lost::kComparison | Lost::kMotion | Lost::kArmAway |
-                               Lost::kArmStill | Lost::kStall | Lost::kRestart;
+                               Lost::kArmStill | Lost::kStall | Lost::kRestart | Lost::kAnswers;
 
 std::int64_t ns_of(double seconds) { return static_cast<std::int64_t>(1e9 * seconds); }
 

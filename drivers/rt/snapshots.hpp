@@ -19,7 +19,7 @@ namespace plumb::drivers::rt {
 ///
 /// Every FAULT has one. So has a HOLD that began because an input was lost that nobody switches off
 /// on purpose: target, joints, controller, robot, comparison, motion, arm-away, arm-still, stall,
-/// restart.
+/// restart, answers.
 /// Its cause lies in the seconds before, and the input may be back before somebody looks. A HOLD by
 /// drives, manual, stop, disabled, tool, frame or payload, by the mode or by the end of the run is
 /// an operator's doing, and the journal says all about it.

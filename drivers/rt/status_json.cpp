@@ -88,7 +88,9 @@ Json link_json(const RunSnapshot& snapshot, const std::string& bus) {
           {"not_sent", p.not_sent},
           {"reconnects", p.reconnects},
           {"restarts", p.restarts},
-          {"foreign_senders", p.foreign_senders}};
+          {"foreign_senders", p.foreign_senders},
+          {"refused_writes", p.refused_writes},
+          {"refusal", refusal_text(snapshot.refusal)}};
 }
 
 Json record_json(const RecordFacts& record) {

@@ -134,6 +134,8 @@ std::string status_text(const Json& status) {
   out += fmt::format("counters    {}\n", all(status["counters"]));
   out += fmt::format("link        {} {}: {}\n", status["link"]["bus"].get<std::string>(),
                      status["link"]["state"].get<std::string>(), all(status["link"]));
+  if (const std::string refused = status["link"].value("refusal", ""); !refused.empty())
+    out += fmt::format("refused     the controller refuses what is written to {}\n", refused);
   out += fmt::format("clock       {}\n", all(status["clock"]));
   out += fmt::format("model       {}, {} {}\n", status["model"]["name"].get<std::string>(),
                      status["model"]["file"].get<std::string>(),

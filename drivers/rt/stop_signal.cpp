@@ -4,7 +4,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <tuple>
+
 #include "program/problem.hpp"
+#include "rt/standard_error.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
@@ -14,9 +17,8 @@ std::atomic<bool> told{false};
 struct sigaction handler_before {};  // of the program: it says its last words
 
 [[noreturn]] void end_at_once(int signal) {
-  const char message[] =
-      "\nplumb-rt: ended at once; it is the receiver that takes the correction away now";
-  [[maybe_unused]] const auto said = ::write(STDERR_FILENO, message, sizeof(message) - 1);
+  std::ignore = say_at_once(
+      "\nplumb-rt: ended at once; it is the receiver that takes the correction away now");
   if (handler_before.sa_handler != SIG_DFL && handler_before.sa_handler != SIG_IGN)
     handler_before.sa_handler(signal);
   ::_exit(static_cast<int>(Exit::kInterrupted));
@@ -34,6 +36,7 @@ void stop_on_signal(std::atomic<bool>& stop) {
   struct sigaction action {};
   action.sa_handler = heard;
   action.sa_flags = SA_RESTART;
+  signal(SIGPIPE, SIG_IGN);  // a reader of our words who leaves ends nothing
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, &handler_before);
 }

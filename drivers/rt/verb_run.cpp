@@ -8,8 +8,8 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <iostream>
 #include <memory>
+#include <tuple>
 
 #include "plumb/drivers/rt_process.hpp"
 #include "plumb/drivers/run_loop.hpp"
@@ -19,6 +19,7 @@
 #include "rt/journal.hpp"
 #include "rt/rt_probe.hpp"
 #include "rt/service.hpp"
+#include "rt/standard_error.hpp"
 #include "rt/stop_signal.hpp"
 
 namespace plumb::drivers::rt {
@@ -89,7 +90,7 @@ void note_origin(const Deployment& deployment, const SigningRules& rules, Outcom
 
 /// Prints the remarks at once, because the end of the run may be a year away.
 void say(const std::vector<Problem>& remarks) {
-  for (const Problem& remark : remarks) std::cerr << render(remark) << '\n';
+  for (const Problem& remark : remarks) std::ignore = say_at_once(render(remark) + "\n");
 }
 
 using Loop = RunLoop<MonotonicTime>;
@@ -144,11 +145,11 @@ void ask_operator(const Service& service, const Deployment& deployment) {
 
 /// A thread that waits for a disk for ever cannot be ended, but the program can.
 [[noreturn]] void end_without_service() {
-  std::cerr << render(Problem{.severity = Severity::kError,
-                              .code = "E-RT-STOP",
-                              .message = "a file that is written to does not answer",
-                              .help = "check the disk of [log] in rt.toml"})
-            << '\n';
+  const Problem problem{.severity = Severity::kError,
+                        .code = "E-RT-STOP",
+                        .message = "a file that is written to does not answer",
+                        .help = "check the disk of [log] in rt.toml"};
+  std::ignore = say_at_once(render(problem) + "\n");
   ::_exit(static_cast<int>(Exit::kEnvironment));
 }
 
@@ -195,12 +196,13 @@ void run_folder(const RunOptions& options, Outcome& outcome) {
     outcome.result = {{"checked", true}};
     return;
   }
-  say(outcome.remarks);
   stop_on_signal(shared.stop);
+  say(outcome.remarks);
   service.start();
-  std::cerr << fmt::format("plumb-rt: {} on {}, cycle {} us, mode {}\n",
-                           deployment.config.model.string(), deployment.config.source->name(),
-                           deployment.config.cycle_us, to_string(deployment.session.mode));
+  std::ignore =
+      say_at_once(fmt::format("plumb-rt: {} on {}, cycle {} us, mode {}\n",
+                              deployment.config.model.string(), deployment.config.source->name(),
+                              deployment.config.cycle_us, to_string(deployment.session.mode)));
   ask_operator(service, deployment);
   const Loop::Next next = cycle_until_told(deployment, *bus, slot, shared);
   const bool well = next == Loop::Next::kDone || next == Loop::Next::kBusLost;

@@ -85,7 +85,8 @@ void ModbusClient::Work::serve() {
 bool ModbusClient::Work::round(std::int64_t now_ns) {
   talk_.begin_round();
   if (!reader_.round(now_ns) || !owner_.round(now_ns) || !writer_.round(now_ns)) return false;
-  exchange.state = talk_.clean() ? LinkState::kUp : LinkState::kDegraded;
+  const bool refused = exchange.refusal.load(std::memory_order_relaxed).any();
+  exchange.state = talk_.clean() && !refused ? LinkState::kUp : LinkState::kDegraded;
   back_off_s_ = settings.first_back_off_s;
   return true;
 }

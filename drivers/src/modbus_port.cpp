@@ -48,7 +48,12 @@ PortCounters ModbusPort::counters() const noexcept {
   out.reconnects = link.connects > 0 ? link.connects - 1 : 0;
   out.restarts = link.restarts;
   out.foreign_senders = link.foreign_senders;
+  out.refused_writes = link.refused_writes;
   return out;
+}
+
+WriteRefusal ModbusPort::refusal() const noexcept {
+  return exchange_->refusal.load(std::memory_order_relaxed);
 }
 
 }  // namespace plumb::drivers

@@ -14,12 +14,15 @@ ModbusWriter::ModbusWriter(const BusLayout& layout, const ModbusCodec& codec,
       talk_(talk),
       owner_(owner),
       exchange_(exchange),
-      blocks_(blocks_of(layout, codec, settings.self)) {}
+      blocks_(blocks_of(layout, codec, settings.self)),
+      refusals_(blocks_.size()) {}
 
 bool ModbusWriter::round(std::int64_t now_ns) {
+  exchange_.refusal.store(refusals_.find(blocks_, now_ns), std::memory_order_relaxed);
   if (!owner_.may_write()) return true;
   run_ = {};
-  for (const auto& block : blocks_) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const ModbusBlock& block = blocks_[i];
     BusMessage message;
     if (!take_fresh(block, now_ns, message)) continue;
     const bool joins = run_.first + run_.count == block.first &&
@@ -29,7 +32,7 @@ bool ModbusWriter::round(std::int64_t now_ns) {
     if (!codec_.encode(message, std::span(run_.registers).subspan(run_.count, block.count)))
       continue;
     run_.count = static_cast<std::uint16_t>(run_.count + block.count);
-    run_.messages += 1;
+    run_.blocks[run_.messages++] = i;
   }
   return write_run(now_ns);
 }
@@ -48,10 +51,23 @@ bool ModbusWriter::write_run(std::int64_t now_ns) {
   if (!owner_.may_write() || owner_.sight_is_old()) return true;
   owner_.write_begins(run.first, run.content());
   const ModbusTalk::Result result = talk_.write(run.first, run.content());
+  count(run, result, now_ns);
   if (result != ModbusTalk::Result::kDone) return ModbusTalk::goes_on(result);
   owner_.write_done(run.first, run.content());
-  for (int i = 0; i < run.messages; ++i) ++exchange_.counters.sent;
   return true;
+}
+
+void ModbusWriter::count(const Run& run, ModbusTalk::Result result, std::int64_t now_ns) noexcept {
+  if (result == ModbusTalk::Result::kRefused) {
+    ++exchange_.counters.refused_writes;
+    const auto exception = static_cast<std::uint32_t>(talk_.exception());
+    for (const std::size_t block : run.parts()) refusals_.refused(block, exception, now_ns);
+  } else if (result == ModbusTalk::Result::kDone) {
+    for (const std::size_t block : run.parts()) {
+      ++exchange_.counters.sent;
+      refusals_.taken(block);
+    }
+  }
 }
 
 }  // namespace plumb::drivers

@@ -8,6 +8,7 @@
 #include "modbus_owner.hpp"
 #include "modbus_spans.hpp"
 #include "modbus_talk.hpp"
+#include "write_refusals.hpp"
 
 namespace plumb::drivers {
 
@@ -32,12 +33,18 @@ class ModbusWriter {
     std::array<std::uint16_t, kMostWrite> registers{};
     std::uint16_t first = 0;
     std::uint16_t count = 0;
-    int messages = 0;
+    std::array<std::size_t, kMessageKinds> blocks{};  // indices of them
+    std::size_t messages = 0;
 
+    std::span<const std::size_t> parts() const noexcept {
+      return std::span(blocks).first(messages);
+    }
     std::span<const std::uint16_t> content() const noexcept {
       return std::span(registers).first(count);
     }
   };
+
+  void count(const Run& run, ModbusTalk::Result result, std::int64_t now_ns) noexcept;
 
   const ModbusCodec& codec_;
   const ModbusClientSettings& settings_;
@@ -45,6 +52,7 @@ class ModbusWriter {
   ModbusOwner& owner_;
   ModbusExchange& exchange_;
   std::vector<ModbusBlock> blocks_;
+  WriteRefusals refusals_;
   Run run_;
 };
 

@@ -186,7 +186,8 @@ Lost Session::find_all_lost(const SessionTick& tick) const noexcept {
          when(sync_.silent(), Lost::kComparison) | when(arm_.away(), Lost::kArmAway) |
          when(arm_.still(), Lost::kArmStill) | when(stalled_, Lost::kStall) |
          when(needs_acknowledgement_, Lost::kAcknowledge) |
-         when(tick.peer == SessionTick::Peer::kRestarted, Lost::kRestart);
+         when(tick.peer == SessionTick::Peer::kRestarted, Lost::kRestart) |
+         when(tick.answers == SessionTick::Answers::kRefused, Lost::kAnswers);
 }
 
 /// Before the first correction an acknowledgement counts once the poses were compared, so that it

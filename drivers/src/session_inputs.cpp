@@ -103,6 +103,8 @@ const char* to_string(Lost one) noexcept {
       return "acknowledge";
     case Lost::kRestart:
       return "restart";
+    case Lost::kAnswers:
+      return "answers";
   }
   return "several";
 }

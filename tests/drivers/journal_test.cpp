@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 
 #include "program/scratch_folder.hpp"
 
@@ -44,7 +46,7 @@ TEST_F(JournalFile, StaysWithinItsSizeAndKeepsTheNewest) {
   Journal journal(file(), Journal::Echo::kNone);
   SessionMoment moment;
   for (int k = 0; k < 20'000; ++k) {
-    moment.time_ns = k * 1'000'000'000LL;
+    moment.time_ns = k * 3'000'000'000LL;  // as many as are written
     moment.model = static_cast<std::uint32_t>(k + 1);
     journal.note_change(moment);
   }
@@ -53,21 +55,64 @@ TEST_F(JournalFile, StaysWithinItsSizeAndKeepsTheNewest) {
   EXPECT_EQ(read_events(file(), 1).events.front()["fingerprint"], 20'000);
 }
 
-TEST_F(JournalFile, AFloodIsCounted) {
+TEST_F(JournalFile, AFloodIsCountedAndSaidOnceAMinute) {
   Journal journal(file(), Journal::Echo::kNone);
   SessionMoment moment;
-  for (int k = 0; k < 1'000; ++k) {
-    moment.time_ns = 1'000'000'000LL + k;
+  constexpr int kTimes = 10'000;  // for five minutes
+  for (int k = 0; k < kTimes; ++k) {
+    moment.time_ns = 1'000'000'000LL + k * 30'000'000LL;
+    moment.link = k % 2 == 0 ? LinkState::kDegraded : LinkState::kUp;
+    journal.note_change(moment);
+  }
+  journal.tend(moment.time_ns + 61'000'000'000);
+  std::map<std::string, int> events;
+  int written = 0, left_out = 0;
+  for (const Json& event : read_events(file(), 100'000).events) {
+    ++events[event["event"]];
+    written += event["event"] == "link" ? 1 : 0;
+    if (event["event"] != "left-out") continue;
+    left_out += event["events"].get<int>();
+    EXPECT_EQ(event["of"], "link");
+  }
+  EXPECT_EQ(events["left-out"], 5);
+  EXPECT_EQ(written, 5 * Journal::kMostPerMinute);
+  EXPECT_EQ(written + left_out, kTimes);
+}
+
+TEST_F(JournalFile, WhatLedToAFaultIsNotPushedOutByWhatFollows) {
+  Journal journal(file(), Journal::Echo::kNone);
+  SessionMoment moment{.time_ns = 1'000'000'000, .model = 4711};
+  journal.note_change(moment);
+  moment.state = SessionState::kFault;
+  moment.cause = FaultCause::kPoseMismatch;
+  journal.note_change(moment);
+  for (int k = 0; k < 20'000; ++k) {  // a week of it
+    moment.time_ns += 30'000'000'000;
     moment.model = static_cast<std::uint32_t>(k + 1);
     journal.note_change(moment);
   }
-  moment.time_ns += 2'000'000'000;
-  moment.model = 5'000;
+  const auto events = read_events(file(), 1'000'000).events;
+  EXPECT_EQ(events.front()["fingerprint"], 4711);
+  const auto fault =
+      std::ranges::find(events, Json("fault"), [](const Json& e) { return e["event"]; });
+  ASSERT_NE(fault, events.end());
+  EXPECT_EQ((*fault)["cause"], "pose-mismatch");
+  EXPECT_EQ(events.back()["fingerprint"], 20'000);
+}
+
+TEST_F(JournalFile, TheEventsOfAFaultAreNotShownTwice) {
+  Journal journal(file(), Journal::Echo::kNone);
+  SessionMoment moment{.time_ns = 1'000'000'000, .model = 1};
   journal.note_change(moment);
-  const auto events = read_events(file(), 1'000).events;
-  EXPECT_EQ(events.size(), static_cast<std::size_t>(Journal::kMostPerSecond) + 2);
-  EXPECT_EQ(events[events.size() - 2]["event"], "left-out");
-  EXPECT_EQ(events[events.size() - 2]["events"], 1'000 - Journal::kMostPerSecond);
+  moment.state = SessionState::kFault;
+  moment.cause = FaultCause::kPoseMismatch;
+  journal.note_change(moment);
+  const auto lines = [](const fs::path& of) {
+    std::ifstream in(of);
+    return std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+  };
+  EXPECT_TRUE(fs::exists(file().string() + ".fault"));
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(read_events(file(), 100).events.size()), lines(file()));
 }
 
 TEST_F(JournalFile, AFaultInAFloodIsNotLeftOut) {

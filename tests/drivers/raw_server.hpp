@@ -63,6 +63,12 @@ class RawServer {
   enum class Lose { kNothing, kRequest, kAnswer };
   std::atomic<Lose> lose{Lose::kNothing};  // of the next write; the connection ends with it
 
+  /// Writes into any of these registers are answered with this exception; 0: all are taken.
+  void refuse(std::uint8_t exception, std::uint16_t first = kOurs, std::uint16_t end = kEnd) {
+    const std::lock_guard lock(mutex_);
+    refusal_ = {exception, first, end};
+  }
+
   void press() {
     acknowledge = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
@@ -261,13 +267,22 @@ class RawServer {
   Bytes write(const Client& client, const Bytes& pdu) {
     const std::lock_guard lock(mutex_);
     const Words words = words_of(Bytes(pdu.begin() + 6, pdu.end()));
+    const std::size_t begin = word(pdu, 1);
+    if (refusal_.exception != 0 && begin < refusal_.end && begin + words.size() > refusal_.first)
+      return {static_cast<std::uint8_t>(pdu[0] | 0x80), refusal_.exception};
     set(word(pdu, 1), words);
     writes_.push_back({client.number, word(pdu, 1), words, looks_[client.number],
                        std::chrono::steady_clock::now()});
     return {pdu.begin(), pdu.begin() + 5};
   }
 
+  struct Refusal {
+    std::uint8_t exception = 0;
+    std::uint16_t first = 0, end = 0;
+  };
+
   RawArm arm_;
+  Refusal refusal_;
   int listener_ = -1;
   std::vector<Client> clients_;
   std::mutex mutex_;  // of all below

@@ -45,7 +45,8 @@ TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
                                    .foreign_senders = 0x01020304,
                                    .run = SessionTick::Run::kStop,
                                    .host = SessionTick::Host::kSlept,
-                                   .peer = SessionTick::Peer::kRestarted},
+                                   .peer = SessionTick::Peer::kRestarted,
+                                   .answers = SessionTick::Answers::kRefused},
                           .model = 0x7FABCD};
   const auto line = parse_line(to_line({kTickName, tick_frame(tick)}));
   ASSERT_TRUE(line.has_value());
@@ -56,6 +57,7 @@ TEST(RecordLine, ATickHoldsAllTheSessionWasTold) {
   EXPECT_EQ(read.told.run, tick.told.run);
   EXPECT_EQ(read.told.host, tick.told.host);
   EXPECT_EQ(read.told.peer, tick.told.peer);
+  EXPECT_EQ(read.told.answers, tick.told.answers);
 }
 
 TEST(RecordLine, AStartHoldsWhatTheRunsBeforeLeft) {

@@ -28,9 +28,9 @@ class ClientOf {
             std::to_string(server.port) + "\n[limits]\nmode = \"full\"\n" + bus) {
     start();
   }
-  void start() {
+  void start(const std::function<void()>& before = [] {}) {
     run = std::make_unique<RtProgram>(std::vector<std::string>{"run", folder.folder.string()},
-                                      folder.folder);
+                                      folder.folder, before);
   }
   void end() {
     run->kill(SIGTERM);
@@ -71,7 +71,8 @@ class RegistersOfOne : public testing::Test {
     ASSERT_TRUE(comes(kShadow));
     server.press();
     ASSERT_TRUE(comes(kActive));
-    ASSERT_TRUE(becomes([&] { return server.largest_correction_m(1) > 1e-4; }));
+    ASSERT_TRUE(
+        becomes([&] { return server.largest_correction_m(server.newest_client()) > 1e-4; }));
   }
   void expect_no_step() {
     EXPECT_LE(server.largest_speed_m_s(), 1.0001 * Deployed::arm().guard.slew_m_per_s);
@@ -107,6 +108,91 @@ TEST_F(RegistersOfOne, ASecondPlumbThatComesLaterWritesNothingAndTheFirstGoesOn)
         << "once the first is gone, the second has the registers, and says its fault in them";
     second.end();
   }
+}
+
+/// What plumb-rt says of writes that the controller refuses: the input that is lost, the exception
+/// and the registers.
+void expect_refused(const ClientOf& plumb, int exception, const std::string& registers) {
+  EXPECT_TRUE(becomes([&] {
+    const Json said = plumb.status();
+    return said["state"] != "active" &&
+           said["lost"].dump().find("\"answers\"") != std::string::npos;
+  })) << plumb.status()["lost"];
+  const Json link = plumb.status()["link"];
+  EXPECT_EQ(link["refusal"].get<std::string>().rfind(
+                "registers " + registers + ": exception " + std::to_string(exception), 0),
+            0U)
+      << link;
+  EXPECT_GT(link["refused_writes"], 3);
+  EXPECT_NE(plumb.folder.text("events.jsonl").find("\"refused\":\"registers " + registers),
+            std::string::npos);
+}
+
+TEST_F(RegistersOfOne, WritesThatAreRefusedAreALostInputUntilOneIsTaken) {
+  ClientOf plumb(server, kWithOwner);
+  ASSERT_NO_FATAL_FAILURE(activate());
+  for (const int exception : {2, 3, 4}) {
+    server.refuse(static_cast<std::uint8_t>(exception));
+    expect_refused(plumb, exception, "1200 to 1214");
+    server.refuse(0);
+    EXPECT_TRUE(becomes([&] { return plumb.status()["state"] == "active"; }));
+    EXPECT_EQ(plumb.status()["link"]["refusal"], "");
+  }
+  expect_no_step();
+  plumb.end();
+}
+
+TEST_F(RegistersOfOne, AnAnswerAloneThatIsRefusedIsALostInput) {
+  ClientOf plumb(server, kWithOwner);
+  ASSERT_NO_FATAL_FAILURE(activate());
+  server.refuse(2, RawServer::kCorrected, RawServer::kStatus);
+  expect_refused(plumb, 2, "1200 to 1214");
+  EXPECT_TRUE(comes(kHold)) << "the status still arrives";
+  EXPECT_TRUE(becomes([&] { return plumb.status()["correction"]["applied_um"] == 0.0; }));
+  EXPECT_EQ(plumb.status()["link"]["state"], "degraded");
+  plumb.end();
+}
+
+TEST_F(RegistersOfOne, WritesThatWereNeverTakenAreALostInput) {
+  server.refuse(1);
+  ClientOf plumb(server, kWithoutOwner);
+  expect_refused(plumb, 1, "1248 to 1264");
+  plumb.end();
+}
+
+TEST_F(RegistersOfOne, AControllerThatIsBusyForAMomentLosesNothing) {
+  ClientOf plumb(server, kWithOwner);
+  ASSERT_NO_FATAL_FAILURE(activate());
+  for (int i = 0; i < 10; ++i) {
+    server.refuse(6);
+    std::this_thread::sleep_for(8ms);
+    server.refuse(0);
+    std::this_thread::sleep_for(100ms);
+  }
+  const Json said = plumb.status();
+  EXPECT_EQ(said["state"], "active");
+  EXPECT_EQ(said["counters"]["holds"], 0);
+  EXPECT_GT(said["link"]["refused_writes"], 0);
+  plumb.end();
+}
+
+TEST_F(RegistersOfOne, WhoReadsStderrNoMoreHoldsNothingUp) {
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC | O_NONBLOCK), 0);
+  while (::write(ends[1], "x", 1) == 1) {
+  }
+  ::fcntl(ends[1], F_SETFL, 0);
+  ClientOf plumb(server, kWithOwner);
+  ASSERT_TRUE(comes(kShadow));
+  plumb.end();
+  server.zero();
+  plumb.start([&] { ::dup2(ends[1], STDERR_FILENO); });
+  ASSERT_NO_FATAL_FAILURE(activate());
+  EXPECT_EQ(plumb.status()["state"], "active");
+  EXPECT_GE(plumb.events("start"), 2) << "the journal goes on";
+  plumb.end();
+  ::close(ends[0]);
+  ::close(ends[1]);
 }
 
 TEST_F(RegistersOfOne, TwoThatBeginAtOnceAreNotBothInThem) {

@@ -19,6 +19,17 @@ struct PortCounters {
   std::uint64_t reconnects = 0;
   std::uint64_t restarts = 0;         // times that the controller was seen to have been restarted
   std::uint64_t foreign_senders = 0;  // our own identifier, sent by someone else
+  std::uint64_t refused_writes = 0;   // writes that the peer answered with an exception
+};
+
+/// What the peer does not take: registers, and the Modbus exception with which it answers when they
+/// are written.
+struct WriteRefusal {
+  std::uint32_t exception = 0;  // 0: nothing is refused
+  std::uint16_t first = 0;      // address of the first register
+  std::uint16_t count = 0;
+
+  bool any() const noexcept { return exception != 0; }
 };
 
 enum class LinkState : std::uint8_t {
@@ -43,6 +54,9 @@ class BusPort {
 
   virtual LinkState state() const noexcept = 0;
   virtual PortCounters counters() const noexcept = 0;
+
+  /// What the peer has refused to take for longer than a moment; nothing on a bus where nobody can.
+  virtual WriteRefusal refusal() const noexcept { return {}; }
 };
 
 }  // namespace plumb::drivers

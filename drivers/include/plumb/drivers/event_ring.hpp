@@ -20,6 +20,7 @@ struct SessionMoment {
   Status status = Status::kNoModel;
   Lost lost = Lost::kNothing;
   LinkState link = LinkState::kDown;
+  WriteRefusal refusal = {};  // behind Lost::kAnswers
   std::uint32_t model = 0;    // number of the model
   double applied_m = 0.0;     // size of the correction that is sent
   double difference_m = 0.0;  // of the pose compared last

@@ -35,6 +35,7 @@ struct ModbusCounters {
   Count not_sent;         // counted by the cycle's thread: there was no peer
   Count transactions;     // requests that were answered correctly
   Count refusals;         // exception answers: received by a client, sent by a server
+  Count refused_writes;   // client: writes that were answered with an exception
   Count timeouts;         // client: no complete answer in time; server: no complete request
   Count bad_frames;       // answers or requests with a wrong form
   Count connects;         // client: connections made (serial: answered); server: accepted
@@ -54,6 +55,8 @@ struct ModbusExchange {
   Mailboxes from_peer;  // filled by the link's thread, emptied by the cycle's
   Mailboxes to_peer;    // filled by the cycle's thread, emptied by the link's
   std::atomic<LinkState> state{LinkState::kDown};
+  std::atomic<WriteRefusal> refusal{WriteRefusal{}};
+  static_assert(std::atomic<WriteRefusal>::is_always_lock_free);
   ModbusCounters counters;
 };
 

@@ -27,6 +27,7 @@ class ModbusPort final : public BusPort {
   bool send(const BusMessage& message) noexcept override;
   LinkState state() const noexcept override;
   PortCounters counters() const noexcept override;
+  WriteRefusal refusal() const noexcept override;
 
  private:
   ModbusExchange* exchange_;

@@ -60,6 +60,7 @@ class RunLoop {
     snapshot_.session = session_.report();
     snapshot_.port = port_.counters();
     snapshot_.link = port_.state();
+    snapshot_.refusal = port_.refusal();
     snapshot_.clock = clock_.counters();
     snapshot_.wake = clock_.latency();
     snapshot_.work = work_;
@@ -89,13 +90,15 @@ class RunLoop {
   void step(std::int64_t now_ns) noexcept {
     using Run = SessionTick::Run;
     using Peer = SessionTick::Peer;
+    using Answers = SessionTick::Answers;
     const PortCounters counters = port_.counters();
     const SessionTick tick{
         .now_ns = whole_us(now_ns),
         .foreign_senders = counters.foreign_senders,
         .run = shared_.stop.load(std::memory_order_relaxed) ? Run::kStop : Run::kGoOn,
         .host = host(),
-        .peer = counters.restarts == restarts_ ? Peer::kSame : Peer::kRestarted};
+        .peer = counters.restarts == restarts_ ? Peer::kSame : Peer::kRestarted,
+        .answers = port_.refusal().any() ? Answers::kRefused : Answers::kTaken};
     restarts_ = counters.restarts;
     const SessionOutput out = session_.step(tick);
     note_stop(tick);
@@ -155,6 +158,7 @@ class RunLoop {
                             .status = report.status,
                             .lost = report.lost,
                             .link = port_.state(),
+                            .refusal = port_.refusal(),
                             .model = session_.model(),
                             .applied_m = report.applied_m,
                             .difference_m = report.sync.last_m};

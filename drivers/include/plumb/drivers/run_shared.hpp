@@ -19,6 +19,7 @@ struct RunSnapshot {
   SessionReport session;
   PortCounters port;
   LinkState link = LinkState::kDown;
+  WriteRefusal refusal;
   ClockCounters clock;
   LatencyHistogram wake;  // delays of the beginning of a cycle
   LatencyHistogram work;  // durations of a cycle

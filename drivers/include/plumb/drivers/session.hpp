@@ -63,6 +63,10 @@ struct SessionTick {
     kSame,
     kRestarted,  // the port saw since the last step that the controller was restarted
   } peer = Peer::kSame;
+  enum class Answers : std::uint8_t {
+    kTaken,
+    kRefused,  // the controller refuses what is written to it
+  } answers = Answers::kTaken;
 };
 
 /// The messages to send, in this order.

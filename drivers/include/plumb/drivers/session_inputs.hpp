@@ -31,8 +31,9 @@ enum class Lost : std::uint32_t {
   kStall = 1 << 15,        // plumb-rt missed its cycles for too long
   kAcknowledge = 1 << 16,  // an operator must acknowledge before the first correction
   kRestart = 1 << 17,      // the controller has been restarted in this cycle
+  kAnswers = 1 << 18,      // the controller refuses what is written to it
 };
-inline constexpr int kLostBits = 18;
+inline constexpr int kLostBits = 19;
 
 constexpr Lost operator|(Lost a, Lost b) noexcept {
   return static_cast<Lost>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
