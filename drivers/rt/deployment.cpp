@@ -9,6 +9,7 @@
 #include "bus_text/layout_toml.hpp"
 #include "bus_text/reach.hpp"
 #include "plumb/drivers/bus_content.hpp"
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
 #include "program/sums_signature.hpp"
@@ -40,13 +41,12 @@ void complete(Deployment& out) {
     session.signature_s = signature->period_s;
 }
 
-/// Who signed a folder; if a trusted key did, everything in it must be what was signed.
-Origin verified_origin(const std::filesystem::path& folder, const std::string& sums,
-                       const SigningRules& rules, Beside beside,
-                       const std::vector<std::filesystem::path>& written) {
-  Origin out = find_origin(folder, sums, rules);
-  if (!out.key.empty() || beside == Beside::kNothing) check_content(folder, sums, beside, written);
-  return out;
+/// If a trusted key signed a folder, everything in it must be what was signed.
+void refuse_unlisted(const std::filesystem::path& folder, const std::string& sums,
+                     const Origin& origin, Beside beside,
+                     const std::vector<std::filesystem::path>& written) {
+  if (!origin.key.empty() || beside == Beside::kNothing)
+    check_content(folder, sums, beside, written);
 }
 
 /// The version of the place that this folder is; empty if it is none.
@@ -99,7 +99,15 @@ Deployment load_deployment(const std::filesystem::path& folder, Sums sums,
   const Content content = find_content(folder);
   out.content = content.folder;
   const std::filesystem::path file = out.content / "rt.toml";
-  const std::string text = read_file(file);
+  // Nothing is parsed that is not what the sums list, nor, where signatures are demanded, what was
+  // signed.
+  const std::string text = read_regular_file(file, kMostCellBytes);
+  Origin origin;
+  if (sums == Sums::kVerified) {
+    out.sums = sums_text(out.content);
+    if (rules != nullptr) origin = find_origin(out.content, out.sums, *rules);
+    refuse_other(out.content, out.sums, file, sha256(text));
+  }
   TomlSource source(display_name(file), text, "E-RT");
   const toml::table parsed = source.parse();
   TomlTable top(parsed, "", source);
@@ -107,18 +115,12 @@ Deployment load_deployment(const std::filesystem::path& folder, Sums sums,
   auto bus = top.table("bus");
   top.done();
   source.stop_on_errors();
-  Origin origin;
-  if (sums == Sums::kVerified) {
-    out.sums = sums_text(out.content);
-    verify_sums(out.content, out.sums, {file, out.config.model});
-    refuse_other(out.content, out.sums, file, sha256(text));
-    if (rules != nullptr) {
-      out.etc = rules->etc;
-      out.demands_signatures = rules->demanded();
-      origin = verified_origin(out.content, out.sums, *rules,
-                               content.version.empty() ? Beside::kRunFiles : Beside::kNothing,
-                               written_files(out.config));
-    }
+  if (sums == Sums::kVerified) verify_sums(out.content, out.sums, {file, out.config.model});
+  if (sums == Sums::kVerified && rules != nullptr) {
+    out.etc = rules->etc;
+    out.demands_signatures = rules->demanded();
+    const Beside beside = content.version.empty() ? Beside::kRunFiles : Beside::kNothing;
+    refuse_unlisted(out.content, out.sums, origin, beside, written_files(out.config));
   }
   out.model = load_model(out.config.model, out.config.serial);
   if (sums == Sums::kVerified)
@@ -157,8 +159,9 @@ RunningModel load_next_model(const NextModel& next) {
   std::error_code ignored;
   const bool listed = std::filesystem::exists(folder / kSumsFile, ignored);
   const std::string sums = listed ? sums_text(folder) : "";
-  out.origin = verified_origin(
-      folder, sums, rules, version.empty() ? Beside::kRunFiles : Beside::kNothing, next.written);
+  out.origin = find_origin(folder, sums, rules);
+  refuse_unlisted(folder, sums, out.origin, version.empty() ? Beside::kRunFiles : Beside::kNothing,
+                  next.written);
   out.version = version;
   if (out.origin.key.empty() && version.empty()) return out;
   verify_sums(folder, sums, {next.file});

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/toml_table.hpp"
 #include "rt/check_sums.hpp"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 toml::table parsed_settings(const fs::path& folder) {
   const fs::path file = folder / "rt.toml";
-  return TomlSource(display_name(file), read_file(file), "E-RT").parse();
+  return TomlSource(display_name(file), read_regular_file(file, kMostCellBytes), "E-RT").parse();
 }
 
 std::string model_name(const toml::table& settings) {

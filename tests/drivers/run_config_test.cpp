@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <sstream>
@@ -109,6 +110,33 @@ TEST(RunConfig, AFileThatTheSumsDoNotKnowIsRefused) {
 
 RtRan checked(const Deployed& folder) {
   return plumb_rt({"run", folder.folder.string(), "--check"}, folder.folder);
+}
+
+TEST(RunConfig, NothingOfAFileThatTheSumsDoNotListIsParsed) {
+  const Deployed folder;
+  std::ofstream(folder.folder / "rt.toml") << "[cycle\n";  // behind the back of the sums
+  const RtRan ran = checked(folder);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("error[E-RT-SUMS]"), std::string::npos) << ran.err;
+}
+
+TEST(RunConfig, APipeIsNoConfiguration) {
+  const Deployed folder;
+  const auto file = folder.folder / "rt.toml";
+  std::filesystem::remove(file);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  const RtRan ran = checked(folder);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("rt.toml"), std::string::npos) << ran.err;
+}
+
+TEST(RunConfig, AConfigurationOfManyMegabytesIsRefusedUnread) {
+  const Deployed folder;
+  std::ofstream(folder.folder / "rt.toml").put('#');
+  std::filesystem::resize_file(folder.folder / "rt.toml", 300u << 20);  // a file with a hole
+  const RtRan ran = checked(folder);
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_NE(ran.err.find("rt.toml"), std::string::npos) << ran.err;
 }
 
 TEST(RunConfig, AListOfSumsThatIsMissingEmptyOrShortIsRefused) {
