@@ -28,12 +28,14 @@ struct RunSnapshot {
 
 /// The data that the cycle's thread shares with others. All of it is wait-free.
 struct RunShared {
+  EventRing events;
   Mailbox<RunSnapshot> snapshots;
   RecordRing record;
-  SessionCopy copy;  // for the record
-  EventRing events;
-  std::atomic<bool> stop{false};        // request to ramp out and end
   std::atomic<std::uint64_t> beats{0};  // completed cycles; a watchdog checks that it grows
+  std::atomic<bool> stop{false};        // request to ramp out and end
+  SessionCopy copy;                     // for the record
+};                                      // request to ramp out and end
+std::atomic<std::uint64_t> beats{0};    // completed cycles; a watchdog checks that it grows
 };
 
 }  // namespace plumb::drivers
