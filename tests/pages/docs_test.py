@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of the README and of the pages agree with the folders and with themselves."""
 import json
+import os
 import pathlib
 import re
+import shutil
+import subprocess
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -50,7 +53,25 @@ def stages(script):
             yield f"preset {preset[1]}, some tests"
 
 
+def cannot_start(text):
+    """Stages of a script whose command is no function of it or of lib.sh, no program of ours, and none installed."""
+    functions = set(re.findall(r"(?m)^(\w+)\(\) ", text + (SOURCE / "scripts/lib.sh").read_text()))
+    for name, command in re.findall(r'(?m)^\s*(?:stage|tally) "([^"]+)" (\S+)', text.replace("\\\n", " ")):
+        ours = SOURCE / command
+        if not (command in functions or shutil.which(command) if "/" not in command else os.access(ours, os.X_OK)):
+            yield name
+
+
 class Ci(unittest.TestCase):
+
+    def test_every_stage_can_start(self):
+        scripts = sorted((SOURCE / "scripts").glob("test*"))
+        self.assertGreaterEqual(len(scripts), 4)
+        for script in scripts:
+            self.assertEqual(list(cannot_start(script.read_text())), [], script.name)
+            subprocess.run(["bash", "-n", script], check=True)
+        planted = 'tally "a" tests/twin/no_such\nstage "b" no_such_function\ntally "c" tests/twin/cli_test.cpp\nstage "d" stage x'
+        self.assertEqual(list(cannot_start(planted)), ["a", "b", "c"])
 
     def test_the_page_names_what_the_scripts_run(self):
         page = (SOURCE / "docs/ci.md").read_text()
