@@ -873,6 +873,12 @@ constexpr Explanation kCodes[] = {
     {"E-TWIN-FAULT",
      "--fault names no fault, or gives it no size or time. plumb-twin run --list-faults shows "
      "them."},
+    {"E-TWIN-CHANGE",
+     "--change names nothing that could change, gives it no size in its unit, or is the stiffness "
+     "of a joint that does not yield."},
+    {"E-TWIN-TRUTH",
+     "truth.json does not say how its arm can be simulated again. plumb demo writes one that "
+     "does."},
     {"E-EXPLAIN",
      "plumb explain knows messages, effects, status texts and terms; without a word it lists "
      "them."},

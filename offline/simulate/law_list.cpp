@@ -110,12 +110,16 @@ void add_inconvenient_laws(std::vector<LawEntry>& all) {
                                          make_overcompensated_reversal),
                                "reversal"),
                         Needs::kDirection));
-  all.push_back(called(of_arm("two_steps_reflector", "the reflector slips twice; size: each slip",
+  all.push_back(
+      with_keys(called(of_arm("two_steps_reflector", "the reflector slips twice; size: each slip",
                               Size::kLength, Domain::kMeasurement, make_two_steps_reflector),
-                       "step"));
-  all.push_back(called(of_arm("two_steps_base", "the tracker is pushed twice; size: each push",
+                       "step"),
+                {"at_s", "at2_s"}));
+  all.push_back(
+      with_keys(called(of_arm("two_steps_base", "the tracker is pushed twice; size: each push",
                               Size::kLength, Domain::kMeasurement, make_two_steps_base),
-                       "step"));
+                       "step"),
+                {"at_s", "at2_s"}));
 }
 
 void add_unknown_laws(std::vector<LawEntry>& all) {

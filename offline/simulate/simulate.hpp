@@ -43,6 +43,8 @@ struct HiddenTruth {
   std::vector<HiddenEffect> sized;    // instead, for fresh poses: from Simulation::effects
   std::optional<std::uint64_t> seed;  // of the arm and its set-up; the plan's if not given: state
                                       // it to measure one arm at fresh poses
+  std::optional<std::uint64_t> like;  // seed of an arm of the same batch, whose errors of geometry
+                                      // it shares in part
   std::optional<format::Pose> X_MB;   // base in the tracker frame; else the cell's, else random
   std::optional<std::array<double, 3>> target_T;  // reflector in the tool frame; likewise
 };
@@ -116,6 +118,9 @@ std::string simulated_csv(const Cell& cell, const Simulation& simulation);
 /// Reads the specification of a hidden effect. Throws Failure (kUsage) with a caret and "did you
 /// mean".
 HiddenEffect parse_hidden_effect(const std::string& spec, const Cell& cell);
+
+/// The specification that reads back to this effect, whose size must not be stated in sigma.
+std::string hidden_effect_text(const HiddenEffect& effect, const Cell& cell);
 
 /// The effects of the simulator, with one line each for --help.
 const std::vector<std::pair<std::string, std::string>>& simulated_effects();

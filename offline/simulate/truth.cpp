@@ -109,6 +109,21 @@ Json imperfections(const Cell& cell, const Imperfections& imperfect) {
   return out;
 }
 
+/// What simulates the same arm again, but for its seed; null if it needs more than this says.
+Json again(const Cell& cell, const SimulationPlan& plan, const Simulation& simulation) {
+  const HiddenTruth& truth = plan.truth;
+  const bool stated = truth.X_MB || truth.target_T || truth.like;
+  if (stated || plan.imperfections.any() || truth.mass_share != 0.0 || truth.richness != 1.0)
+    return nullptr;
+  Json out{{"effects", Json::array()},
+           {"geometry_um", truth.geometry_m * 1e6},
+           {"geometry_urad", truth.geometry_rad * 1e6},
+           {"axes", plan.axes}};
+  for (const auto& effect : simulation.effects)
+    out["effects"].push_back(hidden_effect_text(effect, cell));
+  return out;
+}
+
 Json outliers(const Simulation& simulation) {
   Json out = Json::array();
   for (const auto& outlier : simulation.outliers) {
@@ -142,6 +157,7 @@ std::string truth_json(const Cell& cell, const SimulationPlan& plan, const Simul
   out["target_quat_wxyz"] = simulation.X_TG.q;
   if (plan.imperfections.any()) out["imperfections"] = imperfections(cell, plan.imperfections);
   out["effects"] = effects(laws, simulation, plan.noise_m);
+  if (Json arm = again(cell, plan, simulation); !arm.is_null()) out["arm"] = std::move(arm);
   out["outliers"] = outliers(simulation);
   out["poses"] = poses(simulation);
   return out.dump(1) + "\n";

@@ -17,7 +17,7 @@ struct HiddenLaw {
 
 /// The nominal chain with an error drawn for every length (sigma geometry_m) and every angle
 /// (geometry_rad): theta, d, a, alpha of each row; between near-parallel axes Hayati's beta in
-/// place of d.
+/// place of d. An arm that is like another one shares 0.8 of the errors of that one.
 format::Chain draw_geometry(const Cell& cell, const HiddenTruth& truth, Random random);
 
 /// The whole truth as a JSON text with keys in a fixed order: parameters with units, frame, target,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "program/file.hpp"
+#include "program/json.hpp"
 #include "program/toml_table.hpp"
 
 namespace plumb::offline::twin {
@@ -53,6 +54,16 @@ std::string quoted(const std::vector<std::string>& words) {
   return out;
 }
 
+[[noreturn]] void refuse_truth(const std::string& file_name) {
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-TWIN-TRUTH",
+       .message = "it does not say how its arm can be simulated again: it was changed, or "
+                  "simulated with more than effects and errors of geometry",
+       .place = Place{.file = file_name},
+       .help = "make a cell whose arm can be measured again: plumb demo compliance cell"});
+}
+
 }  // namespace
 
 std::string write_hidden(const Hidden& hidden) {
@@ -87,17 +98,37 @@ Hidden parse_hidden(std::string text, const std::string& file_name) {
   return out;
 }
 
+Hidden hidden_of_truth(std::string text, const std::string& file_name) {
+  const Json truth = Json::parse(text, nullptr, false);
+  if (!truth.is_object() || !truth.contains("arm")) refuse_truth(file_name);
+  try {
+    const Json& arm = truth.at("arm");
+    Hidden out{.seed = truth.at("arm_seed"),
+               .effects = arm.at("effects"),
+               .geometry_m = double(arm.at("geometry_um")) * kMicro,
+               .geometry_rad = double(arm.at("geometry_urad")) * kMicro,
+               .noise_m = double(truth.at("noise_sigma_um")) * kMicro};
+    out.axes = arm.at("axes");
+    return out;
+  } catch (const Json::exception&) {
+    refuse_truth(file_name);
+  }
+}
+
 TwinFolder open_folder(const std::filesystem::path& folder, Outcome& outcome) {
-  const std::filesystem::path twin = folder / "twin.toml";
+  const std::filesystem::path own = folder / "twin.toml", made = folder / "truth.json";
+  const bool sample = !std::filesystem::exists(own) && std::filesystem::exists(made);
+  const std::filesystem::path& twin = sample ? made : own;
   Cell cell = read_cell(folder / "cell.toml");
   outcome.inputs.push_back({cell.file.string(), sha256(cell.text)});
   outcome.remark(cell.remarks);
   const std::string text = read_file(twin);
   outcome.inputs.push_back({display_name(twin), sha256(text)});
-  return {std::move(cell), parse_hidden(text, display_name(twin))};
+  const auto read = sample ? hidden_of_truth : parse_hidden;
+  return {std::move(cell), read(text, display_name(twin))};
 }
 
-HiddenTruth truth_of(const Cell& cell, const Hidden& hidden) {
+HiddenTruth truth_of(const Cell& cell, const Hidden& hidden, std::optional<std::uint64_t> like) {
   SimulationPlan plan;
   plan.seed = hidden.seed;
   plan.noise_m = hidden.noise_m;
@@ -105,10 +136,13 @@ HiddenTruth truth_of(const Cell& cell, const Hidden& hidden) {
   plan.truth.geometry_rad = hidden.geometry_rad;
   plan.truth.effects = hidden.effects;
   plan.truth.seed = hidden.seed;
+  plan.truth.like = like;
+  const Simulation arm = simulate(cell, plan);
   HiddenTruth out = plan.truth;
-  if (hidden.effects.empty()) return out;
-  out.sized = simulate(cell, plan).effects;
+  out.sized = arm.effects;
   out.effects.clear();
+  out.X_MB = arm.X_MB;
+  out.target_T = arm.X_TG.p;
   return out;
 }
 

@@ -293,6 +293,7 @@ def controller_side(plumb):
     plumb.run("plumb-twin", "new", "twin", "--dry-run")
     plumb.run("plumb-twin", "new", "twin")
     plumb.run("plumb-twin", "measure", "twin")
+    plumb.run("plumb-twin", "measure", "twin", "--sister", "2", "--change", "tool=0.2mm", "-o", "sister/measurements.csv")
     plumb.run("plumb-twin", "run", "twin", "--correction", "off", "--stations", "3")
     plumb.run("plumb-twin", "run", "--list-faults")
     plumb.run("plumb", "keygen", "twin/anna")

@@ -140,6 +140,60 @@ TEST_F(TwinCommand, WhatIsMissingOrWrongInAFileIsExitThree) {
   EXPECT_TRUE(has(ran.err, "twin.toml:")) << ran.err;
 }
 
+/// A calibration that is measured again, changed, and of a sister: never over the first readings.
+TEST_F(TwinCommand, PlannedPosesAreMeasuredUnderTheirNames) {
+  make();
+  ASSERT_EQ(twin({"measure", "cell", "--poses", "5"}).exit, 0);
+  box.write("plan.csv",
+            "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,note\nP7,1,-60,3,4,5,6,\nP9,9,-30,3,4,"
+            "5,6,\n");
+  const Words words{"measure", "cell", "--poses", "plan.csv", "-o", "now.csv"};
+  const Ran ran = twin(words);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(has(ran.out, "plumb -C cell recheck --data now.csv")) << ran.out;
+  const std::string now = box.read("now.csv");
+  EXPECT_TRUE(has(now, "\nP7,1,-60,3,4,5,6,")) << now;
+  EXPECT_TRUE(has(now, "\nP9,9,-30,3,4,5,6,")) << now;
+  for (const Words& more : std::vector<Words>{{"--change", "encoder:J2=120urad"}, {"--day", "2"}}) {
+    Words all = words;
+    all.back() = "other.csv";
+    all.insert(all.end(), more.begin(), more.end());
+    all.emplace_back("--force");
+    ASSERT_EQ(twin(all).exit, 0);
+    EXPECT_NE(box.read("other.csv"), now) << more[0];
+  }
+}
+
+TEST_F(TwinCommand, LaterReadingsNeverReplaceThoseOfTheCalibration) {
+  make();
+  box.write("plan.csv", "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\nP7,1,-60,3,4,5,6\n");
+  for (const Words& more : std::vector<Words>{{"--poses", "plan.csv"},
+                                              {"--change", "tool=0.2mm"},
+                                              {"--sister", "2"},
+                                              {"--poses", "plan.csv", "--repeats", "2", "-o", "x"},
+                                              {"--poses", "plan.csv", "-o", "plan.csv"},
+                                              {"--change", "tool=0.2", "-o", "x"}}) {
+    Words all{"measure", "cell", "--force"};
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_EQ(twin(all).exit, 2) << more[0] << more[1];
+  }
+  EXPECT_EQ(twin({"measure", "cell", "--poses", "noplan.csv", "-o", "x"}).exit, 3);
+}
+
+TEST_F(TwinCommand, ASisterGetsACellOfHerOwnOnce) {
+  make();
+  const Words words{"measure", "cell", "--sister", "2", "--poses", "5", "-o", "arm2/m.csv"};
+  ASSERT_EQ(twin(words).exit, 0);
+  const std::string cell = box.read("arm2/cell.toml");
+  EXPECT_TRUE(has(cell, "TWIN-1-SISTER-2")) << cell;
+  EXPECT_TRUE(has(cell, "m.csv")) << cell;
+  box.write("arm2/cell.toml", cell + "# mine\n");
+  Words again = words;
+  again.emplace_back("--force");
+  ASSERT_EQ(twin(again).exit, 0);
+  EXPECT_EQ(box.read("arm2/cell.toml"), cell + "# mine\n");
+}
+
 TEST_F(TwinCommand, ABusThatIsNotThereIsExitFive) {
   make();
   const Ran ran = twin({"run", "cell", "--rtu", "no-such-device", "--stations", "2"});
