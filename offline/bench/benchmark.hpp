@@ -17,6 +17,7 @@ struct Benchmark {
   Machine machine;
   Build build;
   std::vector<std::string> why_not_representative;  // empty if it is
+  double instructions = 0.0, baseline = 0.0;        // as in StepCost
   double cycle_s = 0.0;                             // for which the model is made
   std::size_t poses = 0;
   std::size_t refused_poses = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/machine.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -169,6 +171,15 @@ std::vector<std::string> why_not_representative(const Machine& machine, const Bu
     out.push_back("load average " + decimal(*machine.load) + " on " + std::to_string(machine.cpus) +
                   " CPUs");
   return out;
+}
+
+std::string fitness_text(const std::vector<std::string>& why_not) {
+  if (why_not.empty())
+    return "Representative: bare metal, an isolated core at full clock, little else running.";
+  return fmt::format(
+      "Not representative: {}. These are wall-clock times of this machine now, no latency of a "
+      "controller.",
+      fmt::join(why_not, "; "));
 }
 
 }  // namespace plumb::offline::bench

@@ -34,6 +34,9 @@ Machine look_at_machine(const std::filesystem::path& root = "/");
 /// A controller's PC is bare metal with an isolated core at full clock, and at rest otherwise.
 std::vector<std::string> why_not_representative(const Machine& machine, const Build& build);
 
+/// These reasons as a sentence for everyone who reads a time.
+std::string fitness_text(const std::vector<std::string>& why_not);
+
 /// "0-2,5", as the kernel writes it.
 CpuSet parse_cpus(const std::string& list);
 std::string cpu_list(const CpuSet& cpus);

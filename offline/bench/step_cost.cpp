@@ -31,12 +31,15 @@ StepCost step_cost(const format::Model& model) {
   }
   std::sort(us.begin(), us.end());
   const Build build = this_build();
+  const Machine machine = look_at_machine();
   return {.instructions = step_instructions(model),
+          .baseline = baseline_instructions(model),
           .median_us = us[kSteps / 2],
           .worst_us = us[kSteps - kSteps / 100],
-          .cpu = look_at_machine().cpu,
+          .cpu = machine.cpu,
           .build = build.instructions,
-          .optimised = build.optimised && kept == kept};
+          .optimised = build.optimised && kept == kept,
+          .why_not_representative = why_not_representative(machine, build)};
 }
 
 std::string cycle_fault(const StepCost& cost, double cycle_s) {

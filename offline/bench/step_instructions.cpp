@@ -17,6 +17,14 @@ constexpr std::array<double, format::kMaxJoints> kPositions{19078, 21492, 23936,
                                                             12750, 24880, 25331, 28324};
 constexpr std::array<double, format::kMaxJoints> kPoses{18319, 20505, 22721, 25270, 28335,
                                                         11760, 22291, 22586, 24817};
+/// The same without AVX2.
+constexpr std::array<double, format::kMaxJoints> kBaselinePositions{
+    23564, 27590, 33375, 37638, 43568, 22449, 42304, 45072, 49620};
+constexpr std::array<double, format::kMaxJoints> kBaselinePoses{22607, 26039, 30600, 34731, 38975,
+                                                                19929, 35893, 38067, 41391};
+/// Ratio without AVX2 to with it of what rows, effects and crisp trees add: 1.3 to 2.0 of single
+/// ones.
+constexpr double kBaselineRest = 1.6;
 constexpr double kGeneralRow = 390, kGeneralRowOfEffects = 130;  // that is no plain DH row
 constexpr double kEffects = 1050, kEffectsPerJoint = 240;        // frames and loads
 constexpr double kRange = 40;
@@ -121,21 +129,45 @@ bool is_plain(const format::JointRow& row) {
          row.pre == format::Twist{} && row.post == format::Twist{};
 }
 
-}  // namespace
+using OfJoints = std::array<double, format::kMaxJoints>;
 
-double step_instructions(const format::Model& model) {
-  const std::size_t n = model.nominal.joints.size();
-  const auto joints = static_cast<double>(n);
-  const bool pose = model.guard.corrects == format::Corrects::kPose;
-  double sum = (pose ? kPoses : kPositions)[std::clamp<std::size_t>(n, 1, format::kMaxJoints) - 1];
+double of_arm(const format::Model& model, const OfJoints& positions, const OfJoints& poses) {
+  const std::size_t n = std::clamp<std::size_t>(model.nominal.joints.size(), 1, format::kMaxJoints);
+  return (model.guard.corrects == format::Corrects::kPose ? poses : positions)[n - 1];
+}
+
+/// What trees add to the arm.
+double of_trees(const format::Model& model) { return kEvaluations * trees_terms(model); }
+
+/// Blended trees are hardly vectorised, and take as many with AVX2 as without.
+double baseline_of_trees(const format::Model& model) {
+  const bool blended = std::any_of(model.trees.begin(), model.trees.end(),
+                                   [](const auto& tree) { return !tree.blend_half_width.empty(); });
+  return (blended ? 1.0 : kBaselineRest) * of_trees(model);
+}
+
+/// What rows, effects and ranges add to the arm.
+double of_rest(const format::Model& model) {
+  const auto joints = static_cast<double>(model.nominal.joints.size());
+  double sum = 0.0;
   const auto& rows = model.calibrated.joints;
   const bool general = !std::all_of(rows.begin(), rows.end(), is_plain);
   if (general) sum += kGeneralRow * joints;
   if (!model.effects.empty())
     sum += kEffects + kEffectsPerJoint * joints + (general ? kGeneralRowOfEffects * joints : 0.0);
   for (const auto& effect : model.effects) sum += effect_terms(effect);
-  return sum + kEvaluations * trees_terms(model) +
-         kRange * static_cast<double>(model.domain.context.size());
+  return sum + kRange * static_cast<double>(model.domain.context.size());
+}
+
+}  // namespace
+
+double step_instructions(const format::Model& model) {
+  return of_arm(model, kPositions, kPoses) + of_rest(model) + of_trees(model);
+}
+
+double baseline_instructions(const format::Model& model) {
+  return of_arm(model, kBaselinePositions, kBaselinePoses) + kBaselineRest * of_rest(model) +
+         baseline_of_trees(model);
 }
 
 }  // namespace plumb::offline::bench

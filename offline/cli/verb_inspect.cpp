@@ -10,6 +10,7 @@
 #include "plumb/format/version.hpp"
 #include "program/shell_word.hpp"
 #include "show/audit_view.hpp"
+#include "show/cost_view.hpp"
 #include "show/model_view.hpp"
 
 namespace plumb::offline::cli {
@@ -22,9 +23,11 @@ void inspect(const std::string& file, Outcome& outcome) {
   outcome.result = {{"file", file}, {"sound", true}, {"schema_read", format::kSchemaVersion}};
   outcome.result.update(show::model_json(model));
   outcome.result["audit"] = show::audit_json(found, model);
+  const bench::StepCost cost = bench::step_cost(model);
+  outcome.result["cost"] = show::cost_json(cost);
   outcome.text =
       fmt::format("{} is sound: checksum, structure and every number are in order.\n\n", file) +
-      show::model_text(model) + "\n" + show::audit_text(found, model);
+      show::model_text(model) + "\n" + show::audit_text(found, model) + show::cost_text(cost);
   say_next({}, fmt::format("bench {}   # what a cycle costs with it", shell_word(file)), outcome);
 }
 

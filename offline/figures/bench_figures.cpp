@@ -56,21 +56,6 @@ std::vector<draw::Point> outline_of(const Timing& timing) {
   return out;
 }
 
-std::vector<std::string> machine_notes(const Benchmark& found) {
-  std::vector<std::string> out;
-  if (found.why_not_representative.empty()) {
-    out.emplace_back(
-        "Representative: bare metal, an isolated core at full clock, little else "
-        "running.");
-  } else {
-    std::string why;
-    for (const auto& one : found.why_not_representative) why += (why.empty() ? "" : "; ") + one;
-    out.push_back("Not representative: " + why +
-                  ". These are wall-clock times of this machine, no latency of a controller.");
-  }
-  return out;
-}
-
 std::string percent_of_cycle(const Benchmark& found, double ns) {
   return draw::digits(100.0 * 1e-9 * ns / found.cycle_s, 2) + " %";
 }
@@ -128,7 +113,7 @@ std::string latency_figure(const Benchmark& found, double width) {
         "{}.",
         duration(warm.median()), percent_of_cycle(found, warm.median()), 1e3 * found.cycle_s,
         warm.calls(), duration(warm.most()));
-  auto notes = machine_notes(found);
+  std::vector<std::string> notes{bench::fitness_text(found.why_not_representative)};
   notes.push_back(fmt::format(
       "{} calls, each waiting for the one before, and {} calls with swept caches, one by one; {} "
       "of "
@@ -203,7 +188,7 @@ std::string cost_figure(const Benchmark& found, double width) {
         "model is evaluated.",
         duration(step), percent_of_cycle(found, step), dearest->words,
         duration(std::max(0.0, dearest->ns)));
-  auto notes = machine_notes(found);
+  std::vector<std::string> notes{bench::fitness_text(found.why_not_representative)};
   notes.emplace_back(
       "Medians of calls that wait for each other. An effect stands with what all effects share, "
       "frames and loads, so the bars do not add up. The inverse correction evaluates effects and "

@@ -8,6 +8,7 @@
 
 #include "bench/cache_sweep.hpp"
 #include "draw/duration.hpp"
+#include "show/cost_view.hpp"
 #include "show/text_table.hpp"
 
 namespace plumb::offline::show {
@@ -91,15 +92,6 @@ std::string verdict(const Benchmark& found) {
                          : ", on a machine that is not fit to judge a controller by");
 }
 
-std::string fitness(const Benchmark& found) {
-  if (found.why_not_representative.empty())
-    return "Representative: bare metal, an isolated core at full clock, little else running.\n";
-  return fmt::format(
-      "Not representative: {}. These are wall-clock times of this machine now, no latency of a "
-      "controller.\n",
-      fmt::join(found.why_not_representative, "; "));
-}
-
 std::string calls_text(const Benchmark& found) {
   const Timing& cycle = found.cycle();
   return fmt::format(
@@ -165,6 +157,8 @@ Json bench_json(const Benchmark& found) {
   put(out, "ns_max", cycle.most());
   out["calls"] = cycle.calls();
   out["allocations"] = found.timings.allocations;
+  put(out, "instructions", std::round(found.instructions));
+  put(out, "instructions_baseline", std::round(found.baseline));
   out["representative"] = found.why_not_representative.empty();
   out["conditions"] = conditions_json(found);
   out["cycle_us"] = 1e6 * found.cycle_s;
@@ -181,8 +175,9 @@ Json bench_json(const Benchmark& found) {
 std::string bench_text(const Benchmark& found) {
   TextTable table({"[ns] median", "warm", "chain", "cold", "cold 99 %", "cold worst"});
   for (std::size_t i = 0; i < found.timings.all.size() / 3; ++i) table.add(row(found.timings, i));
-  return verdict(found) + fitness(found) + calls_text(found) + "\n" + table.text() + "\n" +
-         conditions_text(found);
+  return verdict(found) + bench::fitness_text(found.why_not_representative) + "\n" +
+         instructions_text(found.instructions, found.baseline) + calls_text(found) + "\n" +
+         table.text() + "\n" + conditions_text(found);
 }
 
 }  // namespace plumb::offline::show

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sandbox.hpp"
@@ -110,6 +111,34 @@ TEST_F(ModelVerbs, InspectShowsWhatFitFound) {
     EXPECT_EQ(r.at("nominal").at("joints")[1].at("a_mm"), p.at("nominal"));
   }
   EXPECT_EQ(compared, 1);
+}
+
+/// One function words the cost: with AVX2 and without, and whether the times say anything.
+TEST_F(ModelVerbs, EveryVerbSaysTheSameOfTheCostOfAStep) {
+  const std::string counted = "instructions in the build for x86-64-v3 (AVX2), ";
+  std::string sentence;
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"-C", "cell", "compile", "--dry-run", "--force"},
+           {"-C", "cell", "deploy", "-o", "d", "--dry-run", "--allow-slow"},
+           {"inspect", "cell/robot.plumb"},
+           {"bench", "cell/robot.plumb", "--calls", "100"}}) {
+    std::string said = box->plumb(words).out;
+    std::replace(said.begin(), said.end(), '\n', ' ');
+    const auto at = said.find(counted);
+    ASSERT_NE(at, std::string::npos) << words[0] << said;
+    const auto begin = said.rfind("A step of", at);
+    const std::string now = said.substr(begin, said.find("x86-64. ", at) - begin);
+    EXPECT_TRUE(sentence.empty() || now == sentence) << now << "\n" << sentence;
+    sentence = now;
+    EXPECT_NE(said.find("epresentative: "), std::string::npos) << said;
+  }
+  const Json cost = compiled->at("result").at("cost");
+  const Json inspected =
+      box->plumb({"inspect", "cell/robot.plumb", "--json"}).json().at("result").at("cost");
+  EXPECT_EQ(inspected.at("instructions"), cost.at("instructions"));
+  EXPECT_EQ(inspected.at("instructions_baseline"), cost.at("instructions_baseline"));
+  EXPECT_GT(cost.at("instructions_baseline"), cost.at("instructions"));
+  EXPECT_EQ(cost.at("representative") == true, cost.at("why_not_representative").empty());
 }
 
 TEST_F(ModelVerbs, RefitAllCarriesNoHeldOutFigureAndSaysSo) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/machine.hpp"
 #include "bench/step_instructions.hpp"
 #include "tests/rt/cycle_model.hpp"
 
@@ -15,6 +16,17 @@ TEST(StepCost, IsThatOfAWholeStepOnThisMachine) {
   EXPECT_GE(cost.worst_us, cost.median_us);
   EXPECT_FALSE(cost.build.empty());
   EXPECT_EQ(cost.instructions, step_instructions(tests::one_arm()));
+  EXPECT_EQ(cost.why_not_representative, why_not_representative(look_at_machine(), this_build()));
+}
+
+/// Counted by callgrind in the preset release: an arm of six joints that was calibrated and nothing
+/// more, and one of which gravity bends two joints.
+TEST(StepCost, ForeseesTheInstructionsOfTheBuildForEveryProcessor) {
+  auto arm = tests::one_arm();
+  EXPECT_NEAR(baseline_instructions(arm) / step_instructions(arm), 1.76, 0.03);
+  auto more = tests::cycle_model();
+  EXPECT_GT(baseline_instructions(more), 1.3 * step_instructions(more));
+  EXPECT_LT(baseline_instructions(more), 2.0 * step_instructions(more));
 }
 
 /// 16,700 are counted by callgrind (docs/real-time.md); tests/rt/count_steps checks many more.

@@ -15,7 +15,7 @@
 //   if
 //                      the axes share their leaves; leaves hang in a comb if L is negative
 // Every model is written and read again: what the reader does not accept ends the program. Printed
-// are the instructions that bench::step_instructions foresees, one number a line.
+// are the instructions that bench foresees for this build, one number a line.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -252,7 +252,11 @@ double (*volatile counted_call)(Cycle&, const CycleInput&) = one_call;
 
 void run(const std::string& line) {
   format::Model model = accepted(model_of(line), line);
+#ifdef __AVX2__
   std::printf("%.0f\n", offline::bench::step_instructions(model));
+#else
+  std::printf("%.0f\n", offline::bench::baseline_instructions(model));
+#endif
   const Corrector corrector(model);
   const auto loaded = LoadedModel::make(model);
   ModelSlot slot(*loaded);
