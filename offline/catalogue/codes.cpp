@@ -344,6 +344,14 @@ constexpr Explanation kCodes[] = {
      "Without repeats and without a stated sigma nothing can be compared with the noise floor."},
     {"E-URDF",
      "The file is no URDF, or not whole: an element or attribute that every robot needs lacks."},
+    {"E-URDF-BASE", "The arm begins at a link on the way from the file's root to its tip: --base."},
+    {"W-URDF-UNITS",
+     "URDF is in metres and radians. These numbers are too large for radians: they look like "
+     "degrees."},
+    {"W-NEW-REACH",
+     "The links of the arm add up to more than 25 m or less than 5 cm, so the unit of its lengths "
+     "is "
+     "doubtful."},
     {"E-URDF-TIP",
      "The arm goes from the file's root to one link. If several links end the tree, name one: "
      "--tip."},
@@ -655,6 +663,8 @@ constexpr Explanation kCodes[] = {
      "The DH table needs alpha_deg, a_mm, d_mm and theta_deg (or rad, m, in), and may have joint, "
      "type, beta, offset, q_min and q_max. Another column would be left out, which may describe "
      "another arm."},
+    {"E-DH-FILE",
+     "The file of the DH table is no table of columns but a text of another kind, such as YAML."},
     {"E-DH-OFFSET", "The offset of a joint that turns is an angle, of one that slides a length."},
     {"W-DH-RADIANS",
      "Angles of arms are mostly quarter turns. All those of this table are multiples of pi/4 as "

@@ -23,4 +23,11 @@ std::optional<ByteOrder> unmarked_utf16(std::string_view bytes) {
   return std::nullopt;
 }
 
+std::string utf16_name(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return "UTF-16";
+  const auto order = unmarked_utf16(bytes);
+  if (!order) return "";
+  return *order == ByteOrder::kBigEndian ? "UTF-16BE" : "UTF-16LE";
+}
+
 }  // namespace plumb::offline

@@ -21,9 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNearParallel = 0.05;  // sine of the angle between neighbouring axes
+constexpr double kLongestReach_m = 25.0, kShortestReach_m = 0.05;
 
 struct NewArguments {
-  std::string directory, dh, urdf, tip, convention, name, serial;
+  std::string directory, dh, urdf, tip, base, convention, name, serial;
   WriteOptions write;
 };
 
@@ -32,6 +33,10 @@ void check(const NewArguments& options) {
     throw Failure(Exit::kUsage, {.code = "E-USAGE",
                                  .message = "--dh and --urdf both describe the arm",
                                  .help = "give one of them"});
+  if (options.urdf.empty() && !(options.tip.empty() && options.base.empty()))
+    throw Failure(Exit::kUsage, {.code = "E-USAGE",
+                                 .message = "--tip and --base name links of a URDF file",
+                                 .help = "plumb new DIR --urdf arm.urdf --tip LINK --base LINK"});
   if (!options.urdf.empty()) return;
   if (options.dh.empty())
     throw Failure(Exit::kUsage, {.code = "E-USAGE",
@@ -64,7 +69,29 @@ Cell urdf_cell(const NewArguments& options, format::Convention convention, Outco
                                .code = "N-NEW-CONVENTION",
                                .message = "the DH rows are written in the standard convention",
                                .help = "--convention modified for the other one"});
-  return read_urdf(options.urdf, options.tip, convention);
+  std::vector<Problem> remarks;
+  Cell cell =
+      read_urdf(options.urdf, {.tip = options.tip, .base = options.base}, convention, &remarks);
+  outcome.remark(remarks);
+  return cell;
+}
+
+/// An arm of hundreds of metres or of a millimetre is most often written in another unit.
+void doubt_reach(const NewArguments& options, const Cell& cell, Outcome& outcome) {
+  double size_m = 0.0;
+  for (const auto& row : cell.nominal.joints) size_m += std::abs(row.a) + std::abs(row.d);
+  if (size_m == 0.0 || (size_m < kLongestReach_m && size_m > kShortestReach_m)) return;
+  const bool urdf = !options.urdf.empty();
+  outcome.remarks.push_back(
+      {.severity = Severity::kWarning,
+       .code = "W-NEW-REACH",
+       .message = fmt::format("the links of this arm add up to {:.3g} m{}", size_m,
+                              urdf ? ", and URDF is in metres" : ""),
+       .place = Place{.file = display_name(urdf ? options.urdf : options.dh)},
+       .help = urdf
+                   ? "if its lengths are in mm: export it in metres, or divide every xyz by 1000"
+                   : "if the header names another unit than the numbers have, correct it: a_mm and "
+                     "d_mm, or a_m and d_m"});
 }
 
 /// As the cell file wants it: a word without dots and blanks, which other places refer to.
@@ -110,6 +137,7 @@ Cell new_cell(const NewArguments& options, const fs::path& folder, Outcome& outc
     cell.assumed_limits = std::move(table.assumed_limits);
     cell.mechanics = mechanics_of(cell.nominal);
   }
+  doubt_reach(options, cell, outcome);
   make_readable(cell, outcome);
   cell.measurement.files = {folder / "measurements.csv"};
   cell.effects = {{.name = "geometry", .joints = {}, .options = {}, .place = {}}};
@@ -155,6 +183,8 @@ void add_new(Program& program) {
       .type_name("FILE");
   verb.add_option("--urdf", options->urdf, "URDF file: its DH rows are computed").type_name("FILE");
   verb.add_option("--tip", options->tip, "Link of the URDF where the arm ends; else its only tip")
+      .type_name("LINK");
+  verb.add_option("--base", options->base, "Link of the URDF where the arm begins; else its root")
       .type_name("LINK");
   verb.add_option("--convention", options->convention, "standard (distal) or modified (Craig)")
       .check(one_of({"standard", "modified"}))

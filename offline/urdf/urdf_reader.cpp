@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -15,11 +16,13 @@
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "urdf/dh_conversion.hpp"
+#include "urdf/urdf_text.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr double kParallelNext = 0.05;  // sine of the angle below which parallel_next is set
+constexpr double kGravity = 9.81;       // [m/s^2], as new cells have it
 constexpr int kDeepest = 100, kMostLinks = 2000, kMostAttributes = 100;
 
 Transformd to_transform(const urdf::Pose& pose) {
@@ -89,9 +92,9 @@ class ConsoleLines final : public console_bridge::OutputHandler {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, std::string tip)
-      : file_(display_name(file)), tip_(std::move(tip)) {
-    const std::string text = read_file_up_to(file, kMostUrdfBytes);
+  Reader(const std::filesystem::path& file, const UrdfEnds& ends, std::vector<Problem>* remarks)
+      : file_(display_name(file)), tip_(ends.tip), base_(ends.base) {
+    const std::string text = urdf_text(read_file_up_to(file, kMostUrdfBytes), file_);
     const UrdfSize size = size_of(text);
     if (size.attributes > kMostAttributes)
       fail("E-URDF-SIZE", fmt::format("an element has more than {} attributes", kMostAttributes),
@@ -108,6 +111,7 @@ class Reader {
            said.first_error().empty() ? "this is no URDF of a robot"
                                       : "this is no URDF of a robot: " + said.first_error(),
            "export the robot again, or mend that element");
+    if (remarks != nullptr) *remarks = urdf_unit_warnings(text, file_);
   }
 
   /// Breaks the ownership between links. Links that form a loop own each other and would never be
@@ -134,6 +138,7 @@ class Reader {
     cell.robot_name = cell.name = tree_->getName();
     cell.nominal = arm.chain;
     cell.assumed_limits = assumed_;
+    if (!base_.empty()) cell.gravity = gravity_in_base(tree_->getLink(base_));
     cell.mechanics.resize(axes_.size());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       mass_of(i, arm, cell.mechanics[i]);
@@ -193,17 +198,42 @@ class Reader {
              "a URDF is a tree: let every link be the child of one joint");
   }
 
+  /// `path`: from the root, or from the base, to the tip.
+  void check_base(const std::vector<urdf::LinkConstSharedPtr>& path) const {
+    if (base_.empty() || path.front()->name == base_) return;
+    std::vector<std::string> names;
+    for (const auto& link : path) names.push_back(link->name);
+    names.pop_back();
+    fail("E-URDF-BASE",
+         fmt::format("link '{}' is not on the way from the root to '{}'", base_, path.back()->name),
+         fmt::format("--base {}", fmt::join(names, " or ")));
+  }
+
+  /// Gravity points along -z of the root; what moves between root and base stands at zero.
+  std::array<double, 3> gravity_in_base(urdf::LinkConstSharedPtr base) const {
+    Transformd X_RB;
+    for (; base && base->parent_joint; base = base->getParent())
+      X_RB = to_transform(base->parent_joint->parent_to_joint_origin_transform) * X_RB;
+    const Vector3 down = X_RB.R.transpose() * Vector3(0.0, 0.0, -kGravity);
+    std::array<double, 3> out{};
+    for (std::size_t k = 0; k < 3; ++k)
+      out[k] = std::round(down(static_cast<Eigen::Index>(k)) * 1e9) * 1e-9 + 0.0;
+    return out;
+  }
+
   void walk() {
     std::vector<urdf::LinkConstSharedPtr> path;
     for (urdf::LinkConstSharedPtr link = tree_->getLink(tip()); link; link = link->getParent()) {
       path.push_back(link);
+      if (link->name == base_) break;
       if (path.size() > tree_->links_.size())
         fail("E-URDF", fmt::format("link '{}' is its own ancestor", link->name),
              "let every link be the child of one joint");
     }
     std::reverse(path.begin(), path.end());
+    check_base(path);
     for (const auto& link : path) {
-      if (link->parent_joint) step_over(*link->parent_joint);
+      if (link->parent_joint && link != path.front()) step_over(*link->parent_joint);
       weigh(*link);
       // Links that are fixed rigidly beside the path contribute their mass as well.
       for (const auto& joint : link->child_joints)
@@ -284,7 +314,7 @@ class Reader {
     out.link_com_m = {com(0), com(1), com(2)};
   }
 
-  std::string file_, tip_;
+  std::string file_, tip_, base_;
   urdf::ModelInterfaceSharedPtr tree_;
   std::vector<JointAxis> axes_;
   std::vector<bool> assumed_;  // whether the limits of each axis were assumed
@@ -294,9 +324,9 @@ class Reader {
 
 }  // namespace
 
-Cell read_urdf(const std::filesystem::path& file, const std::string& tip,
-               format::Convention convention) {
-  return Reader(file, tip).read(convention);
+Cell read_urdf(const std::filesystem::path& file, const UrdfEnds& ends,
+               format::Convention convention, std::vector<Problem>* remarks) {
+  return Reader(file, ends, remarks).read(convention);
 }
 
 }  // namespace plumb::offline

@@ -100,7 +100,7 @@ TEST(Urdf, BecomesDhRowsWithTheSameForwardKinematics) {
     if (arm.moving == 0) continue;
     const auto file = folder.put("arm.urdf", arm.urdf);
     for (const auto convention : {format::Convention::kStandard, format::Convention::kModified}) {
-      const Cell cell = read_urdf(file, "", convention);
+      const Cell cell = read_urdf(file, {}, convention);
       ASSERT_EQ(cell.joints(), arm.moving);
       Random dice(seed);
       const double difference = worst_difference(arm.kdl, cell.nominal, dice);
@@ -117,7 +117,7 @@ TEST(Urdf, WrittenAndReadAgainIsTheSameArm) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const RandomArm arm(seed);
     if (arm.moving == 0) continue;
-    Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), "", format::Convention::kStandard);
+    Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), {}, format::Convention::kStandard);
     Random dice(seed);
     for (auto& row : cell.nominal.joints) {
       row.alpha += dice.uniform(-1e-3, 1e-3);
@@ -126,7 +126,7 @@ TEST(Urdf, WrittenAndReadAgainIsTheSameArm) {
       row.offset = dice.uniform(-1e-3, 1e-3);
     }
     const Cell again = read_urdf(folder.put("out.urdf", write_urdf("R&D <arm>", cell.nominal)),
-                                 "tool0", format::Convention::kModified);
+                                 {.tip = "tool0"}, format::Convention::kModified);
     const Chain a(cell.nominal), b(again.nominal);
     std::vector<double> q;
     for (int j = 0; j < cell.joints(); ++j) q.push_back(dice.uniform(-2, 2));
@@ -139,7 +139,7 @@ TEST(Urdf, ACellWrittenFromItReadsBackToTheSameArm) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const RandomArm arm(seed);
     if (arm.moving == 0) continue;
-    Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), "", format::Convention::kModified);
+    Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), {}, format::Convention::kModified);
     cell.measurement.files = {"/cell/measurements.csv"};
     cell.directory = "/cell";
     const Cell again = parse_cell(write_cell(cell), "/cell/cell.toml");
@@ -151,7 +151,7 @@ TEST(Urdf, ACellWrittenFromItReadsBackToTheSameArm) {
 TEST(Urdf, MassesOfFixedChildrenHangOnTheJointAheadOfThem) {
   const tests::TemporaryFolder folder;
   const RandomArm arm(7);
-  const Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), "", format::Convention::kStandard);
+  const Cell cell = read_urdf(folder.put("arm.urdf", arm.urdf), {}, format::Convention::kStandard);
   double sum = 0.0;
   for (const auto& m : cell.mechanics) sum += m.link_mass_kg.value_or(0.0);
   double expected = 0.0;
@@ -168,7 +168,7 @@ TEST(Urdf, MassesOfFixedChildrenHangOnTheJointAheadOfThem) {
 std::string refusal(const std::string& urdf, const std::string& tip = "") {
   const tests::TemporaryFolder folder;
   try {
-    (void)read_urdf(folder.put("arm.urdf", urdf), tip, format::Convention::kStandard);
+    (void)read_urdf(folder.put("arm.urdf", urdf), {.tip = tip}, format::Convention::kStandard);
   } catch (const Failure& f) {
     EXPECT_EQ(f.exit_code(), Exit::kInput);
     EXPECT_FALSE(f.problems().front().help.empty());
@@ -229,7 +229,8 @@ TEST(Urdf, AMimicJointStandsInTheWayOnlyOnTheWayToTheTip) {
   EXPECT_EQ(refusal(robot(hand), "m"), "accepted");
   const tests::TemporaryFolder folder;
   try {
-    (void)read_urdf(folder.put("a.urdf", robot(hand)), "finger", format::Convention::kStandard);
+    (void)read_urdf(folder.put("a.urdf", robot(hand)), {.tip = "finger"},
+                    format::Convention::kStandard);
     FAIL() << "accepted";
   } catch (const Failure& f) {
     EXPECT_NE(f.problems().front().help.find("<mimic>"), std::string::npos);
@@ -244,7 +245,7 @@ TEST(Urdf, LimitsThatTheFileDoesNotGiveAreAssumed) {
       folder.put("a.urdf",
                  robot(link("l") + link("m") + link("n") + link("o") + joint("j", "l", "m") +
                        joint("k", "m", "n", limit, "prismatic") + joint("i", "n", "o", limit))),
-      "", format::Convention::kStandard);
+      {}, format::Convention::kStandard);
   EXPECT_EQ(cell.assumed_limits, (std::vector<bool>{true, false, true}));
   EXPECT_DOUBLE_EQ(cell.nominal.joints[1].q_min, -0.1);
   EXPECT_DOUBLE_EQ(cell.nominal.joints[1].q_max, 1.5);
@@ -265,6 +266,98 @@ TEST(Urdf, WhatIsNoSerialArmIsRefusedByName) {
   EXPECT_EQ(refusal(two), "E-URDF-TIP");
   EXPECT_EQ(refusal(two, "o"), "E-URDF-TIP");
   EXPECT_EQ(refusal(two, "n"), "accepted");
+}
+
+/// A joint behind an origin.
+std::string placed(const std::string& name, const std::string& parent, const std::string& child,
+                   const std::string& origin, const std::string& type = "continuous") {
+  return joint(name, parent, child, "<origin " + origin + "/><axis xyz=\"0 1 0\"/>", type);
+}
+
+std::string arm_of_three(const std::string& xyz, const std::string& rpy = "0 0 0") {
+  return robot(link("w") + link("b") + link("m") + link("n") + link("o") +
+               placed("base", "w", "b", "xyz=\"0 0 2\" rpy=\"3.141592653589793 0 0\"", "fixed") +
+               placed("j", "b", "m", "xyz=\"" + xyz + "\" rpy=\"" + rpy + "\"") +
+               placed("k", "m", "n", "xyz=\"0.3 0 0\"") + placed("i", "n", "o", "xyz=\"0 0 0.2\""));
+}
+
+TEST(UrdfText, TabsAndLineEndsInAnAttributeAreBlanks) {
+  const tests::TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    return write_cell(read_urdf(folder.put("a.urdf", text), {}, format::Convention::kStandard));
+  };
+  const std::string plain = read(arm_of_three("0.1 0 0.4"));
+  for (const char* xyz : {"0.1\t0\t0.4", "0.1\n0 0.4", " 0.1\r\n\t0  0.4\n", "0.1 0 0.4\t"})
+    EXPECT_EQ(read(arm_of_three(xyz)), plain) << xyz;
+  EXPECT_EQ(read("<!-- 'a\tb' --><?x y='\n'?>" + arm_of_three("0.1 0 0.4")), plain);
+}
+
+TEST(UrdfText, WhatIsNoUrdfIsNamedWithWhatToDo) {
+  struct {
+    std::string text;
+    const char *named, *remedy;
+  } const cases[] = {
+      {arm_of_three("0 0 ${a1}"), "xacro", "xacro "},
+      {arm_of_three("$(arg x) 0 0"), "xacro", "> arm.urdf"},
+      {robot("<xacro:include filename='a.xacro'/>"), "xacro", "xacro "},
+      {"<?xml version='1.0'?><sdf version='1.9'><model name='a'/></sdf>", "SDF", "URDF"},
+      {"<!-- arm --><mujoco model=\"a\"/>", "MJCF", "URDF"},
+      {"joint,alpha_deg\nJ1,0\n", "no XML", "URDF"},
+      {std::string("\xFF\xFE<\0r\0>\0", 8), "UTF-16", "iconv -f UTF-16 "},
+      {std::string("<\0r\0o\0b\0o\0t\0 \0n\0/\0>\0", 20), "UTF-16", "iconv -f UTF-16LE"},
+  };
+  const tests::TemporaryFolder folder;
+  for (const auto& c : cases) try {
+      (void)read_urdf(folder.put("a.urdf", c.text), {}, format::Convention::kStandard);
+      ADD_FAILURE() << c.named;
+    } catch (const Failure& failure) {
+      const Problem& problem = failure.problems().front();
+      EXPECT_EQ(problem.code, "E-URDF") << c.named;
+      EXPECT_NE(problem.message.find(c.named), std::string::npos) << problem.message;
+      EXPECT_NE(problem.help.find(c.remedy), std::string::npos) << problem.help;
+    }
+  // What xacro wrote still declares its prefix, and may speak of it in a comment.
+  EXPECT_EQ(refusal("<robot name='a' xmlns:xacro='http://ros.org'><!-- <xacro:x y='${z}'/> -->" +
+                    link("l") + link("m") + joint("j", "l", "m") + "</robot>"),
+            "accepted");
+}
+
+TEST(UrdfText, DegreesAreQuestionedAndRadiansAreNot) {
+  const tests::TemporaryFolder folder;
+  const auto doubts = [&](const std::string& text) {
+    std::vector<Problem> out;
+    (void)read_urdf(folder.put("a.urdf", text), {}, format::Convention::kStandard, &out);
+    return out.size();
+  };
+  EXPECT_EQ(doubts(arm_of_three("0 0 0.4", "0 -90 0")), 1u);
+  EXPECT_EQ(doubts(arm_of_three("0 0 0.4", "1.5707963 -3.1415927 6.2831853")), 0u);
+  EXPECT_EQ(doubts(arm_of_three("90 0 0.4", "0 0 0")), 0u) << "only angles are looked at";
+  const auto limited = [&](const char* type, const char* limit) {
+    return robot(link("l") + link("m") + joint("j", "l", "m", limit, type));
+  };
+  const char* wide = "<limit lower=\"-180\" upper=\"180\" effort=\"1\" velocity=\"1\"/>";
+  EXPECT_EQ(doubts(limited("revolute", wide)), 1u);
+  EXPECT_EQ(doubts(limited("prismatic", wide)), 0u);
+}
+
+TEST(UrdfBase, TheArmBeginsAtTheNamedLinkAndGravityIsSeenFromThere) {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.put("a.urdf", arm_of_three("0 0 0.4"));
+  const auto read = [&](const char* base) {
+    return read_urdf(file, {.tip = "o", .base = base}, format::Convention::kModified);
+  };
+  EXPECT_EQ(write_cell(read("w")), write_cell(read("")));
+  const Cell hanging = read("b");
+  EXPECT_EQ(hanging.joints(), 3);
+  EXPECT_NEAR(hanging.gravity[2], 9.81, 1e-9);
+  EXPECT_EQ(read("m").joints(), 2);
+  for (const char* base : {"no such link", "o"}) try {
+      (void)read_urdf(file, {.tip = "n", .base = base}, format::Convention::kModified);
+      ADD_FAILURE() << base;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.problems().front().code, "E-URDF-BASE");
+      EXPECT_EQ(failure.problems().front().help, "--base w or b or m");
+    }
 }
 
 }  // namespace
