@@ -10,8 +10,10 @@
 #include <optional>
 
 #include "cell/assumed_limits.hpp"
-#include "cell/measurements.hpp"
+#include "cli/dh_table.hpp"
 #include "plumb/format/limits.hpp"
+#include "program/bounded_file.hpp"
+#include "program/file.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -24,7 +26,9 @@ constexpr const char* kHeader =
 /// The columns of a DH table, checked; problems of the whole file are collected.
 class DhReader {
  public:
-  explicit DhReader(const Table& table) : table_(table) {}
+  /// `found`: what is wrong with the text of the table.
+  DhReader(const Table& table, std::vector<Problem> found)
+      : table_(table), problems_(std::move(found)) {}
 
   std::vector<format::JointRow> rows(Outcome& outcome) {
     std::vector<format::JointRow> out(table_.rows());
@@ -115,7 +119,7 @@ class DhReader {
   /// Angles of arms are mostly quarter turns: numbers in degrees that are multiples of pi/4 are
   /// not.
   void warn_of_radians(Outcome& outcome) const {
-    constexpr double kEighth = std::numbers::pi / 4.0, kRounded = 2e-4;
+    constexpr double kEighth = std::numbers::pi / 4.0, kRounded = 2e-3;
     std::vector<std::string> seen;
     for (const Column& column : table_.columns) {
       if (column.unit != "deg" || column.name.starts_with("q_")) continue;
@@ -123,7 +127,9 @@ class DhReader {
         const double written = show::to_deg(angle), steps = std::round(written / kEighth);
         if (steps == 0.0 || std::isnan(written)) continue;
         if (std::abs(written - steps * kEighth) > kRounded || std::abs(steps) > 8.0) return;
-        seen.push_back(fmt::format("{} of {}", show::shortest(written), column.header));
+        std::string text = fmt::format("{:.7g} of {}", written, column.header);
+        if (std::find(seen.begin(), seen.end(), text) == seen.end())
+          seen.push_back(std::move(text));
       }
     }
     if (seen.empty()) return;
@@ -192,10 +198,12 @@ class DhReader {
 
 DhTable read_dh(const std::filesystem::path& file, format::Convention convention,
                 Outcome& outcome) {
-  const Table table = read_table(file, TableOf::kRobot);
-  outcome.inputs.push_back({table.file, table.sha256});
-  outcome.remark(table.remarks);
-  DhReader reader(table);
+  const std::string text = read_file_up_to(file, kMostCellBytes);
+  outcome.inputs.push_back({display_name(file), sha256(text)});
+  ProblemList problems;
+  const Table table = parse_dh_table(text, display_name(file), problems);
+  if (table.columns.empty()) problems.stop_on_errors();
+  DhReader reader(table, problems.errors());
   DhTable out;
   out.chain.convention = convention;
   out.chain.joints = reader.rows(outcome);

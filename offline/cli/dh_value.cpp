@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/dh_value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "cell/units.hpp"
+#include "import/unit_words.hpp"
+
+namespace plumb::offline::cli {
+namespace {
+
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
+/// In ASCII, without blanks.
+std::string plain(std::string_view text, bool comma) {
+  std::string out(text);
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kSigns{{{"π", "pi"},
+                                                                                 {"θ", "theta"},
+                                                                                 {"ϑ", "theta"},
+                                                                                 {"−", "-"},
+                                                                                 {"–", "-"},
+                                                                                 {"·", "*"},
+                                                                                 {"×", "*"},
+                                                                                 {"º", "°"},
+                                                                                 {"½", "0.5"}}};
+  for (const auto& [sign, by] : kSigns) replace_all(out, sign, by);
+  std::erase_if(out, [](char c) { return c == ' '; });
+  if (comma) std::replace(out.begin(), out.end(), ',', '.');
+  return out;
+}
+
+/// value := [sign] term {sign term} [unit], term := factor {[* or /] factor}.
+class ValueReader {
+ public:
+  explicit ValueReader(std::string text) : text_(std::move(text)), rest_(text_) {}
+
+  std::optional<DhValue> read() {
+    if (rest_.empty()) return std::nullopt;
+    for (bool first = true; !rest_.empty(); first = false) {
+      double sign = 1.0;
+      if (took("-"))
+        sign = -1.0;
+      else if (!took("+") && !first)
+        break;
+      if (!term(sign)) return std::nullopt;
+    }
+    if (!rest_.empty() && !unit()) return std::nullopt;
+    if (out_.of_pi && out_.unit.empty()) out_.unit = "rad";
+    if (!std::isfinite(out_.value) || (out_.of_pi && out_.unit != "rad")) return std::nullopt;
+    return out_;
+  }
+
+ private:
+  bool took(std::string_view word) {
+    if (!rest_.starts_with(word)) return false;
+    rest_.remove_prefix(word.size());
+    return true;
+  }
+
+  bool term(double sign) {
+    if (variable()) return sign > 0.0;
+    auto product = factor();
+    if (!product) return false;
+    for (;;) {
+      const bool divide = took("/");
+      const bool multiply = !divide && took("*");
+      const auto next = divide || multiply || rest_.starts_with("pi") ? factor() : std::nullopt;
+      if (!next && (divide || multiply)) return false;
+      if (!next) break;
+      *product = divide ? *product / *next : *product * *next;
+    }
+    out_.value += sign * *product;
+    return true;
+  }
+
+  std::optional<double> factor() {
+    if (took("(")) {
+      const auto inside = factor();
+      return inside && took(")") ? inside : std::nullopt;
+    }
+    if (took("pi") || took("PI") || took("Pi")) {
+      out_.of_pi = true;
+      return std::numbers::pi;
+    }
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc{} || rest_.starts_with('-') || !std::isfinite(value))
+      return std::nullopt;
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    return value;
+  }
+
+  /// q, q2, q_2, theta2: once.
+  bool variable() {
+    if (!took("theta") && !took("th") && !took("q") && !took("d")) return false;
+    (void)took("_");
+    const auto [end, error] =
+        std::from_chars(rest_.data(), rest_.data() + rest_.size(), out_.of_joint);
+    if (error == std::errc{}) rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    (void)took("*");
+    return !std::exchange(out_.variable, true);
+  }
+
+  bool unit() {
+    const std::string known = known_unit(std::string(rest_));
+    const auto unit = unit_of(known);
+    if (!unit || (unit->quantity != Quantity::kAngle && unit->quantity != Quantity::kLength))
+      return false;
+    out_.unit = known;
+    return true;
+  }
+
+  std::string text_;
+  std::string_view rest_;
+  DhValue out_;
+};
+
+}  // namespace
+
+std::optional<DhValue> read_dh_value(std::string_view text, bool comma) {
+  return ValueReader(plain(text, comma)).read();
+}
+
+}  // namespace plumb::offline::cli
