@@ -208,9 +208,12 @@ constexpr Explanation kCodes[] = {
      "plumb simulate measures in one set-up at a time, the first of the cell. The others have no "
      "rows until they are measured, or simulated from a cell of their own."},
     {"E-CHECK-CONVENTION",
-     "The files are not meant as they are labelled: another DH convention, unit, joint direction "
-     "or handedness explains the points far better. plumb check lists every reading with what it "
-     "leaves; --fix writes the best one."},
+     "The files are not meant as they are labelled: another DH convention, unit, joint direction, "
+     "joint zero or handedness explains the points far better. plumb check lists every reading "
+     "with "
+     "what it leaves; --fix writes the best one, a zero as the joint's offset. The zero of the "
+     "first "
+     "joint is part of the tracker's frame, that of the last one part of the target."},
     {"E-CHECK-FIX-SETUPS",
      "The convention was told from one of several set-ups, and each may have files of its own; "
      "--fix "
@@ -502,7 +505,9 @@ constexpr Explanation kCodes[] = {
      "convention or the order of the columns is wrong. plumb check tries them."},
     {"E-FIT-FAR",
      "The fit meets the points only by bending the nominal arm by more than 100 mm or 10 deg. Then "
-     "cell.toml describes another arm, or the same one in the other DH convention."},
+     "cell.toml describes the arm with another joint zero or in the other DH convention, or "
+     "another "
+     "arm."},
     {"E-FIT-BASE",
      "fit --base controller calibrates on top of the positions that the controller itself computes "
      "at each pose. They belong into the measurements: nx_mm, ny_mm, nz_mm, one for each measured "

@@ -64,7 +64,11 @@ class Editor {
     if (edit.length_unit) set("robot", "length_unit", toml_string(*edit.length_unit));
     if (edit.angle_unit) set("robot", "angle_unit", toml_string(*edit.angle_unit));
     for (const auto& [joint, theta] : edit.theta)
-      set_theta(robot["joints"][static_cast<std::size_t>(joint)], text_in(*unit_of(unit), theta));
+      set_joint(robot["joints"][static_cast<std::size_t>(joint)], "theta",
+                text_in(*unit_of(unit), theta));
+    for (const auto& [joint, offset] : edit.offset)
+      set_joint(robot["joints"][static_cast<std::size_t>(joint)], "offset",
+                text_in(*unit_of(unit), offset));
     if (edit.files) set("measurement", "files", toml_list(*edit.files));
     if (edit.prior_from) set("fit", "prior_from", toml_string(*edit.prior_from));
     if (edit.held_out) set("measurement", "held_out", toml_string(*edit.held_out));
@@ -102,11 +106,11 @@ class Editor {
     replacements_.emplace(line, Replacement{0, fmt::format("{} = {}\n", key, value)});
   }
 
-  void set_theta(toml::node_view<toml::node> row, const std::string& value) {
-    if (const toml::node* node = row["theta"].node()) return replace(*node, value);
+  void set_joint(toml::node_view<toml::node> row, const char* key, const std::string& value) {
+    if (const toml::node* node = row[key].node()) return replace(*node, value);
     if (const toml::node* node = row.node())
       replacements_.emplace(begin_of(*node) + 1,
-                            Replacement{0, fmt::format(" theta = {},", value)});
+                            Replacement{0, fmt::format(" {} = {},", key, value)});
   }
 
   std::string apply() const {
@@ -125,8 +129,8 @@ class Editor {
 }  // namespace
 
 bool CellEdit::empty() const {
-  return !dh_convention && !length_unit && !angle_unit && theta.empty() && !files && !held_out &&
-         !prior_from && !frame;
+  return !dh_convention && !length_unit && !angle_unit && theta.empty() && offset.empty() &&
+         !files && !held_out && !prior_from && !frame;
 }
 
 std::string edited(const std::string& text, const std::string& file, const CellEdit& edit) {

@@ -28,6 +28,12 @@ double ratio(const std::string& meant, const std::string& present) {
   return meant == present ? 1.0 : unit_of(meant)->to_si(1.0) / unit_of(present)->to_si(1.0);
 }
 
+/// How the joint's readings change by the unit of its column.
+double own_ratio(const Convention& meant, int joint, const std::string& now, double of_all) {
+  const std::string& own = meant.own_unit[static_cast<std::size_t>(joint)];
+  return own.empty() ? of_all : ratio(own, now);
+}
+
 std::string column_of(int joint) { return fmt::format("q{}", joint + 1); }
 
 /// What a mirror does to points, as signs behind a permutation.
@@ -115,6 +121,9 @@ Convention labelled_convention(const Cell& cell, const MeasurementFiles& measure
     out.point_unit = unit_in_file(measured, axis, out.point_unit);
   out.reversed.assign(cell.joints(), false);
   out.quarter_turns.assign(cell.joints(), 0);
+  out.zero.assign(static_cast<std::size_t>(cell.joints()), 0.0);
+  out.factor.assign(static_cast<std::size_t>(cell.joints()), 1.0);
+  out.own_unit.resize(static_cast<std::size_t>(cell.joints()));
   out.column.resize(static_cast<std::size_t>(cell.joints()));
   std::iota(out.column.begin(), out.column.end(), 0);
   return out;
@@ -134,14 +143,20 @@ double changes(const Convention& present, const Convention& other) {
     out += other.reversed[j] != present.reversed[j] ? 1.0 : 0.0;
     out += other.quarter_turns[j] != present.quarter_turns[j] ? 1.2 : 0.0;
     out += other.column[j] != present.column[j] ? 1.0 : 0.0;
+    out += other.zero[j] != present.zero[j] ? 1.3 : 0.0;
+    out += other.own_unit[j] != present.own_unit[j] ? 1.1 : 0.0;
+    out += other.factor[j] != present.factor[j] ? 1.4 : 0.0;
   }
   return out;
 }
 
 Cell read_as(const Cell& cell, const Convention& present, const Convention& meant) {
   Cell out = reread(cell, text_edit(present, meant));
-  for (int j = 0; j < out.joints(); ++j)
-    out.nominal.joints[j].theta += M_PI_2 * meant.quarter_turns[j];
+  for (int j = 0; j < out.joints(); ++j) {
+    auto& row = out.nominal.joints[j];
+    row.theta += M_PI_2 * meant.quarter_turns[j];
+    row.offset += meant.zero[j];
+  }
   if (!meant.frame_inverted) return out;
   out.measurement.X_MB = inverse(out.measurement.X_MB);
   for (auto& setup : out.measurement.setups)
@@ -155,7 +170,8 @@ Measurements read_as(const Measurements& measured, const Cell& cell, const Conve
   const double turn = ratio(meant.turn_unit, present.turn_unit);
   const double slide = ratio(meant.slide_unit, present.slide_unit);
   for (int j = 0; j < cell.joints(); ++j)
-    out.q.col(j) = (slides(cell, j) ? slide : turn) * (meant.reversed[j] ? -1.0 : 1.0) *
+    out.q.col(j) = (slides(cell, j) ? slide : own_ratio(meant, j, present.turn_unit, turn)) *
+                   meant.factor[j] * (meant.reversed[j] ? -1.0 : 1.0) *
                    measured.q.col(meant.column[j]);
   out.p_M *= ratio(meant.point_unit, present.point_unit);
   mirror_points(out, meant.mirror);
@@ -174,6 +190,8 @@ CellEdit cell_edit(const Cell& cell, const Convention& present, const Convention
   for (int j = 0; j < cell.joints(); ++j)
     if (meant.quarter_turns[j] != 0)
       out.theta[j] = cell.nominal.joints[j].theta * angle + M_PI_2 * meant.quarter_turns[j];
+  for (int j = 0; j < cell.joints(); ++j)
+    if (meant.zero[j] != 0.0) out.offset[j] = cell.nominal.joints[j].offset * angle + meant.zero[j];
   if (meant.frame_inverted) out.frame = read_as(cell, present, meant).measurement.X_MB;
   return out;
 }
@@ -183,8 +201,12 @@ MeasurementEdit measurement_edit(const Cell& cell, const Convention& present,
   MeasurementEdit out;
   for (int j = 0; j < cell.joints(); ++j) {
     const std::string& now = slides(cell, j) ? present.slide_unit : present.turn_unit;
-    const std::string& unit = slides(cell, j) ? meant.slide_unit : meant.turn_unit;
+    const std::string& own = meant.own_unit[j];
+    const std::string& unit = slides(cell, j) ? meant.slide_unit
+                              : own.empty()   ? meant.turn_unit
+                                              : own;
     const int from = meant.column[j];
+    if (meant.factor[j] != 1.0) out.factors[column_of(from)] = meant.factor[j];
     if (unit != now) out.units[column_of(from)] = unit;
     for (const char* prefix : {"q", "qc", "dir_j"}) {
       const std::string held = fmt::format("{}{}", prefix, from + 1);

@@ -23,6 +23,9 @@ struct Convention {
   std::vector<bool> reversed;                     // joints that count the other way
   std::vector<int> quarter_turns;                 // joint zeros turned by so many times 90 deg
   std::vector<int> column;                        // per joint: the column q that holds its values
+  std::vector<double> zero;                       // added to the joint's position [rad]
+  std::vector<double> factor;                     // of the joint's readings, beside their unit
+  std::vector<std::string> own_unit;              // of the joint's column alone; empty: as the rest
   Mirror mirror = Mirror::kNone;                  // the measured coordinates are left-handed
   bool frame_inverted = false;                    // the given frame is the tracker in the base
   bool operator==(const Convention&) const = default;

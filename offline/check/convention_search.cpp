@@ -13,6 +13,7 @@
 #include "cell/units.hpp"
 #include "check/arm_sweep.hpp"
 #include "check/given_frame.hpp"
+#include "check/joint_maps.hpp"
 #include "check/linear_placement.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/unit_guess.hpp"
@@ -36,6 +37,14 @@ constexpr double kReadingFits = 0.01;  // of the cloud's size: no sensible arm l
 constexpr double kOdd = 2.0;           // an arm of more than 23 m or less than 5 cm
 constexpr double kReasonable_m = 2e-4;
 constexpr double kReasonableShare = 1e-4;  // of the size: what may be left of a fitted arm
+
+constexpr double kMapFits = 3e-3;              // of the size, with zeros and a factor free
+constexpr double kSameFactor = 5e-3;           // of a factor
+constexpr double kSureOfFactor = 6.0;          // standard deviations: the arm's errors are no noise
+constexpr double kOneWhole = 0.3;              // no other whole number is as near
+constexpr double kNearRound_deg = 0.1;         // of a zero
+constexpr double kFitFindsZero = M_PI / 18.0;  // farther ones end in E-FIT-FAR
+constexpr double kOneKind = 0.5;               // of the changes: as simple an explanation
 
 std::vector<int> random_rows(const Measurements& measured, int most) {
   std::vector<int> rows;
@@ -78,6 +87,9 @@ class ConventionSearch {
       sweep_orders();
       judge();
     }
+    if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits &&
+        static_cast<int>(few_.size()) >= kFewestOfOrders)
+      judge_joint_maps();
     conclude();
     return std::move(out_);
   }
@@ -109,7 +121,8 @@ class ConventionSearch {
     c.mirror = Mirror::kNone;
     c.turn_unit = labels_.turn_unit;
     const auto key = fmt::format("{} {} {} {} {}", static_cast<int>(c.dh), c.length_unit,
-                                 c.angle_unit, fmt::join(c.quarter_turns, ","), c.frame_inverted);
+                                 c.angle_unit, fmt::join(c.quarter_turns, ","), c.frame_inverted) +
+                     fmt::format(" {}", fmt::join(c.zero, ","));
     auto found = cells_.find(key);
     if (found == cells_.end()) found = cells_.emplace(key, read_as(cell_, labels_, c)).first;
     return found->second;
@@ -340,6 +353,83 @@ class ConventionSearch {
     for (const auto& r : out_.table)
       if (r.convention != out_.best.convention && left(r) <= kAlike * left(out_.best))
         out_.same.push_back(r);
+  }
+
+  // ---- zeros that are no quarter turns, and a joint that counts otherwise
+
+  /// The unit, the factor and the zeros of a map as a person would write them.
+  Convention convention_of(const JointMap& map) const {
+    Convention c = labels_;
+    const double within = std::max(kSameFactor, kSureOfFactor * map.factor_std);
+    for (std::size_t j = 0; j < map.zero.size(); ++j) {
+      c.zero[j] = round_angle(map.zero[j]);
+      if (map.factor[j] == 1.0) continue;
+      for (const char* unit : {"rad", "deg", "mrad"})
+        if (near(map.factor[j], unit_ratio(unit, labels_.turn_unit), within)) c.own_unit[j] = unit;
+      if (c.own_unit[j].empty()) c.factor[j] = round_factor(map.factor[j], within);
+    }
+    return c;
+  }
+
+  static bool near(double factor, double expected, double within) {
+    return std::abs(factor / expected - 1.0) < within;
+  }
+
+  /// To 5, 1, 0.5 deg if that is nearer than the errors of an arm; else to 0.1 deg.
+  static double round_angle(double angle) {
+    const double degrees = angle * 180.0 / M_PI;
+    for (const double step : {5.0, 1.0, 0.5})
+      if (std::abs(degrees - step * std::round(degrees / step)) < kNearRound_deg)
+        return step * std::round(degrees / step) * M_PI / 180.0;
+    return 0.1 * std::round(degrees / 0.1) * M_PI / 180.0;
+  }
+
+  /// A whole number, or one divided by it, if that is near and no other is; with its direction.
+  static double round_factor(double factor, double within) {
+    const double size = std::abs(factor), sign = factor < 0.0 ? -1.0 : 1.0;
+    const double whole = std::round(std::max(size, 1.0 / size));
+    const double snapped = size < 1.0 ? 1.0 / whole : whole;
+    if (within * whole > kOneWhole) within = kSameFactor;
+    return near(size, snapped, within) ? sign * snapped : factor;
+  }
+
+  /// Taken only if it explains nearly everything, fit could not find it, and no other map of as few
+  /// changes does as well: else nothing is said.
+  void judge_joint_maps() {
+    const Measurements few = pick(measured_, few_);
+    std::vector<Reading> found;
+    for (const JointMap& map : joint_maps(cell_.nominal, few, out_.tried)) {
+      const Convention c = convention_of(map);
+      if (c == labels_) continue;
+      Candidate candidate = placed(c, map.M, map.target_T);
+      fit(candidate);
+      found.push_back(candidate.reading);
+    }
+    const auto left = [](const Reading& r) { return relative(r.fitted_m, r.size_m); };
+    std::stable_sort(found.begin(), found.end(),
+                     [&](const Reading& a, const Reading& b) { return left(a) < left(b); });
+    std::erase_if(found, [&](const Reading& r) {
+      return left(r) > kMapFits || kClearly * left(r) > left(out_.present) ||
+             !is_large(r.convention);
+    });
+    if (found.empty()) return;
+    const Reading* best = &found.front();
+    for (const Reading& r : found)
+      if (left(r) <= kAlike * left(found.front()) && r.changes < best->changes - 1e-9) best = &r;
+    for (const Reading& r : found)
+      if (&r != best && left(r) <= kAlike * left(*best) && r.changes < best->changes + kOneKind)
+        return;
+    out_.best = *best;
+    out_.table.insert(out_.table.begin(), *best);
+    out_.same.clear();
+  }
+
+  /// Smaller zeros are found by the fit itself.
+  bool is_large(const Convention& c) const {
+    for (std::size_t j = 0; j < c.zero.size(); ++j)
+      if (std::abs(c.zero[j]) > kFitFindsZero || c.factor[j] != 1.0 || !c.own_unit[j].empty())
+        return true;
+    return false;
   }
 
   /// A frame given in the cell can tell which axes are wrong, and may itself be the inverse.

@@ -31,7 +31,8 @@ struct Detection {
 /// Tries how the files may be meant: DH convention, units of table and columns, the direction of
 /// each joint (all 2^n), left-handed coordinates; if nothing of that fits, zeros turned by 90 or
 /// 180 deg at up to two joints; and then, from 20 poses on, the columns of turning joints in
-/// another order (all of six joints; of more, swaps and neighbours in turn). The labels are kept
+/// another order (all of six joints; of more, swaps and neighbours in turn); and last zeros of any
+/// angle, and one column alone in another unit or scale (joint_maps). The labels are kept
 /// unless another reading leaves less than a tenth and the present one is not reasonable.
 /// Deterministic. Of several set-ups it looks at the one with the most rows.
 ///

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "check/convention.hpp"
 
@@ -63,6 +64,31 @@ void order_words(std::vector<std::string>& out, const Cell& cell, const std::vec
         fmt::format("columns {} hold {}", fmt::join(held, ", "), fmt::join(joints, ", ")));
 }
 
+/// "1/101" of a gear, "2", "1.2346".
+std::string factor_words(double factor) {
+  const double turns = 1.0 / std::abs(factor);
+  if (std::abs(factor) < 0.99 && std::abs(turns - std::round(turns)) < 1e-9)
+    return fmt::format("{}1/{:.0f}", factor < 0.0 ? "-" : "", turns);
+  return fmt::format("{:.6g}", factor);
+}
+
+void joint_words(std::vector<std::string>& out, const Cell& cell, const Convention& present,
+                 const Convention& meant, std::size_t j) {
+  const std::string& name = cell.nominal.joints[j].name;
+  if (meant.zero[j] != present.zero[j])
+    out.push_back(
+        fmt::format("the zero of {} is not that of the DH table: its offset is {:+.4g} deg", name,
+                    (cell.nominal.joints[j].offset + meant.zero[j]) * 180.0 / M_PI));
+  if (meant.own_unit[j] != present.own_unit[j])
+    out.push_back(fmt::format("column q{} ({}) alone is in {}, not {}", j + 1, name,
+                              meant.own_unit[j], present.turn_unit));
+  if (meant.factor[j] != present.factor[j])
+    out.push_back(fmt::format(
+        "column q{} ({}) counts otherwise, its numbers are to be multiplied by {} (are they of the "
+        "motor and not of the link?)",
+        j + 1, name, factor_words(meant.factor[j])));
+}
+
 }  // namespace
 
 std::vector<std::string> in_words(const Cell& cell, const Convention& present,
@@ -84,6 +110,7 @@ std::vector<std::string> in_words(const Cell& cell, const Convention& present,
       out.push_back(
           fmt::format("the zero of {} is turned by {:+} deg", name, 90 * meant.quarter_turns[j]));
   }
+  for (std::size_t j = 0; j < meant.zero.size(); ++j) joint_words(out, cell, present, meant, j);
   if (meant.mirror != Mirror::kNone) out.emplace_back(words_of(meant.mirror));
   if (meant.frame_inverted)
     out.emplace_back(

@@ -66,6 +66,18 @@ std::string difference_words(const Transformd& given, const Transformd& meant) {
   return fmt::format("{}", fmt::join(out, " and "));
 }
 
+/// A turn about the first joint's axis: the zero of that joint explains it as well.
+bool may_be_first_zero(const Cell& cell, const Transformd& given, const Transformd& meant) {
+  const auto& row = cell.nominal.joints.front();
+  const bool about_z = cell.nominal.convention == format::Convention::kStandard ||
+                       (row.alpha == 0.0 && row.a == 0.0);
+  const Transformd D = given.inverse() * meant, base = from_pose(cell.nominal.base);
+  const Eigen::AngleAxisd turn(D.R);
+  return about_z && row.type == format::JointType::kRevolute && turn.angle() > kTurned_rad &&
+         std::abs(turn.axis().dot(base.R.col(2))) > kOneAxis &&
+         (D * base.p - base.p).norm() < kMoved_m;
+}
+
 /// As the cell file would say it, to 0.1 mm and 0.01 deg.
 std::string frame_text(const Cell& cell, const format::Pose& X_MB) {
   const auto list = [](const std::array<double, 3>& si, double step, const std::string& unit) {
@@ -102,7 +114,12 @@ std::optional<Problem> given_frame_fault(const Cell& cell, const Measurements& m
           "the given frame contradicts the points: {}; these points put the base at {}, to "
           "about {:.1f} mm",
           difference, frame_text(cell, free.state.X_MB), 1e3 * free.rms_m),
-      .help = "correct [measurement] frame, or let the readings tell it: frame = \"fit\""};
+      .help =
+          may_be_first_zero(cell, given, meant)
+              ? fmt::format("correct [measurement] frame or, if it is the zero of {0} that "
+                            "differs, the offset of {0}: these points cannot tell the two apart",
+                            cell.nominal.joints.front().name)
+              : "correct [measurement] frame, or let the readings tell it: frame = \"fit\""};
 }
 
 double misfit_in_given_frame(const Cell& cell, const Measurements& measured,

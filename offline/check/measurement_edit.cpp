@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/measurement_edit.hpp"
 
+#include <fmt/format.h>
+
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cell/csv_header.hpp"
 #include "cell/csv_line.hpp"
+#include "cell/csv_number.hpp"
 #include "cell/units.hpp"
 
 namespace plumb::offline {
@@ -50,6 +53,9 @@ class RowEditor {
       turned_.resize(i + 1);
       turned_[i] = edit_.negated.contains(heading.name) ||
                    edit_.negated.contains(std::string(cell));  // dir_j1 has no unit
+      factors_.resize(i + 1, 1.0);
+      if (const auto found = edit_.factors.find(heading.name); found != edit_.factors.end())
+        factors_[i] = found->second;
       return renamed(cell, edit_);
     });
   }
@@ -57,7 +63,8 @@ class RowEditor {
   void row(std::string_view line) {
     rewrite(line, [&](std::size_t i, std::string_view cell) {
       const bool turn = i < turned_.size() && turned_[i] && !cell.empty();
-      return turn ? negated(cell) : std::string(cell);
+      return multiplied(turn ? negated(cell) : std::string(cell),
+                        i < factors_.size() ? factors_[i] : 1.0);
     });
   }
 
@@ -66,6 +73,12 @@ class RowEditor {
   std::string take() { return std::move(out_); }
 
  private:
+  std::string multiplied(std::string cell, double factor) const {
+    double value = 0.0;
+    if (factor == 1.0 || read_number(cell, separator_, value) != NumberFault::kNone) return cell;
+    return fmt::format("{:.9g}", value * factor);
+  }
+
   template <class Change>
   void rewrite(std::string_view line, Change&& change) {
     cut_line(line, separator_, cells_);
@@ -84,6 +97,7 @@ class RowEditor {
   const MeasurementEdit& edit_;
   char separator_ = ',';
   std::vector<bool> turned_;
+  std::vector<double> factors_;
   Cells cells_;
   std::string out_;
 };

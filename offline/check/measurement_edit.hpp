@@ -12,10 +12,14 @@ struct MeasurementEdit {
   std::map<std::string, std::string> units;  // the unit a column really has: its label changes
   std::map<std::string, std::string> names;  // "x" becomes "y": columns in another order
   std::set<std::string> negated;             // columns whose numbers change sign
-  bool empty() const { return units.empty() && names.empty() && negated.empty(); }
+  std::map<std::string, double> factors;     // columns whose numbers are multiplied
+  bool empty() const {
+    return units.empty() && names.empty() && negated.empty() && factors.empty();
+  }
 };
 
-/// The text with headings renamed and signs turned, digit for digit: comments, other columns,
+/// The text with headings renamed and signs turned, digit for digit, and the numbers of columns
+/// with a factor to nine digits: comments, other columns,
 /// separators and line ends stay. `header_line` counts from 1.
 std::string edited(const std::string& text, int header_line, const MeasurementEdit& edit);
 

@@ -39,13 +39,15 @@ void fix(const CheckArguments& options, const Cell& cell, const MeasurementFiles
   if (outcome.errors.empty()) outcome.exit = Exit::kDone;
   outcome.result["ok"] = outcome.errors.empty();
   bool turned = false;
-  for (const bool reversed : check.detection.best.convention.reversed) turned = turned || reversed;
+  const Convention& meant = check.detection.best.convention;
+  for (std::size_t j = 0; j < meant.reversed.size(); ++j)
+    turned = turned || meant.reversed[j] || meant.factor[j] != 1.0;
   if (turned)
     outcome.remarks.push_back(
         {.severity = Severity::kWarning,
          .code = "W-CHECK-DIRECTION",
-         .message = "the cell and the new measurements count some joints the other way than the "
-                    "old files did",
+         .message = "the cell and the new measurements count some joints otherwise than the old "
+                    "files did",
          .help = "count them that way in the targets too, and on the controller"});
 }
 

@@ -120,8 +120,10 @@ void check_same_arm(const std::vector<Estimate>& estimates) {
     if (beyond(e, kAnotherArm_m, kAnotherArm_rad))
       throw Failure(Exit::kNumbersSayNo,
                     {.code = "E-FIT-FAR",
-                     .message = how_far(e) + ": these points are of another arm than cell.toml's",
-                     .help = "find the wrong DH convention, unit or joint sign: plumb check"});
+                     .message = how_far(e) + ": cell.toml does not describe the arm as these "
+                                             "readings were taken",
+                     .help = "find the wrong joint zero, unit, joint sign or DH convention: plumb "
+                             "check"});
 }
 
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks) {

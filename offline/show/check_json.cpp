@@ -7,12 +7,16 @@ namespace plumb::offline::show {
 namespace {
 
 Json convention_json(const Convention& c) {
-  Json reversed = Json::array(), turned = Json::array(), columns = Json::array();
+  Json reversed = Json::array(), turned = Json::array(), columns = Json::array(),
+       zeros = Json::array(), factors = Json::array(), units = Json::array();
   for (std::size_t j = 0; j < c.reversed.size(); ++j) {
     columns.push_back(c.column[j] + 1);
     if (c.reversed[j]) reversed.push_back(j + 1);
     if (c.quarter_turns[j] != 0)
       turned.push_back({{"joint", j + 1}, {"angle_deg", 90 * c.quarter_turns[j]}});
+    if (c.zero[j] != 0.0) zeros.push_back({{"joint", j + 1}, {"offset_deg", to_deg(c.zero[j])}});
+    if (c.factor[j] != 1.0) factors.push_back({{"joint", j + 1}, {"factor", c.factor[j]}});
+    if (!c.own_unit[j].empty()) units.push_back({{"joint", j + 1}, {"unit", c.own_unit[j]}});
   }
   return {{"dh_convention", c.dh == format::Convention::kStandard ? "standard" : "modified"},
           {"length_unit", c.length_unit},
@@ -23,6 +27,9 @@ Json convention_json(const Convention& c) {
           {"reversed_joints", reversed},
           {"joint_columns", columns},
           {"turned_zeros", turned},
+          {"joint_offsets", zeros},
+          {"joint_factors", factors},
+          {"joint_units", units},
           {"left_handed", c.mirror != Mirror::kNone},
           {"frame_inverted", c.frame_inverted}};
 }

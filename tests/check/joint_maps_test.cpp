@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/joint_maps.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "check/check.hpp"
+#include "simulate/simulate.hpp"
+#include "tests/check/scrambled.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using scrambled::Case;
+using scrambled::Files;
+
+constexpr double kDegree = M_PI / 180.0;
+
+Files sound_files(std::uint64_t seed) {
+  const auto convention =
+      seed % 2 == 0 ? format::Convention::kStandard : format::Convention::kModified;
+  const Cell cell = random_cell(seed, 6, convention, ArmKind::kRevolute);
+  SimulationPlan plan;
+  plan.poses = 80;
+  plan.noise_m = 20e-6;
+  plan.seed = seed;
+  plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
+  return {write_cell(cell), simulated_csv(cell, simulate(cell, plan)), {}};
+}
+
+/// The file whose joint columns were made of the others' values [deg]: `change(q)`.
+Files read_otherwise(Files files, const std::function<void(std::vector<double>&)>& change) {
+  std::istringstream in(files.csv);
+  std::string out;
+  int first = -1;
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string> cells;
+    std::istringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    if (line.empty() || line[0] == '#') {
+    } else if (first < 0) {
+      while (cells[static_cast<std::size_t>(++first)].rfind("q1_", 0) != 0) {
+      }
+    } else {
+      std::vector<double> q;
+      for (std::size_t j = 0; j < 6; ++j)
+        q.push_back(std::stod(cells[static_cast<std::size_t>(first) + j]));
+      change(q);
+      for (std::size_t j = 0; j < 6; ++j)
+        cells[static_cast<std::size_t>(first) + j] = fmt::format("{:.6f}", q[j]);
+      line = fmt::format("{}", fmt::join(cells, ","));
+    }
+    out += line + "\n";
+  }
+  files.csv = out;
+  return files;
+}
+
+std::string changes_of(const Case& c, const Detection& d) {
+  return fmt::format("{}",
+                     fmt::join(in_words(c.cell, d.present.convention, d.best.convention), "; "));
+}
+
+/// What is said of the files after --fix: nothing, and they fit.
+void expect_whole(const Files& files, const Case& c, const Detection& d,
+                  const scrambled::Folder& folder) {
+  const Convention& labels = d.present.convention;
+  const Convention& meant = d.best.convention;
+  const Files fixed{
+      edited(files.cell, "cell.toml", cell_edit(c.cell, labels, meant)),
+      edited(files.csv, c.measured.tables[0].header_line, measurement_edit(c.cell, labels, meant)),
+      {}};
+  const Case again = opened(fixed, folder.path());
+  const Detection found = detect_convention(again.cell, again.measured);
+  EXPECT_FALSE(found.changed) << changes_of(again, found);
+  EXPECT_LT(found.best.fitted_m, 1e-3);
+}
+
+TEST(JointMaps, AZeroThatIsNoQuarterTurnIsNamedWithItsAngle) {
+  const scrambled::Folder folder;
+  const std::vector<std::vector<double>> zeros{
+      {0, 0, 30, 0, 0, 0},   {0, -17.5, 0, 0, 45, 0}, {0, 0, 0, -65, 0, 0},  {0, 101.3, 0, 0, 0, 0},
+      {0, 12, -33, 0, 0, 0}, {0, 0, 0, 0, 140, 0},    {25, 0, 20, 0, 0, -70}};
+  std::uint64_t seed = 0;
+  for (const auto& zero : zeros) {
+    const Files broken = read_otherwise(sound_files(++seed), [&](std::vector<double>& q) {
+      for (std::size_t j = 0; j < 6; ++j) q[j] += zero[j];
+    });
+    const Case c = opened(broken, folder.path());
+    const Detection d = detect_convention(c.cell, c.measured);
+    ASSERT_TRUE(d.changed) << seed;
+    for (std::size_t j = 0; j < 6; ++j) {
+      // Those of the first and the last joint belong to frame and target as well.
+      const double expected = j == 0 || j == 5 ? 0.0 : -zero[j];
+      EXPECT_NEAR(d.best.convention.zero[j] / kDegree, expected, 0.3)
+          << seed << ": " << changes_of(c, d);
+    }
+    expect_whole(broken, c, d, folder);
+  }
+}
+
+TEST(JointMaps, OneColumnInAnotherUnitOrScaleIsNamed) {
+  const scrambled::Folder folder;
+  struct {
+    std::size_t joint;
+    double factor, zero;
+    const char* words;
+  } const cases[] = {
+      {0, kDegree, 0, "column q1 (J1) alone is in rad, not deg"},
+      {2, kDegree, 0, "column q3 (J3) alone is in rad, not deg"},
+      {5, kDegree, 0, "column q6 (J6) alone is in rad, not deg"},
+      {3, 0.5, 0, "column q4 (J4) counts otherwise, its numbers are to be multiplied by 2 "},
+      {1, 101, 0, "column q2 (J2) counts otherwise, its numbers are to be multiplied by 1/101 "},
+      {4, -0.5, 0, "multiplied by -2 "},
+      {2, kDegree, 0.6, "column q3 (J3) alone is in rad, not deg"},
+      {4, 1000 * kDegree, 0, "column q5 (J5) alone is in mrad, not deg"},
+  };
+  std::uint64_t seed = 10;
+  for (const auto& a : cases) {
+    const Files broken = read_otherwise(sound_files(++seed), [&](std::vector<double>& q) {
+      q[a.joint] = a.factor * q[a.joint] + a.zero;
+    });
+    const Case c = opened(broken, folder.path());
+    const Detection d = detect_convention(c.cell, c.measured);
+    EXPECT_NE(changes_of(c, d).find(a.words), std::string::npos)
+        << seed << ": " << changes_of(c, d);
+    if (d.changed) expect_whole(broken, c, d, folder);
+  }
+}
+
+TEST(JointMaps, NothingIsSaidWhereFrameOrTargetOrAnotherArmMayBeIt) {
+  const scrambled::Folder folder;
+  const std::vector<std::pair<const char*, std::function<void(std::vector<double>&)>>> cases{
+      {"a zero of the first joint is the tracker's frame", [](auto& q) { q[0] += 37.0; }},
+      {"one of the last joint is the target", [](auto& q) { q[5] -= 50.0; }},
+      {"a zero that the fit finds", [](auto& q) { q[2] += 0.7; }},
+      {"coupled joints", [](auto& q) { q[2] += q[1]; }},
+      {"half a coupling", [](auto& q) { q[4] -= 0.5 * q[3]; }},
+      {"readings of another day", [](auto& q) { q[1] = 40.0 * std::sin(q[1]); }},
+  };
+  std::uint64_t seed = 2;
+  for (const auto& [what, change] : cases) {
+    ++seed;
+    const Case c = opened(read_otherwise(sound_files(seed), change), folder.path());
+    const Detection d = detect_convention(c.cell, c.measured);
+    const Convention& labels = d.present.convention;
+    EXPECT_EQ(d.best.convention.zero, labels.zero) << what << ": " << changes_of(c, d);
+    EXPECT_EQ(d.best.convention.factor, labels.factor) << what << ": " << changes_of(c, d);
+    EXPECT_EQ(d.best.convention.own_unit, labels.own_unit) << what << ": " << changes_of(c, d);
+  }
+}
+
+}  // namespace
+}  // namespace plumb::offline
