@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "check/check.hpp"
+#include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/check/scrambled.hpp"
 
@@ -153,6 +154,27 @@ TEST(JointMaps, NothingIsSaidWhereFrameOrTargetOrAnotherArmMayBeIt) {
     EXPECT_EQ(d.best.convention.factor, labels.factor) << what << ": " << changes_of(c, d);
     EXPECT_EQ(d.best.convention.own_unit, labels.own_unit) << what << ": " << changes_of(c, d);
   }
+}
+
+TEST(JointMaps, AGivenFrameTurnedAboutTheFirstAxisMayBeTheZeroOfThatJoint) {
+  Cell cell = random_cell(4, 6, format::Convention::kStandard, ArmKind::kRevolute);
+  cell.measurement.fit_frame = false;
+  SimulationPlan plan;
+  plan.poses = 40;
+  plan.seed = 4;
+  const Simulation s = simulate(cell, plan);
+  const auto remedy = [&](const format::Pose& wrong) {
+    Cell other = cell;
+    other.measurement.X_MB = to_pose(from_pose(cell.measurement.X_MB) * from_pose(wrong));
+    for (const Problem& problem : check_cell(other, s.measured).findings)
+      if (problem.code == "E-CHECK-FRAME") return problem.help;
+    return std::string("nothing");
+  };
+  const double half = 0.3;
+  EXPECT_NE(remedy({{}, {std::cos(half), 0.0, 0.0, std::sin(half)}}).find("the offset of J1"),
+            std::string::npos);
+  EXPECT_EQ(remedy({{}, {std::cos(half), std::sin(half), 0.0, 0.0}}).find("offset"),
+            std::string::npos);
 }
 
 }  // namespace
