@@ -391,6 +391,28 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-DECIMAL",
      "Every comma of the file has three digits behind it: it may divide thousands or decimals. Say "
      "which with --decimal."},
+    {"E-IMPORT-CELLS",
+     "The cells of a column state their unit, and do not agree with each other or with the "
+     "heading. "
+     "Nothing is converted cell by cell: write one unit, and once."},
+    {"N-IMPORT-CELLS",
+     "The unit stands in every cell of these columns, \"729.06 mm\", and was taken from there. "
+     "Angles in degrees, minutes and seconds became degrees."},
+    {"N-IMPORT-STATED",
+     "The headings of these columns say no unit, but a line above the table does, as in \"Units: "
+     "mm, deg\"."},
+    {"N-IMPORT-THOUSANDS",
+     "Points, commas, apostrophes or blanks between the thousands of a number were taken out."},
+    {"N-IMPORT-VECTOR",
+     "A cell such as \"[0.1, 0.2, 0.3]\" holds several numbers: each became a column of its own."},
+    {"N-IMPORT-LINES",
+     "A header that stands again between the rows, and lines without any number, are no "
+     "measurements and were left out. Their line numbers are named."},
+    {"N-IMPORT-STATISTICS",
+     "The last rows are called mean, standard deviation, minimum, maximum or the like: they state "
+     "something of the measurements above them, and were left out."},
+    {"N-IMPORT-NAMED",
+     "The file names no columns, but what stands in its rows tells them. See that it is right."},
     {"E-IMPORT-NUMBER", "A column of numbers holds something else. NaN and infinity are none."},
     {"E-IMPORT-UNIT",
      "A recognised column does not say its unit. Name it: --map \"X=x_mm\". A wrong unit is the "
@@ -450,7 +472,9 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-JOIN", "The two files cannot be laid side by side in the way asked for."},
     {"N-IMPORT-ENCODING", "The file was not UTF-8 and was converted."},
     {"N-IMPORT-PREAMBLE",
-     "Lines above the header that are neither comments nor data were skipped."},
+     "Lines above the table that are neither comments nor data were skipped. Their line numbers "
+     "are "
+     "named."},
     {"N-IMPORT-MIDNIGHT", "A clock without a date jumped back: a day was added from there on."},
     {"N-IMPORT-ROT",
      "Three angles say nothing without the order of the turns. State it with --rot, or they are "

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 
 #include "cell/column_names.hpp"
 #include "cell/units.hpp"
 #include "import/expanded.hpp"
+#include "import/heading.hpp"
 #include "import/map_option.hpp"
 #include "import/numbered.hpp"
 #include "import/unit_words.hpp"
@@ -17,21 +17,6 @@
 
 namespace plumb::offline {
 namespace {
-
-/// Header without its unit, and the unit.
-struct Named {
-  std::string name, unit;
-};
-
-Named split_unit(const std::string& header, std::string (*read_unit)(std::string)) {
-  static const std::regex kBrackets(R"(^(.*?)\s*[\[\(]\s*([^\]\)]*)\s*[\]\)]\s*$)");
-  static const std::regex kTail(R"(^(.*?)\s*[/_\s,]\s*([^\s/_,]+)\s*$)");
-  std::smatch match;
-  for (const auto* pattern : {&kBrackets, &kTail})
-    if (std::regex_match(header, match, *pattern))
-      if (const std::string unit = read_unit(match[2]); !unit.empty()) return {match[1], unit};
-  return {header, ""};
-}
 
 bool needs_unit(const std::string& name) {
   return !name.empty() && !allowed_quantities(name).empty();
@@ -153,18 +138,17 @@ ColumnPlan guess_column(const std::string& header, const std::string& unit_row) 
   const auto expanded = expanded_uncertainty(header);
   const std::string heading = expanded ? expanded->rest : header;
   if (!in_own_style(heading, out)) {
-    const Named named = split_unit(heading, known_unit);
-    out.named = named_column(named.name);
+    const WrittenHeading written = read_heading(heading);
+    const NamedColumn meant = named_column(written.name);
+    const bool foreign = written.unit.empty() && needs_unit(meant.name);
+    const bool whole = !written.foreign.empty() && !foreign;
+    out.named = whole ? named_column(heading) : meant;
     out.name = out.named.name;
-    out.unit = !named.unit.empty() ? named.unit : known_unit(unit_row);
-    const Named other = split_unit(heading, unit_of_others);
-    const NamedColumn foreign = named_column(other.name);
-    if (named.unit.empty() && needs_unit(foreign.name)) {
-      out.foreign = !other.unit.empty() ? other.unit
-                    : out.unit.empty()  ? unit_of_others(unit_row)
-                                        : "";
-      if (!out.foreign.empty()) out.name = foreign.name, out.named = foreign;
-    }
+    out.unit = !written.unit.empty() ? written.unit : known_unit(unit_row);
+    if (foreign)
+      out.foreign = !written.foreign.empty() ? written.foreign
+                    : out.unit.empty()       ? unit_of_others(unit_row)
+                                             : "";
   }
   if (expanded) {
     // An uncertainty is used only if it is that of one coordinate of the measured point.

@@ -8,6 +8,7 @@
 
 #include "cell/column_names.hpp"
 #include "cell/units.hpp"
+#include "import/number_text.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "import/source_text.hpp"
+#include "import/stated_units.hpp"
 
 namespace plumb::offline {
 
@@ -32,16 +34,14 @@ struct RawRows {
   std::vector<int> lines;
   std::vector<std::vector<std::string_view>> cells;
   std::vector<std::pair<std::string, std::string>> comments;  // "# key: value"
+  StatedUnits stated;
+  std::deque<std::string> made;  // texts of cells that are written in no line
   std::vector<Problem> remarks;
 };
 
 /// Finds separator, decimal sign, header and units, and cuts every row. Throws Failure (kInput):
-/// E-IMPORT-HEADER (none, or none found), E-IMPORT-RAGGED, E-IMPORT-DECIMAL (a comma that may mean
-/// either), E-IMPORT-ROWS (a header and nothing else).
+/// E-IMPORT-HEADER (none, or none found), E-IMPORT-RAGGED (all such rows), E-IMPORT-DECIMAL (a
+/// comma that may mean either), E-IMPORT-ROWS (a header and nothing else).
 RawRows cut(const SourceText& text, const DialectWishes& wishes);
-
-/// The number a cell means in this dialect, if it is one; "1,23E+09" and "1.234,5" with a decimal
-/// comma included.
-std::optional<double> number_in(std::string_view cell, char decimal);
 
 }  // namespace plumb::offline

@@ -16,6 +16,7 @@
 #include "import/euler.hpp"
 #include "import/map_option.hpp"
 #include "import/moves.hpp"
+#include "import/number_text.hpp"
 #include "import/timestamps.hpp"
 #include "program/file.hpp"
 #include "program/problem_list.hpp"
@@ -47,18 +48,6 @@ std::string in_words(char sign) {
   }
 }
 
-/// The number with a decimal point and without thousands separators.
-std::string plain_number(std::string_view cell, char decimal) {
-  std::string out;
-  for (char c : cell) {
-    if (c == decimal)
-      out += '.';
-    else if (!(decimal == ',' && c == '.'))
-      out += c;
-  }
-  return out;
-}
-
 class Importer {
  public:
   Importer(const SourceText& text, RawRows rows, const ImportWishes& wishes)
@@ -83,6 +72,7 @@ class Importer {
     out_.lines = rows_.lines;
     leave_out_empty(plans);
     join_date_and_time(plans);
+    take_stated_units(plans);
     look_at_units(plans);
     say_of_uncertainties(plans);
     say_of_sliding(plans);
@@ -97,6 +87,7 @@ class Importer {
         add_numbers(plans[k], k);
     }
     problems_.stop_on_errors();
+    say_of_thousands();
     say_of_radians(plans);
     turn_to_quaternions();
     say_what_was_left_out();
@@ -182,6 +173,35 @@ class Importer {
     time->from = date->from + "' and '" + time->from;
     date->name.clear();
     joined_date_ = true;
+  }
+
+  /// Columns that say no unit have the one that a line above the table states.
+  void take_stated_units(std::vector<ColumnPlan>& plans) {
+    std::vector<std::string> lengths, angles;
+    for (auto& plan : plans) {
+      if (!plan.lacks_unit) continue;
+      const auto allowed = allowed_quantities(plan.name);
+      const StatedUnits& stated = rows_.stated;
+      const bool angle = allowed.front() == Quantity::kAngle;
+      const bool length = allowed.front() == Quantity::kLength;
+      const std::string unit = angle ? stated.angle : length ? stated.length : "";
+      if (unit.empty()) continue;
+      plan.unit = unit;
+      plan.lacks_unit = false;
+      (angle ? angles : lengths).push_back(plan.from);
+    }
+    const auto say = [&](const std::vector<std::string>& columns, const std::string& unit,
+                         int line) {
+      if (columns.empty()) return;
+      out_.remarks.push_back(
+          {.severity = Severity::kNote,
+           .code = "N-IMPORT-STATED",
+           .message = fmt::format("{} are in {}, as line {} says", in_short(columns), unit, line),
+           .place = Place{.file = text_.file, .line = line},
+           .help = "--map says otherwise"});
+    };
+    say(angles, rows_.stated.angle, rows_.stated.angle_line);
+    say(lengths, rows_.stated.length, rows_.stated.length_line);
   }
 
   /// A recognised column must state a unit that plumb knows; a preview only warns.
@@ -432,9 +452,28 @@ class Importer {
       if (!number) bad_number(plan, i, cell);
       column.text.push_back(plan.divisor != 1.0 && number
                                 ? fmt::format("{}", *number / plan.divisor)
-                                : plain_number(cell, decimal));
+                                : plain_number(cell, decimal).value_or(""));
+      if (thousands_.empty() && number && divides_thousands(cell, decimal))
+        thousands_ = fmt::format("'{}' is {}", cell, column.text.back());
     }
     out_.columns.push_back(std::move(column));
+  }
+
+  /// True if the cell, a number, has more signs than a sign of its own, digits and a decimal sign.
+  static bool divides_thousands(std::string_view cell, char decimal) {
+    const std::string_view other = decimal == ',' ? "." : ",";
+    return cell.find(other) != cell.npos || cell.find('\'') != cell.npos ||
+           cell.find(' ') != cell.npos || cell.find("\u2019") != cell.npos ||
+           cell.find("\u00A0") != cell.npos || cell.find("\u202F") != cell.npos ||
+           cell.find("\u2009") != cell.npos;
+  }
+
+  void say_of_thousands() {
+    if (thousands_.empty()) return;
+    out_.remarks.push_back({.severity = Severity::kNote,
+                            .code = "N-IMPORT-THOUSANDS",
+                            .message = fmt::format("signs divide thousands: {}", thousands_),
+                            .help = "if they do not: --decimal point, or --decimal comma"});
   }
 
   void bad_number(const ColumnPlan& plan, std::size_t i, std::string_view cell) {
@@ -574,6 +613,7 @@ class Importer {
   std::vector<ColumnContent> contents_;
   std::size_t date_column_ = 0;
   bool joined_date_ = false;
+  std::string thousands_;  // the first number of which signs divide the thousands
   ProblemList problems_;
   Imported out_;
 };

@@ -31,11 +31,26 @@ void append_utf8(std::string& out, unsigned code) {
   }
 }
 
+/// Latin-1, with the signs that Windows-1252 puts where it has none: dashes and quotes.
 std::string from_latin1(std::string_view bytes) {
+  static constexpr unsigned kWindows[32] = {
+      0x20AC, 0x81,   0x201A, 0x192,  0x201E, 0x2026, 0x2020, 0x2021, 0x2C6,  0x2030, 0x160,
+      0x2039, 0x152,  0x8D,   0x17D,  0x8F,   0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
+      0x2013, 0x2014, 0x2DC,  0x2122, 0x161,  0x203A, 0x153,  0x9D,   0x17E,  0x178};
   std::string out;
   out.reserve(bytes.size() + bytes.size() / 8);
-  for (char c : bytes) append_utf8(out, static_cast<unsigned char>(c));
+  for (char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    append_utf8(out, byte >= 0x80 && byte < 0xA0 ? kWindows[byte - 0x80] : byte);
+  }
   return out;
+}
+
+/// DOS programs end a text with Ctrl-Z.
+void remove_end_mark(std::string& bytes) {
+  const auto last = bytes.find_last_not_of("\x1A\r\n \t");
+  const auto end = bytes.find('\x1A', last == bytes.npos ? 0 : last);
+  if (end != bytes.npos) bytes.erase(end);
 }
 
 std::string from_utf16(std::string_view bytes, bool big_endian) {
@@ -127,6 +142,10 @@ void decode(std::string bytes, const std::string& file, SourceText& out) {
     out.remarks.push_back(
         note(fmt::format("{} is in UTF-16, though no byte-order mark says so", file)));
   }
+  remove_end_mark(bytes);
+  if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xD0\xCF\x11\xE0"))
+    fail("E-IMPORT-BINARY", "this is a workbook of a spreadsheet, no text",
+         "save its sheet as CSV, and import that");
   if (looks_binary(bytes))
     fail("E-IMPORT-BINARY", "this is no text file",
          "export the measurements as text (CSV) from the tracker's or controller's software");

@@ -22,9 +22,9 @@ struct SourceText {
   SourceText& operator=(const SourceText&) = delete;
 };
 
-/// Turns UTF-16 (with its mark or without) and Latin-1 into UTF-8 and says so. Throws Failure
-/// (kInput): E-IMPORT-EMPTY, E-IMPORT-BINARY; E-IMPORT-ENCODING for Shift-JIS and for text that
-/// cannot be Latin-1 (Chinese, Korean, Cyrillic), which would turn into nonsense.
+/// Turns UTF-16 (with its mark or without) and Latin-1 (Windows-1252) into UTF-8 and says so.
+/// Throws Failure (kInput): E-IMPORT-EMPTY, E-IMPORT-BINARY; E-IMPORT-ENCODING for Shift-JIS and
+/// for text that cannot be Latin-1 (Chinese, Korean, Cyrillic), which would turn into nonsense.
 void decode(std::string bytes, const std::string& file, SourceText& out);
 
 }  // namespace plumb::offline

@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-#include "import/dialect.hpp"
+#include "import/number_text.hpp"
 #include "import/words.hpp"
 #include "program/utf8.hpp"
 

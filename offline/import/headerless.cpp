@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/headerless.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "import/content.hpp"
+#include "import/number_text.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr std::size_t kAxes = 3, kFewestJoints = 4, kMostJoints = 7;
+
+bool holds_numbers(const std::vector<Cells>& rows, std::size_t column) {
+  return std::all_of(rows.begin(), rows.end(), [&](const Cells& row) {
+    return is_number(row[column]) && !is_time(row[column]);
+  });
+}
+
+double largest_of(const std::vector<Cells>& rows, std::size_t first, std::size_t end) {
+  double out = 0.0;
+  for (const auto& row : rows)
+    for (std::size_t k = first; k < end; ++k)
+      if (const auto value = number_in(row[k], '.')) out = std::max(out, std::abs(*value));
+  return out;
+}
+
+/// "A::robot::p1" in every row.
+bool are_collection_names(const std::vector<Cells>& rows) {
+  return std::all_of(rows.begin(), rows.end(),
+                     [](const Cells& row) { return row[0].find("::") != row[0].npos; });
+}
+
+/// A --header for the columns in their most usual order: a name, joints, a point. Columns that
+/// have no place in it are called c1, c2, ...
+std::string proposed(const std::vector<Cells>& rows) {
+  const std::size_t size = rows.front().size();
+  std::vector<std::string> names;
+  std::size_t first = 0;
+  while (first < size && !holds_numbers(rows, first)) ++first;
+  for (std::size_t k = 0; k < first; ++k)
+    names.push_back(k == 0 ? "pose" : fmt::format("c{}", k + 1));
+  std::size_t end = first;
+  while (end < size && holds_numbers(rows, end)) ++end;
+  const std::size_t numbers = end - first;
+  const bool joints_too = numbers >= kFewestJoints + kAxes;
+  const std::size_t joints = joints_too                 ? std::min(numbers - kAxes, kMostJoints)
+                             : numbers >= kFewestJoints ? numbers
+                                                        : 0;
+  const auto unit = [&](const char* name, std::size_t from, std::size_t to) {
+    return unit_choice(name, largest_of(rows, from, to)).text();
+  };
+  for (std::size_t j = 0; j < joints; ++j)
+    names.push_back(fmt::format("q{}_{}", j + 1, unit("q1", first, first + joints)));
+  const std::size_t point = first + joints;
+  for (std::size_t k = 0; k < kAxes && point + kAxes <= end; ++k)
+    names.push_back(fmt::format("{}_{}", "xyz"[k], unit("x", point, point + kAxes)));
+  while (names.size() < size) names.push_back(fmt::format("c{}", names.size() + 1));
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+}  // namespace
+
+std::vector<std::string> names_without_header(const SourceText& text, int line,
+                                              const std::vector<Cells>& rows,
+                                              std::vector<Problem>& remarks) {
+  const std::size_t size = rows.front().size();
+  const bool point = size == 1 + kAxes && holds_numbers(rows, 1) && holds_numbers(rows, 2) &&
+                     holds_numbers(rows, 3);
+  if (point && are_collection_names(rows)) {
+    remarks.push_back({.severity = Severity::kNote,
+                       .code = "N-IMPORT-NAMED",
+                       .message = "the file has no header; names with '::' and three numbers are "
+                                  "taken as points of SpatialAnalyzer: pose, x, y, z",
+                       .place = Place{.file = text.file, .line = line},
+                       .help = "if they are something else: --header \"pose,...\""});
+    return {"pose", "x", "y", "z"};
+  }
+  const std::string names = proposed(rows);
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-IMPORT-HEADER",
+       .message = fmt::format("the file has no header: {} columns without a name", size),
+       .place = Place{.file = text.file,
+                      .line = line,
+                      .column = 1,
+                      .source = std::string(text.lines[static_cast<std::size_t>(line) - 1]),
+                      .label = "numbers begin here"},
+       .help = fmt::format(
+           "name them; if this is their order: --header \"{}\"{}", names,
+           names.find('|') == names.npos ? "" : "  (keep one of the units that | divides)")});
+}
+
+}  // namespace plumb::offline

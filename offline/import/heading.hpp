@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace plumb::offline {
+
+/// A heading as people write it, "alpha [°]", "x(mm)", "Joint 1 / deg": its name, and its unit as
+/// plumb writes it, or one that plumb does not convert.
+struct WrittenHeading {
+  std::string name, unit, foreign;
+};
+
+/// The one reader of headings, of measurements and of tables of an arm.
+WrittenHeading read_heading(const std::string& text);
+
+}  // namespace plumb::offline

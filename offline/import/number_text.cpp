@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/number_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "import/unit_words.hpp"
+#include "program/utf8.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Signs = std::span<const std::string_view>;
+
+constexpr std::string_view kMinus[] = {"-", "\u2212", "\u2013", "\uFE63", "\uFF0D"};
+constexpr std::string_view kBlanks[] = {" ", "\u00A0", "\u202F", "\u2009", "\u2007"};
+constexpr std::string_view kApostrophes[] = {"'", "\u2019"};
+constexpr std::string_view kPlus[] = {"+"};
+constexpr std::string_view kExponent[] = {"e", "E", "d", "D"};
+constexpr std::string_view kDegree[] = {"\u00B0", "\u00BA"};
+constexpr std::string_view kMinute[] = {"'", "\u2032", "\u2019"};
+constexpr std::string_view kSecond[] = {"\"\"", "\"", "\u2033", "\u201D", "''"};
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// Takes one of the signs from the front; the sign, or nothing.
+std::string_view take(std::string_view& text, Signs signs) {
+  for (const auto sign : signs)
+    if (text.starts_with(sign)) {
+      text.remove_prefix(sign.size());
+      return sign;
+    }
+  return {};
+}
+
+std::string_view digits(std::string_view& text) {
+  std::size_t n = 0;
+  while (n < text.size() && is_digit(text[n])) ++n;
+  const auto out = text.substr(0, n);
+  text.remove_prefix(n);
+  return out;
+}
+
+std::string_view without_blanks(std::string_view text) {
+  text = trimmed(text);
+  while (!take(text, kBlanks).empty()) {
+  }
+  for (bool again = true; again;) {
+    again = false;
+    for (const auto blank : kBlanks)
+      if (text.ends_with(blank)) text.remove_suffix(blank.size()), again = true;
+  }
+  return text;
+}
+
+/// "1'234'567" without its signs; "123" as it is. All signs are alike, all groups but the first
+/// have three digits, and a number of several groups does not begin with 0.
+std::optional<std::string> whole_part(std::string_view& text, char decimal) {
+  std::string out(digits(text));
+  const std::size_t first = out.size();
+  std::string_view sign;
+  const std::string_view other[] = {decimal == ',' ? "." : ","};
+  for (;;) {
+    std::string_view rest = text;
+    std::string_view found = take(rest, other);
+    if (found.empty()) found = take(rest, kApostrophes);
+    if (found.empty()) found = take(rest, kBlanks);
+    if (found.empty()) return out;
+    const auto group = digits(rest);
+    const bool fits = group.size() == 3 && first >= 1 && first <= 3 && out.front() != '0' &&
+                      (sign.empty() || sign == found);
+    if (!fits) return std::nullopt;
+    sign = found;
+    out += group;
+    text = rest;
+  }
+}
+
+std::string_view value_before(std::string_view cell) {
+  std::size_t end = cell.size();
+  while (end > 0 && !is_digit(cell[end - 1]) && cell[end - 1] != '.') --end;
+  return cell.substr(0, end);
+}
+
+std::optional<double> part(std::string_view& text) {
+  std::string number(digits(text));
+  if (text.starts_with('.') || text.starts_with(',')) {
+    text.remove_prefix(1);
+    number += '.';
+    number += digits(text);
+  }
+  return number_in(number, '.');
+}
+
+}  // namespace
+
+std::optional<std::string> plain_number(std::string_view cell, char decimal) {
+  cell = without_blanks(cell);
+  std::string out;
+  if (!take(cell, kMinus).empty())
+    out = "-";
+  else if (cell.starts_with('+'))
+    cell.remove_prefix(1);
+  const auto whole = whole_part(cell, decimal);
+  if (!whole) return std::nullopt;
+  out += *whole;
+  bool any = !whole->empty();
+  if (cell.starts_with(decimal)) {
+    cell.remove_prefix(1);
+    const auto behind = digits(cell);
+    any = any || !behind.empty();
+    out += '.';
+    out += behind;
+  }
+  if (!any) return std::nullopt;
+  if (const auto letter = take(cell, kExponent); !letter.empty()) {
+    out += letter == "e" ? 'e' : 'E';
+    if (!take(cell, kMinus).empty())
+      out += '-';
+    else if (!take(cell, kPlus).empty())
+      out += '+';
+    const auto exponent = digits(cell);
+    if (exponent.empty()) return std::nullopt;
+    out += exponent;
+  }
+  if (!cell.empty()) return std::nullopt;
+  return out;
+}
+
+std::optional<double> number_in(std::string_view cell, char decimal) {
+  const auto text = plain_number(cell, decimal);
+  if (!text) return std::nullopt;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc{} || end != text->data() + text->size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::optional<MeasuredCell> measured_cell(std::string_view cell) {
+  cell = without_blanks(cell);
+  const auto before = value_before(cell);
+  if (before.empty() || before.size() == cell.size()) return std::nullopt;
+  const std::string behind(without_blanks(cell.substr(before.size())));
+  if (behind.find_first_of("[](){}") != behind.npos) return std::nullopt;
+  std::string unit = known_unit(behind);
+  if (unit.empty()) unit = unit_of_others(behind);
+  if (unit.empty() || (!number_in(before, '.') && !number_in(before, ','))) return std::nullopt;
+  return MeasuredCell{before, unit};
+}
+
+std::optional<double> sexagesimal(std::string_view cell) {
+  std::string_view rest = without_blanks(cell);
+  const bool minus = !take(rest, kMinus).empty();
+  if (!minus) (void)take(rest, kPlus);
+  double out = 0.0, scale = 1.0;
+  int parts = 0;
+  for (const Signs signs : {Signs(kDegree), Signs(kMinute), Signs(kSecond)}) {
+    if (rest.empty()) break;
+    const auto value = part(rest);
+    if (!value || (parts > 0 && *value >= 60.0)) return std::nullopt;
+    rest = without_blanks(rest);
+    if (take(rest, signs).empty()) return std::nullopt;
+    rest = without_blanks(rest);
+    out += *value * scale;
+    scale /= 60.0;
+    ++parts;
+  }
+  if (parts < 2 || !rest.empty()) return std::nullopt;
+  return minus ? -out : out;
+}
+
+}  // namespace plumb::offline
