@@ -469,6 +469,12 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-ROT",
      "The order of three turns: xyz-fixed is R = Rz Ry Rx, xyz-moving is R = Rx Ry Rz, and so on "
      "for every order of axes."},
+    {"N-IMPORT-NAMES",
+     "Names of poses differ in case, signs, leading zeros or the collection before '::' between "
+     "the "
+     "two files, and are the same otherwise. They are taken for the same, which they are unless "
+     "the "
+     "note names two that are not."},
     {"E-IMPORT-JOIN", "The two files cannot be laid side by side in the way asked for."},
     {"N-IMPORT-ENCODING", "The file was not UTF-8 and was converted."},
     {"N-IMPORT-PREAMBLE",

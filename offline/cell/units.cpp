@@ -51,6 +51,7 @@ constexpr auto kForeign = std::to_array<ForeignUnit>({
     {"kN", "N", "1 kN = 1000 N"},
     {"lbf", "N", "1 lbf = 4.448222 N"},
     {"kNm", "Nm", "1 kNm = 1000 Nm"},
+    {"ns", "us", "1 us = 1000 ns"},
 });
 
 }  // namespace

@@ -140,7 +140,7 @@ ColumnPlan guess_column(const std::string& header, const std::string& unit_row) 
   if (!in_own_style(heading, out)) {
     const WrittenHeading written = read_heading(heading);
     const NamedColumn meant = named_column(written.name);
-    const bool foreign = written.unit.empty() && needs_unit(meant.name);
+    const bool foreign = written.unit.empty() && (needs_unit(meant.name) || meant.name == "time");
     const bool whole = !written.foreign.empty() && !foreign;
     out.named = whole ? named_column(heading) : meant;
     out.name = out.named.name;
@@ -159,10 +159,8 @@ ColumnPlan guess_column(const std::string& header, const std::string& unit_row) 
   } else if (out.named.uncertain) {
     out.name.clear();
   }
-  if (out.name == "time" && unit_of(out.unit) && unit_of(out.unit)->quantity == Quantity::kTime)
-    out.name = "t";
   out.uncertain_unit = out.named.uncertain ? out.unit : "";
-  if (out.name.empty() || unitless_quantity(out.name)) out.unit.clear();
+  if (out.name.empty() || (unitless_quantity(out.name) && out.name != "time")) out.unit.clear();
   out.lacks_unit = needs_unit(out.name) && out.unit.empty() && out.foreign.empty();
   return out;
 }

@@ -33,6 +33,8 @@ struct Imported {
   std::vector<ImportedColumn> columns;
   std::vector<std::string> left_out;
   std::vector<UnusedColumn> unused;  // without those that the user left out
+  std::string start;                 // what t counts from: "date", "clock"; else not known
+  double start_s = 0.0;              // of that: seconds since 1970, or of the day
   std::vector<int> lines;            // line number of each row
   std::vector<std::pair<std::string, std::string>> comments;
   std::vector<Problem> remarks;

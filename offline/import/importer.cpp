@@ -11,6 +11,7 @@
 #include "cell/column_names.hpp"
 #include "cell/csv_line.hpp"
 #include "cell/units.hpp"
+#include "import/cells.hpp"
 #include "import/column_guess.hpp"
 #include "import/content.hpp"
 #include "import/euler.hpp"
@@ -18,6 +19,7 @@
 #include "import/moves.hpp"
 #include "import/number_text.hpp"
 #include "import/timestamps.hpp"
+#include "import/words.hpp"
 #include "program/file.hpp"
 #include "program/problem_list.hpp"
 
@@ -72,6 +74,7 @@ class Importer {
     out_.lines = rows_.lines;
     leave_out_empty(plans);
     join_date_and_time(plans);
+    join_seconds(plans);
     take_stated_units(plans);
     look_at_units(plans);
     say_of_uncertainties(plans);
@@ -96,6 +99,7 @@ class Importer {
 
  private:
   void leave_out(const ColumnPlan& plan, std::size_t k) {
+    if (std::find(used_.begin(), used_.end(), k) != used_.end()) return;
     out_.left_out.push_back(plan.from.empty() ? fmt::format("column {}", k + 1) : plan.from);
     const bool of_quaternion = plan.named.letter_q || plan.named.quaternion_part;  // said elsewhere
     if (!plan.wished && !of_quaternion && contents_[k].numeric() && !plan.from.empty())
@@ -175,6 +179,87 @@ class Importer {
     joined_date_ = true;
   }
 
+  /// A column called time holds stamps, or numbers that count from some start.
+  void look_at_time(ColumnPlan& plan, std::size_t k) const {
+    const bool says_unit = !plan.unit.empty() || !plan.foreign.empty();
+    const auto unit = unit_of(plan.unit);
+    const double scale = plan.foreign == "ns" ? 1e-9 : unit ? unit->to_si(1.0) : 1.0;
+    const double largest = contents_[k].largest;
+    const bool counts = says_unit ? (contents_[k].numeric() ? !may_be_epoch(largest * scale)
+                                                            : is_number(rows_.cells[0][k]))
+                                  : contents_[k].numeric() && !may_be_date(largest);
+    if (counts) {
+      plan.name = "t";
+      plan.lacks_unit = !says_unit;
+    } else {
+      plan.unit.clear();
+      plan.foreign.clear();
+    }
+  }
+
+  /// Seconds in one column and the nanoseconds beyond them in another are one time stamp.
+  void join_seconds(std::vector<ColumnPlan>& plans) {
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+      const std::string stem =
+          stem_of(plans[k].from, {"nanoseconds", "nanosecs", "nanosec", "nsecs", "nsec"});
+      if (stem.empty() || plans[k].wished || !contents_[k].numeric() || contents_[k].largest >= 1e9)
+        continue;
+      for (std::size_t other = 0; other < plans.size(); ++other) {
+        const std::string own = stem_of(plans[other].from, {"seconds", "secs", "sec"});
+        if (other == k || own != stem || plans[other].wished || !contents_[other].numeric())
+          continue;
+        add_seconds(plans[other], other, plans[k], k);
+        return;
+      }
+    }
+  }
+
+  /// "+" and what stands before one of the words, as `folded` returns it; empty if none ends it.
+  static std::string stem_of(const std::string& from, std::initializer_list<const char*> words) {
+    const std::string text = folded(from);
+    for (const std::string word : words)
+      if (text.ends_with(word)) return "+" + text.substr(0, text.size() - word.size());
+    return {};
+  }
+
+  void add_seconds(ColumnPlan& whole, std::size_t k, ColumnPlan& parts, std::size_t n) {
+    const char decimal = rows_.dialect.decimal;
+    ImportedColumn column{whole.from, "t", "s", {}};
+    double first = 0.0, first_part = 0.0;
+    for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
+      const auto seconds = number_in(rows_.cells[i][k], decimal);
+      const auto nanoseconds = number_in(rows_.cells[i][n], decimal);
+      if (!seconds) bad_number(whole, i, rows_.cells[i][k]);
+      if (!nanoseconds) bad_number(parts, i, rows_.cells[i][n]);
+      if (!seconds || !nanoseconds) continue;
+      if (i == 0) first = *seconds, first_part = *nanoseconds;
+      column.text.push_back(
+          in_microseconds((*seconds - first) + (*nanoseconds - first_part) * 1e-9));
+    }
+    out_.remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-IMPORT-TIME",
+         .message = fmt::format("'{}' and '{}' are one time stamp, seconds and the nanoseconds "
+                                "beyond them: seconds from the first",
+                                whole.from, parts.from),
+         .help = "to leave them out: " + map_option({whole.from + "=-", parts.from + "=-"})});
+    if (may_be_epoch(first)) out_.start_s = first + first_part * 1e-9, out_.start = "date";
+    out_.columns.push_back(std::move(column));
+    used_ = {k, n};
+    for (auto* plan : {&whole, &parts}) {
+      plan->name.clear();
+      plan->lacks_unit = false;
+      plan->foreign.clear();
+    }
+  }
+
+  static std::string in_microseconds(double seconds) {
+    std::string out = fmt::format("{:.6f}", seconds);
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.ends_with('.')) out.pop_back();
+    return out;
+  }
+
   /// Columns that say no unit have the one that a line above the table states.
   void take_stated_units(std::vector<ColumnPlan>& plans) {
     std::vector<std::string> lengths, angles;
@@ -206,14 +291,8 @@ class Importer {
 
   /// A recognised column must state a unit that plumb knows; a preview only warns.
   void look_at_units(std::vector<ColumnPlan>& plans) {
-    for (std::size_t k = 0; k < plans.size(); ++k) {
-      ColumnPlan& plan = plans[k];
-      if (plan.name == "time" && !joined_date_ && contents_[k].numeric() &&
-          !may_be_date(contents_[k].largest)) {
-        plan.name = "t";
-        plan.lacks_unit = true;
-      }
-    }
+    for (std::size_t k = 0; k < plans.size(); ++k)
+      if (plans[k].name == "time" && !joined_date_) look_at_time(plans[k], k);
     std::vector<std::size_t> unitless;
     for (std::size_t k = 0; k < plans.size(); ++k) {
       if (plans[k].lacks_unit) unitless.push_back(k);
@@ -540,10 +619,15 @@ class Importer {
       return;
     }
     ImportedColumn column{plan.from, "t", "s", {}};
-    for (double t : times.seconds) column.text.push_back(fmt::format("{:.6g}", t));
+    const bool epoch = times.format.ends_with("since 1970");
+    for (double t : times.seconds)
+      column.text.push_back(epoch ? in_microseconds(t) : fmt::format("{:.6g}", t));
     for (std::size_t i = 0; i < times.seconds.size(); ++i)
-      if (times.seconds[i] > 1e5) column.text[i] = fmt::format("{:.3f}", times.seconds[i]);
+      if (!epoch && times.seconds[i] > 1e5)
+        column.text[i] = fmt::format("{:.3f}", times.seconds[i]);
     out_.columns.push_back(std::move(column));
+    out_.start_s = times.first;
+    out_.start = times.format == "clock" ? "clock" : "date";
     if (times.format != "ISO 8601" && times.format != "clock" && times.format != "YYYYMMDDhhmmss")
       out_.remarks.push_back(
           {.severity = Severity::kNote,
@@ -613,7 +697,8 @@ class Importer {
   std::vector<ColumnContent> contents_;
   std::size_t date_column_ = 0;
   bool joined_date_ = false;
-  std::string thousands_;  // the first number of which signs divide the thousands
+  std::vector<std::size_t> used_;  // columns that became part of another
+  std::string thousands_;          // the first number of which signs divide the thousands
   ProblemList problems_;
   Imported out_;
 };

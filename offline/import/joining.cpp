@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "cell/units.hpp"
 #include "fit/calibrate.hpp"
+#include "import/words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -39,21 +42,83 @@ std::vector<double> si_values(const ImportedColumn& column) {
   return out;
 }
 
-Pairs pairs_by_pose(const Imported& a, const Imported& b) {
-  const ImportedColumn *in_a = a.find("pose"), *in_b = b.find("pose");
-  for (const auto* file : {in_a == nullptr ? &a : nullptr, in_b == nullptr ? &b : nullptr})
-    if (file != nullptr)
+using Names = std::vector<std::string>;
+
+/// The name without what people write differently: "A::robot::P01" is "p1".
+std::string plain_name(const std::string& name) {
+  const auto digit_at = [&](std::size_t i) {
+    return i < name.size() && std::isdigit(static_cast<unsigned char>(name[i])) != 0;
+  };
+  const auto colons = name.rfind("::");
+  std::string kept;
+  for (std::size_t i = colons == name.npos ? 0 : colons + 2; i < name.size(); ++i) {
+    const bool between = i > 0 && digit_at(i - 1) && digit_at(i + 1) && !digit_at(i);
+    kept += between ? 'x' : name[i];  // "1-1" is not "11"
+  }
+  const std::string text = folded(kept);
+  std::string out;
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    const bool zero = !out.empty() && out.back() == '0' &&
+                      (out.size() == 1 || out[out.size() - 2] < '0' || out[out.size() - 2] > '9');
+    if (digit && zero) out.pop_back();
+    out += c;
+  }
+  return out;
+}
+
+/// True if no two different names become one.
+bool stay_apart(const Names& names) {
+  std::map<std::string, std::string> seen;
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    const std::string plain = plain_name(name);
+    return !plain.empty() && seen.emplace(plain, name).first->second == name;
+  });
+}
+
+/// Compares names by what is common to the two ways of writing them, if nothing is lost thereby,
+/// and says so.
+void compare_plainly(const Imported& b, Names& in_a, Names& in_b, std::vector<Problem>& remarks) {
+  const std::set<std::string> exact(in_b.begin(), in_b.end());
+  if (std::all_of(in_a.begin(), in_a.end(), [&](const auto& name) { return exact.contains(name); }))
+    return;
+  if (!stay_apart(in_a) || !stay_apart(in_b)) return;
+  std::map<std::string, std::string> plain;
+  for (const auto& name : in_b) plain[plain_name(name)] = name;
+  std::string example;
+  std::size_t differ = 0;
+  for (auto& name : in_a) {
+    const auto at = plain.find(plain_name(name));
+    if (at == plain.end() || at->second == name) continue;
+    if (++differ == 1) example = fmt::format("'{}' is taken for '{}'", name, at->second);
+    name = at->second;
+  }
+  if (differ > 0)
+    remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-IMPORT-NAMES",
+         .message = fmt::format("{} of the poses are written differently in the two files: {}",
+                                differ, example),
+         .place = Place{.file = b.file, .line = 1},
+         .help = "if they are different poses, give them different names"});
+}
+
+Pairs pairs_by_pose(const Imported& a, const Imported& b, std::vector<Problem>& remarks) {
+  for (const auto* file : {&a, &b})
+    if (file->find("pose") == nullptr)
       refuse(*file, "no column names the poses", "--join order, or: --map \"Point=pose\"");
+  Names in_a = a.find("pose")->text, in_b = b.find("pose")->text;
+  compare_plainly(b, in_a, in_b, remarks);
   std::map<std::string, std::vector<int>> rows;
-  for (int i = 0; i < b.rows(); ++i) rows[in_b->text[i]].push_back(i);
+  for (int i = 0; i < b.rows(); ++i) rows[in_b[i]].push_back(i);
   std::map<std::string, std::size_t> used;
   Pairs out;
   for (int i = 0; i < a.rows(); ++i) {
-    const auto& name = in_a->text[i];
+    const auto& name = in_a[i];
     const auto at = rows.find(name);
     if (at == rows.end()) continue;
     // Poses measured several times: one row of joints may stand for all of them.
-    if (std::count(in_a->text.begin(), in_a->text.end(), name) == 1)
+    if (std::count(in_a.begin(), in_a.end(), name) == 1)
       for (int k : at->second) out.emplace_back(i, k);
     else if (used[name] < at->second.size())
       out.emplace_back(i, at->second[used[name]++]);
@@ -65,7 +130,11 @@ Pairs pairs_by_time(const Imported& a, const Imported& b, double max_gap_s) {
   const ImportedColumn *in_a = a.find("t"), *in_b = b.find("t");
   if (in_a == nullptr || in_b == nullptr)
     refuse(in_a == nullptr ? a : b, "no column tells the time", "--map \"Clock=t_s\"");
-  const auto t_a = si_values(*in_a), t_b = si_values(*in_b);
+  const auto t_a = si_values(*in_a);
+  auto t_b = si_values(*in_b);
+  // Each file counts from its own first row.
+  if (!a.start.empty() && a.start == b.start)
+    for (double& t : t_b) t += b.start_s - a.start_s;
   Pairs out;
   for (int k = 0; k < b.rows(); ++k) {
     int best = -1;
@@ -153,6 +222,13 @@ Pairs pairs_by_order(const Imported& a, const Imported& b, const Cell* cell,
   return shifted(a, b, shift);
 }
 
+/// The first name of each file, if rows are joined by names.
+std::string first_names(const Imported& a, const Imported& b, const JoinWishes& wishes) {
+  if (wishes.by != JoinBy::kPose || a.rows() == 0 || b.rows() == 0) return {};
+  return fmt::format(": its poses are called '{}', ..., here '{}', ...",
+                     a.find("pose")->text.front(), b.find("pose")->text.front());
+}
+
 }  // namespace
 
 Imported join(const Imported& first, const Imported& second, const JoinWishes& wishes) {
@@ -170,7 +246,7 @@ Imported join(const Imported& first, const Imported& second, const JoinWishes& w
   Pairs pairs;
   switch (wishes.by) {
     case JoinBy::kPose:
-      pairs = pairs_by_pose(first, second);
+      pairs = pairs_by_pose(first, second, out.remarks);
       break;
     case JoinBy::kTime:
       pairs = pairs_by_time(first, second, wishes.max_gap_s);
@@ -179,7 +255,9 @@ Imported join(const Imported& first, const Imported& second, const JoinWishes& w
       pairs = pairs_by_order(first, second, wishes.cell, out.remarks);
   }
   if (pairs.empty())
-    refuse(second, fmt::format("no row belongs to a row of {}", first.file),
+    refuse(second,
+           fmt::format("no row belongs to a row of {}{}", first.file,
+                       first_names(first, second, wishes)),
            "--join pose, --join time --max-gap 5, or --join order");
   for (const auto& [i, k] : pairs) out.lines.push_back(first.lines[i]);
   for (const auto& column : first.columns) {

@@ -243,10 +243,11 @@ std::optional<Reading> read(std::string_view cell, char decimal) {
   if (!number || cell.find_first_of("eE") != cell.npos) return std::nullopt;
   if (*number > kFirstDay && *number < kLastDay)
     return Reading{"spreadsheet days", *number * kDay_s, *number * kDay_s};
-  if (*number > kFirstEpoch_s && *number < kLastEpoch_s)
-    return Reading{"seconds since 1970", *number, *number};
-  if (*number > kFirstEpoch_s * 1e3 && *number < kLastEpoch_s * 1e3)
-    return Reading{"milliseconds since 1970", *number * 1e-3, *number * 1e-3};
+  static constexpr std::pair<const char*, double> kParts[] = {
+      {"seconds", 1.0}, {"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}};
+  for (const auto& [name, in_a_second] : kParts)
+    if (const double t = *number / in_a_second; may_be_epoch(t))
+      return Reading{fmt::format("{} since 1970", name), t, t};
   return std::nullopt;
 }
 
@@ -302,6 +303,8 @@ std::vector<double> decided(const std::vector<Reading>& readings, DateOrder wish
 
 }  // namespace
 
+bool may_be_epoch(double seconds) { return seconds > kFirstEpoch_s && seconds < kLastEpoch_s; }
+
 bool may_be_date(double number) {
   return (number > kFirstDay && number < kLastDay) || number > kFirstEpoch_s;
 }
@@ -348,8 +351,8 @@ Timestamps read_timestamps(const std::vector<std::string_view>& cells, char deci
     out.seconds.clear();
     return out;
   }
-  const double first = out.seconds.front();
-  for (double& t : out.seconds) t -= first;
+  out.first = out.seconds.front();
+  for (double& t : out.seconds) t -= out.first;
   return out;
 }
 

@@ -13,6 +13,7 @@ enum class DateOrder { kUnknown, kDayFirst, kMonthFirst };
 /// Time stamps of a file as seconds from the first, or why they cannot be used.
 struct Timestamps {
   std::vector<double> seconds;  // empty if unusable
+  double first = 0.0;           // of the first stamp: since 1970, or of the day
   std::string format;           // "ISO 8601", "DD.MM.YYYY hh:mm", "spreadsheet days", ...
   std::string damage;           // why unusable: "the spreadsheet kept six digits: 2,02011E+13"
   std::size_t damaged_row = 0;
@@ -21,14 +22,18 @@ struct Timestamps {
 };
 
 /// Understands ISO 8601, 20200714163904, dates with . / - or with a month's name followed by a time
-/// with or without seconds, am and pm, days since 1900 of a spreadsheet, seconds since 1970, and
-/// clocks without a date. One column, one format. Whether day or month comes first is what `order`
-/// says, else the numbers beyond 12 of the whole column tell; with points the day comes first.
+/// with or without seconds, am and pm, days since 1900 of a spreadsheet, seconds since 1970 and
+/// thousandths, millionths and billionths of them, and clocks without a date. One column, one
+/// format. Whether day or month comes first is what `order` says, else the numbers beyond 12 of the
+/// whole column tell; with points the day comes first.
 Timestamps read_timestamps(const std::vector<std::string_view>& cells, char decimal,
                            DateOrder order = DateOrder::kUnknown);
 
 /// True if plain numbers up to this one may be such a stamp; else they count seconds or
 /// milliseconds from some start.
 bool may_be_date(double number);
+
+/// True if so many seconds after 1970 lie in the time of today's robots.
+bool may_be_epoch(double seconds);
 
 }  // namespace plumb::offline
