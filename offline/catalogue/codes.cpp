@@ -391,6 +391,28 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-DECIMAL",
      "Every comma of the file has three digits behind it: it may divide thousands or decimals. Say "
      "which with --decimal."},
+    {"N-IMPORT-JOINTS",
+     "Columns that bear the names of the cell's joints, or those that a robot's ROS driver gives "
+     "them, are the positions of these joints, whatever their order in the file."},
+    {"N-IMPORT-STATES",
+     "Joint states of ROS (sensor_msgs/JointState) hold the names of the joints beside their "
+     "positions, in an order of their own, often that of the alphabet."},
+    {"N-IMPORT-PAIRS",
+     "Each line names its numbers, as in \"X= 729.06 Y= -1748.77\". The names are those of the "
+     "columns."},
+    {"N-IMPORT-MATRIX",
+     "Twelve or sixteen columns are a rotation and a position in every row: they became x, y, z "
+     "and "
+     "the quaternion qw, qx, qy, qz."},
+    {"N-IMPORT-PROGRAM",
+     "The file is a program of the controller. Its joint positions are where the arm was sent; "
+     "where "
+     "it really stood is what the controller logs."},
+    {"E-IMPORT-PROGRAM",
+     "The file is a program of the controller, and its positions are Cartesian or in pulses of the "
+     "motors. A calibration needs the angles of the joints: the message says how to get them."},
+    {"E-IMPORT-TRANSPOSED",
+     "Quantities stand in the rows and poses in the columns. plumb needs one row a pose."},
     {"E-IMPORT-CELLS",
      "The cells of a column state their unit, and do not agree with each other or with the "
      "heading. "

@@ -101,7 +101,10 @@ Imported import_all(const ImportArguments& options, const std::optional<Cell>& c
                       .date_order = date_of(options.date),
                       .skip_bad = options.skip_bad,
                       .preview = options.preview,
-                      .elsewhere = {}};
+                      .elsewhere = {},
+                      .joints = {}};
+  if (cell)
+    for (const auto& joint : cell->nominal.joints) wishes.joints.push_back(joint.name);
   const auto other = [&](std::size_t file) {
     return options.files.size() == 2 && !options.map.empty()
                ? column_names(options.files[1 - file], wishes.dialect)

@@ -10,6 +10,7 @@
 #include "cell/units.hpp"
 #include "import/expanded.hpp"
 #include "import/heading.hpp"
+#include "import/joint_names.hpp"
 #include "import/map_option.hpp"
 #include "import/numbered.hpp"
 #include "import/unit_words.hpp"
@@ -194,11 +195,13 @@ std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
                                      const std::vector<ColumnContent>& contents,
                                      const std::vector<ColumnWish>& wishes,
                                      const std::vector<std::string>& elsewhere,
+                                     const std::vector<std::string>& joints,
                                      std::vector<Problem>& remarks) {
   std::vector<ColumnPlan> out;
   for (std::size_t i = 0; i < header.size(); ++i)
     out.push_back(guess_column(header[i], i < units.size() ? units[i] : ""));
   for (const auto& wish : wishes) apply_wish(wish, elsewhere, out);
+  name_joints(joints, units, out, remarks);
   decide_numbered(contents, out, remarks);
   // If --map and a guess give the same name, the guess is dropped.
   for (const auto& wished : out)

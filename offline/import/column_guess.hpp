@@ -38,7 +38,8 @@ struct ColumnWish {
 std::vector<ColumnWish> wishes_of(const std::vector<std::string>& texts,
                                   const std::vector<std::string>& columns);
 
-/// The plan of every column. `elsewhere`: columns of the other file, which wishes may also name.
+/// The plan of every column. `elsewhere`: columns of the other file, which wishes may also name;
+/// `joints`: the names of the joints of the cell, if there is one.
 /// Throws Failure (kUsage): E-IMPORT-MAP for a column that is in no file (did you mean) or a new
 /// name without a known unit, E-IMPORT-TWICE for two columns that would get the same name.
 std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
@@ -46,6 +47,7 @@ std::vector<ColumnPlan> plan_columns(const std::vector<std::string>& header,
                                      const std::vector<ColumnContent>& contents,
                                      const std::vector<ColumnWish>& wishes,
                                      const std::vector<std::string>& elsewhere,
+                                     const std::vector<std::string>& joints,
                                      std::vector<Problem>& remarks);
 
 }  // namespace plumb::offline

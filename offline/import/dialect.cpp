@@ -9,8 +9,11 @@
 
 #include "import/cell_units.hpp"
 #include "import/cells.hpp"
+#include "import/controller_program.hpp"
 #include "import/decimal_sign.hpp"
 #include "import/headerless.hpp"
+#include "import/joint_states.hpp"
+#include "import/key_values.hpp"
 #include "import/other_lines.hpp"
 #include "import/unit_words.hpp"
 #include "import/vector_cells.hpp"
@@ -296,18 +299,28 @@ void refuse_ragged(const SourceText& text, const RawRows& rows) {
 }  // namespace
 
 RawRows cut(const SourceText& text, const DialectWishes& wishes) {
+  if (auto program = controller_program(text)) {
+    refuse_ragged(text, *program);
+    return std::move(*program);
+  }
   RawRows out;
   Dialect& d = out.dialect;
-  d.separator = wishes.separator ? *wishes.separator : find_separator(text);
-  const std::size_t first = find_header(text, wishes, out);
-  look_above(text, first, out);
-  cut_rows(text, first, out);
+  const bool stated = wishes.separator || !wishes.header.empty();
+  if (auto pairs = stated ? std::nullopt : key_values(text)) {
+    out = std::move(*pairs);
+  } else {
+    d.separator = wishes.separator ? *wishes.separator : find_separator(text);
+    const std::size_t first = find_header(text, wishes, out);
+    look_above(text, first, out);
+    cut_rows(text, first, out);
+  }
   drop_empty_ends(text, out);
   leave_out_other_lines(text, out);
   refuse_ragged(text, out);
   if (out.cells.empty())
     fail(text, d.header_line, "E-IMPORT-ROWS", "the file has a header and no rows",
          "export the measurements again", "nothing follows");
+  name_joint_states(text, out);
   expand_vectors(text, out);
   d.decimal = wishes.decimal ? *wishes.decimal : find_decimal(text, out);
   take_units_from_cells(text, out);

@@ -7,12 +7,13 @@
 #include <cmath>
 
 #include "import/content.hpp"
+#include "import/joint_states.hpp"
 #include "import/number_text.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kAxes = 3, kFewestJoints = 4, kMostJoints = 7;
+constexpr std::size_t kAxes = 3, kArmJoints = 4, kMostJoints = 7;
 
 bool holds_numbers(const std::vector<Cells>& rows, std::size_t column) {
   return std::all_of(rows.begin(), rows.end(), [&](const Cells& row) {
@@ -46,10 +47,10 @@ std::string proposed(const std::vector<Cells>& rows) {
   std::size_t end = first;
   while (end < size && holds_numbers(rows, end)) ++end;
   const std::size_t numbers = end - first;
-  const bool joints_too = numbers >= kFewestJoints + kAxes;
-  const std::size_t joints = joints_too                 ? std::min(numbers - kAxes, kMostJoints)
-                             : numbers >= kFewestJoints ? numbers
-                                                        : 0;
+  const bool joints_too = numbers >= kArmJoints + kAxes;
+  const std::size_t joints = joints_too              ? std::min(numbers - kAxes, kMostJoints)
+                             : numbers >= kArmJoints ? numbers
+                                                     : 0;
   const auto unit = [&](const char* name, std::size_t from, std::size_t to) {
     return unit_choice(name, largest_of(rows, from, to)).text();
   };
@@ -78,6 +79,15 @@ std::vector<std::string> names_without_header(const SourceText& text, int line,
                        .place = Place{.file = text.file, .line = line},
                        .help = "if they are something else: --header \"pose,...\""});
     return {"pose", "x", "y", "z"};
+  }
+  if (auto states = joint_state_header(rows)) {
+    remarks.push_back({.severity = Severity::kNote,
+                       .code = "N-IMPORT-NAMED",
+                       .message = "the file has no header; its rows are those that ros2 topic echo "
+                                  "--csv writes of joint states",
+                       .place = Place{.file = text.file, .line = line},
+                       .help = "if they are something else: --header \"" + proposed(rows) + "\""});
+    return *states;
   }
   const std::string names = proposed(rows);
   throw Failure(

@@ -7,8 +7,8 @@
 namespace plumb::offline {
 
 /// The names of the columns of a table without header, if its cells tell them: points of
-/// SpatialAnalyzer, "A::robot::p1 x y z" (N-IMPORT-NAMED). Else throws Failure (kInput,
-/// E-IMPORT-HEADER) that proposes a --header.
+/// SpatialAnalyzer, "A::robot::p1 x y z", and joint states of ROS (N-IMPORT-NAMED). Else throws
+/// Failure (kInput, E-IMPORT-HEADER) that proposes a --header.
 std::vector<std::string> names_without_header(const SourceText& text, int line,
                                               const std::vector<Cells>& rows,
                                               std::vector<Problem>& remarks);

@@ -15,9 +15,11 @@
 #include "import/column_guess.hpp"
 #include "import/content.hpp"
 #include "import/euler.hpp"
+#include "import/heading.hpp"
 #include "import/map_option.hpp"
 #include "import/moves.hpp"
 #include "import/number_text.hpp"
+#include "import/pose_matrix.hpp"
 #include "import/timestamps.hpp"
 #include "import/words.hpp"
 #include "program/file.hpp"
@@ -30,6 +32,7 @@ constexpr double kOneTurn = 6.3;      // [rad], rounded up
 constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
 constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
 constexpr int kRowsToJudge = 8;
+constexpr std::ptrdiff_t kFewestNames = 4;  // below one another: a transposed table
 constexpr std::size_t kShownLines = 10;
 constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
 
@@ -45,6 +48,8 @@ std::string in_words(char sign) {
       return "bar";
     case ' ':
       return "blanks";
+    case '=':
+      return "keywords";
     default:
       return "point";
   }
@@ -60,8 +65,9 @@ class Importer {
     std::vector<Problem> decisions;
     std::vector<std::string> columns = rows_.dialect.header;
     columns.insert(columns.end(), wishes_.elsewhere.begin(), wishes_.elsewhere.end());
-    auto plans = plan_columns(rows_.dialect.header, rows_.dialect.units, contents_,
-                              wishes_of(wishes_.map, columns), wishes_.elsewhere, decisions);
+    auto plans =
+        plan_columns(rows_.dialect.header, rows_.dialect.units, contents_,
+                     wishes_of(wishes_.map, columns), wishes_.elsewhere, wishes_.joints, decisions);
     out_.file = text_.file;
     out_.sha256 = text_.sha256;
     out_.separator = in_words(rows_.dialect.separator);
@@ -75,6 +81,7 @@ class Importer {
     leave_out_empty(plans);
     join_date_and_time(plans);
     join_seconds(plans);
+    take_matrix(plans);
     take_stated_units(plans);
     look_at_units(plans);
     say_of_uncertainties(plans);
@@ -93,6 +100,7 @@ class Importer {
     say_of_thousands();
     say_of_radians(plans);
     turn_to_quaternions();
+    if (matrix_) add_orientation(*matrix_);
     say_what_was_left_out();
     return std::move(out_);
   }
@@ -214,6 +222,49 @@ class Importer {
     }
   }
 
+  /// A homogeneous matrix in every row is a position and an orientation.
+  void take_matrix(std::vector<ColumnPlan>& plans) {
+    const auto is_taken = [&](const char* name) {
+      return std::any_of(plans.begin(), plans.end(),
+                         [&](const ColumnPlan& plan) { return plan.name == name; });
+    };
+    if (is_taken("x") || is_taken("y") || is_taken("z")) return;
+    matrix_ = matrix_in(plans, contents_);
+    if (!matrix_) return;
+    for (int i = 0; i < 3; ++i) {
+      ColumnPlan& plan = plans[matrix_->at[i][3]];
+      const WrittenHeading heading = read_heading(plan.from);
+      plan.name = std::string(1, "xyz"[i]);
+      plan.unit = heading.unit;
+      plan.foreign = heading.foreign;
+      plan.lacks_unit = plan.unit.empty() && plan.foreign.empty();
+      for (int k = 0; k < 3; ++k) used_.push_back(matrix_->at[i][k]);
+    }
+    used_.insert(used_.end(), matrix_->last_row.begin(), matrix_->last_row.end());
+    out_.remarks.push_back(
+        {.severity = Severity::kNote,
+         .code = "N-IMPORT-MATRIX",
+         .message = fmt::format("{} to {} are a position and an orientation, as a matrix: taken as "
+                                "those measured",
+                                plans[matrix_->at[0][0]].from, plans[matrix_->at[2][3]].from),
+         .help = "if the controller computed them, name the position nx, ny, nz with --map"});
+    if (is_taken("qw")) matrix_.reset();
+  }
+
+  void add_orientation(const PoseMatrix& matrix) {
+    const char decimal = rows_.dialect.decimal;
+    std::vector<ImportedColumn> quat;
+    for (const char* name : {"qw", "qx", "qy", "qz"}) quat.push_back({"", name, "", {}});
+    for (const auto& row : rows_.cells) {
+      std::array<double, 9> r{};
+      for (int i = 0; i < 9; ++i)
+        r[i] = number_in(row[matrix.at[i / 3][i % 3]], decimal).value_or(NAN);
+      const auto q = quaternion_of(r);
+      for (std::size_t k = 0; k < 4; ++k) quat[k].text.push_back(fmt::format("{:.9g}", q[k]));
+    }
+    for (auto& column : quat) out_.columns.push_back(std::move(column));
+  }
+
   /// "+" and what stands before one of the words, as `folded` returns it; empty if none ends it.
   static std::string stem_of(const std::string& from, std::initializer_list<const char*> words) {
     const std::string text = folded(from);
@@ -245,7 +296,7 @@ class Importer {
          .help = "to leave them out: " + map_option({whole.from + "=-", parts.from + "=-"})});
     if (may_be_epoch(first)) out_.start_s = first + first_part * 1e-9, out_.start = "date";
     out_.columns.push_back(std::move(column));
-    used_ = {k, n};
+    used_.insert(used_.end(), {k, n});
     for (auto* plan : {&whole, &parts}) {
       plan->name.clear();
       plan->lacks_unit = false;
@@ -698,7 +749,8 @@ class Importer {
   std::size_t date_column_ = 0;
   bool joined_date_ = false;
   std::vector<std::size_t> used_;  // columns that became part of another
-  std::string thousands_;          // the first number of which signs divide the thousands
+  std::optional<PoseMatrix> matrix_;
+  std::string thousands_;  // the first number of which signs divide the thousands
   ProblemList problems_;
   Imported out_;
 };
@@ -715,12 +767,37 @@ int order_of(const std::string& name) {
   return at != kPoint.end() ? 50 + static_cast<int>(at - kPoint.begin()) : 100;
 }
 
+/// One row a pose is needed, not one column a pose.
+void refuse_transposed(const SourceText& text, const RawRows& rows) {
+  const auto known = [](std::string_view name) {
+    const ColumnPlan plan = guess_column(std::string(name), "");
+    return !plan.name.empty() && unitless_quantity(plan.name) != Quantity::kText;
+  };
+  const auto& header = rows.dialect.header;
+  const auto in_header = std::count_if(header.begin() + 1, header.end(), known);
+  const auto below = std::count_if(rows.cells.begin(), rows.cells.end(),
+                                   [&](const auto& row) { return known(row.front()); });
+  if (below < kFewestNames || below <= in_header ||
+      2 * below < static_cast<std::ptrdiff_t>(rows.cells.size()))
+    return;
+  throw Failure(
+      Exit::kInput,
+      {.code = "E-IMPORT-TRANSPOSED",
+       .message = fmt::format("the table is transposed: its rows are {}, {}, ..., and its "
+                              "columns are the poses",
+                              rows.cells[0].front(), rows.cells[1].front()),
+       .place = Place{.file = text.file, .line = rows.lines.front()},
+       .help = "write one row a pose: transpose the table in a spreadsheet (paste special) "
+               "and export it again"});
+}
+
 }  // namespace
 
 Imported import_file(const std::filesystem::path& file, const ImportWishes& wishes) {
   SourceText text;
   decode(read_file(file), display_name(file), text);
   RawRows rows = cut(text, wishes.dialect);
+  refuse_transposed(text, rows);
   return Importer(text, std::move(rows), wishes).run();
 }
 

@@ -21,6 +21,7 @@ struct ImportWishes {
   bool skip_bad = false;               // rows with a cell that is no number are left out
   bool preview = false;                // a column without unit is a warning, its unit "?"
   std::vector<std::string> elsewhere;  // columns of the other file, which `map` may also name
+  std::vector<std::string> joints;     // names of the cell's joints, from base to tip
 };
 
 /// Reads one foreign file: encoding, dialect, columns, time stamps, turns. Throws Failure with all
