@@ -138,6 +138,8 @@ class HeaderSearch {
     d.header = units ? names_of(above[1]) : nearest;
     d.header_line = static_cast<int>(units ? above[1] : above[0]) + 1;
     if (units) d.units = nearest, d.unit_line = static_cast<int>(above[0]) + 1;
+    if (!units && above.size() > 1 && are_units(names_of(above[1])))
+      d.units = names_of(above[1]), d.unit_line = static_cast<int>(above[1]) + 1;
     return true;
   }
 

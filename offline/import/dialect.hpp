@@ -37,6 +37,7 @@ struct RawRows {
   StatedUnits stated;
   std::deque<std::string> made;  // texts of cells that are written in no line
   std::vector<Problem> remarks;
+  std::vector<Problem> faults;  // rows with too few or too many cells, which `cells` lacks
 };
 
 /// Finds separator, decimal sign, header and units, and cuts every row. Throws Failure (kInput):

@@ -15,8 +15,9 @@ struct Split {
 Split split_unit(const std::string& text, std::string (*read_unit)(std::string)) {
   static const std::regex kBrackets(R"(^(.*?)\s*[\[\(\{<]\s*([^\]\)\}>]*)\s*[\]\)\}>]\s*$)");
   static const std::regex kTail(R"(^(.*?)\s*[/_\s,]\s*([^\s/_,]+)\s*$)");
+  static const std::regex kDegree(R"(^(.*[^\s])\s*((?:°|º|˚)C?)\s*$)");
   std::smatch match;
-  for (const auto* pattern : {&kBrackets, &kTail})
+  for (const auto* pattern : {&kBrackets, &kTail, &kDegree})
     if (std::regex_match(text, match, *pattern))
       if (const std::string unit = read_unit(match[2]); !unit.empty()) return {match[1], unit};
   return {text, ""};

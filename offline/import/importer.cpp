@@ -61,6 +61,7 @@ class Importer {
       : text_(text), rows_(std::move(rows)), wishes_(wishes) {}
 
   Imported run() {
+    for (auto& problem : rows_.faults) problems_.add(std::move(problem));
     contents_ = column_contents(rows_);
     std::vector<Problem> decisions;
     std::vector<std::string> columns = rows_.dialect.header;
@@ -332,7 +333,7 @@ class Importer {
       out_.remarks.push_back(
           {.severity = Severity::kNote,
            .code = "N-IMPORT-STATED",
-           .message = fmt::format("{} are in {}, as line {} says", in_short(columns), unit, line),
+           .message = fmt::format("{}: in {}, as line {} says", in_short(columns), unit, line),
            .place = Place{.file = text_.file, .line = line},
            .help = "--map says otherwise"});
     };
@@ -352,7 +353,6 @@ class Importer {
     if (!unitless.empty()) complain(without_unit(plans, unitless));
     for (auto& plan : plans)
       if (plan.lacks_unit || !plan.foreign.empty()) plan.unit = "?";
-    problems_.stop_on_errors();
   }
 
   void complain(const Problem& problem) {

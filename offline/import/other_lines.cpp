@@ -81,11 +81,12 @@ bool is_one_of(const Words& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The first cell that is not empty, as a word.
+/// A cell that names a statistic, as a word; empty if there is none.
 std::string label_of(const Cells& row) {
-  for (const auto cell : row)
-    if (!cell.empty())
-      return is_number(cell) ? std::string() : folded(cell.substr(0, cell.find(':')));
+  for (const auto cell : row) {
+    const std::string word = is_number(cell) ? "" : folded(cell.substr(0, cell.find(':')));
+    if (is_one_of(kStatistics, word) || is_one_of(kExtremes, word)) return word;
+  }
   return {};
 }
 

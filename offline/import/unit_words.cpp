@@ -28,10 +28,11 @@ std::string without_brackets(std::string text) {
 std::string known_unit(std::string text) {
   text = without_brackets(std::move(text));
   static const std::map<std::string, std::string> kOther{
-      {"°", "deg"},       {"grad", "deg"}, {"°c", "degC"}, {"degc", "degC"}, {"℃", "degC"},
-      {"c", "degC"},      {"µm", "um"},    {"μm", "um"},   {"\"", "in"},     {"毫米", "mm"},
-      {"度", "deg"},      {"弧度", "rad"}, {"ミリ", "mm"}, {"米", "m"},      {"秒", "s"},
-      {"摄氏度", "degC"}, {"微米", "um"},  {"公斤", "kg"}, {"千克", "kg"},   {"毫秒", "ms"}};
+      {"°", "deg"},     {"º", "deg"},   {"˚", "deg"},       {"grad", "deg"}, {"°c", "degC"},
+      {"degc", "degC"}, {"℃", "degC"},  {"c", "degC"},      {"µm", "um"},    {"μm", "um"},
+      {"\"", "in"},     {"毫米", "mm"}, {"度", "deg"},      {"弧度", "rad"}, {"ミリ", "mm"},
+      {"米", "m"},      {"秒", "s"},    {"摄氏度", "degC"}, {"微米", "um"},  {"公斤", "kg"},
+      {"千克", "kg"},   {"毫秒", "ms"}};
   static const std::map<std::string, std::string> kWords{{"degree", "deg"},
                                                          {"degrees", "deg"},
                                                          {"degre", "deg"},
