@@ -411,6 +411,9 @@ constexpr Explanation kCodes[] = {
     {"E-IMPORT-PROGRAM",
      "The file is a program of the controller, and its positions are Cartesian or in pulses of the "
      "motors. A calibration needs the angles of the joints: the message says how to get them."},
+    {"E-IMPORT-FORMAT",
+     "XML, JSON and YAML hold trees and no tables. Lines such as {\"x_mm\": 1, \"y_mm\": 2}, one a "
+     "pose, are read."},
     {"E-IMPORT-TRANSPOSED",
      "Quantities stand in the rows and poses in the columns. plumb needs one row a pose."},
     {"E-IMPORT-CELLS",

@@ -18,7 +18,7 @@ std::optional<ByteOrder> unmarked_utf16(std::string_view bytes) {
   std::array<std::size_t, 2> zeros{};
   for (std::size_t i = 0; i < part.size(); ++i) zeros[i % 2] += part[i] == '\0' ? 1U : 0U;
   for (std::size_t half = 0; half < 2; ++half)
-    if (zeros[half] * 20 >= part.size() / 2 * 19 && zeros[1 - half] == 0)
+    if (zeros[half] * 4 >= part.size() / 2 * 3 && zeros[1 - half] == 0)
       return half == 0 ? ByteOrder::kBigEndian : ByteOrder::kLittleEndian;
   return std::nullopt;
 }

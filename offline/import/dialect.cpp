@@ -17,13 +17,13 @@
 #include "import/other_lines.hpp"
 #include "import/unit_words.hpp"
 #include "import/vector_cells.hpp"
-#include "program/problem_list.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kLookedLines = 200;
+constexpr std::size_t kMostFaults = 1000;
 constexpr double kMostlyNumbers = 0.5;  // share of the cells of a row
 
 std::vector<std::string_view> sample(const SourceText& text) {
@@ -280,29 +280,62 @@ void cut_rows(const SourceText& text, std::size_t first, RawRows& out) {
   }
 }
 
-void refuse_ragged(const SourceText& text, const RawRows& rows) {
-  ProblemList problems;
+/// Takes the rows out that have too few cells or too many (E-IMPORT-RAGGED).
+void set_ragged_aside(const SourceText& text, RawRows& rows) {
+  const std::size_t names = rows.dialect.header.size();
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    const std::size_t cells = rows.cells[i].size(), names = rows.dialect.header.size();
-    if (cells == names) continue;
-    problems.error(
-        "E-IMPORT-RAGGED",
-        fmt::format("this row has {} cell{}, the header {}", cells, cells == 1 ? "" : "s", names),
-        Place{.file = text.file,
-              .line = rows.lines[i],
-              .column = 1,
-              .source = std::string(text.lines[rows.lines[i] - 1]),
-              .label = "cells are missing or too many"},
-        "complete or delete the row; if the separator is wrong: --separator \";\"");
+    const std::size_t cells = rows.cells[i].size();
+    const int line = rows.lines[i];
+    if (cells == names) {
+      if (kept != i) rows.cells[kept] = std::move(rows.cells[i]);
+      rows.lines[kept++] = line;
+      continue;
+    }
+    if (rows.faults.size() >= kMostFaults) continue;
+    rows.faults.push_back(
+        {.code = "E-IMPORT-RAGGED",
+         .message = fmt::format("this row has {} cell{}, the header {}", cells,
+                                cells == 1 ? "" : "s", names),
+         .place = Place{.file = text.file,
+                        .line = line,
+                        .column = 1,
+                        .source = std::string(text.lines[static_cast<std::size_t>(line) - 1]),
+                        .label = "cells are missing or too many"},
+         .help = "complete or delete the row; if the separator is wrong: --separator \";\""});
   }
-  problems.stop_on_errors();
+  rows.cells.resize(kept);
+  rows.lines.resize(kept);
+  if (kept == 0 && !rows.faults.empty()) throw Failure(Exit::kInput, rows.faults);
+}
+
+/// XML, JSON or YAML, which are no tables; empty for other texts.
+std::string format_of(const SourceText& text) {
+  for (const auto line : text.lines) {
+    const auto begin = trimmed(line);
+    if (begin.empty()) continue;
+    if (begin.starts_with("<")) return "XML";
+    if (begin.starts_with("{") || begin.starts_with("[{") || begin == "[" ||
+        begin.starts_with("[["))
+      return "JSON";
+    const bool key = begin.ends_with(":") && begin.find_first_of(" ,;\t") == begin.npos;
+    return key || begin == "---" ? "YAML" : "";
+  }
+  return {};
+}
+
+void refuse_other_formats(const SourceText& text) {
+  const std::string format = format_of(text);
+  if (!format.empty())
+    fail(text, 1, "E-IMPORT-FORMAT", fmt::format("this is {}, no table", format),
+         "export a table as text (CSV), one row a pose");
 }
 
 }  // namespace
 
 RawRows cut(const SourceText& text, const DialectWishes& wishes) {
   if (auto program = controller_program(text)) {
-    refuse_ragged(text, *program);
+    set_ragged_aside(text, *program);
     return std::move(*program);
   }
   RawRows out;
@@ -311,6 +344,7 @@ RawRows cut(const SourceText& text, const DialectWishes& wishes) {
   if (auto pairs = stated ? std::nullopt : key_values(text)) {
     out = std::move(*pairs);
   } else {
+    if (!stated) refuse_other_formats(text);
     d.separator = wishes.separator ? *wishes.separator : find_separator(text);
     const std::size_t first = find_header(text, wishes, out);
     look_above(text, first, out);
@@ -318,7 +352,7 @@ RawRows cut(const SourceText& text, const DialectWishes& wishes) {
   }
   drop_empty_ends(text, out);
   leave_out_other_lines(text, out);
-  refuse_ragged(text, out);
+  set_ragged_aside(text, out);
   if (out.cells.empty())
     fail(text, d.header_line, "E-IMPORT-ROWS", "the file has a header and no rows",
          "export the measurements again", "nothing follows");

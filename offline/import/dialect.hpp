@@ -41,7 +41,7 @@ struct RawRows {
 };
 
 /// Finds separator, decimal sign, header and units, and cuts every row. Throws Failure (kInput):
-/// E-IMPORT-HEADER (none, or none found), E-IMPORT-RAGGED (all such rows), E-IMPORT-DECIMAL (a
+/// E-IMPORT-HEADER (none, or none found), E-IMPORT-DECIMAL (a
 /// comma that may mean either), E-IMPORT-ROWS (a header and nothing else).
 RawRows cut(const SourceText& text, const DialectWishes& wishes);
 

@@ -86,7 +86,7 @@ std::vector<std::string> names_without_header(const SourceText& text, int line,
                        .message = "the file has no header; its rows are those that ros2 topic echo "
                                   "--csv writes of joint states",
                        .place = Place{.file = text.file, .line = line},
-                       .help = "if they are something else: --header \"" + proposed(rows) + "\""});
+                       .help = "if they are something else: --header \"pose,...\""});
     return *states;
   }
   const std::string names = proposed(rows);

@@ -188,6 +188,20 @@ std::optional<double> time_of_day(Scanner& s, bool& has_seconds) {
   return word == "pm" ? out + 12.0 * 3600.0 : out;
 }
 
+/// "20260304T123000Z" with the signs of ISO 8601.
+std::optional<std::string> without_signs(const std::string& text) {
+  const auto digits = [&](std::size_t from, std::size_t count) {
+    return text.size() >= from + count &&
+           std::all_of(text.begin() + static_cast<std::ptrdiff_t>(from),
+                       text.begin() + static_cast<std::ptrdiff_t>(from + count),
+                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  };
+  if (!digits(0, 8) || !digits(9, 4) || text[8] != 'T') return std::nullopt;
+  return fmt::format("{}-{}-{}T{}:{}{}{}", text.substr(0, 4), text.substr(4, 2), text.substr(6, 2),
+                     text.substr(9, 2), text.substr(11, 2), digits(13, 2) ? ":" : "",
+                     text.substr(13));
+}
+
 std::optional<Reading> dated(const std::string& text) {
   if (text.size() == 14 &&
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
@@ -197,6 +211,7 @@ std::optional<Reading> dated(const std::string& text) {
     *t += part(8, 2) * 3600.0 + part(10, 2) * 60.0 + part(12, 2);
     return Reading{"YYYYMMDDhhmmss", t, t};
   }
+  if (const auto whole = without_signs(text)) return dated(*whole);
   Scanner s(text);
   auto out = date(s);
   if (!out) return std::nullopt;

@@ -37,6 +37,10 @@ TEST(OtherLines, LinesAboveBetweenAndBelowTheRowsAreNoRows) {
       "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\n\x1A\x1A\n",
       "Units: millimeters, degrees\npose,q1,x\nA,1.5,10.5\nB,2.5,20.5\n",
       "Units in mm and deg\n\npose\tq1\tx\nA\t1.5\t10.5\nB\t2.5\t20.5\n",
+      ";deg;mm\npose;q1;x\nA;1.5;10.5\nB;2.5;20.5\n",
+      "pose;q1\xC2\xB0;x mm\nA;1.5;10.5\nB;2.5;20.5\n",
+      "pose;q1 [\xC2\xBA];x {mm}\nA;1.5;10.5\nB;2.5;20.5\n",
+      "pose;q1_deg;x_mm;nr\nA;1.5;10.5;1\nB;2.5;20.5;2\n;2;15;Mean\n;1;7;Std\n",
       "Length unit: mm\nAngle unit: deg\npose,q1,x\nA,1.5,10.5\nB,2.5,20.5\n",
       "Einheiten;mm;Grad\npose;q1;x\nA;1,5;10,5\nB;2,5;20,5\n",
   };
@@ -85,6 +89,26 @@ TEST(OtherLines, AllRowsWithTooFewCellsAreNamedAtOnce) {
     ASSERT_EQ(f.problems().size(), 2u);
     EXPECT_EQ(f.problems()[1].place->line, 6);
   }
+}
+
+TEST(OtherLines, AllThatIsWrongIsSaidAtOnce) {
+  try {
+    (void)imported_text("q1_deg,x,y_mm\n1,oops,2\n1,2,3,4\nbad,3,4\n");
+    FAIL();
+  } catch (const Failure& f) {
+    std::string codes;
+    for (const auto& problem : f.problems()) codes += problem.code.substr(9) + " ";
+    EXPECT_EQ(codes, "RAGGED UNIT NUMBER NUMBER ");
+  }
+}
+
+TEST(OtherFormats, AreNamed) {
+  const std::pair<const char*, const char*> table[] = {
+      {"<?xml version=\"1.0\"?>\n<a><p x=\"1\"/></a>\n", "XML"},
+      {"[{\"q1\":1,\"x\":2},{\"q1\":3,\"x\":4}]\n", "JSON"},
+      {"header:\n  stamp:\n    sec: 1\nposition:\n- 0.1\n- 0.2\n---\n", "YAML"}};
+  for (const auto& [text, format] : table)
+    EXPECT_EQ(refusal_of(text).message, std::string("this is ") + format + ", no table");
 }
 
 TEST(Headerless, TheOrderIsProposedAndPointsWithCollectionsAreKnown) {

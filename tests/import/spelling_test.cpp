@@ -95,6 +95,14 @@ TEST(Spelling, AFileIsReadInEveryWayOfWriting) {
     EXPECT_EQ(in_short(imported_text(text)), "q1_deg=1.5|-2.5 x_mm=2318.473|1000.125") << text;
 }
 
+TEST(Spelling, Utf16WithoutItsMarkMayHoldTypographicSigns) {
+  std::string bytes;
+  for (const char16_t c : std::u16string(u"q1_deg;x_mm\n\u22121,5;\u22122\u202F318,4\n"
+                                         u"\u22122,5;\u22121\u202F000,5\n"))
+    bytes += static_cast<char>(c & 0xFF), bytes += static_cast<char>(c >> 8);
+  EXPECT_EQ(in_short(imported_text(bytes)), "q1_deg=-1.5|-2.5 x_mm=-2318.4|-1000.5");
+}
+
 TEST(Spelling, WhatIsAssumedIsSaid) {
   EXPECT_NE(remark_of(imported_text("q1_deg;x_mm\n1.5;2'318.4\n"), "N-IMPORT-THOUSANDS")
                 .find("'2'318.4' is 2318.4"),
