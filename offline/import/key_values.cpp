@@ -14,6 +14,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kFewestPairs = 3;
+constexpr std::size_t kLinesToJudge = 50;
 constexpr double kMostLines = 0.8;
 
 struct Pair {
@@ -83,7 +84,7 @@ std::optional<RawRows> key_values(const SourceText& text) {
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
     const auto line = trimmed(text.lines[i]);
     if (line.empty() || is_comment(line)) continue;
-    ++lines;
+    if (++lines == kLinesToJudge && 2 * alike < lines) return std::nullopt;
     const auto pairs = pairs_of(line);
     if (pairs.size() < kFewestPairs) {
       others.push_back(static_cast<int>(i) + 1);

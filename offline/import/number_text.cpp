@@ -79,6 +79,18 @@ std::optional<std::string> whole_part(std::string_view& text, char decimal) {
   }
 }
 
+/// Digits with a plain minus and a point: what nearly every cell is.
+bool is_plain(std::string_view cell) {
+  if (cell.starts_with('-')) cell.remove_prefix(1);
+  if (cell.empty() || !is_digit(cell.front()) || !is_digit(cell.back())) return false;
+  int points = 0;
+  for (const char c : cell) {
+    points += c == '.' ? 1 : 0;
+    if (!is_digit(c) && c != '.') return false;
+  }
+  return points <= 1;
+}
+
 std::string_view value_before(std::string_view cell) {
   std::size_t end = cell.size();
   while (end > 0 && !is_digit(cell[end - 1]) && cell[end - 1] != '.') --end;
@@ -98,6 +110,7 @@ std::optional<double> part(std::string_view& text) {
 }  // namespace
 
 std::optional<std::string> plain_number(std::string_view cell, char decimal) {
+  if (decimal == '.' && is_plain(cell)) return std::string(cell);
   cell = without_blanks(cell);
   std::string out;
   if (!take(cell, kMinus).empty())
@@ -131,16 +144,21 @@ std::optional<std::string> plain_number(std::string_view cell, char decimal) {
 }
 
 std::optional<double> number_in(std::string_view cell, char decimal) {
-  const auto text = plain_number(cell, decimal);
-  if (!text) return std::nullopt;
+  std::optional<std::string> text;
+  if (decimal != '.' || !is_plain(cell)) {
+    text = plain_number(cell, decimal);
+    if (!text) return std::nullopt;
+    cell = *text;
+  }
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc{} || end != text->data() + text->size() || !std::isfinite(value))
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
 }
 
 std::optional<MeasuredCell> measured_cell(std::string_view cell) {
+  if (cell.empty() || is_digit(cell.back())) return std::nullopt;
   cell = without_blanks(cell);
   const auto before = value_before(cell);
   if (before.empty() || before.size() == cell.size()) return std::nullopt;
@@ -153,6 +171,7 @@ std::optional<MeasuredCell> measured_cell(std::string_view cell) {
 }
 
 std::optional<double> sexagesimal(std::string_view cell) {
+  if (cell.empty() || is_digit(cell.back())) return std::nullopt;
   std::string_view rest = without_blanks(cell);
   const bool minus = !take(rest, kMinus).empty();
   if (!minus) (void)take(rest, kPlus);
