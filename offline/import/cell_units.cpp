@@ -13,6 +13,8 @@
 namespace plumb::offline {
 namespace {
 
+constexpr std::size_t kCellsToJudge = 1000;
+
 [[noreturn]] void refuse(const SourceText& text, const RawRows& rows, std::size_t row,
                          std::string message, std::string help) {
   const int line = rows.lines[row];
@@ -47,7 +49,7 @@ std::string unit_of_cells(const SourceText& text, const RawRows& rows, std::size
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
     const auto cell = rows.cells[i][column];
     if (cell.empty()) continue;
-    ++filled;
+    if (++filled > kCellsToJudge && with_unit == 0) return {};
     const std::string found = stripped(cell).unit;
     if (found.empty()) {
       if (filled == 1 && i > 0) continue;

@@ -6,6 +6,8 @@
 namespace plumb::offline {
 namespace {
 
+constexpr std::size_t kThousands = 4;  // a sign and the three digits behind it
+
 /// Cells by what their signs can mean.
 struct DecimalVotes {
   int comma = 0, point = 0;                         // decimals, and nothing else
@@ -18,7 +20,9 @@ void vote(std::string_view cell, int line, DecimalVotes& votes) {
   if (const auto measured = measured_cell(cell)) cell = measured->number;
   const bool has_comma = cell.find(',') != cell.npos, has_point = cell.find('.') != cell.npos;
   if (!has_comma && !has_point) return;
-  const bool as_comma = number_in(cell, ',').has_value(),
+  // "12.3456": a point that cannot divide thousands, as in nearly every cell.
+  const bool decimals = !has_comma && cell.size() - cell.rfind('.') != kThousands;
+  const bool as_comma = !decimals && number_in(cell, ',').has_value(),
              as_point = number_in(cell, '.').has_value();
   if (as_comma && as_point) {
     int& first = has_comma ? votes.comma_line : votes.point_line;

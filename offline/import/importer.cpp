@@ -583,7 +583,8 @@ class Importer {
       column.text.push_back(plan.divisor != 1.0 && number
                                 ? fmt::format("{}", *number / plan.divisor)
                                 : plain_number(cell, decimal).value_or(""));
-      if (thousands_.empty() && number && divides_thousands(cell, decimal))
+      if (thousands_.empty() && number && column.text.back() != cell &&
+          divides_thousands(cell, decimal))
         thousands_ = fmt::format("'{}' is {}", cell, column.text.back());
     }
     out_.columns.push_back(std::move(column));
