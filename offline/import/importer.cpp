@@ -32,6 +32,7 @@ constexpr double kOneTurn = 6.3;      // [rad], rounded up
 constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
 constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
 constexpr int kRowsToJudge = 8;
+constexpr std::size_t kMostQuantities = 100;
 constexpr std::ptrdiff_t kFewestNames = 4;  // below one another: a transposed table
 constexpr std::size_t kShownLines = 10;
 constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
@@ -774,6 +775,7 @@ void refuse_transposed(const SourceText& text, const RawRows& rows) {
     const ColumnPlan plan = guess_column(std::string(name), "");
     return !plan.name.empty() && unitless_quantity(plan.name) != Quantity::kText;
   };
+  if (rows.cells.size() > kMostQuantities) return;
   const auto& header = rows.dialect.header;
   const auto in_header = std::count_if(header.begin() + 1, header.end(), known);
   const auto below = std::count_if(rows.cells.begin(), rows.cells.end(),
