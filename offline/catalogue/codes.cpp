@@ -214,6 +214,14 @@ constexpr Explanation kCodes[] = {
      "what it leaves; --fix writes the best one, a zero as the joint's offset. The zero of the "
      "first "
      "joint is part of the tracker's frame, that of the last one part of the target."},
+    {"E-CHECK-ORIENTATION",
+     "The orientation columns hold something else than their labels say: an arm fitted to the "
+     "points alone does not meet them as labelled, and does as the message says. --fix writes "
+     "files with the right labels: columns renamed, signs turned, or the line '# rot:' put right."},
+    {"W-CHECK-ORIENTATION",
+     "The measured orientations do not fit the arm that the points show, or scatter by more than "
+     "sigma_urad. fit gives them the weight that they deserve, or none; positions are not "
+     "affected."},
     {"E-CHECK-FIX-SETUPS",
      "The convention was told from one of several set-ups, and each may have files of its own; "
      "--fix "
@@ -613,7 +621,15 @@ constexpr Explanation kCodes[] = {
      "other set-ups; predictions in this one's frame may be off by millimetres."},
     {"N-FIT-ORIENTATION",
      "The file holds orientations, but the cell does not say how good they are: they were left "
-     "out. State [measurement] sigma_urad to use them."},
+     "out. State [measurement] sigma_urad, one standard deviation per axis, to use them; the note "
+     "gives the value by which they scatter about the fitted arm."},
+    {"W-FIT-ORIENTATION",
+     "Measured orientations that do not deserve their stated weight pull the whole fit aside. An "
+     "arm fitted to the points alone shows whether they scatter by more than sigma_urad, and then "
+     "they are fitted with what they scatter; whether they contradict the points, or were computed "
+     "by the controller and not measured, or mean something else, and then they are left out. If "
+     "repeats of poses agree much better than the arm meets them, the model lacks something that "
+     "turns the tool."},
     {"E-SPLIT",
      "The rule for the held-out poses cannot be met by these measurements: too few poses, or marks "
      "in column set that leave nothing to fit or to hold out."},

@@ -58,12 +58,6 @@ void check_sigma(const Table& table, const AxisColumns& sigma, ProblemList& prob
             "give the reading's 1 sigma, or delete the three columns");
 }
 
-bool names_rotation(const Table& table) {
-  return std::any_of(table.comments.begin(), table.comments.end(), [](const auto& comment) {
-    return comment.first == "rot" && comment.second == "xyz-fixed";
-  });
-}
-
 void incomplete(const Table& table, const char* what, const auto& columns, ProblemList& problems) {
   problems.error("E-CSV-ORIENTATION", fmt::format("the orientation needs all of {}", what),
                  place_in_header(table, *first_of(columns), "the others are missing"),
@@ -81,6 +75,13 @@ void too_many_joints(const Table& table, const std::string& prefix, int joints,
 }
 
 }  // namespace
+
+std::optional<EulerConvention> stated_rotation(const Table& table) {
+  std::optional<EulerConvention> out;
+  for (const auto& [key, value] : table.comments)
+    if (key == "rot" && !out) out = find_euler_convention(value);
+  return out;
+}
 
 std::vector<const Column*> find_joints(const Table& table, const std::string& prefix,
                                        const std::vector<bool>& joint_is_angle,
@@ -121,10 +122,13 @@ void find_orientation(const Table& table, ArmColumns& out, ProblemList& problems
     problems.error("E-CSV-ORIENTATION", "the orientation is given twice",
                    place_in_header(table, first, "besides the quaternion"),
                    "delete rx, ry, rz or qw, qx, qy, qz");
-  else if (!names_rotation(table))
+  else if (const auto rotation = stated_rotation(table))
+    out.rotation = *rotation;
+  else
     problems.error("E-CSV-ROTATION", "nothing says in which order rx, ry, rz turn",
                    place_in_header(table, first, "which convention?"),
-                   "add the line '# rot: xyz-fixed' if R = Rz Ry Rx, or give qw, qx, qy, qz");
+                   "add the line '# rot: xyz-fixed' if R = Rz Ry Rx, '# rot: rotation-vector', "
+                   "..., or give qw, qx, qy, qz");
 }
 
 ArmColumns find_arm_columns(const Table& table, const std::vector<bool>& joint_is_angle,
@@ -148,9 +152,12 @@ ArmColumns find_arm_columns(const Table& table, const std::vector<bool>& joint_i
 
 std::array<double, 4> orientation(const Table& table, const ArmColumns& columns, int row,
                                   ProblemList& problems) {
-  if (columns.turns[0] != nullptr)
-    return quaternion_from_rpy({columns.turns[0]->values[row], columns.turns[1]->values[row],
-                                columns.turns[2]->values[row]});
+  if (columns.turns[0] != nullptr) {
+    const std::array<double, 3> turns{columns.turns[0]->values[row], columns.turns[1]->values[row],
+                                      columns.turns[2]->values[row]};
+    return columns.rotation == EulerConvention{} ? quaternion_from_rpy(turns)
+                                                 : quaternion(columns.rotation, turns);
+  }
   std::array<double, 4> q{};
   for (int k = 0; k < 4; ++k) q[k] = columns.quat[k]->values[row];
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

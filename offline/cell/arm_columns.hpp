@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cell/euler.hpp"
 #include "cell/measurements.hpp"
 #include "program/problem_list.hpp"
 
@@ -22,6 +24,7 @@ struct ArmColumns {
   AxisColumns nominal{};                // nx, ny, nz: for every measured axis, or none
   std::array<const Column*, 4> quat{};  // qw, qx, qy, qz: all or none
   AxisColumns turns{};                  // rx, ry, rz: all or none
+  EulerConvention rotation;             // what these mean
   const Column* pose = nullptr;
   const Column* set = nullptr;
 
@@ -33,14 +36,17 @@ std::vector<const Column*> find_joints(const Table& table, const std::string& pr
                                        const std::vector<bool>& joint_is_angle,
                                        ProblemList& problems);
 
-/// Columns qw … qz, or rx, ry, rz with `# rot: xyz-fixed`.
+/// What `# rot:` says of the columns rx, ry, rz; nothing if it says nothing that is known.
+std::optional<EulerConvention> stated_rotation(const Table& table);
+
+/// Columns qw … qz, or rx, ry, rz with a line such as `# rot: xyz-fixed`.
 void find_orientation(const Table& table, ArmColumns& out, ProblemList& problems);
 
 /// Finds and checks them; what is missing or of the wrong kind goes to `problems`.
 ArmColumns find_arm_columns(const Table& table, const std::vector<bool>& joint_is_angle,
                             Needs needs, ProblemList& problems);
 
-/// Unit quaternion (w, x, y, z) of a row; from rx, ry, rz: R = Rz(rz) Ry(ry) Rx(rx).
+/// Unit quaternion (w, x, y, z) of a row; from rx, ry, rz as `# rot:` says.
 /// A norm off by more than 1e-3 is an error.
 std::array<double, 4> orientation(const Table& table, const ArmColumns& columns, int row,
                                   ProblemList& problems);

@@ -123,7 +123,10 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "The number is too large or too small to be held: beyond 1e308 or below 1e-308."},
     {"E-CSV-ROTATION",
      "Three angles mean nothing without their convention. If R = Rz(rz) Ry(ry) Rx(rx), turns about "
-     "the fixed axes, add the line '# rot: xyz-fixed'; otherwise convert to a quaternion."},
+     "the fixed axes, add the line '# rot: xyz-fixed'. The other orders have names of the same "
+     "kind: "
+     "in zyx-moving the first column turns about z, the second about the y axis as it is then (A, "
+     "B, C of KUKA); and rotation-vector is one turn about the vector by its length."},
     {"E-CSV-ROWS", "There is a header but no row below it. Export the measurements again."},
     {"E-CSV-SEPARATOR",
      "Columns are separated by commas, or by ';' with decimal commas. plumb import converts other "

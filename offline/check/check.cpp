@@ -25,6 +25,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/main_jump.hpp"
+#include "fit/orientation_words.hpp"
 #include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
@@ -49,7 +50,10 @@ std::vector<int> used_rows(const MeasurementFiles& measured) {
 
 class Checker {
  public:
-  Checker(const Cell& cell, const MeasurementFiles& measured) : cell_(cell), measured_(measured) {}
+  Checker(const Cell& cell, const MeasurementFiles& measured)
+      : given_(cell), cell_(cell), measured_(measured) {
+    judge_orientations_of(cell, measured);
+  }
 
   Check check() {
     out_.detection = detect_convention(cell_, measured_);
@@ -59,9 +63,12 @@ class Checker {
     convention_findings();
     other_setups();
     if (out_.detection.changed) {
-      const Cell meant = read_as(cell_, labels, best);
-      look(meant, read_as(measured_, cell_, labels, best));
+      const MeasurementFiles files = read_as(measured_, cell_, labels, best);
+      judge_orientations_of(read_as(given_, labels, best), files);
+      orientation_findings();
+      look(cell_, files);
     } else {
+      orientation_findings();
       look(cell_, measured_);
     }
     conclude();
@@ -71,6 +78,16 @@ class Checker {
  private:
   void find(Severity severity, const char* code, std::string message, std::string help) {
     out_.findings.push_back({severity, code, std::move(message), std::nullopt, std::move(help)});
+  }
+
+  /// Everything else is judged with the orientations that deserve it.
+  void judge_orientations_of(const Cell& cell, const MeasurementFiles& measured) {
+    out_.orientations = check_orientations(cell, measured);
+    cell_ = with_orientations_as_judged(cell, out_.orientations.judged);
+  }
+
+  void orientation_findings() {
+    if (auto finding = orientation_finding(out_.orientations)) add({*std::move(finding)});
   }
 
   /// Problems of cell or data.
@@ -443,7 +460,8 @@ class Checker {
                      [](const Problem& a, const Problem& b) { return a.severity < b.severity; });
   }
 
-  const Cell& cell_;
+  const Cell& given_;
+  Cell cell_;  // with orientations as judged
   const MeasurementFiles& measured_;
   std::optional<GrossScale> gross_scale_;
   Check out_;
@@ -461,11 +479,19 @@ Check check_cell(const Cell& cell, const MeasurementFiles& measured) {
   return Checker(cell, measured).check();
 }
 
+bool can_be_fixed(const Check& check) {
+  return check.detection.changed || !check.orientations.edit.empty();
+}
+
 std::string verdict(const Check& check) {
   const int warnings = count(check, Severity::kWarning);
-  if (check.detection.changed)
+  if (check.detection.changed || check.orientations.stops()) {
+    std::vector<std::string> wrong = check.changes;
+    if (check.orientations.stops())
+      wrong.push_back(in_words(check.orientations.judged, check.orientations.meant));
     return fmt::format("Not usable as labelled: {} (plumb check --fix puts it right).",
-                       fmt::join(check.changes, "; "));
+                       fmt::join(wrong, "; "));
+  }
   if (check.exit != Exit::kDone)
     return fmt::format("Not usable: {}.", check.findings.front().message);
   const int poses = check.coverage ? check.coverage->poses : 0;
@@ -482,6 +508,9 @@ std::string verdict(const Check& check) {
                   warnings == 0   ? ""
                   : warnings == 1 ? ", with one warning"
                                   : fmt::format(", with {} warnings", warnings));
+  if (check.moved.empty() && !check.orientations.judged.fit_to_use())
+    return fmt::format("Usable for positions alone: {}. Without the orientations {}",
+                       in_words(check.orientations.judged, check.orientations.meant), numbers);
   if (check.moved.empty()) return "Usable: " + numbers;
   return fmt::format("Usable only with the effect 'step', because {}. Without that effect {}",
                      check.moved, numbers);

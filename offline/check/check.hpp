@@ -11,6 +11,7 @@
 #include "check/coverage.hpp"
 #include "check/effect_rules.hpp"
 #include "check/identifiability.hpp"
+#include "check/orientation_check.hpp"
 #include "check/rounding.hpp"
 #include "fit/noise_floor.hpp"
 
@@ -25,6 +26,7 @@ struct Check {
   std::optional<Coverage> coverage;
   std::optional<Rounding> rounding;
   NoiseFloor floor;
+  OrientationCheck orientations;
   std::vector<Testable> effects;
   std::string moved;              // what moved, by how much and where, in words; empty: nothing
   std::vector<Problem> findings;  // errors first
@@ -35,6 +37,9 @@ struct Check {
 /// read_cell and read_measurements throw.
 /// Cost: 0.1 s for a usual cell, below 1 s for 12,000 poses.
 Check check_cell(const Cell& cell, const MeasurementFiles& measured);
+
+/// Whether check --fix has something to put right.
+bool can_be_fixed(const Check& check);
 
 /// "Can I use this?" in one sentence.
 std::string verdict(const Check& check);

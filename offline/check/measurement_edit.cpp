@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -42,6 +43,16 @@ std::string renamed(std::string_view header, const MeasurementEdit& edit) {
   return heading.name + "_" + heading.unit;
 }
 
+/// Behind the colon of a line "# rot: xyz-fixed"; npos for any other line.
+std::size_t behind_rotation_key(std::string_view line) {
+  const auto colon = line.find(':');
+  if (colon == std::string_view::npos) return colon;
+  std::string_view key = line.substr(0, colon);
+  key.remove_prefix(std::min(key.find_first_not_of(" \t#/"), key.size()));
+  key = key.substr(0, key.find_last_not_of(" \t") + 1);
+  return key == "rot" ? colon + 1 : std::string_view::npos;
+}
+
 class RowEditor {
  public:
   explicit RowEditor(const MeasurementEdit& edit) : edit_(edit) {}
@@ -69,6 +80,13 @@ class RowEditor {
   }
 
   void keep(std::string_view line) { out_ += line; }
+  void comment(std::string_view line) {
+    const auto at = edit_.rotation.empty() ? std::string_view::npos : behind_rotation_key(line);
+    if (at == std::string_view::npos) return keep(line);
+    out_ += line.substr(0, at);
+    out_ += " " + edit_.rotation;
+    if (line.ends_with('\r')) out_ += '\r';
+  }
   void end_line() { out_ += '\n'; }
   std::string take() { return std::move(out_); }
 
@@ -111,6 +129,14 @@ bool is_comment(std::string_view line) {
 
 }  // namespace
 
+void MeasurementEdit::add(const MeasurementEdit& other) {
+  units.insert(other.units.begin(), other.units.end());
+  names.insert(other.names.begin(), other.names.end());
+  negated.insert(other.negated.begin(), other.negated.end());
+  factors.insert(other.factors.begin(), other.factors.end());
+  if (!other.rotation.empty()) rotation = other.rotation;
+}
+
 std::string edited(const std::string& text, int header_line, const MeasurementEdit& edit) {
   RowEditor editor(edit);
   std::string_view rest = text;
@@ -119,7 +145,9 @@ std::string edited(const std::string& text, int header_line, const MeasurementEd
     const std::string_view line = rest.substr(0, end);
     if (number == header_line)
       editor.header(line);
-    else if (number < header_line || is_comment(line))
+    else if (number < header_line)
+      editor.comment(line);
+    else if (is_comment(line))
       editor.keep(line);
     else
       editor.row(line);

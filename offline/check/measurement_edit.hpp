@@ -13,9 +13,12 @@ struct MeasurementEdit {
   std::map<std::string, std::string> names;  // "x" becomes "y": columns in another order
   std::set<std::string> negated;             // columns whose numbers change sign
   std::map<std::string, double> factors;     // columns whose numbers are multiplied
+  std::string rotation = {};                 // what the line "# rot:" is to say; empty: it stays
   bool empty() const {
-    return units.empty() && names.empty() && negated.empty() && factors.empty();
+    return units.empty() && names.empty() && negated.empty() && factors.empty() && rotation.empty();
   }
+  /// Both; they must be about different columns.
+  void add(const MeasurementEdit& other);
 };
 
 /// The text with headings renamed and signs turned, digit for digit, and the numbers of columns

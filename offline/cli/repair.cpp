@@ -53,7 +53,8 @@ std::string repair(const Cell& cell, const MeasurementFiles& measured, const Che
   const Convention& labels = check.detection.present.convention;
   const Convention& meant = check.detection.best.convention;
   CellEdit in_cell = cell_edit(cell, labels, meant);
-  const MeasurementEdit in_files = measurement_edit(cell, labels, meant);
+  MeasurementEdit in_files = measurement_edit(cell, labels, meant);
+  in_files.add(check.orientations.edit);
   OutputFiles files;
   std::string said;
   if (!in_files.empty()) add_measurements(cell, measured, in_files, in_cell, files, said, options);

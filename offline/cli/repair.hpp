@@ -8,9 +8,9 @@
 
 namespace plumb::offline::cli {
 
-/// Writes what the convention search found: cell.toml is edited in place, measurement files are
-/// written anew beside the old ones (NAME_fixed.csv), which stay. Adds `files` and `dry_run` to the
-/// result. Returns what was done, for people.
+/// Writes what the check found of the conventions: cell.toml is edited in place, measurement files
+/// are written anew beside the old ones (NAME_fixed.csv), which stay. Adds `files` and `dry_run` to
+/// the result. Returns what was done, for people.
 std::string repair(const Cell& cell, const MeasurementFiles& measured, const Check& check,
                    const WriteOptions& options, Outcome& outcome);
 

@@ -28,14 +28,16 @@ void hand_over(const Check& check, Outcome& outcome) {
 /// What was wrong with the labels is put right; the rest stands.
 void fix(const CheckArguments& options, const Cell& cell, const MeasurementFiles& measured,
          const Check& check, Outcome& outcome) {
-  if (!check.detection.changed) {
+  if (!can_be_fixed(check)) {
     outcome.result["files"] = Json::array();
     outcome.result["dry_run"] = options.write.dry_run;
     outcome.text += "\nnothing to fix: the files are meant as they are labelled\n";
     return;
   }
   outcome.text += "\n" + repair(cell, measured, check, options.write, outcome);
-  std::erase_if(outcome.errors, [](const Problem& p) { return p.code == "E-CHECK-CONVENTION"; });
+  std::erase_if(outcome.errors, [](const Problem& p) {
+    return p.code == "E-CHECK-CONVENTION" || p.code == "E-CHECK-ORIENTATION";
+  });
   if (outcome.errors.empty()) outcome.exit = Exit::kDone;
   outcome.result["ok"] = outcome.errors.empty();
   bool turned = false;
@@ -61,7 +63,7 @@ void check(const CheckArguments& options, const Globals& globals, Outcome& outco
   outcome.text = show::check_text(cell, found);
   hand_over(found, outcome);
   if (options.fix) fix(options, cell, measured, found, outcome);
-  const bool to_fix = found.detection.changed && !options.fix;
+  const bool to_fix = can_be_fixed(found) && !options.fix;
   if (to_fix)
     say_next(globals, "check --fix   # writes the files as they are meant", outcome);
   else if (outcome.exit == Exit::kDone)

@@ -21,6 +21,7 @@
 #include "diagnose/sharpen_steps.hpp"
 #include "effects/registry.hpp"
 #include "fit/few_poses.hpp"
+#include "fit/measured_orientations.hpp"
 #include "fit/split.hpp"
 #include "numbers/quantile.hpp"
 
@@ -341,7 +342,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
 
 Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
                    const DiagnosisRequest& request) {
-  Work w{physics_of(cell),
+  Work w{as_judged(physics_of(cell), measured),
          measured,
          split_poses(measured, cell.measurement.held_out, cell.measurement.seed),
          {},

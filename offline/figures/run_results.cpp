@@ -6,12 +6,13 @@
 #include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/earlier_runs.hpp"
+#include "fit/measured_orientations.hpp"
 
 namespace plumb::offline::figures {
 
 RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run) {
   const Split& split = run.fit.split;
-  const ArmState nominal = place_nominal(cell, measured, fit_rows(split));
+  const ArmState nominal = place_nominal(as_judged(cell, measured), measured, fit_rows(split));
   RunResults out{.cell = cell,
                  .measured = measured,
                  .run = run,

@@ -8,6 +8,7 @@
 #include "cell/random.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/measured_orientations.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -81,8 +82,9 @@ bool takes_over(const Cell& cell) {
                      [](const Prior& prior) { return prior.of_fleet; });
 }
 
-std::vector<PosesAndError> error_by_poses(const Cell& cell, const Measurements& measured,
+std::vector<PosesAndError> error_by_poses(const Cell& stated, const Measurements& measured,
                                           const std::vector<int>& rows) {
+  const Cell cell = as_judged(stated, measured);
   const auto poses = poses_of(measured, rows);
   const Cell alone = without_others(cell);
   const bool both = takes_over(cell);

@@ -15,6 +15,7 @@
 #include "fit/few_poses.hpp"
 #include "fit/fit_steps.hpp"
 #include "fit/imagined_poses.hpp"
+#include "fit/orientation_words.hpp"
 #include "fit/pose_sense.hpp"
 #include "tree/domain.hpp"
 
@@ -314,17 +315,11 @@ void remark_on_still_joints(Fit& out) {
                          .help = "measure poses all over the joint limits: plumb plan --n 30"});
 }
 
-void remark_on_orientation(const Cell& cell, const Measurements& measured, Fit& out) {
-  if (!measured.has_orientation() || cell.measurement.sigma_rad) return;
-  out.remarks.push_back({.severity = Severity::kNote,
-                         .code = "N-FIT-ORIENTATION",
-                         .message = "measured orientations are not used: their noise is not stated",
-                         .help = "to fit them too: [measurement] sigma_urad = 100"});
-}
-
-Fit assemble(const Cell& cell, const Measurements& measured, Split split,
+Fit assemble(const Cell& stated, const Measurements& measured, Split split,
              const std::function<void(const std::string&)>& tell) {
   Fit out;
+  out.orientations = judge_orientations(stated, measured);
+  const Cell cell = with_orientations_as_judged(stated, out.orientations);
   out.split = std::move(split);
   if (measured.departure_B.rows() > 0) out.base = Base::kController;
   const std::vector<int> fit = fit_rows(out.split);
@@ -376,7 +371,7 @@ Fit assemble(const Cell& cell, const Measurements& measured, Split split,
   remark_on_setups_without_held(cell, measured, out);
   remark_on_marks(cell, out);
   remark_on_still_joints(out);
-  remark_on_orientation(cell, measured, out);
+  if (auto remark = orientation_remark(out.orientations)) out.remarks.push_back(*std::move(remark));
   out.tree = std::move(final_model.tree);
   return out;
 }

@@ -9,6 +9,7 @@
 #include "cell/measurements.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/error_stats.hpp"
+#include "fit/measured_orientations.hpp"
 #include "fit/noise_floor.hpp"
 #include "fit/split.hpp"
 #include "tree/choice.hpp"
@@ -26,11 +27,12 @@ struct Fit {
   std::optional<TreeChoice> tree;  // if [effects.local_tree] is listed
   Split split;
   Base base = Base::kArm;
-  Rows3 predicted_M;         // per pose: by the final model, or out of fold where held out
-  ErrorStats nominal_held;   // before: only frame and target fitted, same held-out poses
-  ErrorStats held;           // after
-  ErrorStats geometry_held;  // geometry without the tree
-  ErrorStats turn_held;      // of orientations [rad]; none if these are not fitted
+  Rows3 predicted_M;                  // per pose: by the final model, or out of fold where held out
+  ErrorStats nominal_held;            // before: only frame and target fitted, same held-out poses
+  ErrorStats held;                    // after
+  ErrorStats geometry_held;           // geometry without the tree
+  ErrorStats turn_held;               // of orientations [rad]; none if these are not fitted
+  MeasuredOrientations orientations;  // as they were judged before the fit; not kept with a run
   std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` counts them
   ErrorStats held_without_outliers;    // the second figure
   ErrorStats fit;                      // in-sample: never accuracy

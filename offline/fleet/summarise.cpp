@@ -139,9 +139,10 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   out.floor_m = fit.floor.mean_m;
   out.good = fit.held.n > 0 && keeps(fit.held, cell.tolerance_m);
   out.verdict = verdict(fit, cell.tolerance_m);
-  put_numbers(calibrate_from(with_hardly_any_prior(cell), measured, fit_rows(fit.split),
-                             fit.calibration.state),
-              out);
+  put_numbers(
+      calibrate_from(with_hardly_any_prior(with_orientations_as_judged(cell, fit.orientations)),
+                     measured, fit_rows(fit.split), fit.calibration.state),
+      out);
   check_finite(out);
   if (asked == Asked::kDiagnosis) out.diagnosis = diagnosis_of(cell, measured);
   out.ok = true;

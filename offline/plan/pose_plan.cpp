@@ -12,6 +12,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/frame_start.hpp"
+#include "fit/measured_orientations.hpp"
 #include "fit/noise_floor.hpp"
 #include "plan/driving_order.hpp"
 #include "plan/plan_steps.hpp"
@@ -172,7 +173,8 @@ std::vector<int> driven(const Cell& cell, const PlanStart& start, const RowsN& q
 
 PosePlan plan_poses(const Cell& cell, const Measurements& measured, const PlanRequest& request) {
   PosePlan out;
-  const Cell model = request.separate.empty() ? cell : without_rivals(cell, request.separate);
+  const Cell judged = as_judged(cell, measured);
+  const Cell model = request.separate.empty() ? judged : without_rivals(judged, request.separate);
   const PlanStart start = start_of(model, measured, request, out);
   if (request.separate.empty())
     plan_d_optimal(model, start, request, out);

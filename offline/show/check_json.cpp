@@ -156,6 +156,7 @@ Json check_json(const Cell& cell, const Check& check) {
   else
     put_null(out, "rounding", "the joint readings are not rounded to a power of ten");
   add_floor(check.floor, out);
+  add_orientation(check.orientations.judged, check.orientations.meant, out);
   out["effects"] = effects_json(check.effects);
   return out;
 }

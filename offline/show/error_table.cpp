@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/orientation_words.hpp"
 #include "show/heads.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -85,6 +86,18 @@ void add_turns(const ErrorStats& turn_held, Json& out) {
   put(turns, "p95_deg", to_deg(s.p95));
   put(turns, "max_deg", to_deg(s.max));
   out["held_out_orientation"] = turns;
+}
+
+void add_orientation(const MeasuredOrientations& judged, const std::vector<std::string>& meant,
+                     Json& out) {
+  if (judged.kind == MeasuredOrientations::Kind::kNone) return;
+  Json& one = out["orientation"];
+  one = {{"kind", name_of(judged.kind)},
+         {"used", judged.stated && judged.fit_to_use()},
+         {"meant", meant},
+         {"text", in_words(judged, meant)}};
+  put(one, "as_labelled_urad", judged.labelled_rad * 1e6);
+  put(one, "scatter_urad", judged.left_rad * 1e6);
 }
 
 void add_floor(const NoiseFloor& floor, Json& out) {

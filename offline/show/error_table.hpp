@@ -29,6 +29,11 @@ void add_interval(const MeanInterval& interval, Json& out);
 /// held_out_orientation: in deg; null with reason if orientations are not fitted.
 void add_turns(const ErrorStats& turn_held, Json& out);
 
+/// orientation: what the measured orientations are, `meant` their readings in words; nothing if
+/// there are none.
+void add_orientation(const MeasuredOrientations& judged, const std::vector<std::string>& meant,
+                     Json& out);
+
 /// noise_floor_mm (mean) and noise_floor_rms_mm; null with reason if nothing is known.
 void add_floor(const NoiseFloor& floor, Json& out);
 

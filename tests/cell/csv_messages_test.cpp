@@ -238,6 +238,8 @@ TEST(ArmMessage, OfAnglesWithoutConvention) {
   const std::string header = "q1_deg,q2_deg,x_mm,rx_deg,ry_deg,rz_deg\n";
   EXPECT_EQ(summary(of_arm(header + "1,2,3,4,5,6\n")), Summary{"E-CSV-ROTATION 1:20"});
   EXPECT_TRUE(of_arm("# rot: xyz-fixed\n" + header + "1,2,3,4,5,6\n").empty());
+  for (const char* name : {"zyx-moving", "zyz-fixed", "rotation-vector"})
+    EXPECT_TRUE(of_arm("# rot: " + std::string(name) + "\n" + header + "1,2,3,4,5,6\n").empty());
   EXPECT_EQ(summary(of_arm("# rot: zyx\n" + header + "1,2,3,4,5,6\n")),
             Summary{"E-CSV-ROTATION 2:20"});
   EXPECT_EQ(summary(of_arm("# rot: xyz-fixed\nq1_deg,q2_deg,x_mm,rx_deg,rz_deg\n1,2,3,4,6\n")),
