@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumb::offline {
@@ -95,8 +96,8 @@ std::string in_words(const MeasuredOrientations& judged, const std::vector<std::
              "points by more than one that fits the points alone";
     case Kind::kUnexplained:
       return fmt::format(
-          "the measured orientations fit the arm in no way: they are {} from those "
-          "of the arm that the points show",
+          "as labelled the measured orientations do not fit the arm that the points "
+          "show: they are {} off",
           degrees(judged.labelled_rad));
     default:
       return "";
