@@ -215,7 +215,9 @@ class Judge {
     const double against_nominal = freely_turned(nominal_turns(), read);
     const double against_arm = freely_turned(arm_, read);
     if (against_arm < kRounding_rad || against_nominal > kCopied * against_arm) return false;
-    if (!harms(measured, std::max(against_nominal, kRounding_rad))) return false;
+    // So far off, they harm without a trial.
+    if (left(arm_, read) < kMeant_rad && !harms(measured, std::max(against_nominal, kRounding_rad)))
+      return false;
     out_.kind = Kind::kNominal;
     out_.left_rad = against_arm;
     return true;
