@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "plumb/drivers/can_form.hpp"
+#include "plumb/runtime/coupling.hpp"
 
 namespace plumb::drivers {
 namespace {
@@ -22,13 +24,26 @@ double count_for(double needed, double most) {
   return std::ceil(needed / most * 1e6 * 10.0) / 10.0;
 }
 
+/// How far the controller's value of a joint goes [rad or m] while all angles are within limits.
+double most_of_value(const format::Chain& chain, std::size_t joint) {
+  double low = 0.0, high = 0.0;
+  for (std::size_t j = 0; j < chain.joints.size(); ++j) {
+    std::array<double, format::kMaxJoints> share{};
+    share[j] = 1.0;
+    Coupling(chain.coupling).to_values(share);
+    const double a = share[joint] * chain.joints[j].q_min, b = share[joint] * chain.joints[j].q_max;
+    low += std::min(a, b);
+    high += std::max(a, b);
+  }
+  return std::max(std::abs(low), std::abs(high));
+}
+
 void check_joints(const BusLayout& layout, const MessageLayout& message, const format::Chain& chain,
                   const std::string& path, std::vector<LayoutFault>& out) {
   const double most = most_counts(layout, message);
   for (std::size_t i = 0; i < std::min(message.signals.size(), chain.joints.size()); ++i) {
-    const auto& row = chain.joints[i];
     const Signal& signal = message.signals[i];
-    const double needed = std::max(std::abs(row.q_min), std::abs(row.q_max));
+    const double needed = most_of_value(chain, i);
     if (needed <= most * signal.scale) continue;
     out.push_back({message.name, "count_" + signal.unit,
                    fmt::format("{} of {} reaches {:.4g} {unit}, but the joint {:.4g} {unit}",

@@ -14,10 +14,14 @@ constexpr ControllerState kReady{
 
 }  // namespace
 
-CsvPort::CsvPort(std::vector<CsvTarget> rows, const Chain& nominal, std::uint32_t robot,
+CsvPort::CsvPort(std::vector<CsvTarget> rows, const LoadedModel& model, std::uint32_t robot,
                  const BusLayout& layout, int lead)
     : rows_(std::move(rows)), robot_(robot), sent_(layout), heard_(layout), lead_(lead) {
-  for (const auto& row : rows_) X_BN_.push_back(nominal.forward(row.q));
+  for (const auto& row : rows_) {
+    auto angles = row.q;
+    model.coupling().to_angles(angles);
+    X_BN_.push_back(model.corrector().nominal().forward(angles));
+  }
 }
 
 BusMessage CsvPort::compose(int part) const noexcept {

@@ -6,7 +6,7 @@
 
 #include "plumb/drivers/bus_port.hpp"
 #include "plumb/drivers/can_codec.hpp"
-#include "plumb/runtime/chain.hpp"
+#include "plumb/runtime/loaded_model.hpp"
 #include "rt/csv_targets.hpp"
 
 namespace plumb::drivers::rt {
@@ -22,7 +22,7 @@ namespace plumb::drivers::rt {
 class CsvPort final : public BusPort {
  public:
   /// lead: number of cycles for which the first row is repeated.
-  CsvPort(std::vector<CsvTarget> rows, const Chain& nominal, std::uint32_t robot,
+  CsvPort(std::vector<CsvTarget> rows, const LoadedModel& model, std::uint32_t robot,
           const BusLayout& layout, int lead);
 
   bool receive(BusMessage& message) noexcept override;

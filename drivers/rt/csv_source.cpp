@@ -10,9 +10,8 @@ namespace {
 class CsvBus final : public OpenBus {
  public:
   CsvBus(const std::filesystem::path& file, const Deployment& deployment)
-      : port_(read_csv_targets(file, joints(deployment)),
-              deployment.model.loaded->corrector().nominal(), deployment.session.robot,
-              record_layout(deployment), lead(deployment)) {}
+      : port_(read_csv_targets(file, joints(deployment)), *deployment.model.loaded,
+              deployment.session.robot, record_layout(deployment), lead(deployment)) {}
   BusPort& port() noexcept override { return port_; }
   bool finished() const noexcept override { return port_.finished(); }
 

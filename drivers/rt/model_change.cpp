@@ -89,6 +89,7 @@ ModelChange find_change(const LoadedModel& running, const LoadedModel& next) {
     if (moved > out.position_m) {
       out.position_m = moved;
       out.q = q;
+      next.coupling().to_values(out.q);
     }
     if (turns) out.rotation_rad = std::max(out.rotation_rad, (b.rotation - a.rotation).norm());
   }

@@ -102,7 +102,9 @@ void Session::hear_joints(const BusMessage& message) noexcept {
     return;
   }
   arm_.show_joints(q);
-  sync_.hear(message, nominal);
+  BusMessage angles = message;
+  cycle_.model().coupling().to_angles(angles.values);
+  sync_.hear(angles, nominal);
   inbox_.hear(message);
 }
 

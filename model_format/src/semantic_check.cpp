@@ -8,6 +8,7 @@
 
 #include "formula_check.hpp"
 #include "plumb/format/context_ranges.hpp"
+#include "plumb/format/coupling.hpp"
 #include "plumb/format/formula.hpp"
 #include "provenance_check.hpp"
 #include "text_check.hpp"
@@ -72,6 +73,24 @@ Finding check_joint(const JointRow& row, const std::string& what) {
   return check_twist(row.post, what + ".post");
 }
 
+Finding check_coupling(const Chain& chain, const std::string& what) {
+  const auto& all = chain.coupling;
+  if (all.size() > kMaxCouplings) return what + " has too many couplings of joints";
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    const auto same = [&](const auto& b) { return b.joint == one->joint && b.by == one->by; };
+    if (std::max(one->joint, one->by) >= chain.joints.size())
+      return what + " couples a joint that it does not have";
+    if (chain.joints[one->joint].type != chain.joints[one->by].type)
+      return what + " couples a joint that turns with one that slides";
+    if (one->ratio == 0.0 || !within(one->ratio, kMaxCouplingRatio))
+      return what + ": the ratio " + number(one->ratio) + " of two joints is out of range";
+    if (std::any_of(all.begin(), one, same)) return what + " couples two joints twice";
+  }
+  auto ordered = all;
+  if (!put_in_order(ordered)) return what + " couples joints that depend on each other";
+  return std::nullopt;
+}
+
 Finding check_chain(const Chain& chain, const std::string& what) {
   if (chain.convention != Convention::kStandard && chain.convention != Convention::kModified)
     return what + ": unknown DH convention";
@@ -81,6 +100,7 @@ Finding check_chain(const Chain& chain, const std::string& what) {
   for (std::size_t i = 0; i < n; ++i)
     if (auto f = check_joint(chain.joints[i], what + ".joints[" + std::to_string(i + 1) + "]"))
       return f;
+  if (auto f = check_coupling(chain, what + ".coupling")) return f;
   if (auto f = check_pose(chain.base, what + ".base")) return f;
   if (auto f = check_twist(chain.base_twist, what + ".base_twist")) return f;
   if (auto f = check_pose(chain.tool, what + ".tool")) return f;
@@ -92,6 +112,8 @@ Finding check_same_arm(const Model& m) {
   if (a.size() != b.size()) return "nominal and calibrated chain differ in the number of joints";
   if (m.nominal.convention != m.calibrated.convention)
     return "nominal and calibrated chain differ in the DH convention";
+  if (m.nominal.coupling != m.calibrated.coupling)
+    return "nominal and calibrated chain differ in the coupling of their joints";
   for (std::size_t i = 0; i < a.size(); ++i)
     if (a[i].name != b[i].name || a[i].type != b[i].type)
       return "joint " + std::to_string(i + 1) + " differs between nominal and calibrated chain";

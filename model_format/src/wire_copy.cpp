@@ -129,13 +129,21 @@ class Copier {
             .post = twist(w.post())};
   }
 
+  std::vector<JointCoupling> coupling(const flatbuffers::Vector<const wire::Coupling*>* x) {
+    std::vector<JointCoupling> out;
+    if (!readable(x, alignof(wire::Coupling), sizeof(JointCoupling))) return out;
+    for (const wire::Coupling* one : *x) out.push_back({one->joint(), one->by(), one->ratio()});
+    return out;
+  }
+
   Chain chain(const wire::Chain& w) {
     return {.convention = static_cast<Convention>(w.convention()),
             .base = pose(w.base()),
             .base_twist = twist(w.base_twist()),
             .joints = each(w.joints(), [this](const auto& x) { return joint(x); }),
             .tool_twist = twist(w.tool_twist()),
-            .tool = pose(w.tool())};
+            .tool = pose(w.tool()),
+            .coupling = coupling(w.coupling())};
   }
 
   Formula formula(const wire::Formula* w) {

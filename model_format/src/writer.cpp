@@ -35,8 +35,14 @@ Offset<wire::Chain> add(Builder& b, const Chain& chain) {
   const auto rows = b.CreateVector(joints);
   const auto base = to_wire(chain.base), tool = to_wire(chain.tool);
   const auto base_twist = to_wire(chain.base_twist), tool_twist = to_wire(chain.tool_twist);
+  Offset<flatbuffers::Vector<const wire::Coupling*>> coupling;
+  if (!chain.coupling.empty()) {
+    std::vector<wire::Coupling> each;
+    for (const auto& one : chain.coupling) each.emplace_back(one.ratio, one.joint, one.by);
+    coupling = b.CreateVectorOfStructs(each);
+  }
   return wire::CreateChain(b, static_cast<wire::Convention>(chain.convention), &base, &base_twist,
-                           rows, &tool_twist, &tool);
+                           rows, &tool_twist, &tool, coupling);
 }
 
 /// Returns null if the effect has no formula.
@@ -87,7 +93,9 @@ bool needs_schema_2(const Tree& tree) {
          !tree.region.empty();
 }
 
+/// An older reader would take the controller's joint values for angles.
 unsigned schema_of(const Model& m) {
+  if (!m.nominal.coupling.empty()) return 3;
   return std::any_of(m.trees.begin(), m.trees.end(), needs_schema_2) ? 2 : 1;
 }
 

@@ -21,6 +21,7 @@ struct CellDraft {
 };
 
 void read_robot(TomlTable& robot, CellDraft& draft);
+void read_coupling(TomlTable& robot, CellDraft& draft);  // of [robot]
 void read_measurement(TomlTable& measurement, CellDraft& draft);
 void read_setups(TomlTable& measurement, CellDraft& draft);  // [[measurement.setup]]
 void read_effects(TomlTable& effects, CellDraft& draft);

@@ -60,7 +60,11 @@ class CellWriter {
     for (int i = 0; i < cell_.joints(); ++i) joint(i);
     if (any_assumed())
       line("  # without q = [min, max] wide limits are assumed: add those of the data sheet");
-    line("]\ngravity = {}   # m/s^2 in the base frame", toml_list(cell_.gravity, Unit{}));
+    line("]");
+    if (!chain.coupling.empty())
+      line("coupling = {}   # angle of the first = its value + ratio times the value of the second",
+           toml_coupling(chain));
+    line("gravity = {}   # m/s^2 in the base frame", toml_list(cell_.gravity, Unit{}));
     line("base = {}   # rpy: R = Rz(yaw) Ry(pitch) Rx(roll)", pose(chain.base));
     line("tool = {}", pose(chain.tool));
     if (cell_.payload.mass_kg != 0.0 || cell_.payload.com_m != std::array<double, 3>{})

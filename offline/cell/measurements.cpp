@@ -16,8 +16,7 @@ namespace {
 
 class Assembler {
  public:
-  Assembler(const std::vector<bool>& joint_is_angle, Needs needs)
-      : is_angle_(joint_is_angle), needs_(needs) {}
+  Assembler(const JointColumns& joints, Needs needs) : joints_(joints), needs_(needs) {}
 
   void read(const std::filesystem::path& file) {
     try {
@@ -64,7 +63,7 @@ class Assembler {
   /// All that the tables say, or a Failure with all that is wrong.
   void join() {
     for (const auto& table : tables_)
-      columns_.push_back(find_arm_columns(table, is_angle_, needs_, problems_));
+      columns_.push_back(find_arm_columns(table, joints_.is_angle, needs_, problems_));
     for (std::size_t i = 0; i < tables_.size(); ++i)
       check_reach(tables_[i], columns_[i], problems_);
     check_agreement();
@@ -124,10 +123,11 @@ class Assembler {
       file_.insert(file_.end(), tables_[i].rows(), static_cast<int>(i));
       first += tables_[i].rows();
     }
+    to_angles(joints_.coupling, m_.q);
   }
 
   void shape(int rows) {
-    const auto joints = static_cast<Eigen::Index>(is_angle_.size());
+    const auto joints = static_cast<Eigen::Index>(joints_.is_angle.size());
     const ArmColumns none;
     const ArmColumns& c = columns_.empty() ? none : columns_.front();
     m_.q.resize(rows, joints);
@@ -175,7 +175,7 @@ class Assembler {
                     "write fit, held or ignore");
     return SetMark::kUnmarked;
   }
-  const std::vector<bool>& is_angle_;
+  const JointColumns& joints_;
   Needs needs_;
   std::vector<Table> tables_;
   std::vector<ArmColumns> columns_;
@@ -188,19 +188,19 @@ class Assembler {
 }  // namespace
 
 MeasurementFiles read_measurements(const std::vector<std::filesystem::path>& files,
-                                   const std::vector<bool>& joint_is_angle, Needs needs) {
+                                   const JointColumns& joints, Needs needs) {
   if (files.empty())
     throw Failure(Exit::kInput,
                   Problem{.code = "E-CSV-NONE",
                           .message = "no measurement file is named",
                           .help = "set [measurement] files = [\"measurements.csv\"]"});
-  Assembler assembler(joint_is_angle, needs);
+  Assembler assembler(joints, needs);
   for (const auto& file : files) assembler.read(file);
   return assembler.finish();
 }
 
-MeasurementFiles plain_rows(Table table, const std::vector<bool>& joint_is_angle) {
-  Assembler assembler(joint_is_angle, Needs::kJoints);
+MeasurementFiles plain_rows(Table table, const JointColumns& joints) {
+  Assembler assembler(joints, Needs::kJoints);
   assembler.take(std::move(table));
   return assembler.finish_plainly();
 }

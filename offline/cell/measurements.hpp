@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cell/contexts.hpp"
+#include "cell/joint_columns.hpp"
 #include "cell/table.hpp"
 
 namespace plumb::offline {
@@ -27,7 +28,7 @@ struct Measurements {
   std::vector<SetMark> set;
   std::vector<int> setup;  // per row: which set-up of the cell it was measured in; empty: the only
   std::vector<int> file;   // per row: which file it was read from, ascending; empty: none
-  RowsN q;                 // (n, joints) [rad] or [m]
+  RowsN q;                 // (n, joints) joint angles [rad] or travels [m]
   Rows3 p_M;               // measured point, measurement frame [m]; 0 if axis missing
   std::array<bool, 3> has_axis{true, true, true};
   Rows4 quat_M;         // measured orientation (w, x, y, z), or 0 rows
@@ -48,11 +49,11 @@ struct MeasurementFiles : Measurements {
 /// Which columns must be there.
 enum class Needs { kJoints, kJointsAndPosition };
 
-/// Reads measurement files of an arm with `joint_is_angle.size()` joints and joins them.
+/// Reads measurement files of an arm with these joints and joins them.
 /// Throws Failure with all problems of all files (exit 3): missing q1 … qn, quaternions not of unit
 /// length, no measured axis, no rows, too many joints.
 MeasurementFiles read_measurements(const std::vector<std::filesystem::path>& files,
-                                   const std::vector<bool>& joint_is_angle, Needs needs);
+                                   const JointColumns& joints, Needs needs);
 
 /// Rows picked by index, in that order.
 Measurements pick(const Measurements& all, const std::vector<int>& rows);
@@ -60,8 +61,7 @@ MeasurementFiles pick(const MeasurementFiles& all, const std::vector<int>& rows)
 
 /// Canonical CSV: pose, q1_deg …, x_mm …, with comments on top; reads back to 1e-12.
 /// `extra` columns are appended as given.
-std::string write_measurements(const Measurements& measurements,
-                               const std::vector<bool>& joint_is_angle,
+std::string write_measurements(const Measurements& measurements, const JointColumns& joints,
                                const std::vector<std::pair<std::string, std::string>>& comments,
                                const std::vector<Column>& extra);
 

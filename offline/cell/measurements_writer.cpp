@@ -26,8 +26,9 @@ const char* text_of(SetMark mark) {
 /// The file, cell by cell.
 class Writer {
  public:
-  Writer(const Measurements& m, const std::vector<bool>& is_angle, const std::vector<Column>& extra)
-      : m_(m), is_angle_(is_angle), extra_(extra) {
+  Writer(const Measurements& m, const JointColumns& joints, const std::vector<Column>& extra)
+      : m_(m), is_angle_(joints.is_angle), q_(m.q), extra_(extra) {
+    to_values(joints.coupling, q_);
     marked_ = std::any_of(m.set.begin(), m.set.end(),
                           [](SetMark mark) { return mark != SetMark::kUnmarked; });
     for (const auto& column : extra) units_.push_back(unit_of(column.unit).value_or(Unit{}));
@@ -86,7 +87,7 @@ class Writer {
     cell(quoted_if_needed(m_.pose[i]));
     if (marked_) cell(text_of(m_.set[i]));
     for (std::size_t k = 0; k < is_angle_.size(); ++k)
-      cell(text_in(is_angle_[k] ? deg_ : mm_, m_.q(i, k)));
+      cell(text_in(is_angle_[k] ? deg_ : mm_, q_(i, k)));
     axes(m_.p_M, i, mm_);
     for (int k = 0; k < 4 && m_.has_orientation(); ++k) cell(text_in(Unit{}, m_.quat_M(i, k)));
     axes(m_.sigma_m, i, um_);
@@ -100,6 +101,7 @@ class Writer {
   const Unit mm_ = *unit_of("mm"), um_ = *unit_of("um"), deg_ = *unit_of("deg");
   const Measurements& m_;
   const std::vector<bool>& is_angle_;
+  RowsN q_;  // values
   const std::vector<Column>& extra_;
   std::vector<Unit> units_;
   std::string out_;
@@ -109,11 +111,10 @@ class Writer {
 
 }  // namespace
 
-std::string write_measurements(const Measurements& measurements,
-                               const std::vector<bool>& joint_is_angle,
+std::string write_measurements(const Measurements& measurements, const JointColumns& joints,
                                const std::vector<std::pair<std::string, std::string>>& comments,
                                const std::vector<Column>& extra) {
-  return Writer(measurements, joint_is_angle, extra).write(comments);
+  return Writer(measurements, joints, extra).write(comments);
 }
 
 }  // namespace plumb::offline

@@ -10,6 +10,6 @@ namespace plumb::offline {
 /// Rows that are only computed with, for example a block of a long file: checked as
 /// read_measurements does, but nobody looks for repeats or doubles, which matter to a fit alone.
 /// `replicate_group` stays empty. Throws Failure (kInput) with all problems.
-MeasurementFiles plain_rows(Table table, const std::vector<bool>& joint_is_angle);
+MeasurementFiles plain_rows(Table table, const JointColumns& joints);
 
 }  // namespace plumb::offline

@@ -23,6 +23,7 @@ class RobotReader {
     units();
     convention();
     joints();
+    read_coupling(t_, draft_);
     if (const auto g = t_.vector3("gravity")) cell_.gravity = *g;
     warn_of_gravity(t_, cell_);
     if (auto base = t_.table("base")) cell_.nominal.base = read_pose(*base, draft_);

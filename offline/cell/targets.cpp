@@ -17,7 +17,7 @@ namespace {
 
 class TargetReader {
  public:
-  TargetReader(Table table, const std::vector<bool>& joint_is_angle) : is_angle_(joint_is_angle) {
+  TargetReader(Table table, const JointColumns& joints) : joints_(joints) {
     out_.table = std::move(table);
   }
 
@@ -26,11 +26,11 @@ class TargetReader {
     read_orientations();
     out_.commanded = has_joints("qc");
     if (has_joints("qc") || has_joints("q")) read_seed(out_.commanded ? "qc" : "q");
-    check_context_columns(out_.table, is_angle_, problems_);
+    check_context_columns(out_.table, joints_.is_angle, problems_);
     problems_.stop_on_errors();
     warn_of_misspelt(out_.table);
     warn_of_values(out_.table);
-    const auto joints = static_cast<Eigen::Index>(is_angle_.size());
+    const auto joints = static_cast<Eigen::Index>(joints_.is_angle.size());
     const RowsN unseen = RowsN::Zero(out_.table.rows(), joints);
     out_.context = read_contexts({&out_.table, 1}, unseen);
     forget_order({&out_.table, 1}, unseen, out_.context);
@@ -69,29 +69,30 @@ class TargetReader {
   }
 
   void read_seed(const char* prefix) {
-    const auto joints = find_joints(out_.table, prefix, is_angle_, problems_);
+    const auto joints = find_joints(out_.table, prefix, joints_.is_angle, problems_);
     out_.seed.resize(out_.table.rows(), static_cast<Eigen::Index>(joints.size()));
     for (std::size_t k = 0; k < joints.size(); ++k)
       if (joints[k] != nullptr) fill(out_.seed, static_cast<int>(k), *joints[k]);
+    if (problems_.errors().empty()) to_angles(joints_.coupling, out_.seed);
   }
 
   static void fill(auto& matrix, int k, const Column& column) {
     for (std::size_t i = 0; i < column.values.size(); ++i) matrix(i, k) = column.values[i];
   }
 
-  const std::vector<bool>& is_angle_;
+  const JointColumns& joints_;
   ProblemList problems_;
   Targets out_;
 };
 
 }  // namespace
 
-Targets targets_of(Table table, const std::vector<bool>& joint_is_angle) {
-  return TargetReader(std::move(table), joint_is_angle).read();
+Targets targets_of(Table table, const JointColumns& joints) {
+  return TargetReader(std::move(table), joints).read();
 }
 
-Targets read_targets(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle) {
-  return targets_of(read_table(file), joint_is_angle);
+Targets read_targets(const std::filesystem::path& file, const JointColumns& joints) {
+  return targets_of(read_table(file), joints);
 }
 
 }  // namespace plumb::offline

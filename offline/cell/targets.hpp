@@ -9,16 +9,16 @@ namespace plumb::offline {
 struct Targets {
   Rows3 p_B;               // [m]
   Rows4 quat_B;            // (w, x, y, z), or 0 rows: the nominal orientation at the seed is meant
-  RowsN seed;              // joint positions [rad] or [m], or 0 rows
+  RowsN seed;              // joint angles [rad] or travels [m], or 0 rows
   bool commanded = false;  // the seed comes from columns qc1 …, what the controller was told
   ContextRows context;     // direction, payload, temperatures
   Table table;
 };
 
 /// Columns x_mm, y_mm, z_mm, qw, qx, qy, qz and q1_deg … or qc1_deg …; throws Failure (kInput).
-Targets read_targets(const std::filesystem::path& file, const std::vector<bool>& joint_is_angle);
+Targets read_targets(const std::filesystem::path& file, const JointColumns& joints);
 
 /// The same of a table that was read already, or of a part of one.
-Targets targets_of(Table table, const std::vector<bool>& joint_is_angle);
+Targets targets_of(Table table, const JointColumns& joints);
 
 }  // namespace plumb::offline

@@ -73,6 +73,15 @@ std::string toml_value(const EffectEntry::Value& value) {
   return toml_list(std::get<std::vector<std::string>>(value));
 }
 
+std::string toml_coupling(const format::Chain& arm) {
+  std::string out;
+  for (const auto& [joint, by, ratio] : arm.coupling)
+    out += fmt::format("{}{} = {}", out.empty() ? " " : ", ",
+                       toml_string(arm.joints[joint].name + "," + arm.joints[by].name),
+                       text_in(Unit{}, ratio));
+  return fmt::format("{{{}{}}}", out, out.empty() ? "" : " ");
+}
+
 std::string toml_pose(const format::Pose& pose, const Unit& length, const Unit& angle) {
   return fmt::format("{{ xyz = {}, rpy = {} }}", toml_list(pose.p, length),
                      rpy_text(pose.q, angle));

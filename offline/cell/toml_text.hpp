@@ -19,6 +19,9 @@ std::string toml_list(const std::vector<std::string>& texts);
 
 std::string toml_value(const EffectEntry::Value& value);
 
+/// { "J3,J2" = -1 }
+std::string toml_coupling(const format::Chain& arm);
+
 /// { xyz = […], rpy = […] }; the rotation is written with the fewest digits that read back to the
 /// same quaternion, or with all of them.
 std::string toml_pose(const format::Pose& pose, const Unit& length, const Unit& angle);

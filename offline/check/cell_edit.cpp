@@ -63,6 +63,7 @@ class Editor {
     if (edit.dh_convention) set("robot", "dh_convention", toml_string(*edit.dh_convention));
     if (edit.length_unit) set("robot", "length_unit", toml_string(*edit.length_unit));
     if (edit.angle_unit) set("robot", "angle_unit", toml_string(*edit.angle_unit));
+    if (edit.coupling) set("robot", "coupling", *edit.coupling);
     for (const auto& [joint, theta] : edit.theta)
       set_joint(robot["joints"][static_cast<std::size_t>(joint)], "theta",
                 text_in(*unit_of(unit), theta));
@@ -129,8 +130,8 @@ class Editor {
 }  // namespace
 
 bool CellEdit::empty() const {
-  return !dh_convention && !length_unit && !angle_unit && theta.empty() && offset.empty() &&
-         !files && !held_out && !prior_from && !frame;
+  return !dh_convention && !length_unit && !angle_unit && !coupling && theta.empty() &&
+         offset.empty() && !files && !held_out && !prior_from && !frame;
 }
 
 std::string edited(const std::string& text, const std::string& file, const CellEdit& edit) {

@@ -13,6 +13,7 @@ namespace plumb::offline {
 /// Changes to a cell.toml; what is absent stays.
 struct CellEdit {
   std::optional<std::string> dh_convention, length_unit, angle_unit;
+  std::optional<std::string> coupling;            // of [robot], as TOML
   std::map<int, double> theta, offset;            // of joint (zero-based) [rad]
   std::optional<std::vector<std::string>> files;  // of [measurement], relative to the cell
   std::optional<std::string> held_out;            // of [measurement]

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "cell/setups.hpp"
+#include "cell/toml_text.hpp"
 #include "cell/units.hpp"
 #include "plumb/runtime/transform.hpp"
 
@@ -126,6 +128,7 @@ Convention labelled_convention(const Cell& cell, const MeasurementFiles& measure
   out.own_unit.resize(static_cast<std::size_t>(cell.joints()));
   out.column.resize(static_cast<std::size_t>(cell.joints()));
   std::iota(out.column.begin(), out.column.end(), 0);
+  out.coupling = cell.nominal.coupling;
   return out;
 }
 
@@ -147,7 +150,9 @@ double changes(const Convention& present, const Convention& other) {
     out += other.own_unit[j] != present.own_unit[j] ? 1.1 : 0.0;
     out += other.factor[j] != present.factor[j] ? 1.4 : 0.0;
   }
-  return out;
+  const double couplings =
+      static_cast<double>(std::max(present.coupling.size(), other.coupling.size()));
+  return out + (other.coupling != present.coupling ? 1.1 * couplings : 0.0);
 }
 
 Cell read_as(const Cell& cell, const Convention& present, const Convention& meant) {
@@ -157,6 +162,7 @@ Cell read_as(const Cell& cell, const Convention& present, const Convention& mean
     row.theta += M_PI_2 * meant.quarter_turns[j];
     row.offset += meant.zero[j];
   }
+  out.nominal.coupling = meant.coupling;
   if (!meant.frame_inverted) return out;
   out.measurement.X_MB = inverse(out.measurement.X_MB);
   for (auto& setup : out.measurement.setups)
@@ -167,12 +173,15 @@ Cell read_as(const Cell& cell, const Convention& present, const Convention& mean
 Measurements read_as(const Measurements& measured, const Cell& cell, const Convention& present,
                      const Convention& meant) {
   Measurements out = measured;
+  RowsN values = measured.q;
+  to_values(Coupling(present.coupling), values);
   const double turn = ratio(meant.turn_unit, present.turn_unit);
   const double slide = ratio(meant.slide_unit, present.slide_unit);
   for (int j = 0; j < cell.joints(); ++j)
     out.q.col(j) = (slides(cell, j) ? slide : own_ratio(meant, j, present.turn_unit, turn)) *
                    meant.factor[j] * (meant.reversed[j] ? -1.0 : 1.0) *
-                   measured.q.col(meant.column[j]);
+                   values.col(meant.column[j]);
+  to_angles(Coupling(meant.coupling), out.q);
   out.p_M *= ratio(meant.point_unit, present.point_unit);
   mirror_points(out, meant.mirror);
   return out;
@@ -192,6 +201,8 @@ CellEdit cell_edit(const Cell& cell, const Convention& present, const Convention
       out.theta[j] = cell.nominal.joints[j].theta * angle + M_PI_2 * meant.quarter_turns[j];
   for (int j = 0; j < cell.joints(); ++j)
     if (meant.zero[j] != 0.0) out.offset[j] = cell.nominal.joints[j].offset * angle + meant.zero[j];
+  if (meant.coupling != present.coupling)
+    out.coupling = toml_coupling(read_as(cell, present, meant).nominal);
   if (meant.frame_inverted) out.frame = read_as(cell, present, meant).measurement.X_MB;
   return out;
 }

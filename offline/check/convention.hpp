@@ -26,6 +26,7 @@ struct Convention {
   std::vector<double> zero;                       // added to the joint's position [rad]
   std::vector<double> factor;                     // of the joint's readings, beside their unit
   std::vector<std::string> own_unit;              // of the joint's column alone; empty: as the rest
+  std::vector<format::JointCoupling> coupling;    // of the columns, in the order of their joints
   Mirror mirror = Mirror::kNone;                  // the measured coordinates are left-handed
   bool frame_inverted = false;                    // the given frame is the tracker in the base
   bool operator==(const Convention&) const = default;

@@ -12,6 +12,7 @@
 #include "cell/setups.hpp"
 #include "cell/units.hpp"
 #include "check/arm_sweep.hpp"
+#include "check/coupling_guess.hpp"
 #include "check/given_frame.hpp"
 #include "check/joint_maps.hpp"
 #include "check/linear_placement.hpp"
@@ -84,9 +85,10 @@ class ConventionSearch {
     if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits &&
         static_cast<int>(few_.size()) >= kFewestOfOrders) {
       leads_.clear();
-      sweep_orders();
+      sweep_orders({labels_.coupling});
       judge();
     }
+    seek_coupling();
     if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits &&
         static_cast<int>(few_.size()) >= kFewestOfOrders)
       judge_joint_maps();
@@ -120,6 +122,7 @@ class ConventionSearch {
     c.reversed = labels_.reversed;
     c.mirror = Mirror::kNone;
     c.turn_unit = labels_.turn_unit;
+    c.coupling = labels_.coupling;
     const auto key = fmt::format("{} {} {} {} {}", static_cast<int>(c.dh), c.length_unit,
                                  c.angle_unit, fmt::join(c.quarter_turns, ","), c.frame_inverted) +
                      fmt::format(" {}", fmt::join(c.zero, ","));
@@ -155,7 +158,7 @@ class ConventionSearch {
 
   /// The columns of the joints in another order: sorted by name, say, or two of them swapped.
   /// Joints that turn stay among themselves.
-  void sweep_orders() {
+  void sweep_orders(const std::vector<Couplings>& couplings) {
     const Measurements few = pick(measured_, few_);
     LinearPlacer placer(few.p_M, few.has_axis);
     std::vector<int> turning;
@@ -168,8 +171,56 @@ class ConventionSearch {
         c.dh = dh;
         for (std::size_t k = 0; k < turning.size(); ++k)
           c.column[static_cast<std::size_t>(turning[k])] = order[k];
-        sweep_directions(c, slide, few, placer, 0);
+        for (const auto& coupling : couplings) {
+          c.coupling = coupling;
+          sweep_directions(c, slide, few, placer, 0);
+        }
       }
+  }
+
+  /// The couplings of joints that controllers have. Where nothing else fits, together with a zero
+  /// turned by a quarter, and those of neighbours with columns in another order. A wrist whose
+  /// reflector is near its axis fits within a hundredth of the cloud without: so this is looked for
+  /// wherever more is left than a fitted arm leaves.
+  void seek_coupling() {
+    if (out_.best.fitted_m <= reasonable()) return;
+    seek_coupling([this] { sweep_couplings(0); });
+    if (relative(out_.best.fitted_m, out_.best.size_m) <= kReadingFits) return;
+    seek_coupling([this] { sweep_couplings(1); });
+    if (relative(out_.best.fitted_m, out_.best.size_m) <= kReadingFits) return;
+    if (static_cast<int>(few_.size()) >= kFewestOfOrders)
+      seek_coupling([this] { sweep_orders(neighbour_couplings(cell_.nominal)); });
+  }
+
+  /// Keeps what was found before unless a coupling leaves much less.
+  template <class Sweep>
+  void seek_coupling(const Sweep& sweep_all) {
+    const Detection before = out_;
+    leads_.clear();
+    sweep_all();
+    judge();
+    const bool clearly = out_.best.convention.coupling != labels_.coupling &&
+                         kClearly * relative(out_.best.fitted_m, out_.best.size_m) <
+                             relative(before.best.fitted_m, before.best.size_m);
+    if (clearly) return;
+    const auto tried = out_.tried;
+    out_ = before;
+    out_.tried = tried;
+  }
+
+  void sweep_couplings(int most_turned) {
+    const Measurements few = pick(measured_, few_);
+    LinearPlacer placer(few.p_M, few.has_axis);
+    const bool all_turn =
+        std::all_of(cell_.nominal.joints.begin(), cell_.nominal.joints.end(),
+                    [](const auto& row) { return row.type == format::JointType::kRevolute; });
+    Convention c = labels_;
+    auto couplings = plausible_couplings(cell_.nominal);
+    couplings.emplace_back();
+    for (auto& one : couplings) {
+      c.coupling = std::move(one);
+      sweep_directions(c, all_turn ? 0.0 : 1.0, few, placer, most_turned);
+    }
   }
 
   static std::vector<std::vector<int>> orders_of(const std::vector<int>& joints) {
@@ -201,6 +252,7 @@ class ConventionSearch {
 
   void sweep_directions(Convention c, double slide, const Measurements& few, LinearPlacer& placer,
                         int most_turned) {
+    const Couplings coupling = c.coupling;
     RowsN q = read_as(few, cell_, labels_, c).q;
     for (int j = 0; j < cell_.joints(); ++j)
       if (cell_.nominal.joints[j].type == format::JointType::kPrismatic) q.col(j) *= slide;
@@ -209,6 +261,7 @@ class ConventionSearch {
                  const std::vector<Transformd>& X_BT) {
           ++out_.tried;
           c.reversed = reversed;
+          c.coupling = reversed_couplings(coupling, reversed);
           c.quarter_turns = turns;
           offer({c, slide, placer.place(X_BT)}, placer);
         });
@@ -336,6 +389,9 @@ class ConventionSearch {
     choose();
   }
 
+  /// What may be left [m] of an arm that is read right and fitted.
+  double reasonable() const { return kReasonable_m + kReasonableShare * out_.present.size_m; }
+
   void choose() {
     const auto left = [](const Reading& r) { return relative(r.fitted_m, r.size_m); };
     std::stable_sort(out_.table.begin(), out_.table.end(),
@@ -344,9 +400,8 @@ class ConventionSearch {
     out_.best = out_.table.front();
     for (const auto& r : out_.table)
       if (left(r) <= kAlike * least && r.changes < out_.best.changes - 1e-9) out_.best = r;
-    const double reasonable = kReasonable_m + kReasonableShare * out_.present.size_m;
     const bool clearly =
-        kClearly * left(out_.best) < left(out_.present) && out_.present.fitted_m > reasonable;
+        kClearly * left(out_.best) < left(out_.present) && out_.present.fitted_m > reasonable();
     const bool odd = oddity(reach(cell_.nominal)) > kOdd;
     if (!(clearly || odd) || left(out_.best) > kReadingFits) out_.best = out_.present;
     out_.same.clear();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "check/convention.hpp"
 
@@ -89,6 +90,34 @@ void joint_words(std::vector<std::string>& out, const Cell& cell, const Conventi
         j + 1, name, factor_words(meant.factor[j])));
 }
 
+/// "J3 = q3 + q2": the value that the controller shows, as a sum of joint angles; and the key.
+void coupling_words(std::vector<std::string>& out, const Cell& cell,
+                    const std::vector<format::JointCoupling>& coupling) {
+  if (coupling.empty())
+    return out.emplace_back("the joint values are not coupled, as [robot] coupling says"), void();
+  std::vector<std::string> pairs;
+  for (const auto& [joint, by, ratio] : coupling)
+    pairs.push_back(fmt::format("{},{} = {:g}", cell.nominal.joints[joint].name,
+                                cell.nominal.joints[by].name, ratio));
+  const auto n = static_cast<std::size_t>(cell.joints());
+  std::vector<std::string> sums;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::string sum;
+    for (std::size_t j = 0; j < n; ++j) {
+      std::vector<double> q(n, 0.0);  // of joint j's angle alone
+      q[j] = 1.0;
+      Coupling(coupling).to_values(q);
+      if (i == j || q[i] == 0.0) continue;
+      sum += fmt::format(" {} {}q{}", q[i] < 0.0 ? "-" : "+",
+                         std::abs(q[i]) == 1.0 ? "" : fmt::format("{:g} ", std::abs(q[i])), j + 1);
+    }
+    if (!sum.empty())
+      sums.push_back(fmt::format("{} = q{}{}", cell.nominal.joints[i].name, i + 1, sum));
+  }
+  out.push_back(fmt::format("the joint values are coupled: {} (coupling {})", fmt::join(sums, ", "),
+                            fmt::join(pairs, ", ")));
+}
+
 }  // namespace
 
 std::vector<std::string> in_words(const Cell& cell, const Convention& present,
@@ -104,6 +133,7 @@ std::vector<std::string> in_words(const Cell& cell, const Convention& present,
   unit_words(out, "the measured points", present.point_unit, meant.point_unit);
   order_words(out, cell, meant.column);
   reversed_words(out, cell, meant.reversed);
+  if (meant.coupling != present.coupling) coupling_words(out, cell, meant.coupling);
   for (int j = 0; j < cell.joints(); ++j) {
     const auto& name = cell.nominal.joints[j].name;
     if (meant.quarter_turns[j] != 0)

@@ -89,9 +89,7 @@ MeasurementFiles open_measurements(const Cell& cell, Outcome& outcome) {
 }
 
 MeasurementFiles open_rows(const fs::path& file, const format::Chain& chain, Outcome& outcome) {
-  std::vector<bool> is_angle;
-  for (const auto& row : chain.joints) is_angle.push_back(row.type == format::JointType::kRevolute);
-  MeasurementFiles rows = read_measurements({file}, is_angle, Needs::kJoints);
+  MeasurementFiles rows = read_measurements({file}, chain, Needs::kJoints);
   note_tables(rows, outcome);
   return rows;
 }

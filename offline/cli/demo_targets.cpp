@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/joint_columns.hpp"
 #include "cell/random.hpp"
 #include "fit/parameter.hpp"
 #include "numbers/spectrum.hpp"
@@ -49,8 +50,9 @@ std::string line(const Cell& cell, int number, const Chain& arm, const std::vect
   std::string out = fmt::format("T{:02}", number);
   for (double p : pose.p) out += fmt::format(",{:.6f}", show::to_mm(p));
   for (double e : pose.q) out += fmt::format(",{:.12f}", e);
+  const auto values = values_at(q, cell.nominal);
   for (std::size_t i = 0; i < q.size(); ++i)
-    out += fmt::format(",{:.6f}", show::shown(q[i], show::slides(cell.nominal.joints[i])));
+    out += fmt::format(",{:.6f}", show::shown(values[i], show::slides(cell.nominal.joints[i])));
   return out + "\n";
 }
 

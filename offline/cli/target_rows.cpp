@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kMostJointsWithoutCommand = 6;
 
-std::vector<bool> joint_is_angle(const format::Chain& chain) {
-  std::vector<bool> out;
-  for (const auto& row : chain.joints) out.push_back(!show::slides(row));
-  return out;
-}
-
 void check_seeds(const Targets& targets, const format::Chain& chain,
                  const std::vector<double>& start) {
   const Place place{.file = targets.table.file, .line = targets.table.lines.front()};
@@ -48,14 +42,14 @@ TargetRows::TargetRows(const format::Model& model, std::vector<double> start)
     : corrector_(model),
       inputs_(model),
       sensors_(temperature_names(model)),
-      is_angle_(joint_is_angle(model.nominal)),
+      joints_(model.nominal),
       chain_(model.nominal),
       start_(start),
       last_(std::move(start)),
       found_(corrector_, chain_, inputs_) {}
 
 RowStream::Computed TargetRows::compute(Table table, const show::PassThrough& columns) {
-  const auto targets = std::make_shared<const Targets>(targets_of(std::move(table), is_angle_));
+  const auto targets = std::make_shared<const Targets>(targets_of(std::move(table), joints_));
   check_seeds(*targets, chain_, start_);
   RowStream::Computed out{.remarks = targets->table.remarks, .append = {}};
   if (targets->quat_B.rows() == 0) out.remarks.push_back(no_orientation());

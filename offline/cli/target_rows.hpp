@@ -63,7 +63,7 @@ class TargetRows {
   Corrector corrector_;
   KnownInputs inputs_;  // without any row yet
   std::vector<std::string> sensors_;
-  std::vector<bool> is_angle_;
+  JointColumns joints_;
   const format::Chain& chain_;
   std::vector<double> start_, last_;
   Found found_;

@@ -45,7 +45,7 @@ std::vector<double> numbers_of(const std::string& text) {
   return out;
 }
 
-/// --start in SI.
+/// The joint angles at --start, in SI.
 std::vector<double> start_of(const CorrectArguments& options, const format::Chain& chain) {
   if (!options.start) return {};
   const std::vector<double> start = numbers_of(*options.start);
@@ -58,6 +58,7 @@ std::vector<double> start_of(const CorrectArguments& options, const format::Chai
   std::vector<double> out;
   for (std::size_t i = 0; i < start.size(); ++i)
     out.push_back(show::slides(chain.joints[i]) ? start[i] * 1e-3 : show::from_deg(start[i]));
+  Coupling(chain.coupling).to_angles(out);
   return out;
 }
 

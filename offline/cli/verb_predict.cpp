@@ -74,24 +74,22 @@ Prediction predicted_row(const MeasuredArm& arm, const MeasurementFiles& rows, i
 class ModelRows {
  public:
   explicit ModelRows(const format::Model& model)
-      : arm_(model),
+      : joints_(model.nominal),
+        arm_(model),
         nominal_(model.nominal),
         guard_(model.guard),
         unused_(model),
         inputs_(model),
         unread_(model),
         units_(model),
-        sensors_(temperature_names(model)) {
-    for (const auto& row : model.nominal.joints)
-      is_angle_.push_back(row.type == format::JointType::kRevolute);
-  }
+        sensors_(temperature_names(model)) {}
 
   static std::vector<std::string> columns() {
     return {"px_mm", "py_mm", "pz_mm", "pqw", "pqx", "pqy", "pqz", "status"};
   }
 
   RowStream::Computed compute(Table table, const show::PassThrough& columns) {
-    MeasurementFiles rows = plain_rows(std::move(table), is_angle_);
+    MeasurementFiles rows = plain_rows(std::move(table), joints_);
     StatusCounts counts;
     KnownInputs inputs = unused_;
     JointUnits units = unread_;
@@ -150,6 +148,7 @@ class ModelRows {
                    text);
   }
 
+  JointColumns joints_;
   MeasuredArm arm_;
   Chain nominal_;
   format::GuardLimits guard_;
@@ -158,7 +157,6 @@ class ModelRows {
   JointUnits unread_;  // without any row
   JointUnits units_;
   std::vector<std::string> sensors_;
-  std::vector<bool> is_angle_;
   StatusCounts counts_;
 };
 

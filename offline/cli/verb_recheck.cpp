@@ -47,7 +47,7 @@ bool of_calibration(const MeasurementFiles& rows, const MeasurementFiles& own) {
 /// Refuses (E-RECHECK-OWN) the readings of the calibration itself.
 NewReadings new_readings(const std::string& file, const Cell& cell, const MeasurementFiles& own,
                          Outcome& outcome) {
-  MeasurementFiles all = read_measurements({file}, joint_is_angle(cell), Needs::kJointsAndPosition);
+  MeasurementFiles all = read_measurements({file}, cell.nominal, Needs::kJointsAndPosition);
   ignore_lost_points(cell, all);
   const Table& table = all.tables.front();
   outcome.inputs.push_back({table.file, table.sha256});

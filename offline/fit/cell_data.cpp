@@ -111,13 +111,6 @@ void check_files(const Cell& cell) {
 
 }  // namespace
 
-std::vector<bool> joint_is_angle(const Cell& cell) {
-  std::vector<bool> out;
-  for (const auto& row : cell.nominal.joints)
-    out.push_back(row.type == format::JointType::kRevolute);
-  return out;
-}
-
 /// Readings that an earlier run was fitted to would count twice.
 void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
   if (!cell.fit.earlier) return;
@@ -141,7 +134,7 @@ void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
 MeasurementFiles read_cell_measurements(const Cell& cell) {
   check_files(cell);
   const auto files = measurement_files(cell.measurement);
-  MeasurementFiles out = read_measurements(files, joint_is_angle(cell), Needs::kJointsAndPosition);
+  MeasurementFiles out = read_measurements(files, cell.nominal, Needs::kJointsAndPosition);
   assign_setups(cell, files, out);
   ignore_lost_points(cell, out);
   check_rows(cell, out);

@@ -6,9 +6,6 @@
 
 namespace plumb::offline {
 
-/// Which joints of the cell turn (true) and which slide.
-std::vector<bool> joint_is_angle(const Cell& cell);
-
 /// The measurements of a cell, the held-out file of its rule last; rows checked as below.
 MeasurementFiles read_cell_measurements(const Cell& cell);
 

@@ -42,6 +42,15 @@ void from_json(const Json& j, JointRow& row) {
   j.at("post").get_to(row.post);
 }
 
+void to_json(Json& j, const JointCoupling& one) {
+  j = {{"joint", one.joint}, {"by", one.by}, {"ratio", one.ratio}};
+}
+void from_json(const Json& j, JointCoupling& one) {
+  j.at("joint").get_to(one.joint);
+  j.at("by").get_to(one.by);
+  j.at("ratio").get_to(one.ratio);
+}
+
 void to_json(Json& j, const Chain& chain) {
   j = {{"modified", chain.convention == Convention::kModified},
        {"base", chain.base},
@@ -49,6 +58,7 @@ void to_json(Json& j, const Chain& chain) {
        {"joints", chain.joints},
        {"tool_twist", chain.tool_twist},
        {"tool", chain.tool}};
+  if (!chain.coupling.empty()) j["coupling"] = chain.coupling;
 }
 void from_json(const Json& j, Chain& chain) {
   chain.convention = j.at("modified").get<bool>() ? Convention::kModified : Convention::kStandard;
@@ -57,6 +67,7 @@ void from_json(const Json& j, Chain& chain) {
   j.at("joints").get_to(chain.joints);
   j.at("tool_twist").get_to(chain.tool_twist);
   j.at("tool").get_to(chain.tool);
+  if (j.contains("coupling")) j.at("coupling").get_to(chain.coupling);
 }
 
 void to_json(Json& j, const Tree& tree) {

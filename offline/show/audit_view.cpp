@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/joint_columns.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -13,18 +14,20 @@ constexpr const char* kNoCovariance = "the model carries no covariance";
 
 Json worst_q_json(const Audit& audit, const format::Model& model) {
   Json out = Json::object();
-  for (std::size_t i = 0; i < audit.worst_q.size(); ++i) {
+  const auto q = values_at(audit.worst_q, model.nominal);
+  for (std::size_t i = 0; i < q.size(); ++i) {
     const auto& row = model.nominal.joints[i];
-    out[fmt::format("q{}_{}", i + 1, unit(slides(row)))] = shown(audit.worst_q[i], slides(row));
+    out[fmt::format("q{}_{}", i + 1, unit(slides(row)))] = shown(q[i], slides(row));
   }
   return out;
 }
 
 std::string worst_q_text(const Audit& audit, const format::Model& model) {
   std::string out;
-  for (std::size_t i = 0; i < audit.worst_q.size(); ++i)
-    out += fmt::format("{}{:.1f}", i == 0 ? "" : ", ",
-                       shown(audit.worst_q[i], slides(model.nominal.joints[i])));
+  const auto q = values_at(audit.worst_q, model.nominal);
+  for (std::size_t i = 0; i < q.size(); ++i)
+    out +=
+        fmt::format("{}{:.1f}", i == 0 ? "" : ", ", shown(q[i], slides(model.nominal.joints[i])));
   return out;
 }
 

@@ -30,6 +30,7 @@ Json convention_json(const Convention& c) {
           {"joint_offsets", zeros},
           {"joint_factors", factors},
           {"joint_units", units},
+          {"coupling", coupling_json(c.coupling)},
           {"left_handed", c.mirror != Mirror::kNone},
           {"frame_inverted", c.frame_inverted}};
 }

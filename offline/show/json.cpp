@@ -23,4 +23,11 @@ Json pose_json(const format::Pose& pose) {
           {"quat_wxyz", pose.q}};
 }
 
+Json coupling_json(const std::vector<format::JointCoupling>& coupling) {
+  Json out = Json::array();
+  for (const auto& [joint, by, ratio] : coupling)
+    out.push_back({{"joint", joint + 1}, {"by", by + 1}, {"ratio", ratio}});
+  return out;
+}
+
 }  // namespace plumb::offline::show

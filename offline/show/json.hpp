@@ -19,4 +19,7 @@ Json stats_json(const ErrorStats& stats);
 /// {xyz_mm, quat_wxyz}
 Json pose_json(const format::Pose& pose);
 
+/// [{joint, by, ratio}], joints from 1
+Json coupling_json(const std::vector<format::JointCoupling>& coupling);
+
 }  // namespace plumb::offline::show

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cell/toml_text.hpp"
 #include "show/counted.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -47,9 +48,13 @@ Json row_json(const format::JointRow& row) {
 Json chain_json(const format::Chain& chain) {
   Json joints = Json::array();
   for (const auto& row : chain.joints) joints.push_back(row_json(row));
-  return {{"dh_convention", convention(chain)},         {"base", pose_json(chain.base)},
-          {"base_twist", twist_json(chain.base_twist)}, {"joints", joints},
-          {"tool_twist", twist_json(chain.tool_twist)}, {"tool", pose_json(chain.tool)}};
+  return {{"dh_convention", convention(chain)},
+          {"base", pose_json(chain.base)},
+          {"base_twist", twist_json(chain.base_twist)},
+          {"joints", joints},
+          {"coupling", coupling_json(chain.coupling)},
+          {"tool_twist", twist_json(chain.tool_twist)},
+          {"tool", pose_json(chain.tool)}};
 }
 
 Json trees_json(const format::Model& model) {
@@ -145,7 +150,9 @@ std::string chain_text(const format::Model& model) {
     add(model.nominal.joints[i], model.nominal.joints[i].name + " nominal");
     if (i < model.calibrated.joints.size()) add(model.calibrated.joints[i], "   calibrated");
   }
-  return table.text();
+  if (model.nominal.coupling.empty()) return table.text();
+  return table.text() +
+         "coupling of the controller's joint values: " + toml_coupling(model.nominal) + "\n";
 }
 
 std::string held_out_text(const format::Provenance& p) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/joint_columns.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
@@ -229,9 +230,9 @@ std::string plan_csv(const Cell& cell, const PlanRequest& request, const PosePla
                     "; measure in this order\n" + header(cell, plan);
   for (const auto& pose : plan.poses) {
     out += pose.name;
-    for (int j = 0; j < cell.joints(); ++j)
-      out += fmt::format(
-          ",{:.4f}", shown(pose.q(j), slides(cell.nominal.joints[static_cast<std::size_t>(j)])));
+    const auto q = values_at(pose.q, cell.nominal);
+    for (std::size_t j = 0; j < q.size(); ++j)
+      out += fmt::format(",{:.4f}", shown(q[j], slides(cell.nominal.joints[j])));
     const Vector3 p = nominal_point(cell, pose.q);
     for (int k = 0; k < 3; ++k) out += fmt::format(",{:.3f}", to_mm(p(k)));
     out += how_columns(cell, plan, pose.how);
@@ -270,9 +271,10 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
   out["poses"] = Json::array();
   for (const auto& pose : plan.poses) {
     Json row{{"pose", pose.name}};
+    const auto q = values_at(pose.q, cell.nominal);
     for (int j = 0; j < cell.joints(); ++j) {
       const bool slide = slides(cell.nominal.joints[static_cast<std::size_t>(j)]);
-      row[fmt::format("q{}_{}", j + 1, unit(slide))] = shown(pose.q(j), slide);
+      row[fmt::format("q{}_{}", j + 1, unit(slide))] = shown(q[static_cast<std::size_t>(j)], slide);
     }
     if (!pose.note.empty()) row["note"] = pose.note;
     out["poses"].push_back(std::move(row));

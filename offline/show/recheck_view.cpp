@@ -294,9 +294,13 @@ Json recheck_plan_json(const Cell& cell, const RecheckPlan& plan, const Run& run
   out["poses"] = Json::array();
   for (const int row : plan.rows) {
     Json pose{{"pose", own.pose[static_cast<std::size_t>(row)]}};
+    const auto angles = own.q.row(row);
+    const auto q =
+        values_at({angles.data(), static_cast<std::size_t>(angles.size())}, cell.nominal);
     for (int j = 0; j < cell.joints(); ++j) {
       const bool slide = slides(cell.nominal.joints[static_cast<std::size_t>(j)]);
-      pose[fmt::format("q{}_{}", j + 1, unit(slide))] = shown(own.q(row, j), slide);
+      pose[fmt::format("q{}_{}", j + 1, unit(slide))] =
+          shown(q[static_cast<std::size_t>(j)], slide);
     }
     out["poses"].push_back(std::move(pose));
   }
@@ -315,15 +319,13 @@ std::string recheck_plan_text(const Cell& cell, const RecheckPlan& plan, const R
 }
 
 std::string recheck_plan_csv(const Cell& cell, const RecheckPlan& plan, const Measurements& own) {
-  std::vector<bool> is_angle;
-  for (const auto& row : cell.nominal.joints) is_angle.push_back(!slides(row));
   Measurements poses = pick(own, plan.rows);
   poses.has_axis = {false, false, false};
   poses.quat_M.resize(0, 4);
   poses.sigma_m.resize(0, 3);
   poses.nominal_B.resize(0, 3);
   std::fill(poses.set.begin(), poses.set.end(), SetMark::kUnmarked);
-  return write_measurements(poses, is_angle,
+  return write_measurements(poses, cell.nominal,
                             {{"plan", "recheck: measure these poses of the calibration again"}},
                             circumstances_of(cell, poses.context));
 }

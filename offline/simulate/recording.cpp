@@ -131,11 +131,7 @@ MeasurementFiles Recording::finish(const std::vector<Column>& context) const {
 }  // namespace sim
 
 std::string simulated_csv(const Cell& cell, const Simulation& simulation) {
-  std::vector<bool> is_angle;
-  for (const auto& row : cell.nominal.joints) {
-    is_angle.push_back(row.type == format::JointType::kRevolute);
-  }
-  return write_measurements(simulation.measured, is_angle,
+  return write_measurements(simulation.measured, cell.nominal,
                             {{"instrument", "simulated laser tracker"}, {"robot", cell.robot_name}},
                             simulation.context);
 }

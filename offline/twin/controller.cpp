@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cell/joint_columns.hpp"
 #include "twin/transforms.hpp"
 
 namespace plumb::offline::twin {
@@ -238,7 +239,8 @@ void Controller::say_context(drivers::BusPort& port) {
 void Controller::say(drivers::BusPort& port) {
   receiver_.sent(counter_, X_BD_, time_.now_ns);
   const auto joints = [this](MessageKind kind, const VectorXd& q) {
-    return drivers::joints_message(kind, {q.data(), static_cast<std::size_t>(q.size())}, counter_);
+    const auto values = values_at({q.data(), static_cast<std::size_t>(q.size())}, arm_.chain());
+    return drivers::joints_message(kind, values, counter_);
   };
   say(port, drivers::controller_message(state(), counter_));
   say(port, joints(MessageKind::kJoints, q_frozen_));

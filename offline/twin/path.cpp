@@ -112,10 +112,7 @@ Path generated_path(const Cell& cell, int stations, double range, std::uint64_t 
 }
 
 Path path_from(const Cell& cell, const std::filesystem::path& file) {
-  std::vector<bool> is_angle;
-  for (const auto& row : cell.nominal.joints)
-    is_angle.push_back(row.type == format::JointType::kRevolute);
-  const Targets targets = read_targets(file, is_angle);
+  const Targets targets = read_targets(file, cell.nominal);
   const auto refuse = [&](int row, const std::string& message, const std::string& help) {
     throw Failure(Exit::kInput,
                   {.code = "E-TWIN-PATH",

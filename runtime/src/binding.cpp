@@ -14,7 +14,7 @@ bool same_joint(const format::JointRow& a, const format::JointRow& b) noexcept {
 
 bool same_chain(const format::Chain& a, const format::Chain& b) noexcept {
   bool same = a.convention == b.convention && a.base == b.base && a.base_twist == b.base_twist &&
-              a.tool == b.tool && a.tool_twist == b.tool_twist &&
+              a.tool == b.tool && a.tool_twist == b.tool_twist && a.coupling == b.coupling &&
               a.joints.size() == b.joints.size();
   for (std::size_t i = 0; same && i < a.joints.size(); ++i)
     same = same_joint(a.joints[i], b.joints[i]);

@@ -40,10 +40,15 @@ bool Cycle::sound(const Joints& q) const noexcept {
   return internal::is_joint_state(std::span(q).first(joints()));
 }
 
+Cycle::Joints Cycle::angles(Joints values) const noexcept {
+  model_->coupling().to_angles(values);
+  return values;
+}
+
 void Cycle::hear_joints(const CycleInput& input) noexcept {
   if (input.joints == Arrival::kNothingNew) return;
-  q_commanded_ = input.q_commanded;
-  if (sound(input.q_measured)) q_measured_ = input.q_measured;
+  q_commanded_ = angles(input.q_commanded);
+  if (sound(input.q_measured)) q_measured_ = angles(input.q_measured);
   if (sound(input.q_measured) || sound(input.q_commanded)) joints_age_.renew();
 }
 
@@ -95,9 +100,11 @@ CycleOutput Cycle::step(const CycleInput& input) noexcept {
   inputs_.step(input.context, tick.ageing_s);
   context_ = inputs_.context(move_, static_cast<int>(joints()));
   const Seed from = seed();
-  const Correction correction = model_->corrector().solve(X_BD, from.q, from.kind, context_);
+  Correction correction = model_->corrector().solve(X_BD, from.q, from.kind, context_);
   remember(X_BD, correction);
-  return {guard_.step(X_BD, correction, tick.dt_s, freshness()), correction};
+  const GuardOutput output = guard_.step(X_BD, correction, tick.dt_s, freshness());
+  model_->coupling().to_values(correction.q);
+  return {output, correction};
 }
 
 }  // namespace plumb

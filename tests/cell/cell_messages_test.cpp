@@ -214,6 +214,26 @@ TEST(CellMessage, OfJointsThatAnEffectCannotHave) {
   EXPECT_EQ(with("[effects.step]\nafter_row = 3\nof = \"joint\"\njoints = [\"J1\"]"), Summary{});
 }
 
+TEST(CellMessage, OfCouplingsThatNoControllerHas) {
+  const auto coupled = [](const std::string& text) {
+    return summary(problems_in("schema = \"cell/1\"\n[robot]\ndh_convention = \"standard\"\n" +
+                               text +
+                               "\njoints = [{ q = [-90, 90] }, { q = [-90, 90] },\n{ type = "
+                               "\"prismatic\", q = [0, 9] }]\n"));
+  };
+  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = -1 }"), Summary{});
+  EXPECT_EQ(coupled("coupling = { \"J2, J1\" = 0.5 }"), Summary{});
+  EXPECT_EQ(coupled("coupling = {}"), Summary{});
+  EXPECT_EQ(coupled("coupling = { \"J2,J7\" = -1 }"), Summary{"E-CELL-JOINT 4:24"});
+  EXPECT_EQ(coupled("coupling = { \"J2\" = -1 }"), Summary{"E-CELL-RANGE 4:21"});
+  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 0 }"), Summary{"E-CELL-RANGE 4:24"});
+  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 11 }"), Summary{"E-CELL-RANGE 4:24"});
+  EXPECT_EQ(coupled("coupling = { \"J3,J1\" = 1 }"), Summary{"E-CELL-RANGE 4:24"});
+  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 1, \"J1,J2\" = 1 }"), Summary{"E-CELL-RANGE 4:12"});
+  EXPECT_EQ(coupled("coupling = { \"J1,J1\" = 1 }"), Summary{"E-CELL-RANGE 4:12"});
+  EXPECT_EQ(coupled("coupling.\"J2,J1\" = 1"), Summary{"E-CELL-RANGE 4:1"});
+}
+
 TEST(CellMessage, OfConventionsByOtherNames) {
   for (const auto& [word, meant] :
        std::vector<std::pair<std::string, std::string>>{{"craig", "modified"},

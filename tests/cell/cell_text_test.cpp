@@ -61,6 +61,16 @@ max_correction_mm = 2.5
 
 Cell read(const std::string& text) { return parse_cell(text, "/c/cell.toml"); }
 
+TEST(Cell, HoldsTheCouplingOfItsJoints) {
+  const std::string robot =
+      "schema = \"cell/1\"\n[robot]\ndh_convention = \"standard\"\n"
+      "joints = [{ q = [-90, 90] }, { q = [-90, 90] }, { q = [-90, 90] }]\n";
+  const Cell c = read(robot + "coupling = { \"J3,J2\" = -1, \"J2,J1\" = 0.5 }\n");
+  EXPECT_EQ(c.nominal.coupling, (std::vector<format::JointCoupling>{{2, 1, -1.0}, {1, 0, 0.5}}));
+  EXPECT_EQ(read(write_cell(c)).nominal.coupling, c.nominal.coupling);
+  EXPECT_NE(fit_hash(c), fit_hash(read(robot)));
+}
+
 TEST(Cell, OfTheInterfaceIsReadInSi) {
   const Folder folder;
   const auto file = folder.put("cell.toml", kExample);

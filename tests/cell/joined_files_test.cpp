@@ -9,6 +9,28 @@ namespace {
 
 constexpr double kDeg = M_PI / 180.0;
 
+/// J2 = q2 + q1.
+format::Chain coupled_arm() {
+  format::Chain out;
+  out.joints.resize(2);
+  out.coupling = {{1, 0, -1.0}};
+  return out;
+}
+
+TEST(CoupledJoints, AreValuesInFilesAndAnglesInMemory) {
+  const Folder folder;
+  const auto file =
+      folder.put("m.csv", "q1_deg,q2_deg,x_mm,y_mm,z_mm\n10,25,1,2,3\n-20,30,4,5,6\n");
+  const auto m = read_measurements({file}, coupled_arm(), Needs::kJointsAndPosition);
+  EXPECT_NEAR(m.q(0, 1), 15 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(m.q(1, 1), 50 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(m.q(1, 0), -20 * M_PI / 180, 1e-12);
+  const auto text = write_measurements(m, coupled_arm(), {}, {});
+  const auto raw =
+      read_measurements({folder.put("b.csv", text)}, {true, true}, Needs::kJointsAndPosition);
+  EXPECT_NEAR(raw.q(0, 1), 25 * M_PI / 180, 1e-12);
+}
+
 TEST(Measurements, JoinFilesRowByRowWithTheirUnits) {
   const Folder folder;
   const auto a = folder.put("a.csv", "q1_deg,q2_mm,x_mm,z_mm,set\n90,5,1,3,fit\n-90,6,2,4,held\n");

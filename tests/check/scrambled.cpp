@@ -155,8 +155,8 @@ Case opened(const Files& files, const fs::path& folder) {
   std::ofstream(folder / "cell.toml") << files.cell;
   std::ofstream(folder / "measurements.csv") << files.csv;
   Case out{read_cell(folder / "cell.toml"), {}};
-  out.measured = read_measurements({folder / "measurements.csv"}, joint_is_angle(out.cell),
-                                   Needs::kJointsAndPosition);
+  out.measured =
+      read_measurements({folder / "measurements.csv"}, out.cell.nominal, Needs::kJointsAndPosition);
   return out;
 }
 

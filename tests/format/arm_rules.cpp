@@ -5,6 +5,10 @@
 namespace plumb::format {
 namespace {
 
+void couple(Model& m, const std::vector<JointCoupling>& coupling) {
+  m.nominal.coupling = m.calibrated.coupling = coupling;
+}
+
 std::vector<Rule> chain_rules() {
   return {
       {"NoJoints", "nominal: 0 joints", [](Model& m) { m.nominal.joints.clear(); }},
@@ -18,6 +22,39 @@ std::vector<Rule> chain_rules() {
        [](Model& m) { m.calibrated.joints[1].name = "K"; }},
       {"ChainsDifferInConvention", "differ in the DH convention",
        [](Model& m) { m.calibrated.convention = Convention::kModified; }},
+      {"ChainsDifferInCoupling", "differ in the coupling",
+       [](Model& m) {
+         m.calibrated.coupling = {{2, 1, -1.0}};
+       }},
+      {"CouplingOfNoJoint", "couples a joint that it does not have",
+       [](Model& m) {
+         couple(m, {{6, 1, -1.0}});
+       }},
+      {"CouplingOfKinds", "turns with one that slides",
+       [](Model& m) {
+         m.nominal.joints[2].type = m.calibrated.joints[2].type = JointType::kPrismatic;
+         couple(m, {{2, 1, -1.0}});
+       }},
+      {"CouplingByNothing", "ratio 0 of two",
+       [](Model& m) {
+         couple(m, {{2, 1, 0.0}});
+       }},
+      {"CouplingNaN", "ratio nan of two",
+       [](Model& m) {
+         couple(m, {{2, 1, kNaN}});
+       }},
+      {"CouplingTwice", "couples two joints twice",
+       [](Model& m) {
+         couple(m, {{2, 1, 1.0}, {2, 1, -1.0}});
+       }},
+      {"CouplingInACircle", "depend on each other",
+       [](Model& m) {
+         couple(m, {{2, 1, 1.0}, {1, 2, 1.0}});
+       }},
+      {"TooManyCouplings", "too many couplings",
+       [](Model& m) {
+         couple(m, std::vector<JointCoupling>(37, {2, 1, 1.0}));
+       }},
       {"Convention", "unknown DH convention",
        [](Model& m) { m.nominal.convention = m.calibrated.convention = Convention{2}; }},
       {"JointType", "joints[1]: unknown type",

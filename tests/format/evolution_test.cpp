@@ -19,6 +19,7 @@
 #include "wire_swapped_generated.h"
 #include "wire_v1_generated.h"
 #include "wire_v2_generated.h"
+#include "wire_v3_generated.h"
 
 namespace plumb::format {
 namespace {
@@ -102,6 +103,27 @@ TEST(Evolution, ReadersOfSchemaTwoUnderstandWhatIsWrittenInItToday) {
   EXPECT_EQ(survivors([](const Model& m) { return is_understood<wire_v2::ModelT>(m); }), kModels);
 }
 
+/// The same of a controller that couples its last two joints.
+Model with_coupling(Model model) {
+  const auto last = static_cast<std::uint8_t>(model.nominal.joints.size() - 1);
+  const auto by = static_cast<std::uint8_t>(last - 1);
+  model.nominal.joints[by].type = model.calibrated.joints[by].type =
+      model.nominal.joints[last].type;
+  model.nominal.coupling = model.calibrated.coupling = {{last, by, -0.5}};
+  return model;
+}
+
+TEST(Evolution, FilesWrittenUnderSchemaThreeAreReadToWhatTheySaid) {
+  EXPECT_EQ(survivors([](const Model& m) { return is_read<wire_v3::ModelT>(with_coupling(m), 3); }),
+            kModels);
+}
+
+TEST(Evolution, ReadersOfSchemaThreeUnderstandWhatIsWrittenInItToday) {
+  EXPECT_EQ(
+      survivors([](const Model& m) { return is_understood<wire_v3::ModelT>(with_coupling(m)); }),
+      kModels);
+}
+
 TEST(Evolution, TwoFieldsThatChangedPlacesAreCaught) {
   const Model model = telling_model(1);
   EXPECT_FALSE(is_read<wire_swapped::ModelT>(model, 2));
@@ -115,7 +137,8 @@ TEST(Evolution, AFieldOfAnotherTypeIsCaught) {
 }
 
 TEST(Evolution, AFileOfTheNextSchemaIsCalledNewer) {
-  const auto file = sealed(old::packed(old::model<wire_v2::ModelT>(telling_model(1), 3)));
+  const auto file =
+      sealed(old::packed(old::model<wire_v3::ModelT>(telling_model(1), kSchemaVersion + 1)));
   const auto read = read_model(file);
   ASSERT_TRUE(std::holds_alternative<ReadError>(read));
   EXPECT_EQ(std::get<ReadError>(read).code, ReadErrorCode::kNewerSchema);

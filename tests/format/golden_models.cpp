@@ -178,10 +178,18 @@ Model ranges_model() {
   return m;
 }
 
+/// J3 = q3 + q2, J6 = q6 - 0.5 q5.
+Model coupled_model() {
+  Model m = six_axis_model();
+  m.nominal.coupling = m.calibrated.coupling = {{2, 1, -1.0}, {5, 4, 0.5}};
+  return m;
+}
+
 std::vector<std::pair<std::string, Model>> golden_models() {
   return {{"six_axis", six_axis_model()},   {"planar", planar_model()},
           {"planar_2r", planar_2r_model()}, {"formula", formula_model()},
-          {"blended", blended_model()},     {"ranges", ranges_model()}};
+          {"blended", blended_model()},     {"ranges", ranges_model()},
+          {"coupled", coupled_model()}};
 }
 
 }  // namespace plumb::format

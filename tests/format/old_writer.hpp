@@ -64,6 +64,8 @@ void chain(std::unique_ptr<T>& pointer, const Chain& x) {
   fill(out.joints, x.joints, [](auto& to, const auto& from) { joint(to, from); });
   out.tool_twist = twist<typename decltype(out.tool_twist)::element_type>(x.tool_twist);
   out.tool = pose<typename decltype(out.tool)::element_type>(x.tool);
+  if constexpr (requires { out.coupling; })
+    for (const auto& one : x.coupling) out.coupling.emplace_back(one.ratio, one.joint, one.by);
 }
 
 template <class T>

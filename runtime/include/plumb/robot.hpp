@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -93,9 +94,12 @@ class Robot {
   CycleOutput correct(const CycleInput& input) noexcept { return cycle_.step(input); }
 
   /// Predicts the true pose of the tool at q [rad] or [m], in the context of the last cycle. q: the
-  /// joints of the robot; further numbers are not read, and too few give Status::kNotFinite.
+  /// controller's values of the robot's joints; further numbers are not read, and too few give
+  /// Status::kNotFinite.
   Prediction predict(std::span<const double> q) const noexcept {
-    return cycle_.model().corrector().forward_model().predict(joints_of(q), cycle_.context());
+    Angles angles;
+    return cycle_.model().corrector().forward_model().predict(angles_at(q, angles),
+                                                              cycle_.context());
   }
 
   /// The pose of the tool at q by the controller's nominal chain, in the base frame [m]. q: the
@@ -103,7 +107,8 @@ class Robot {
   /// pose is NaN: as a target of `correct` it is refused.
   Transformd nominal_pose(std::span<const double> q) const noexcept {
     const Chain& chain = cycle_.model().corrector().nominal();
-    const auto joints = joints_of(q);
+    Angles angles;
+    const auto joints = angles_at(q, angles);
     return joints.size() == static_cast<std::size_t>(chain.joints()) ? chain.forward(joints)
                                                                      : no_pose();
   }
@@ -119,8 +124,14 @@ class Robot {
   explicit Robot(std::unique_ptr<const LoadedModel> first)
       : running_(std::move(first)), slot_(*running_), cycle_(slot_) {}
 
-  std::span<const double> joints_of(std::span<const double> q) const noexcept {
-    return q.first(std::min(q.size(), cycle_.model().model().nominal.joints.size()));
+  using Angles = std::array<double, format::kMaxJoints>;
+
+  /// The joint angles at the controller's joint values q; fewer than the robot has joints if q has.
+  std::span<const double> angles_at(std::span<const double> q, Angles& out) const noexcept {
+    const std::size_t joints = cycle_.model().model().nominal.joints.size();
+    std::copy_n(q.begin(), std::min(q.size(), joints), out.begin());
+    if (q.size() >= joints) cycle_.model().coupling().to_angles(out);
+    return std::span(out).first(std::min(q.size(), joints));
   }
 
   static Transformd no_pose() noexcept {

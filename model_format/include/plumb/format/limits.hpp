@@ -6,6 +6,8 @@
 namespace plumb::format {
 
 inline constexpr int kMaxJoints = 9;
+inline constexpr int kMaxCouplings = kMaxJoints * (kMaxJoints - 1) / 2;
+inline constexpr double kMaxCouplingRatio = 10.0;
 inline constexpr int kMaxEffects = 64;
 inline constexpr int kMaxSeriesWaves = 64;  // of one joint
 inline constexpr int kMaxEffectParameters = 2 * kMaxSeriesWaves * kMaxJoints;

@@ -54,6 +54,14 @@ struct JointRow {
   bool operator==(const JointRow&) const = default;
 };
 
+/// The angle of `joint` is the controller's value of it plus `ratio` times that of joint `by`.
+struct JointCoupling {
+  std::uint8_t joint = 0;  // zero-based
+  std::uint8_t by = 0;
+  double ratio = 0.0;
+  bool operator==(const JointCoupling&) const = default;
+};
+
 /// T = base * Exp(base_twist) * prod_i [A_i Exp(pre_i) Joint_i(q_i') Exp(post_i) B_i]
 ///       * Exp(tool_twist) * tool
 struct Chain {
@@ -63,6 +71,7 @@ struct Chain {
   std::vector<JointRow> joints;
   Twist tool_twist;
   Pose tool;
+  std::vector<JointCoupling> coupling = {};  // how q follows from the controller's joint values
   bool operator==(const Chain&) const = default;
 };
 

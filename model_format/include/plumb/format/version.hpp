@@ -7,6 +7,6 @@ namespace plumb::format {
 inline constexpr char kVersion[] = "0.1.0";
 
 /// Version of the model file's schema. Files of every earlier version stay readable.
-inline constexpr unsigned kSchemaVersion = 2;
+inline constexpr unsigned kSchemaVersion = 3;
 
 }  // namespace plumb::format

@@ -53,6 +53,8 @@ struct CycleOutput {
 ///              in again when the input returns
 ///   bad target one that arrives but is no pose: the last output is held, and the target does not
 ///              count as fresh
+///   joints     of inputs and outputs are the controller's values; inside they are the joint angles
+///              that follow by the model's coupling
 ///   new model  taken from the slot at the beginning of the step; the guard blends it in
 ///
 /// Heap: none. Thread: one; the loader of the slot may run at the same time. Cost: fixed for a
@@ -92,6 +94,7 @@ class Cycle {
   void hear_joints(const CycleInput& input) noexcept;
   Transformd hear_target(const CycleInput& input) noexcept;
   bool sound(const Joints& q) const noexcept;
+  Joints angles(Joints values) const noexcept;
   void follow_moves() noexcept;
   Seed seed() const noexcept;
   void remember(const Transformd& X_BD, const Correction& correction) noexcept;

@@ -7,6 +7,7 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/corrector.hpp"
+#include "plumb/runtime/coupling.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb {
@@ -30,16 +31,22 @@ class LoadedModel {
 
   const format::Model& model() const noexcept { return model_; }
   const Corrector& corrector() const noexcept { return corrector_; }
+  /// From the controller's joint values to the joint angles that the corrector knows.
+  const Coupling& coupling() const noexcept { return coupling_; }
   const format::GuardLimits& limits() const noexcept { return corrector_.limits(); }
   std::uint32_t number() const noexcept { return number_; }
 
  private:
   LoadedModel(format::Model model, std::uint32_t number)
-      : number_(number), model_(std::move(model)), corrector_(model_) {}
+      : number_(number),
+        model_(std::move(model)),
+        corrector_(model_),
+        coupling_(model_.nominal.coupling) {}
 
   std::uint32_t number_;
   format::Model model_;
   Corrector corrector_;
+  Coupling coupling_;
 };
 
 }  // namespace plumb
