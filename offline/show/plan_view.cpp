@@ -230,7 +230,8 @@ std::string plan_csv(const Cell& cell, const PlanRequest& request, const PosePla
                     "; measure in this order\n" + header(cell, plan);
   for (const auto& pose : plan.poses) {
     out += pose.name;
-    const auto q = values_at(pose.q, cell.nominal);
+    const auto q =
+        values_at({pose.q.data(), static_cast<std::size_t>(pose.q.size())}, cell.nominal);
     for (std::size_t j = 0; j < q.size(); ++j)
       out += fmt::format(",{:.4f}", shown(q[j], slides(cell.nominal.joints[j])));
     const Vector3 p = nominal_point(cell, pose.q);
@@ -271,7 +272,8 @@ Json plan_json(const Cell& cell, const PlanRequest& request, const PosePlan& pla
   out["poses"] = Json::array();
   for (const auto& pose : plan.poses) {
     Json row{{"pose", pose.name}};
-    const auto q = values_at(pose.q, cell.nominal);
+    const auto q =
+        values_at({pose.q.data(), static_cast<std::size_t>(pose.q.size())}, cell.nominal);
     for (int j = 0; j < cell.joints(); ++j) {
       const bool slide = slides(cell.nominal.joints[static_cast<std::size_t>(j)]);
       row[fmt::format("q{}_{}", j + 1, unit(slide))] = shown(q[static_cast<std::size_t>(j)], slide);
