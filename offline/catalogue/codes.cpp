@@ -595,8 +595,8 @@ constexpr Explanation kCodes[] = {
      "never left out of the held-out error; a second figure without the outliers stands beside."},
     {"W-FIT-HELD-OUTLIERS",
      "Some held-out poses lie farther off than six times the usual scatter of the others: bad "
-     "readings, or places where the model fails. Held-out figures are never trimmed, so they "
-     "count; a second line shows the rest."},
+     "readings, or places where the model fails. The line of the held-out error counts them, and a "
+     "second line shows the rest; the verdict is on the rest and names them."},
     {"W-FIT-HELD-TWICE",
      "Rows of the fit repeat poses that are held out: the same joints or the same name. Held-out "
      "poses must have no say, so these rows were not fitted."},

@@ -56,8 +56,10 @@ constexpr Explanation kTerms[] = {
      "error on the fit poses is always smaller and is never accuracy."},
     {"noise floor",
      "The error that measurement noise alone would leave, whatever the model: 1.60 sigma for the "
-     "mean and 1.73 sigma for the RMS of a 3-D error. It comes from repeats of a pose, or from "
-     "sigma_um. A held-out error at the floor means: nothing more can be learnt from these poses."},
+     "mean and 1.73 sigma for the RMS of a 3-D error. It comes from repeats of a pose under the "
+     "same temperatures, load and side of approach, or from sigma_um; it does not depend on the "
+     "effects of the model. A held-out error at a measured floor means: nothing more can be learnt "
+     "from these poses."},
     {"position error",
      "Distance between the measured point and the predicted one, in mm: how far the model misses."},
     {"held-out error",
@@ -140,8 +142,8 @@ constexpr Explanation kTerms[] = {
     {"unlikely",
      "Supported, but so large that hardly any arm has it: another cause may look like it."},
     {"stand out",
-     "Readings that miss by far more than the others. They count in the millimetres of the "
-     "held-out error; where a figure leaves them out, it says so."},
+     "Readings that miss by far more than the others. The verdict leaves them out and names them, "
+     "unless they are more than 15 in 100; the error table has a line with them and one without."},
     {"kept at nominal",
      "A number that these poses say too little about: it is not fitted and has the value of the "
      "cell file."},
@@ -201,7 +203,7 @@ constexpr Explanation kTerms[] = {
      "cell.tolerance_mm: how large the error may be at 95 % of the poses. It is yours to choose."},
     {"outlier",
      "A reading that lies more than six times the usual scatter off. It is left out of the fit; "
-     "held-out ones count in the figures."},
+     "the verdict is on the held-out ones without it, and names it."},
     {"observability",
      "How well a set of poses shows the parameters; see observability index and condition."},
     {"condition",

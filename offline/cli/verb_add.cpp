@@ -124,7 +124,7 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   if (change.adds) check_parameter_count(compile(edited, draft_run(edited, measured, Fit(fitted))));
   // What a diagnosis found of the joints' scatter holds for any model of these readings.
   const auto floor = diagnosed_floor(before);
-  if (floor) fitted.floor = *floor;
+  if (floor) fitted.floor.inferred_m = floor->inferred_m;
   outcome.result["before"] = show::stats_json(before.fit.held);
   outcome.result["after"] = show::stats_json(fitted.held);
   outcome.result["run_before"] = before.number;
@@ -143,7 +143,7 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   }
   // The cell file last: if the run cannot be written, nothing has changed.
   const Run after = keep(edited, measured, std::move(fitted));
-  if (floor) keep_floor(edited, after, *floor);
+  if (floor) keep_floor(edited, after, after.fit.floor);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = after.number;
   const bool rose = after.fit.held.mean > before.fit.held.mean;

@@ -53,10 +53,9 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
        .help = "plumb explain W-DIAGNOSE-ROSE"});
 }
 
-/// Whether a diagnosis found another noise floor than the run knows: with the joints' scatter in
-/// it, or without it.
+/// Whether a diagnosis sees another scatter of the joints than the run knows.
 bool differs(const NoiseFloor& found, const NoiseFloor& kept) {
-  return std::abs(found.sigma_m - kept.sigma_m) > kAnotherFloor * kept.sigma_m;
+  return std::abs(found.inferred_m - kept.inferred_m) > kAnotherFloor * kept.mean_m;
 }
 
 /// Beside the run, for compare and report. A folder that cannot be written is no reason not to
@@ -92,9 +91,9 @@ bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
     return false;
   }
   // The cell file last: if the run cannot be written, nothing has changed.
-  fitted.floor = found.floor;
+  fitted.floor.inferred_m = found.floor.inferred_m;
   const Run run = keep(edited, measured, std::move(fitted));
-  keep_floor(edited, run, found.floor);
+  keep_floor(edited, run, run.fit.floor);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = run.number;
   return true;

@@ -187,7 +187,7 @@ void fit(const FitArguments& options, const Globals& globals, Outcome& outcome) 
   }
   Fit fitted = fit_with_progress(cell, measured, outcome);
   const auto floor = floor_of_last_diagnosis(cell, measured, fitted);
-  if (floor) fitted.floor = *floor;
+  if (floor) fitted.floor.inferred_m = floor->inferred_m;
   outcome.result = show::fit_json(cell, measured, fitted);
   outcome.text = show::fit_text(cell, measured, fitted);
   outcome.text += jump_words(cell, measured, fitted);

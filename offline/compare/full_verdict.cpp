@@ -33,7 +33,7 @@ std::string full_verdict(const Cell& cell, const Measurements& measured, const F
   const auto excess = held_out_excess_of(fit);
   // A run of another cell file than the present one does not know its parameters.
   const bool known = !fit.calibration.parameters.empty();
-  if (!excess || !excess->lack_of_fit() || fit.floor.holds_scatter || !known) return out;
+  if (!excess || !excess->lack_of_fit() || fit.floor.inferred_m > 0.0 || !known) return out;
   const auto rows = without_outliers(
       without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
   const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);

@@ -4,22 +4,23 @@
 #include <algorithm>
 #include <map>
 
+#include "fit/repeat_groups.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {
 
-constexpr int kEnoughRepeats = 5;      // as the noise floor asks for
 constexpr double kKnownExactly = 1e7;  // degrees of freedom of a stated sigma
 
 struct Squares {
   double model = 0.0, pure = 0.0;
-  int groups = 0, repeats = 0;  // poses, and readings beyond the first
+  int groups = 0, repeats = 0;  // of repeats, and readings beyond the first
 };
 
 Squares squares_of(const Measurements& measured, const Rows3& error, const std::vector<int>& rows) {
+  const std::vector<int> group_of = repeat_groups(measured);
   std::map<int, std::vector<int>> groups;
-  for (const int i : rows) groups[measured.replicate_group[i]].push_back(i);
+  for (const int i : rows) groups[group_of[i]].push_back(i);
   Squares out;
   for (const auto& [group, members] : groups) {
     Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();

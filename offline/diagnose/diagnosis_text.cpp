@@ -25,16 +25,17 @@ constexpr std::size_t kAlternativesShown = 3;
 
 std::string mm(double metres) { return fmt::format("{:.3f} mm", metres * 1e3); }
 
-std::string floor_words(const NoiseFloor& floor) {
-  if (floor.source == NoiseFloor::Source::kNone) return "noise floor unknown";
-  return "noise floor " + mm(floor.mean_m);
-}
-
-/// What of the floor is the arm's, as a sentence of its own; empty: nothing is seen of it.
+/// What the joints scatter, as a sentence of its own; empty: nothing is seen of it.
 std::string repeatability_words(const Cell& cell, const Diagnosis& d) {
   if (!d.repeatability.supported()) return "";
-  return fmt::format(" Repeatability of the joints, which is in the floor: {} (1 sigma).",
-                     in_words(cell, d.repeatability));
+  const std::string scatter = in_words(cell, d.repeatability);
+  if (!(d.floor.inferred_m > 0.0))
+    return fmt::format(" Repeatability of the joints: {} (1 sigma).", scatter);
+  return fmt::format(
+      " Repeatability of the joints, inferred from what the model leaves: {} (1 sigma), which "
+      "would "
+      "make an error of {}; to measure it, repeat some poses, each approached anew.",
+      scatter, mm(d.floor.inferred_m));
 }
 
 enum class Held { kSay, kSaid };
@@ -87,7 +88,8 @@ const std::string* near_rival(const Cell& cell, const Diagnosis& d) {
 /// the model, its remains look like small effects, and evidence for these may deceive.
 bool explains_little(const Diagnosis& d) {
   const double after_m = d.candidates.front().alone.mean;
-  return d.floor.source != NoiseFloor::Source::kNone && after_m > kFarAboveFloor * d.floor.mean_m &&
+  return d.floor.source != NoiseFloor::Source::kNone &&
+         after_m > kFarAboveFloor * d.floor.mean_m * d.floor.inferred_times() &&
          after_m > (1.0 - kLittleShare) * d.before.mean;
 }
 

@@ -179,7 +179,10 @@ void find_held_outliers(const Measurements& measured, const std::vector<int>& he
   for (std::size_t i = 0; i < held.size(); ++i) {
     const double times = distance(i) / scatter;
     if (times > kFarTimes)
-      out.held_outliers.push_back({held[i], distance(i) * sigma, times});
+      out.held_outliers.push_back({.row = held[i],
+                                   .error_m = distance(i) * sigma,
+                                   .times = times,
+                                   .pose = measured.pose.empty() ? "" : measured.pose[held[i]]});
     else
       rest.push_back(held[i]);
   }
@@ -210,12 +213,13 @@ void remark_on_outliers(const Measurements& measured, Fit& out) {
                            .help = kHelp});
   // With folds a pose is both, and named already.
   if (!out.held_outliers.empty() && out.split.folds == 0)
-    out.remarks.push_back({.severity = Severity::kWarning,
-                           .code = "W-FIT-HELD-OUTLIERS",
-                           .message = fmt::format("held-out poses that stand out, and count in the "
-                                                  "figures: {}",
-                                                  named(measured, out.held_outliers)),
-                           .help = kHelp});
+    out.remarks.push_back(
+        {.severity = Severity::kWarning,
+         .code = "W-FIT-HELD-OUTLIERS",
+         .message = fmt::format("held-out poses stand out; one line of the error table counts "
+                                "them, the next leaves them out: {}",
+                                named(measured, out.held_outliers)),
+         .help = kHelp});
 }
 
 /// Set-ups of so few poses that all of them are fitted: their own accuracy is not known.

@@ -12,14 +12,16 @@ constexpr double kFew = 1.15;        // times the noise
 bool HeldOutExcess::few_poses() const { return unavoidable > kFew; }
 
 HeldOutExcess::Level HeldOutExcess::level() const {
-  if (times > kAtTheFloor * (few_poses() ? unavoidable : 1.0)) return Level::kLackOfFit;
-  return times > kAtTheFloor ? Level::kAsFewPosesLeaveIt : Level::kAtTheFloor;
+  const double right = kAtTheFloor * (few_poses() ? unavoidable : 1.0);
+  if (times <= kAtTheFloor) return Level::kAtTheFloor;
+  if (times <= right) return Level::kAsFewPosesLeaveIt;
+  return times <= right * inferred ? Level::kAsScatterLeavesIt : Level::kLackOfFit;
 }
 
 std::optional<HeldOutExcess> held_out_excess(double mean_m, const NoiseFloor& floor,
                                              double unavoidable) {
   if (floor.source == NoiseFloor::Source::kNone || !(floor.mean_m > 0.0)) return std::nullopt;
-  return HeldOutExcess{mean_m / floor.mean_m, unavoidable};
+  return HeldOutExcess{mean_m / floor.mean_m, unavoidable, floor.inferred_times()};
 }
 
 }  // namespace plumb::offline

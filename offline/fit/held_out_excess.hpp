@@ -14,11 +14,14 @@ struct HeldOutExcess {
   enum class Level {
     kAtTheFloor,         // up to 1.3 noise floors: nothing is left to explain
     kAsFewPosesLeaveIt,  // more, but no more than so few poses leave to a model that is right
+    kAsScatterLeavesIt,  // more, but no more than the joints would leave if what a diagnosis sees
+                         // in the residuals is their scatter: inferred, not measured
     kLackOfFit           // clearly more: something is missing, named or not
   };
 
   double times = 0.0;        // noise floors
   double unavoidable = 1.0;  // unavoidable_ratio of the fit
+  double inferred = 1.0;     // noise floors that the scatter of the joints would make
 
   Level level() const;
   bool lack_of_fit() const { return level() == Level::kLackOfFit; }

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/noise_floor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "fit/repeat_groups.hpp"
 #include "numbers/quantile.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kEnoughRepeats = 5;         // degrees of freedom per axis
 constexpr double kBadReadingTimes = 6.0;  // the usual scatter: a bad reading
 constexpr double kStatedDof = 4.0;
 constexpr double kNextTo = 10.0;                     // rows
@@ -40,14 +42,15 @@ void take_copies_once(const Rows3& p_M, std::vector<int>& rows) {
   rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
 }
 
-/// Rows of each pose, cut where more than `far` rows lie between two of them: what changes in
-/// between is a drift or a step, and no noise.
-std::vector<std::vector<int>> near_rows(const Measurements& m, double far) {
+/// Rows of each group of repeats, cut where more than `far` rows lie between two of them: what
+/// changes in between is a drift or a step, and no noise.
+std::vector<std::vector<int>> near_rows(const Measurements& m, const std::vector<int>& group,
+                                        double far) {
   std::map<int, std::vector<int>> groups;
   for (int i = 0; i < m.size(); ++i)
-    if (m.set.empty() || m.set[i] != SetMark::kIgnore) groups[m.replicate_group[i]].push_back(i);
+    if (m.set.empty() || m.set[i] != SetMark::kIgnore) groups[group[i]].push_back(i);
   std::vector<std::vector<int>> out;
-  for (const auto& [group, rows] : groups)
+  for (const auto& [number, rows] : groups)
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (i == 0 || rows[i] - rows[i - 1] > far) out.emplace_back();
       out.back().push_back(rows[i]);
@@ -56,9 +59,10 @@ std::vector<std::vector<int>> near_rows(const Measurements& m, double far) {
 }
 
 /// What is left of the readings of every repeated pose.
-std::vector<Readings> repeated(const Measurements& m, const Rows3& left_M, double far) {
+std::vector<Readings> repeated(const Measurements& m, const std::vector<int>& group,
+                               const Rows3& left_M, double far) {
   std::vector<Readings> out;
-  for (auto& rows : near_rows(m, far)) {
+  for (auto& rows : near_rows(m, group, far)) {
     take_copies_once(m.p_M, rows);
     if (rows.size() < 2) continue;
     Readings readings;
@@ -119,8 +123,9 @@ struct Pooled {
   int dof = 0;  // poses, not coordinates
 };
 
-Pooled pooled(const Measurements& m, const Rows3& left_M, int axes, double far) {
-  std::vector<Readings> poses = repeated(m, left_M, far);
+Pooled pooled(const Measurements& m, const std::vector<int>& group, const Rows3& left_M, int axes,
+              double far) {
+  std::vector<Readings> poses = repeated(m, group, left_M, far);
   if (poses.empty()) return {};
   const double usual = usual_sigma(poses, m.has_axis);
   if (usual > 0.0) drop_contradicted(poses, kBadReadingTimes * std::sqrt(axes) * usual);
@@ -135,9 +140,10 @@ Pooled pooled(const Measurements& m, const Rows3& left_M, int axes, double far) 
 
 /// The nearest repeats of which there are enough; of all if there are too few.
 Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
+  const std::vector<int> group = repeat_groups(m);
   Pooled out;
   for (const double share : kNear) {
-    out = pooled(m, left_M, axes, std::max(kNextTo, share * static_cast<double>(m.size())));
+    out = pooled(m, group, left_M, axes, std::max(kNextTo, share * static_cast<double>(m.size())));
     if (out.dof >= kEnoughRepeats) break;
   }
   return out;
@@ -168,6 +174,12 @@ NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3&
 }
 
 }  // namespace
+
+std::string floor_words(const NoiseFloor& floor) {
+  if (floor.source == NoiseFloor::Source::kNone) return "noise floor unknown";
+  return fmt::format("noise floor {:.3f} mm{}", floor.mean_m * 1e3,
+                     floor.source == NoiseFloor::Source::kSigma ? " of the stated sigma" : "");
+}
 
 double trusted_dof(const NoiseFloor& floor) {
   if (floor.source == NoiseFloor::Source::kNone) return 0.0;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFarOutlierTimes = 6.0;  // times the usual scatter: no reading of this tracker
 constexpr double kFarthestFirst = 0.3;  // of the farthest: the rest may only look far because of it
-constexpr double kMostShare = 0.1;      // of the poses
+constexpr double kMostShare = 0.125;    // of the poses: of one in ten a fold may see a few more
 constexpr double kMostOfSetup = 0.34;   // of the poses of one set-up
 constexpr double kLittle = 0.5;         // of the cost is theirs: they pulled the fit aside a little
 constexpr double kSolved = 1e-12;       // of the cost, in the last iteration
@@ -102,7 +102,10 @@ std::vector<Outlier> described(const FitData& data, const std::vector<int>& take
   const Rows3 error = residuals(some, predict_points(fit.state, some));
   std::vector<Outlier> out;
   for (std::size_t i = 0; i < taken.size(); ++i)
-    out.push_back({taken[i], error.row(i).norm(), distance(i) / scatter});
+    out.push_back({.row = taken[i],
+                   .error_m = error.row(i).norm(),
+                   .times = distance(i) / scatter,
+                   .pose = some.pose.empty() ? "" : some.pose[i]});
   std::sort(out.begin(), out.end(),
             [](const Outlier& a, const Outlier& b) { return a.times > b.times; });
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "fit/solver.hpp"
@@ -13,6 +14,7 @@ struct Outlier {
   int row = 0;           // of the measurements
   double error_m = 0.0;  // from where the fit without it predicts the point
   double times = 0.0;    // the usual scatter
+  std::string pose{};    // its name; empty: it has none
 };
 
 /// `rows` without these.
@@ -29,7 +31,7 @@ double usual_scatter(const Eigen::VectorXd& distances, int per_pose);
 
 /// Least squares without the poses that the others contradict: farther away than 6 times the usual
 /// scatter. The farthest go first, the fit is repeated, and who then agrees comes back. Takes them
-/// out of `data.rows` and returns them, farthest first. More than one pose in ten would be no
+/// out of `data.rows` and returns them, farthest first. More than one pose in eight would be no
 /// outliers but a wrong model: then none is taken out. A set-up never loses more than one pose, or
 /// a third of them.
 std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Parameter>& parameters,

@@ -117,11 +117,7 @@ NoiseFloor with_repeatability(NoiseFloor floor, const Repeatability& repeatabili
   if (floor.source == NoiseFloor::Source::kNone || !repeatability.supported() ||
       !(floor.sigma_m > 0.0) || repeatability.sigma_m <= floor.sigma_m)
     return floor;
-  const double times = repeatability.sigma_m / floor.sigma_m;
-  floor.sigma_m *= times;
-  floor.mean_m *= times;
-  floor.rms_m *= times;
-  floor.holds_scatter = true;
+  floor.inferred_m = floor.mean_m * repeatability.sigma_m / floor.sigma_m;
   return floor;
 }
 

@@ -39,8 +39,8 @@ Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& sc
 Repeatability repeatability(const Cell& cell, const Measurements& measured,
                             const Calibration& calibration, const std::vector<int>& rows);
 
-/// The noise floor with the repeatability of the arm in it, where that is supported and the floor
-/// is known.
+/// The noise floor, and beside it what the repeatability of the arm would make of it, where that is
+/// supported and the floor is known.
 NoiseFloor with_repeatability(NoiseFloor floor, const Repeatability& repeatability);
 
 /// "J2 25 urad, J3 31 urad", largest first; the small ones are left out.

@@ -21,7 +21,7 @@ Json to_json(const NoiseFloor& f) {
           {"rms_m", f.rms_m},
           {"dof", f.dof},
           {"source", static_cast<int>(f.source)},
-          {"holds_scatter", f.holds_scatter}};
+          {"inferred_m", f.inferred_m}};
 }
 NoiseFloor floor_from(const Json& j) {
   return {.sigma_m = j.at("sigma_m"),
@@ -29,7 +29,7 @@ NoiseFloor floor_from(const Json& j) {
           .rms_m = j.at("rms_m"),
           .dof = j.value("dof", 0),
           .source = static_cast<NoiseFloor::Source>(j.at("source").get<int>()),
-          .holds_scatter = j.value("holds_scatter", false)};
+          .inferred_m = j.value("inferred_m", 0.0)};
 }
 
 Json to_json(const Estimate& e) {
@@ -144,13 +144,16 @@ Calibration calibration_from(const Json& j) {
 Json to_json(const std::vector<Outlier>& outliers) {
   Json out = Json::array();
   for (const auto& o : outliers)
-    out.push_back({{"row", o.row}, {"error_m", o.error_m}, {"times", o.times}});
+    out.push_back({{"row", o.row}, {"error_m", o.error_m}, {"times", o.times}, {"pose", o.pose}});
   return out;
 }
 std::vector<Outlier> outliers_from(const Json& run, const char* key) {
   std::vector<Outlier> out;
   for (const auto& o : run.value(key, Json::array()))
-    out.push_back({o.at("row"), o.at("error_m"), o.at("times")});
+    out.push_back({.row = o.at("row"),
+                   .error_m = o.at("error_m"),
+                   .times = o.at("times"),
+                   .pose = o.value("pose", "")});
   return out;
 }
 

@@ -266,7 +266,7 @@ Run load_run(const Cell& cell, int number) {
     predictions_from_csv(file, run.fit);
     run.fit.calibration.parameters = parameters_by_name(cell, run.fit.calibration);
     file = folder / kNoiseFloor;
-    if (const auto floor = diagnosed_floor(run)) run.fit.floor = *floor;
+    if (const auto floor = diagnosed_floor(run)) run.fit.floor.inferred_m = floor->inferred_m;
     return run;
   } catch (const nlohmann::json::exception& e) {
     damaged(file, unexpected(e));

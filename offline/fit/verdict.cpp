@@ -10,32 +10,73 @@ namespace {
 
 constexpr double kBelowTheFloor = 0.75;  // times the noise floor: the floor is not only noise
 constexpr double kFarBeyond = 3.0;       // tolerances
+constexpr double kMostStandOut = 0.15;   // of the held-out readings
+constexpr std::size_t kNamed = 3;        // readings, in the head
 
 std::string mm(double m) { return fmt::format("{:.3f} mm", m * 1e3); }
 
 std::string readings(int n) { return fmt::format("{} reading{}", n, n == 1 ? "" : "s"); }
 
-/// "held-out error 0.164 mm mean, 0.384 mm at 95 % of 48 readings"
-std::string size_words(const ErrorStats& held) {
-  return fmt::format("held-out error {} mean, {} at 95 % of {}", mm(held.mean), mm(held.p95),
-                     readings(held.n));
+bool leaves_out(const Fit& fit) { return &usual_held(fit) != &fit.held; }
+
+/// Those of a pose that stands out several times are named once. Empty: no names are known.
+std::vector<std::string> names_of(const std::vector<Outlier>& outliers) {
+  std::vector<std::string> out;
+  for (const auto& one : outliers) {
+    if (one.pose.empty()) return {};
+    if (std::find(out.begin(), out.end(), one.pose) == out.end()) out.push_back(one.pose);
+  }
+  return out;
 }
 
-std::string floor_words(const Fit& fit) { return "noise floor " + mm(fit.floor.mean_m); }
+/// "P7, P24, P41"; "12 readings" if they are many.
+std::string who_stands_out(const Fit& fit) {
+  const auto names = names_of(fit.held_outliers);
+  if (names.empty() || names.size() > kNamed)
+    return readings(static_cast<int>(fit.held_outliers.size()));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// "P7, P24, P41, which miss by 3.012 to 5.100 mm"
+std::string outlier_words(const Fit& fit) {
+  const auto& all = fit.held_outliers;
+  const auto [least, most] = std::minmax_element(
+      all.begin(), all.end(), [](const auto& a, const auto& b) { return a.error_m < b.error_m; });
+  if (all.size() == 1)
+    return fmt::format("{}, which misses by {}", who_stands_out(fit), mm(most->error_m));
+  return fmt::format("{}, which miss by {:.3f} to {}", who_stands_out(fit), least->error_m * 1e3,
+                     mm(most->error_m));
+}
+
+/// "held-out error 0.164 mm mean, 0.384 mm at 95 % of 48 readings", and which are left out.
+std::string size_words(const Fit& fit) {
+  const ErrorStats& held = usual_held(fit);
+  std::string out = fmt::format("held-out error {} mean, {} at 95 % of {}", mm(held.mean),
+                                mm(held.p95), readings(held.n));
+  if (leaves_out(fit)) return out + " (without " + outlier_words(fit) + ")";
+  if (fit.held_outliers.empty()) return out;
+  return out + fmt::format(" ({} of them stand out, too many for single bad readings)",
+                           fit.held_outliers.size());
+}
+
+std::string floor_words(const Fit& fit) { return offline::floor_words(fit.floor); }
 
 /// Of a fit with a noise floor.
 HeldOutExcess left(const Fit& fit) { return held_out_excess_of(fit).value_or(HeldOutExcess{}); }
 double times_floor(const Fit& fit) { return left(fit).times; }
 
-/// "6.5 times the noise floor 0.016 mm"; it says so where it leaves readings out that the
-/// millimetres beside it count.
+/// "6.5 times the noise floor 0.016 mm"
 std::string times_words(const Fit& fit) {
-  const bool without = fit.held_without_outliers.n > 0 && fit.held_without_outliers.n < fit.held.n;
-  return fmt::format("{}{:.1f} times the {}",
-                     without ? fmt::format("without {} readings that stand out ",
-                                           fit.held.n - fit.held_without_outliers.n)
-                             : "",
-                     times_floor(fit), floor_words(fit));
+  return fmt::format("{:.1f} times the {}", times_floor(fit), floor_words(fit));
+}
+
+/// What a diagnosis takes for scatter of the joints is inferred from what the model leaves.
+std::string scatter_words(const Fit& fit) {
+  return fmt::format(
+      "{}, no more than joints would leave that do not come back to exactly the same place ({}, "
+      "inferred from what the model leaves); repeat some poses, each approached anew, to measure "
+      "it",
+      times_words(fit), mm(fit.floor.inferred_m));
 }
 
 Quality quality_within(const Fit& fit) {
@@ -54,32 +95,53 @@ Quality quality_beyond(const Fit& fit) {
       return Quality::kLimitedByNoise;
     case HeldOutExcess::Level::kAsFewPosesLeaveIt:
       return Quality::kTooFewPoses;
+    case HeldOutExcess::Level::kAsScatterLeavesIt:
+      return Quality::kPerhapsLimitedByJoints;
     default:
       return Quality::kBeyond;
   }
 }
 
+/// Whether readings that stand out are all that keeps the tolerance from being kept.
+bool good_but_for_some(const Fit& fit, double tolerance_m) {
+  return leaves_out(fit) && keeps(usual_held(fit), tolerance_m) && !keeps(fit.held, tolerance_m);
+}
+
 /// Of joints that never moved nothing is known.
-std::string good(const Fit& fit) {
-  if (fit.still.empty()) return "Good";
-  return fmt::format("Good only while {} {} where {}", fmt::join(fit.still, ", "),
+std::string good(const Fit& fit, double tolerance_m) {
+  const std::string but =
+      good_but_for_some(fit, tolerance_m) ? " but for " + who_stands_out(fit) : "";
+  if (fit.still.empty()) return "Good" + but;
+  return fmt::format("Good{} only while {} {} where {}", but, fmt::join(fit.still, ", "),
                      fit.still.size() == 1 ? "stays" : "stay",
                      fit.still.size() == 1 ? "it was" : "they were");
 }
 
 std::string good_words(const Fit& fit, const std::string& size, double tolerance_m) {
-  if (left(fit).level() == HeldOutExcess::Level::kAtTheFloor)
-    return fmt::format("{}: {}, at the {}; nothing more can be learnt from these poses.", good(fit),
-                       size, floor_words(fit));
-  return fmt::format("{}: {}, within {}; {}, as few poses leave it.", good(fit), size,
-                     mm(tolerance_m), times_words(fit));
+  const std::string head = good(fit, tolerance_m);
+  const bool measured_floor = fit.floor.source == NoiseFloor::Source::kRepeats;
+  switch (left(fit).level()) {
+    case HeldOutExcess::Level::kAtTheFloor:
+      return fmt::format("{}: {}, at the {}; {}.", head, size, floor_words(fit),
+                         measured_floor
+                             ? "nothing more can be learnt from these poses"
+                             : "repeats of a few poses would tell whether more can be learnt");
+    case HeldOutExcess::Level::kAsScatterLeavesIt:
+      return fmt::format("{}: {}, within {}; {}.", head, size, mm(tolerance_m), scatter_words(fit));
+    default:
+      return fmt::format("{}: {}, within {}; {}, as few poses leave it.", head, size,
+                         mm(tolerance_m), times_words(fit));
+  }
 }
 
-std::string limited_by_joints(const Fit& fit, const std::string& size, double tolerance_m) {
-  return fmt::format(
-      "Limited by the arm: {}, at the {}, but the tolerance is {}: the joints do not come back to "
-      "exactly the same place, which no model removes.",
-      size, floor_words(fit), mm(tolerance_m));
+/// Of readings that stand out: bad ones, or poses where the model fails; nobody can tell from here.
+std::string but_for_words(const Fit& fit, const std::string& size, double tolerance_m) {
+  const std::string kept =
+      fmt::format("{}: {}, within {}", good(fit, tolerance_m), size, mm(tolerance_m));
+  const auto excess = held_out_excess_of(fit);
+  const std::string floor = excess ? "; " + times_words(fit) : "";
+  return fmt::format("{}{}. Bad readings, or poses where the model fails: measure them again.",
+                     kept, floor);
 }
 
 std::string limited_words(const Fit& fit, const std::string& size, double tolerance_m) {
@@ -95,10 +157,16 @@ std::string limited_words(const Fit& fit, const std::string& size, double tolera
 
 }  // namespace
 
+const ErrorStats& usual_held(const Fit& fit) {
+  const auto out = static_cast<double>(fit.held_outliers.size());
+  const bool single = out <= kMostStandOut * static_cast<double>(fit.held.n);
+  return out > 0.0 && single && fit.held_without_outliers.n > 0 ? fit.held_without_outliers
+                                                                : fit.held;
+}
+
 std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit) {
   if (fit.held.n == 0) return std::nullopt;
-  const ErrorStats& usual = fit.held_without_outliers.n > 0 ? fit.held_without_outliers : fit.held;
-  return held_out_excess(usual.mean, fit.floor, fit.unavoidable_ratio);
+  return held_out_excess(usual_held(fit).mean, fit.floor, fit.unavoidable_ratio);
 }
 
 bool keeps(const ErrorStats& held, double tolerance_m) {
@@ -107,11 +175,14 @@ bool keeps(const ErrorStats& held, double tolerance_m) {
 
 Quality quality(const Fit& fit, double tolerance_m) {
   if (fit.held.n == 0) return Quality::kNotHeldOut;
-  const bool within = fit.held.p95 <= tolerance_m;
-  if (within && !keeps(fit.held, tolerance_m)) return Quality::kWorstPoseIsFar;
-  if (fit.floor.source == NoiseFloor::Source::kNone)
-    return within ? Quality::kGoodNoiseUnknown : Quality::kBeyondNoiseUnknown;
-  return within ? quality_within(fit) : quality_beyond(fit);
+  const ErrorStats& held = usual_held(fit);
+  const bool within = held.p95 <= tolerance_m;
+  if (within && !keeps(held, tolerance_m)) return Quality::kWorstPoseIsFar;
+  const bool known = fit.floor.source != NoiseFloor::Source::kNone;
+  if (!within) return known ? quality_beyond(fit) : Quality::kBeyondNoiseUnknown;
+  const Quality out = known ? quality_within(fit) : Quality::kGoodNoiseUnknown;
+  const bool good = out == Quality::kGood || out == Quality::kGoodNoiseUnknown;
+  return good && good_but_for_some(fit, tolerance_m) ? Quality::kGoodButForSome : out;
 }
 
 Grade grade(const Fit& fit, double tolerance_m) {
@@ -124,8 +195,10 @@ Grade grade(const Fit& fit, double tolerance_m) {
     case Quality::kRepeatsDisagree:
     case Quality::kSigmaTooLarge:
     case Quality::kGoodNotComplete:
+    case Quality::kGoodButForSome:
     case Quality::kWorstPoseIsFar:
     case Quality::kLimitedByNoise:
+    case Quality::kPerhapsLimitedByJoints:
       return Grade::kPartly;
     default:
       return Grade::kBad;
@@ -151,22 +224,25 @@ std::string verdict_head(const Fit& fit, double tolerance_m) {
       return "Accuracy unknown";
     case Quality::kGood:
     case Quality::kGoodNoiseUnknown:
-      return good(fit);
+    case Quality::kGoodButForSome:
+      return good(fit, tolerance_m);
     case Quality::kRepeatsDisagree:
     case Quality::kSigmaTooLarge:
     case Quality::kGoodNotComplete:
-      return good(fit) + ", not complete";
+      return good(fit, tolerance_m) + ", not complete";
     case Quality::kWorstPoseIsFar:
       return "Not good everywhere";
     case Quality::kLimitedByNoise:
-      return fit.floor.holds_scatter ? "Limited by the arm" : "Limited by the measurement";
+      return "Limited by the measurement";
+    case Quality::kPerhapsLimitedByJoints:
+      return "Perhaps limited by the arm";
     default:
       return "Not good enough";
   }
 }
 
 std::string verdict(const Fit& fit, double tolerance_m) {
-  const std::string size = size_words(fit.held), tolerance = mm(tolerance_m);
+  const std::string size = size_words(fit), tolerance = mm(tolerance_m);
   switch (quality(fit, tolerance_m)) {
     case Quality::kNotHeldOut:
       return "No pose was held out: this fit says nothing about its accuracy.";
@@ -176,25 +252,29 @@ std::string verdict(const Fit& fit, double tolerance_m) {
       return fmt::format(
           "{}, but repeats of a pose differ by more than the model misses: {}, within {}, {}; "
           "something changes between the repeats.",
-          good(fit), size, tolerance, floor_words(fit));
+          good(fit, tolerance_m), size, tolerance, floor_words(fit));
     case Quality::kSigmaTooLarge:
       return fmt::format(
           "{}: {}, within {}; the noise as it is stated would give {}: sigma is "
           "stated too large.",
-          good(fit), size, tolerance, mm(fit.floor.mean_m));
+          good(fit, tolerance_m), size, tolerance, mm(fit.floor.mean_m));
     case Quality::kGoodNotComplete:
       return fmt::format(
           "{}: {}, within {}; but {}: something physical is still "
           "missing.",
-          good(fit), size, tolerance, times_words(fit));
+          good(fit, tolerance_m), size, tolerance, times_words(fit));
+    case Quality::kGoodButForSome:
+      return but_for_words(fit, size, tolerance_m);
     case Quality::kWorstPoseIsFar:
       return fmt::format(
           "Not good everywhere: {}, within {}, but the worst pose misses by {}: a "
           "bad reading, or a place where the model fails.",
-          size, tolerance, mm(fit.held.max));
+          size, tolerance, mm(usual_held(fit).max));
     case Quality::kLimitedByNoise:
-      return fit.floor.holds_scatter ? limited_by_joints(fit, size, tolerance_m)
-                                     : limited_words(fit, size, tolerance_m);
+      return limited_words(fit, size, tolerance_m);
+    case Quality::kPerhapsLimitedByJoints:
+      return fmt::format("Perhaps limited by the arm: {}, over the tolerance of {}; {}.", size,
+                         tolerance, scatter_words(fit));
     case Quality::kBeyondSigmaTooLarge:
       return fmt::format(
           "Not good enough: {}, over the tolerance of {}; but the noise as it is stated would give "
@@ -211,10 +291,11 @@ std::string verdict(const Fit& fit, double tolerance_m) {
           "something physical is missing.",
           size, tolerance, times_words(fit));
     default:
-      return fmt::format(
-          "{}: {}; tolerance {}; noise floor unknown.",
-          quality(fit, tolerance_m) == Quality::kGoodNoiseUnknown ? good(fit) : "Not good enough",
-          size, tolerance);
+      return fmt::format("{}: {}; tolerance {}; noise floor unknown.",
+                         quality(fit, tolerance_m) == Quality::kGoodNoiseUnknown
+                             ? good(fit, tolerance_m)
+                             : "Not good enough",
+                         size, tolerance);
   }
 }
 
@@ -227,8 +308,11 @@ std::string next_step(const Fit& fit, double tolerance_m) {
     case Quality::kSigmaTooLarge:
       return fit.still.empty() ? "compile   # the model file for the controller"
                                : "plan --n 30   # poses that move the other joints too";
+    case Quality::kGoodButForSome:
+      return "check   # are the readings that stand out wrong?";
     case Quality::kWorstPoseIsFar:
       return "compare   # which pose is it?";
+    case Quality::kPerhapsLimitedByJoints:
     case Quality::kLimitedByNoise:
       return "compare   # did something move during the measurement?";
     case Quality::kBeyondSigmaTooLarge:

@@ -9,21 +9,28 @@
 
 namespace plumb::offline {
 
+/// The held-out errors that the verdict rests on: without the readings that are listed as standing
+/// out, unless these are more than one in seven, which would be no single bad readings any more.
+const ErrorStats& usual_held(const Fit& fit);
+
 /// What a calibration comes to. Within tolerance: at 95 % of the held-out poses and nowhere three
-/// times beyond it.
+/// times beyond it, by `usual_held`.
 enum class Quality {
   kNotHeldOut,       // no pose was held out
   kGood,             // within tolerance, and at the noise floor or as few poses leave it
   kRepeatsDisagree,  // within tolerance, but repeats of a pose differ by more than the model misses
   kSigmaTooLarge,    // the same, but the noise is stated and not measured
-  kGoodNoiseUnknown,     // within tolerance; no noise floor is known
-  kGoodNotComplete,      // within tolerance, but clearly above the noise floor
-  kWorstPoseIsFar,       // within tolerance but for single poses
-  kLimitedByNoise,       // beyond tolerance, at the noise floor
-  kBeyondSigmaTooLarge,  // beyond tolerance, and clearly below the noise as it is stated
-  kTooFewPoses,          // beyond tolerance, as few poses leave it
-  kBeyond,               // beyond tolerance, clearly above the noise floor
-  kBeyondNoiseUnknown    // beyond tolerance; no noise floor is known
+  kGoodNoiseUnknown,        // within tolerance; no noise floor is known
+  kGoodNotComplete,         // within tolerance, but clearly above the noise floor
+  kGoodButForSome,          // one of the good ones, but for readings that stand out
+  kWorstPoseIsFar,          // within tolerance but for single poses that do not even stand out
+  kLimitedByNoise,          // beyond tolerance, at the noise floor
+  kPerhapsLimitedByJoints,  // beyond tolerance, as the scatter of the joints would leave it, which
+                            // is inferred and not measured
+  kBeyondSigmaTooLarge,     // beyond tolerance, and clearly below the noise as it is stated
+  kTooFewPoses,             // beyond tolerance, as few poses leave it
+  kBeyond,                  // beyond tolerance, clearly above the noise floor
+  kBeyondNoiseUnknown       // beyond tolerance; no noise floor is known
 };
 
 Quality quality(const Fit& fit, double tolerance_m);
@@ -41,7 +48,7 @@ const char* name_of(Grade grade);  // "good", "partly", "bad", "unknown"
 /// The answer in few words: "Good", "Not good everywhere", "Limited by the measurement".
 std::string verdict_head(const Fit& fit, double tolerance_m);
 
-/// What the calibrated arm leaves on the held-out poses, without those that stand out, which say
+/// What the calibrated arm leaves on the held-out poses, by `usual_held`: single bad readings say
 /// nothing about physics. Nothing without held-out poses or a noise floor.
 std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit);
 

@@ -135,9 +135,9 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   for (const auto& effect : cell.effects) out.effects.push_back(effect.name);
   const MeasurementFiles measured = read_cell_measurements(cell);
   const Fit fit = fit_cell(cell, measured);
-  out.held = fit.held;
+  out.held = usual_held(fit);
   out.floor_m = fit.floor.mean_m;
-  out.good = fit.held.n > 0 && keeps(fit.held, cell.tolerance_m);
+  out.good = fit.held.n > 0 && keeps(usual_held(fit), cell.tolerance_m);
   out.verdict = verdict(fit, cell.tolerance_m);
   put_numbers(
       calibrate_from(with_hardly_any_prior(with_orientations_as_judged(cell, fit.orientations)),

@@ -6,6 +6,7 @@
 
 #include "fit/outliers.hpp"
 #include "fit/series_solver.hpp"
+#include "fit/verdict.hpp"
 #include "fit/weights.hpp"
 #include "recheck/misfit.hpp"
 
@@ -30,7 +31,7 @@ double scatter_of(const Run& run, const Measurements& own, const Rows3& error,
   const int axes = axes_of(own);
   // A tree, or a series of waves, fits its own readings better than others.
   if ((run.fit.tree || has_series(run.fit.calibration.state)) && run.fit.held.n > 0)
-    return run.fit.held.rms / std::sqrt(static_cast<double>(axes));
+    return usual_held(run.fit).rms / std::sqrt(static_cast<double>(axes));
   double squares = 0.0;
   for (const int i : rows) squares += error.row(i).squaredNorm();
   const double used = static_cast<double>(rows.size()) * axes;
@@ -104,8 +105,10 @@ OldErrors old_errors(const Run& calibrated, const Measurements& own) {
       without_outliers(without_outliers(std::move(out.rows), calibrated.fit.calibration.outliers),
                        calibrated.fit.held_outliers);
   const NoiseFloor& floor = calibrated.fit.floor;
-  out.noise_m =
-      floor.source != NoiseFloor::Source::kNone ? std::min(floor.sigma_m, scatter) : scatter;
+  // Scatter of the joints that a diagnosis sees is expected of new readings as well.
+  out.noise_m = floor.source != NoiseFloor::Source::kNone
+                    ? std::min(floor.sigma_m * floor.inferred_times(), scatter)
+                    : scatter;
   out.noise_m = std::max(out.noise_m, kLeastNoise_m);
   out.lacks_m = std::sqrt(std::max(0.0, scatter * scatter - out.noise_m * out.noise_m));
   return out;

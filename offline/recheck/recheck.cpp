@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "fit/arm_change.hpp"
+#include "fit/verdict.hpp"
 #include "numbers/tails.hpp"
 #include "recheck/left_out.hpp"
 #include "recheck/refit.hpp"
@@ -202,7 +203,7 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
   Recheck out;
   out.readings = readings.rows.size();
   out.poses = readings.poses;
-  out.then = run.fit.held;
+  out.then = usual_held(run.fit);
   for (std::size_t k = search.assumed(); k < search.found().size(); ++k)
     if (search.found()[k].part == Part::kReading)
       out.odd_readings.push_back(search.found()[k].row);

@@ -117,7 +117,7 @@ Json found_to(const Diagnosis& d) {
            {"floor", {d.floor.sigma_m, d.floor.mean_m, d.floor.rms_m}},
            {"floor_dof", d.floor.dof},
            {"floor_source", static_cast<int>(d.floor.source)},
-           {"floor_holds_scatter", d.floor.holds_scatter},
+           {"floor_inferred_m", d.floor.inferred_m},
            {"poses", {d.poses_fit, d.poses_held, d.poses_choosing}},
            {"nested", d.nested},
            {"folds", d.folds},
@@ -149,7 +149,7 @@ Diagnosis found_of(const Json& j) {
              .rms_m = floor.at(2),
              .dof = j.at("floor_dof"),
              .source = static_cast<NoiseFloor::Source>(j.at("floor_source").get<int>()),
-             .holds_scatter = j.value("floor_holds_scatter", false)};
+             .inferred_m = j.value("floor_inferred_m", 0.0)};
   d.poses_fit = j.at("poses").at(0);
   d.poses_held = j.at("poses").at(1);
   d.poses_choosing = j.at("poses").at(2);

@@ -49,13 +49,13 @@ std::string fall_words(const Fit& fit) {
   if (fit.held.n == 0 || fit.nominal_held.n == 0)
     return "No reading was held out, so nothing is known of readings that the model has not seen: "
            "the row of the fitted readings is no accuracy.";
-  const double share = 1.0 - fit.held.mean / std::max(fit.nominal_held.mean, 1e-12);
+  const ErrorStats& held = usual_held(fit);
+  const double share = 1.0 - held.mean / std::max(fit.nominal_held.mean, 1e-12);
   return fmt::format(
       "On {} that the model has not seen, calibration takes the mean error from {} mm to {} mm "
       "({}{:.0f} %).",
-      counted_words(static_cast<std::size_t>(fit.held.n), "reading", "readings"),
-      mm(fit.nominal_held.mean), mm(fit.held.mean), share >= 0.0 ? "-" : "+",
-      std::abs(100.0 * share));
+      counted_words(static_cast<std::size_t>(held.n), "reading", "readings"),
+      mm(fit.nominal_held.mean), mm(held.mean), share >= 0.0 ? "-" : "+", std::abs(100.0 * share));
 }
 
 std::string tolerance_words(const ReportData& data) {
@@ -69,6 +69,16 @@ std::string tolerance_words(const ReportData& data) {
   return out +
          fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm.",
                      100.0 * data.comparison.within_tolerance, mm(data.run.fit.held.max));
+}
+
+std::string inferred_words(const NoiseFloor& floor) {
+  if (!(floor.inferred_m > 0.0)) return "";
+  return fmt::format(
+      " A diagnosis takes what the model leaves for joints that do not come back to the same "
+      "place, "
+      "which would make it {} mm: that is inferred, not measured; repeats of some poses, each "
+      "approached anew, would measure it.",
+      mm(floor.inferred_m));
 }
 
 std::string floor_source_words(const NoiseFloor& floor) {
@@ -114,8 +124,10 @@ HtmlTable errors(const ReportData& data) {
     table.rows.push_back(error_row("after, without its outliers", fit.held_without_outliers));
   table.rows.push_back(error_row(show::fit_row_name(fit), fit.fit));
   if (fit.floor.source != NoiseFloor::Source::kNone)
-    table.rows.push_back(
-        {"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m), "", ""});
+    for (auto& row : show::floor_rows(fit.floor)) {
+      row.resize(table.head.size());
+      table.rows.push_back(std::move(row));
+    }
   table.rows.push_back({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
   return table;
 }
@@ -155,7 +167,7 @@ void put_facts(const ReportData& data, Html& html) {
 
 std::optional<bool> is_good(const Run& run, double tolerance_m) {
   if (run.fit.held.n == 0) return std::nullopt;
-  return keeps(run.fit.held, tolerance_m);
+  return keeps(usual_held(run.fit), tolerance_m);
 }
 
 Html verdict_page(const ReportData& data, const ReportFigures& figures) {
@@ -171,7 +183,7 @@ Html verdict_page(const ReportData& data, const ReportFigures& figures) {
     html.paragraph("Something may have moved during the measurement: " +
                    show::step_words(data.cell, data.measured, step) + ".");
   html.table(errors(data));
-  html.paragraph(floor_source_words(data.run.fit.floor));
+  html.paragraph(floor_source_words(data.run.fit.floor) + inferred_words(data.run.fit.floor));
   put_facts(data, html);
   figures.put(Page::kVerdict, html);
   return html;

@@ -54,10 +54,7 @@ std::string errors_text(const Measurements& measured, const Comparison& comparis
   if (!fit.held_outliers.empty())
     table.add(stats_row("  without its outliers", fit.held_without_outliers));
   table.add(stats_row(fit_row_name(fit), fit.fit));
-  if (fit.floor.source == NoiseFloor::Source::kNone)
-    table.add({"noise floor: unknown"});
-  else
-    table.add({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m)});
+  for (auto& row : floor_rows(fit.floor)) table.add(std::move(row));
   return table.text() + folds_text(fit.split.folds, fit.fit.n) +
          within_text(comparison, fit, tolerance_m);
 }
@@ -178,8 +175,10 @@ std::string after_comparison(const Cell& cell, const Comparison& comparison, con
     return "diagnose   # puts it into the model, if the readings support it";
   switch (quality(run.fit, cell.tolerance_m)) {
     case Quality::kWorstPoseIsFar:
+    case Quality::kGoodButForSome:
       return "check   # is one of the readings wrong?";
     case Quality::kLimitedByNoise:
+    case Quality::kPerhapsLimitedByJoints:
       return "check   # how large are noise and rounding of the readings?";
     default:
       return next_step(run.fit, cell.tolerance_m);

@@ -109,12 +109,19 @@ std::string lack_of_fit_words(const LackOfFit& found, const Fit& fit) {
            "by more than noise.";
   if (!found.significant())
     return "Lack of fit: none; what the model misses is no more than the noise of the readings.";
-  const bool at_floor = held && held->level() == HeldOutExcess::Level::kAtTheFloor;
-  if (at_floor && fit.floor.holds_scatter)
-    return "Lack of fit: none but that the joints do not come back to exactly the same place, "
-           "which "
-           "no model removes.";
-  if (at_floor)
+  using Level = HeldOutExcess::Level;
+  if (held && held->level() == Level::kAsScatterLeavesIt)
+    return fmt::format(
+        "Lack of fit: {:.0f} % of the squared error is more than noise (by chance: {}), as much as "
+        "joints would leave that do not come back to exactly the same place; a diagnosis found no "
+        "better explanation.",
+        100.0 * found.systematic, chance(found.ln_p));
+  if (held && held->level() == Level::kAsFewPosesLeaveIt)
+    return fmt::format(
+        "Lack of fit: {:.0f} % of the squared error of the fitted readings is systematic (by "
+        "chance: {}), but the held-out ones are missed by no more than so few poses leave.",
+        100.0 * found.systematic, chance(found.ln_p));
+  if (held && held->level() == Level::kAtTheFloor)
     return fmt::format(
         "Lack of fit: {:.0f} % of the squared error of the fitted readings is systematic (by "
         "chance: {}), too little to take the held-out ones above the noise floor.",

@@ -47,6 +47,16 @@ void add_interval(const MeanInterval& interval, Json& out) {
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
 }
 
+std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor) {
+  if (floor.source == NoiseFloor::Source::kNone) return {{"noise floor: unknown"}};
+  std::vector<std::vector<std::string>> out{
+      {floor.source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated" : "noise floor",
+       "", mm(floor.mean_m), "", mm(floor.rms_m)}};
+  if (floor.inferred_m > 0.0)
+    out.push_back({"  inferred, if the joints scatter", "", mm(floor.inferred_m)});
+  return out;
+}
+
 std::string folds_text(int folds, int readings) {
   if (folds == 0) return "";
   return fmt::format(
@@ -70,10 +80,7 @@ std::string error_table(const Measurements& measured, const Fit& fit) {
   if (!fit.held_outliers.empty())
     table.add(row("  without its outliers", fit.held_without_outliers));
   table.add(row(fit_row_name(fit), fit.fit));
-  if (fit.floor.source == NoiseFloor::Source::kNone)
-    table.add({"noise floor: unknown"});
-  else
-    table.add({"noise floor", "", mm(fit.floor.mean_m), "", mm(fit.floor.rms_m)});
+  for (auto& one : floor_rows(fit.floor)) table.add(std::move(one));
   return table.text() + folds_text(fit.split.folds, fit.fit.n) + turn_table(fit.turn_held);
 }
 
@@ -109,6 +116,7 @@ void add_floor(const NoiseFloor& floor, Json& out) {
   put(out, "noise_floor_mm", to_mm(floor.mean_m));
   put(out, "noise_floor_rms_mm", to_mm(floor.rms_m));
   out["noise_floor_source"] = floor.source == NoiseFloor::Source::kRepeats ? "repeats" : "sigma";
+  if (floor.inferred_m > 0.0) out["inferred_floor_mm"] = to_mm(floor.inferred_m);
 }
 
 }  // namespace plumb::offline::show

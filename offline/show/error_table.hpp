@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fit/fit.hpp"
 #include "fit/mean_interval.hpp"
@@ -34,7 +35,11 @@ void add_turns(const ErrorStats& turn_held, Json& out);
 void add_orientation(const MeasuredOrientations& judged, const std::vector<std::string>& meant,
                      Json& out);
 
-/// noise_floor_mm (mean) and noise_floor_rms_mm; null with reason if nothing is known.
+/// Rows for below the errors: the noise floor with its source, and what is only inferred.
+std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor);
+
+/// noise_floor_mm (mean) and noise_floor_rms_mm, null with reason if nothing is known;
+/// inferred_floor_mm where a diagnosis takes what is left for scatter of the joints.
 void add_floor(const NoiseFloor& floor, Json& out);
 
 }  // namespace plumb::offline::show

@@ -127,7 +127,7 @@ TEST_F(DiagnoseVerb, ApplyAddsRefitsAndKeepsARun) {
   EXPECT_EQ(plumb({"compile"}).exit, 0);
 }
 
-TEST_F(DiagnoseVerb, EveryScreenTakesOverTheFloorWithTheScatterOfTheJoints) {
+TEST_F(DiagnoseVerb, EveryScreenTakesOverTheScatterOfTheJointsBesideTheMeasuredFloor) {
   ASSERT_EQ(plumb({"simulate", "--force", "--poses", "120", "--repeats", "3",
                    "--joint-scatter-urad", "30"})
                 .exit,
@@ -139,11 +139,13 @@ TEST_F(DiagnoseVerb, EveryScreenTakesOverTheFloorWithTheScatterOfTheJoints) {
       << hedged;
   const Json found = result("diagnose");
   ASSERT_TRUE(found.contains("repeatability")) << found.dump(1);
-  const double floor = found.at("noise_floor_mm");
-  EXPECT_GT(floor, 2.0 * first.at("noise_floor_mm").get<double>());
+  const double floor = found.at("noise_floor_mm"), inferred = found.at("inferred_floor_mm");
+  EXPECT_NEAR(floor, first.at("noise_floor_mm").get<double>(), 1e-9);
+  EXPECT_GT(inferred, 2.0 * floor);
   for (const char* verb : {"compare", "fit"}) {
     const Json later = result(verb);
     EXPECT_NEAR(later.at("noise_floor_mm").get<double>(), floor, 1e-9) << verb;
+    EXPECT_NEAR(later.at("inferred_floor_mm").get<double>(), inferred, 1e-9) << verb;
     const std::string verdict = later.at("verdict");
     EXPECT_EQ(verdict.find("missing"), std::string::npos) << verb << ": " << verdict;
   }

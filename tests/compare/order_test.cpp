@@ -91,8 +91,9 @@ TEST(Series, FollowsTheClockWhereThereIsOne) {
   EXPECT_EQ(at.in_order().first_row.front(), 0);
 }
 
-/// Residuals of a linear fit with `parameters` columns, repeats and something the model lacks.
-LackOfFit fitted(std::uint64_t seed, double missing, double sigma) {
+/// Residuals of a linear fit with `parameters` columns, repeats and something the model lacks;
+/// `warm`: repeats of a pose are at other temperatures, which move them so far.
+LackOfFit fitted(std::uint64_t seed, double missing, double sigma, double warm = 0.0) {
   const int poses = 40, times = 3, parameters = 12, n = poses * times;
   ResidualCase at(seed, n);
   Eigen::MatrixXd X(3 * n, parameters);
@@ -115,7 +116,22 @@ LackOfFit fitted(std::uint64_t seed, double missing, double sigma) {
   for (int i = 0; i < n; ++i) rows.push_back(i);
   NoiseFloor floor;
   floor.sigma_m = sigma;
+  if (warm > 0.0) {
+    at.measured.context.temperature.resize(n, 1);
+    for (int i = 0; i < n; ++i) {
+      at.measured.context.temperature(i, 0) = 20.0 + 10.0 * (i % times);
+      at.error(i, 2) += warm * ((i % times) - 0.5 * (times - 1));
+    }
+  }
   return lack_of_fit(at.measured, at.error, rows, parameters, floor);
+}
+
+TEST(LackOfFit, RepeatsAtOtherTemperaturesAreNoPureError) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const LackOfFit found = fitted(seed, 0.0, 1e-5, 1e-4);
+    EXPECT_TRUE(found.significant()) << "seed " << seed;
+    EXPECT_GT(found.systematic, 0.5) << "seed " << seed;
+  }
 }
 
 TEST(LackOfFit, OfACompleteModelIsOneAndItsChanceIsUniform) {

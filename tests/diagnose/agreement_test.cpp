@@ -36,6 +36,7 @@ Fit any_fit(tests::Random& random) {
                .dof = 60,
                .source = random.uniform(0.0, 1.0) < 0.5 ? NoiseFloor::Source::kRepeats
                                                         : NoiseFloor::Source::kSigma};
+  if (random.uniform(0.0, 1.0) < 0.3) out.floor.inferred_m = floor_m * random.uniform(1.1, 4.0);
   const double parameters = std::floor(random.uniform(10.0, 60.0));
   out.unavoidable_ratio =
       unavoidable_ratio(parameters + std::pow(10.0, random.uniform(0.0, 4.0)), parameters);
@@ -86,6 +87,7 @@ TEST(Agreement, TheThreeVerbsNeverContradictEachOther) {
     ASSERT_FALSE(says(fitted, "at the noise floor") && says(compared, "a better model")) << all;
     ASSERT_FALSE(missing && says(compared, "no more than the noise of the readings")) << all;
     ASSERT_FALSE(says(fitted, "physical") && says(compared, "above the noise floor")) << all;
+    ASSERT_FALSE(says(fitted, "inferred from") && says(compared, "a better model")) << all;
     at_floor += says(fitted, "at the noise floor") ? 1 : 0;
     few += says(fitted, "as few poses leave it") ? 1 : 0;
     lack += says(fitted, "physical") ? 1 : 0;

@@ -34,14 +34,16 @@ TEST(DiagnoseRepeatability, ScatterOfTheJointsIsNoEffect) {
   }
 }
 
-TEST(DiagnoseRepeatability, ItIsSaidWithItsSizeAndStandsInTheFloor) {
+TEST(DiagnoseRepeatability, ItIsSaidWithItsSizeBesideTheFloorThatWasMeasured) {
   const Diagnosis d = diagnosed(scattering(40e-6, 5));
   ASSERT_TRUE(d.repeatability.supported());
   ASSERT_EQ(d.repeatability.std.size(), 6U);
   EXPECT_NEAR(d.repeatability.std[0], 40e-6, 12e-6);
   EXPECT_NEAR(d.repeatability.std[1], 40e-6, 12e-6);
   EXPECT_NE(d.text.find("Repeatability of the joints"), std::string::npos) << d.text;
-  EXPECT_GT(d.floor.sigma_m, 2.0 * 10e-6) << "the tracker's noise alone";
+  EXPECT_NEAR(d.floor.sigma_m, 10e-6, 2e-6) << "the tracker's noise alone";
+  EXPECT_GT(d.floor.inferred_times(), 2.0);
+  EXPECT_NE(d.text.find("inferred from what the model leaves"), std::string::npos) << d.text;
   EXPECT_EQ(d.text.find("times the noise floor"), std::string::npos) << d.text;
 }
 

@@ -69,6 +69,55 @@ TEST(NoiseFloor, ABumpedReflectorBetweenFarRepeatsIsNoNoise) {
   EXPECT_NEAR(noise_floor(Cell{}, m).sigma_m, 1e-5, 1e-6);
 }
 
+/// Every pose is read twice in place, and twice more under another context, which moves it by
+/// 0.1 mm; the rows of one pose follow each other.
+Measurements under_two_contexts(std::uint64_t seed) {
+  Measurements m = repeats_of(40, 4, 1e-5, seed);
+  for (int i = 0; i < m.size(); ++i)
+    if (i % 4 > 1) m.p_M(i, 2) += 1e-4;
+  return m;
+}
+
+TEST(NoiseFloor, RepeatsAtOtherTemperaturesUnderOtherLoadsOrFromOtherSidesAreNoNoise) {
+  for (const char* context : {"temperature", "payload", "direction", "step"}) {
+    Measurements m = under_two_contexts(11);
+    auto& c = m.context;
+    for (RowsN* rows : {&c.temperature, &c.payload, &c.direction, &c.step}) {
+      const bool is_one = (rows == &c.temperature && context == std::string("temperature")) ||
+                          (rows == &c.payload && context == std::string("payload")) ||
+                          (rows == &c.direction && context == std::string("direction")) ||
+                          (rows == &c.step && context == std::string("step"));
+      if (!is_one) continue;
+      *rows = RowsN::Constant(m.size(), 2, 1.0);
+      for (int i = 0; i < m.size(); ++i)
+        if (i % 4 > 1) (*rows)(i, 1) = rows == &c.temperature ? 6.0 : -1.0;
+    }
+    const NoiseFloor floor = noise_floor(Cell{}, m);
+    EXPECT_EQ(floor.source, NoiseFloor::Source::kRepeats) << context;
+    EXPECT_NEAR(floor.sigma_m, 1e-5, 2e-6) << context;
+  }
+}
+
+TEST(NoiseFloor, WithRepeatsAtOtherTemperaturesAloneNothingIsMeasured) {
+  Measurements m = repeats_of(40, 2, 1e-5, 12);
+  m.context.temperature.resize(m.size(), 1);
+  for (int i = 0; i < m.size(); ++i) m.context.temperature(i, 0) = i % 2 == 0 ? 20.0 : 31.0;
+  Cell cell;
+  EXPECT_EQ(noise_floor(cell, m).source, NoiseFloor::Source::kNone);
+  cell.measurement.sigma_m = 2e-5;
+  EXPECT_EQ(noise_floor(cell, m).source, NoiseFloor::Source::kSigma);
+  // A sensor that wanders by a tenth of a kelvin says nothing against it.
+  for (int i = 0; i < m.size(); ++i) m.context.temperature(i, 0) = 20.0 + 0.1 * (i % 3);
+  EXPECT_EQ(noise_floor(cell, m).source, NoiseFloor::Source::kRepeats);
+}
+
+TEST(NoiseFloor, SidesThatNobodyStatedSplitRepeatsOnlyIfEnoughAreLeft) {
+  Measurements m = repeats_of(40, 2, 1e-5, 13);
+  m.context.step.resize(m.size(), 1);
+  for (int i = 0; i < m.size(); ++i) m.context.step(i, 0) = i % 2 == 0 ? 1.0 : -1.0;
+  EXPECT_EQ(noise_floor(Cell{}, m).source, NoiseFloor::Source::kRepeats);
+}
+
 TEST(NoiseFloor, CopiesOfAReadingAndIgnoredRowsAreNoRepeats) {
   Measurements m = repeats_of(30, 2, 1e-5, 6);
   for (int i = 0; i < m.size(); i += 2) m.p_M.row(i + 1) = m.p_M.row(i);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fit/repeatability.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {
@@ -41,6 +42,108 @@ TEST(Verdict, OnePoseFarBeyondToleranceIsNotGood) {
   fit.held_without_outliers = stats(16e-6, 30e-6, 40e-6);
   EXPECT_EQ(beginning(fit), "Not good everywhere");
   EXPECT_FALSE(keeps(fit.held, kTolerance_m));
+}
+
+Outlier standing_out(const char* pose, double error_m) {
+  return {.row = 0, .error_m = error_m, .times = 50.0, .pose = pose};
+}
+
+TEST(Verdict, ReadingsThatStandOutAreNamedBesideTheHeadlineAndDoNotRuleIt) {
+  Fit fit = fit_with(stats(0.236e-3, 3e-3, 5.1e-3), 16e-6);
+  fit.held_without_outliers = stats(17e-6, 30e-6, 40e-6);
+  fit.held_without_outliers.n = 47;
+  fit.held_outliers = {standing_out("P7", 5.1e-3), standing_out("P24", 3e-3),
+                       standing_out("P41", 3.5e-3)};
+  EXPECT_EQ(verdict_head(fit, kTolerance_m), "Good but for P7, P24, P41");
+  EXPECT_EQ(grade(fit, kTolerance_m), Grade::kPartly);
+  const std::string text = verdict(fit, kTolerance_m);
+  EXPECT_NE(text.find("0.017 mm mean"), std::string::npos) << text;
+  EXPECT_NE(text.find("of 47 readings (without P7, P24, P41, which miss by 3.000 to 5.100 mm)"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("nothing more can be learnt"), std::string::npos) << text;
+  EXPECT_TRUE(next_step(fit, kTolerance_m).starts_with("check"));
+  fit.held_outliers.resize(1);
+  fit.held_without_outliers.n = 49;
+  EXPECT_EQ(verdict_head(fit, kTolerance_m), "Good but for P7");
+  // One that stands out and yet keeps the tolerance is no reason to say so.
+  fit.held = stats(17e-6, 30e-6, 90e-6);
+  EXPECT_EQ(grade(fit, kTolerance_m), Grade::kGood);
+  EXPECT_EQ(verdict_head(fit, kTolerance_m), "Good");
+}
+
+TEST(Verdict, SoManyReadingsThatStandOutAreNoSingleBadOnes) {
+  Fit fit = fit_with(stats(1e-3, 3e-3, 5.1e-3), 16e-6);
+  fit.held_without_outliers = stats(17e-6, 30e-6, 40e-6);
+  fit.held_without_outliers.n = 40;
+  fit.held_outliers.assign(10, standing_out("P7", 5.1e-3));
+  EXPECT_EQ(grade(fit, kTolerance_m), Grade::kBad);
+  EXPECT_NE(verdict(fit, kTolerance_m).find("10 of them stand out, too many"), std::string::npos)
+      << verdict(fit, kTolerance_m);
+}
+
+/// A healthy arm, and so many of its readings spoilt by 3 to 5 mm.
+Fit spoilt(std::uint64_t seed, int bad) {
+  const Cell cell = random_cell(seed, 6, format::Convention::kStandard, ArmKind::kRevolute);
+  SimulationPlan plan;
+  plan.poses = 240;
+  plan.repeats = 3;
+  plan.noise_m = 8e-6;
+  plan.seed = plan.truth.seed.emplace(seed);
+  plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
+  Measurements measured = simulate(cell, plan).measured;
+  const int every = measured.size() / bad;
+  for (int k = 0; k < bad; ++k)
+    measured.p_M(every * k + every / 2, (k + static_cast<int>(seed)) % 3) +=
+        3e-3 + 2e-3 * static_cast<double>(k) / bad;
+  return fit_cell(cell, measured);
+}
+
+TEST(Verdict, BadReadingsAmongThoseOfAHealthyArmAreNamedAndBlameNothingElse) {
+  for (const int bad : {1, 14, 28})  // of 288: single ones, 5 % and 10 %
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const Fit fit = spoilt(seed, bad);
+      const std::string text = verdict(fit, kTolerance_m);
+      EXPECT_TRUE(text.starts_with("Good but for "))
+          << bad << " bad, seed " << seed << ": " << text;
+      EXPECT_EQ(grade(fit, kTolerance_m), Grade::kPartly);
+      EXPECT_EQ(static_cast<int>(fit.held_outliers.size()), bad) << text;
+      EXPECT_LT(usual_held(fit).p95, 40e-6) << text;
+    }
+}
+
+TEST(Verdict, WhatIsOnlyInferredDoesNotMoveTheFloorAndSaysWhatToMeasure) {
+  for (const auto source : {NoiseFloor::Source::kRepeats, NoiseFloor::Source::kSigma}) {
+    Fit fit = fit_with(stats(72e-6, 150e-6, 200e-6), 24e-6);
+    fit.floor.source = source;
+    Repeatability scatter;
+    scatter.nats = 20.0;
+    scatter.sigma_m = 3.0 * fit.floor.sigma_m;
+    scatter.usual_sigma_m = 1.0;
+    const NoiseFloor with = with_repeatability(fit.floor, scatter);
+    EXPECT_EQ(with.sigma_m, fit.floor.sigma_m);
+    EXPECT_EQ(with.mean_m, fit.floor.mean_m);
+    EXPECT_NEAR(with.inferred_m, 72e-6, 1e-9);
+    fit.floor = with;
+    EXPECT_EQ(verdict_head(fit, kTolerance_m), "Perhaps limited by the arm");
+    for (const double tolerance_m : {100e-6, 1e-3}) {
+      const std::string text = verdict(fit, tolerance_m);
+      EXPECT_NE(text.find("noise floor 0.024 mm"), std::string::npos) << text;
+      EXPECT_NE(text.find("inferred from what the model leaves"), std::string::npos) << text;
+      EXPECT_NE(text.find("repeat some poses"), std::string::npos) << text;
+      EXPECT_EQ(text.find("which no model removes"), std::string::npos) << text;
+    }
+    EXPECT_EQ(grade(fit, 1e-3), Grade::kGood);
+  }
+}
+
+TEST(Verdict, AtAStatedFloorNobodyIsToldThatNothingCanBeLearnt) {
+  Fit fit = fit_with(stats(16e-6, 30e-6, 40e-6), 16e-6);
+  fit.floor.source = NoiseFloor::Source::kSigma;
+  const std::string text = verdict(fit, kTolerance_m);
+  EXPECT_EQ(grade(fit, kTolerance_m), Grade::kGood);
+  EXPECT_EQ(text.find("nothing more can be learnt"), std::string::npos) << text;
+  EXPECT_NE(text.find("of the stated sigma"), std::string::npos) << text;
 }
 
 TEST(Verdict, RepeatsThatDifferByMoreThanTheModelMissesAreNoNoiseFloor) {
