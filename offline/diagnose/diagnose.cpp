@@ -166,14 +166,16 @@ bool judgeable(const WhitenedFit& whitened) {
   return static_cast<double>(whitened.fit_lines - whitened.rank) >= kFewestFreeLines;
 }
 
-Finding finding_of(const Scan& look, const WhitenedFit& whitened, const Calibration& calibration) {
-  if (!judgeable(whitened)) return Finding::kUndecidable;
+/// What the first look says of the model and the readings.
+Facts facts_of(const Scan& look, const WhitenedFit& whitened, const Calibration& calibration) {
   const auto is_one = [&](const Found& f) {
     return !is_remainder(*whitened.cell, whitened, calibration, f);
   };
-  if (look.unknown() && is_one(*look.pattern)) return Finding::kUnknown;
-  if (look.supported(is_one) != nullptr) return Finding::kMissing;
-  return whitened.noise.known ? Finding::kComplete : Finding::kUndecidable;
+  const bool can_tell = judgeable(whitened);
+  return {.judgeable = can_tell,
+          .structure = can_tell && look.unknown() && is_one(*look.pattern),
+          .law = can_tell && look.supported(is_one) != nullptr,
+          .noise_known = whitened.noise.known};
 }
 
 void say_what_was_not_judged(const ForwardSelection& found, Diagnosis& out) {
@@ -253,17 +255,6 @@ void take_over_first(Diagnosis& out) {
     first.alone = first.after = added.held;
 }
 
-/// Where far more is left than the noise, nothing is complete: these poses do not tell what is
-/// missing. What was refused is not missing for certain.
-void settle_findings(Diagnosis& out) {
-  const bool much_is_left = out.held_out_excess && out.held_out_excess->lack_of_fit();
-  if ((out.finding == Finding::kComplete && much_is_left) ||
-      (out.finding == Finding::kMissing && out.refused))
-    out.finding = Finding::kUndecidable;
-  if (out.finding_after == Finding::kComplete && much_is_left)
-    out.finding_after = Finding::kUndecidable;
-}
-
 void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& whitened,
                     const Scan& first, Diagnosis& out) {
   ForwardSelection found = forward_selection(w.start(w.choosing, false), base, whitened, first);
@@ -326,16 +317,24 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     out.held_out_excess = held_out_excess_of(
         w, *held, found.steps.empty() ? base : found.steps.back().calibration, out.floor);
   }
-  out.finding_after = Finding::kComplete;
-  if (found.unknown) {
-    out.finding_after = Finding::kUnknown;
-    out.unknown_after = found.unknown;
-  } else if (!whitened.noise.known || !judgeable(whitened) || out.tied || out.undecided ||
-             std::any_of(out.added.begin(), out.added.end(), [](const Addition& a) {
-               return names_what_is_not_shown(a.alternatives);
-             })) {
-    out.finding_after = Finding::kUndecidable;
-  }
+  out.unknown_after = found.unknown;
+}
+
+bool far_above_the_noise(const Diagnosis& d) {
+  return d.held_out_excess && d.held_out_excess->lack_of_fit();
+}
+
+/// What is known at the end: of the laws that were supported only the doubtful ones still count.
+Facts facts_after(const Facts& before, const Diagnosis& d) {
+  const auto not_shown = [](const Addition& a) { return names_what_is_not_shown(a.alternatives); };
+  return {.judgeable = before.judgeable,
+          .wrong_gravity = d.gravity && d.gravity->certain,
+          .structure = d.unknown_after.has_value(),
+          .law_not_shown = std::any_of(d.added.begin(), d.added.end(), not_shown),
+          .tied = d.tied.has_value(),
+          .other_fate = d.undecided.has_value(),
+          .noise_known = before.noise_known,
+          .excess = far_above_the_noise(d)};
 }
 
 }  // namespace
@@ -397,36 +396,35 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   out.poses_choosing = static_cast<int>(w.choosing.size());
   out.regressors = first.regressors;
   for (const auto& outlier : present.outliers) out.outliers.push_back(measured.pose[outlier.row]);
-  out.finding = finding_of(first, whitened, base);
+  Facts facts = facts_of(first, whitened, base);
   out.candidates = candidates_of(whitened, plain, first);
-  if (out.finding == Finding::kMissing) {
+  if (decide(facts) == Finding::kMissing) {
     out.alternatives = alternatives(whitened, first, *first.supported(), w.excluded);
     if (const auto slow =
             slow_motion_instead_of(whitened, first, *first.supported(), out.alternatives))
       out.slow_motion = unknown_structure(whitened, *slow);
-    if (names_what_is_not_shown(out.alternatives) || out.slow_motion)
-      out.finding = Finding::kUndecidable;
+    facts.law_not_shown = names_what_is_not_shown(out.alternatives);
+    facts.slow_motion = out.slow_motion.has_value();
   }
   if (const Found* other =
-          out.finding == Finding::kMissing ? tied_with_first(whitened, first) : nullptr) {
-    out.finding = Finding::kUndecidable;
+          decide(facts) == Finding::kMissing ? tied_with_first(whitened, first) : nullptr)
     out.tied = other->entry;
-  }
-  if (out.finding == Finding::kUnknown) out.unknown = unknown_structure(whitened, *first.pattern);
-  const bool other_gravity = out.gravity && out.gravity->certain;
-  if (out.gravity && !other_gravity && out.finding == Finding::kMissing)
-    out.finding = Finding::kUndecidable;
+  facts.tied = out.tied.has_value();
+  if (decide(facts) == Finding::kUnknown) out.unknown = unknown_structure(whitened, *first.pattern);
+  const bool wrong_gravity = out.gravity && out.gravity->certain;
+  facts.other_gravity = out.gravity && !wrong_gravity;
   tell_step(request, 2);
   const HeldOut held = held_out_of(w, w.cell.effects, present);
   out.before = out.after = held.stats();
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);
-  if (request.apply && !other_gravity) go_all_the_way(w, base, whitened, first, out);
+  if (request.apply && !wrong_gravity) go_all_the_way(w, base, whitened, first, out);
   take_over_first(out);
-  // Whatever was added would be compiled with the gravity that the cell states.
-  if (request.apply && other_gravity) out.finding_after = Finding::kUndecidable;
-  settle_findings(out);
+  facts.refused = out.refused.has_value();
+  facts.excess = far_above_the_noise(out);
+  out.finding = decide(facts);
+  if (request.apply) out.finding_after = decide(facts_after(facts, out));
   out.text = verdict_text(w.cell, out);
   out.text_after = verdict_after_text(w.cell, out);
   return out;

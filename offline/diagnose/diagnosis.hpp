@@ -10,6 +10,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "check/effect_rules.hpp"
+#include "diagnose/finding.hpp"
 #include "diagnose/move.hpp"
 #include "diagnose/regressor.hpp"
 #include "fit/error_stats.hpp"
@@ -18,28 +19,6 @@
 #include "fit/repeatability.hpp"
 
 namespace plumb::offline {
-
-/// What a diagnosis comes to.
-enum class Finding {
-  kComplete,    // nothing more is supported
-  kMissing,     // an effect of the library is
-  kUnknown,     // structure that none of them explains
-  kUndecidable  // too few poses, no noise floor, an exact tie, a law or a slow motion that they
-                // cannot show, or far more than the noise is left and nothing says of what kind
-};
-
-constexpr const char* name_of(Finding finding) {
-  switch (finding) {
-    case Finding::kMissing:
-      return "missing";
-    case Finding::kUnknown:
-      return "unknown";
-    case Finding::kUndecidable:
-      return "undecidable";
-    default:
-      return "complete";
-  }
-}
 
 /// A fitted number of a candidate. SI.
 struct CandidateNumber {
