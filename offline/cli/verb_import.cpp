@@ -14,6 +14,7 @@
 #include "import/euler.hpp"
 #include "import/importer.hpp"
 #include "import/joining.hpp"
+#include "program/counted_words.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
 #include "show/text_table.hpp"
@@ -203,8 +204,9 @@ void import(const ImportArguments& options, const Globals& globals, Outcome& out
                     {"decimal", data.decimal},
                     {"columns", columns_json(data)},
                     {"left_out", data.left_out}};
-  outcome.text = fmt::format("Understood {} rows; separated by {}, decimal {}.\n\n{}", data.rows(),
-                             data.separator, data.decimal, column_table(data));
+  outcome.text = fmt::format("Understood {}; separated by {}, decimal {}.\n\n{}",
+                             counted_words(data.rows(), "row", "rows"), data.separator,
+                             data.decimal, column_table(data));
   if (options.preview) {
     outcome.result["files"] = Json::array();
     outcome.result["dry_run"] = true;

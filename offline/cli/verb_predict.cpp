@@ -18,6 +18,7 @@
 #include "fit/known_inputs.hpp"
 #include "fit/measured_arm.hpp"
 #include "fit/series_place.hpp"
+#include "program/counted_words.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {
@@ -177,8 +178,8 @@ void predict_model(const PredictArguments& options, const Globals& globals, Outc
   outcome.result["rows"] = counts.rows();
   outcome.result["status"] = to_json(counts);
   stream.deliver(
-      fmt::format("Predicted the tool centre point (px, py, pz) of {} rows in the base frame.\n{}",
-                  counts.rows(), status_summary(counts)),
+      fmt::format("Predicted the tool centre point (px, py, pz) of {} in the base frame.\n{}",
+                  counted_words(counts.rows(), "row", "rows"), status_summary(counts)),
       outcome);
 }
 
@@ -262,8 +263,8 @@ void predict_as_measured(const PredictArguments& options, const Globals& globals
   if (own) set_split(run.fit.split, columns);
   outcome.result = {{"frame", "measurement"}, {"point", "target"}, {"run", run.number}};
   finish(options, domain_status(run, rows, placed, outcome),
-         fmt::format("Predicted the measured point of {} rows in the measurement frame, run {}.",
-                     rows.size(), run.number),
+         fmt::format("Predicted the measured point of {} in the measurement frame, run {}.",
+                     counted_words(rows.size(), "row", "rows"), run.number),
          columns, outcome);
 }
 

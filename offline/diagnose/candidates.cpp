@@ -192,8 +192,7 @@ void name_confounded(const WhitenedFit& s, const std::vector<const Found*>& foun
       if (some[i]->entry.name == some[k]->entry.name && overlap(some[i]->entry, some[k]->entry))
         continue;
       out[i].confounded_with.push_back(key_of(*s.cell, some[k]->entry));
-      if (out[i].rival) continue;
-      out[i].rival = some[k]->entry;
+      if (!out[i].separate.empty()) continue;
       out[i].separate = separating_measurement(some[i]->entry, some[k]->entry);
     }
     for (auto& name : disguises(some[i]->entry)) out[i].confounded_with.push_back(name);

@@ -48,7 +48,6 @@ struct Candidate {
   double largest_m = 0.0;                    // largest motion that the model cannot imitate
   std::vector<std::string> confounded_with;  // "gear_harmonics:J2"
   std::string separate;                      // the measurement that tells them apart
-  std::optional<EffectEntry> rival;          // the first of confounded_with
 };
 
 /// An effect that these poses cannot tell from another one: it explains them nearly as well, and

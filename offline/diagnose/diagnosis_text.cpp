@@ -14,6 +14,7 @@
 #include "diagnose/other_gravity.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -75,13 +76,6 @@ std::string fall_words(double before_m, double after_m) {
     return fmt::format("{} -> {} on unseen poses", digits(before_m), mm(after_m));
   return fmt::format("the error on unseen poses does not fall ({} -> {})", mm(before_m),
                      mm(after_m));
-}
-
-/// A candidate that does nearly what the first does, and that the evidence hardly sets apart.
-const std::string* near_rival(const Cell& cell, const Diagnosis& d) {
-  for (const auto& key : d.candidates.front().confounded_with)
-    if (is_near_rival(cell, d, key)) return &key;
-  return nullptr;
 }
 
 /// The first candidate explains hardly any of what is missing. As long as the true cause is not in
@@ -182,6 +176,16 @@ const Addition* moved_otherwise(const Cell& cell, const Diagnosis& d) {
   return nullptr;
 }
 
+/// The candidate of that key, if the evidence hardly sets it apart from the first; or null.
+const Candidate* near_rival_of_key(const Cell& cell, const Diagnosis& d, const std::string& key) {
+  const auto found =
+      std::find_if(d.candidates.begin(), d.candidates.end(), [&](const Candidate& other) {
+        return key == key_of(cell, other.entry) &&
+               d.candidates.front().ln_bayes - other.ln_bayes < kCertain_nats;
+      });
+  return found == d.candidates.end() ? nullptr : &*found;
+}
+
 std::string sure_words(const Cell& cell, const Diagnosis& d) {
   const Candidate& best = d.candidates.front();
   if (const Addition* added = moved_otherwise(cell, d))
@@ -194,13 +198,17 @@ std::string sure_words(const Cell& cell, const Diagnosis& d) {
         "It explains {:.0f} % of the error only: most of it has another cause, and "
         "what that leaves may be mistaken for this.",
         100.0 * (1.0 - best.alone.mean / d.before.mean));
-  std::string out = best.ln_bayes >= kCertain_nats      ? "Certain"
-                    : best.ln_bayes >= kVeryLikely_nats ? "Very likely"
-                                                        : "Likely";
+  const Candidate* const rival = near_rival(cell, d);
+  // Ahead of nothing, and of a rival that is near.
+  const double ahead =
+      std::min(best.ln_bayes, rival == nullptr ? best.ln_bayes : best.ln_bayes - rival->ln_bayes);
+  std::string out = ahead >= kCertain_nats      ? "Certain"
+                    : ahead >= kVeryLikely_nats ? "Very likely"
+                                                : "Likely";
   if (!best.plausible) out += ", but of an unlikely size: something else may be behind it";
-  if (const std::string* rival = near_rival(cell, d))
+  if (rival != nullptr)
     out += fmt::format("{} these poses hardly tell it from {}", best.plausible ? ", but" : ";",
-                       key_in_words(*rival));
+                       in_words(cell, *rival));
   return out + ".";
 }
 
@@ -308,10 +316,13 @@ bool is_either(const Diagnosis& d, const EffectEntry& entry) {
 }
 
 bool is_near_rival(const Cell& cell, const Diagnosis& d, const std::string& key) {
-  return std::any_of(d.candidates.begin(), d.candidates.end(), [&](const Candidate& other) {
-    return key == key_of(cell, other.entry) &&
-           d.candidates.front().ln_bayes - other.ln_bayes < kCertain_nats;
-  });
+  return near_rival_of_key(cell, d, key) != nullptr;
+}
+
+const Candidate* near_rival(const Cell& cell, const Diagnosis& d) {
+  for (const auto& key : d.candidates.front().confounded_with)
+    if (const Candidate* rival = near_rival_of_key(cell, d, key)) return rival;
+  return nullptr;
 }
 
 std::string waves_words(const std::vector<double>& cycles) {
@@ -419,7 +430,8 @@ std::string finding_text(const Cell& cell, const Diagnosis& d) {
       if (d.held_out_excess && d.held_out_excess->lack_of_fit())
         return "Undecidable: " + complete_words(d, d.before, Held::kSay) + "." +
                repeatability_words(cell, d);
-      return fmt::format("Undecidable: {} poses cannot tell what is missing.", d.poses_fit);
+      return fmt::format("Undecidable: {} cannot tell what is missing.",
+                         counted_words(d.poses_fit, "pose", "poses"));
     default:
       return "Complete: " + complete_words(d, d.before, Held::kSay) + "." +
              repeatability_words(cell, d);
@@ -457,8 +469,8 @@ std::string verdict_after_text(const Cell& cell, const Diagnosis& d) {
         gravity_text(d.gravity->stated));
   const std::string fall = d.added.empty()
                                ? "Nothing was added"
-                               : fmt::format("{} {} added: held-out error {} -> {}", d.added.size(),
-                                             d.added.size() == 1 ? "effect" : "effects",
+                               : fmt::format("{} added: held-out error {} -> {}",
+                                             counted_words(d.added.size(), "effect", "effects"),
                                              mm(d.before.mean), mm(d.after.mean));
   switch (*d.finding_after) {
     case Finding::kUnknown:

@@ -47,6 +47,10 @@ bool is_either(const Diagnosis& diagnosis, const EffectEntry& entry);
 /// candidate: the evidence hardly sets them apart.
 bool is_near_rival(const Cell& cell, const Diagnosis& diagnosis, const std::string& key);
 
+/// The first that does nearly what the first candidate does, and that the evidence hardly sets
+/// apart; null if nothing is near.
+const Candidate* near_rival(const Cell& cell, const Diagnosis& diagnosis);
+
 /// A direction of gravity as cell.toml writes it: "[0, 0, -9.81]".
 std::string gravity_text(const std::array<double, 3>& gravity);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,12 +41,16 @@ struct EffectSigma {
   double after = 0.0;
 };
 
+/// A lead of so many nats decides between two effects: 22,000 to 1.
+inline constexpr double kDecided_nats = 10.0;
+
 /// What the readings are expected to say of two effects A and B: by how much the true one is then
 /// ahead of the other, as ln of a Bayes factor [nats].
 struct ExpectedDecision {
   std::optional<double> today;  // A over B at the poses measured; none if nothing is
   double if_a = 0.0, if_b = 0.0;
   double least() const { return if_a < if_b ? if_a : if_b; }
+  bool decided_already() const { return today && std::abs(*today) >= kDecided_nats; }
 };
 
 struct PlannedPose {

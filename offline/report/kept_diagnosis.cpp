@@ -46,7 +46,6 @@ Json candidate_to(const Candidate& c) {
            {"explained", c.explained},    {"absorbed", c.absorbed},
            {"largest_m", c.largest_m},    {"confounded_with", c.confounded_with},
            {"separate", c.separate}};
-  if (c.rival) out["rival"] = entry_to(*c.rival);
   if (!c.peaks.empty()) out["peaks"] = c.peaks;
   for (const Move& move : c.moves) out["moves"].push_back({move.after_row, move.size_m});
   return out;
@@ -70,7 +69,6 @@ Candidate candidate_of(const Json& j) {
   out.largest_m = j.at("largest_m");
   out.confounded_with = j.at("confounded_with").get<std::vector<std::string>>();
   out.separate = j.at("separate");
-  if (j.contains("rival")) out.rival = entry_of(j.at("rival"));
   out.peaks = j.value("peaks", "");
   for (const Json& move : j.value("moves", Json::array()))
     out.moves.push_back({.after_row = move.at(0), .size_m = move.at(1)});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "program/counted_words.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -45,7 +46,7 @@ std::string readings_text(const Cell& cell, const Detection& d) {
     table.add({residual(r.placed_m, r.size_m), residual(r.fitted_m, r.size_m),
                (is_best(r) ? "best: " : "") + name});
   }
-  return table.text() + fmt::format("  {} readings tried{}\n", d.tried,
+  return table.text() + fmt::format("  {} ways to read the files tried{}\n", d.tried,
                                     hidden == 0
                                         ? ""
                                         : fmt::format("; {} more name the same arm, mirrored "
@@ -69,8 +70,9 @@ std::string coverage_text(const Cell& cell, const Coverage& coverage) {
   for (int k = 0; k < 3; ++k)
     box += fmt::format("{}{} {:.0f} .. {:.0f}", k > 0 ? ", " : "", "xyz"[k],
                        to_mm(coverage.box_min[k]), to_mm(coverage.box_max[k]));
-  return table.text() + fmt::format("  {} poses, {} readings; reflector in the base frame: {} mm\n",
-                                    coverage.poses, coverage.readings, box);
+  return table.text() + fmt::format("  {}, {}; reflector in the base frame: {} mm\n",
+                                    counted_words(coverage.poses, "pose", "poses"),
+                                    counted_words(coverage.readings, "reading", "readings"), box);
 }
 
 std::string noise_text(const Check& check) {

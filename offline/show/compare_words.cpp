@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fit/verdict.hpp"
+#include "program/counted_words.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -199,7 +200,8 @@ std::string drift_words(const Cell& cell, const Measurements& measured, const Dr
 std::string changes_words(const Changes& found) {
   if (found.visits == 0) return "Jumps and drift: too few poses to tell.";
   if (found.steps.empty() && found.drifts.empty())
-    return fmt::format("Jumps and drift: none over {} readings in order.", found.visits);
+    return fmt::format("Jumps and drift: none over {} in order.",
+                       counted_words(found.visits, "reading", "readings"));
   return "Jumps and drift:";
 }
 

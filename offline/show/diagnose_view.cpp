@@ -165,8 +165,8 @@ std::vector<std::string> after_diagnosis(const Cell& cell, const Diagnosis& d) {
     if (!d.alternatives.empty())
       out.insert(out.begin(), separating(cell, first.entry, d.alternatives.front().entry) +
                                   "   # which of them is it?");
-    else if (first.rival)
-      out.push_back(separating(cell, first.entry, *first.rival) + "   # to be sure which it is");
+    else if (const Candidate* const rival = near_rival(cell, d))
+      out.push_back(separating(cell, first.entry, rival->entry) + "   # to be sure which it is");
     return out;
   }
   if (finding == Finding::kUnknown) return {"compare   # where is it, and since when?"};

@@ -8,6 +8,7 @@
 
 #include "cell/joint_columns.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "program/counted_words.hpp"
 #include "show/text_table.hpp"
 #include "show/units.hpp"
 
@@ -15,8 +16,7 @@ namespace plumb::offline::show {
 namespace {
 
 constexpr std::size_t kNumbersShown = 12;
-constexpr double kDecided_nats = 10.0;  // 22,000 to 1
-constexpr double kMostPoses = 1000.0;   // more are not suggested
+constexpr double kMostPoses = 1000.0;  // more are not suggested
 
 Vector3 nominal_point(const Cell& cell, const Eigen::VectorXd& q) {
   ChainFrames frames;
@@ -95,6 +95,7 @@ Json expected_json(const ExpectedDecision& expected) {
     put_null(out, "today_nats", "nothing is measured yet");
   out["if_first_nats"] = expected.if_a;
   out["if_second_nats"] = expected.if_b;
+  out["decided_already"] = expected.decided_already();
   out["decides"] = expected.least() >= kDecided_nats;
   return out;
 }
@@ -163,6 +164,18 @@ int poses_that_decide(const PosePlan& plan) {
   return wanted > kMostPoses ? 0 : static_cast<int>(10.0 * std::ceil(wanted / 10.0));
 }
 
+/// What the poses measured say already; empty: they cannot tell.
+std::string decided_text(const PlanRequest& request, const PosePlan& plan) {
+  if (!plan.expected.decided_already()) return {};
+  const std::string &a = request.separate[0].name, &b = request.separate[1].name;
+  const double lead = *plan.expected.today;
+  return fmt::format(
+      "Decided already: {} is ahead of {} by {:.0f} nats at the {} measured (ln of a Bayes factor; "
+      "10 decide). To tell them apart nothing more need be measured.\n",
+      lead < 0.0 ? b : a, lead < 0.0 ? a : b, std::abs(lead),
+      counted_words(plan.measured, "pose", "poses"));
+}
+
 /// What the readings will say, or that they will not.
 std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
   const std::string &a = request.separate[0].name, &b = request.separate[1].name;
@@ -171,16 +184,19 @@ std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
       expected.today ? fmt::format(" Today {} is ahead by {:.0f}.", *expected.today < 0.0 ? b : a,
                                    std::abs(*expected.today))
                      : " Nothing is measured yet, so both are taken to have their typical size.";
+  const std::string these =
+      plan.poses.size() == 1 ? "This reading" : fmt::format("These {} readings", plan.poses.size());
   if (expected.least() >= kDecided_nats)
     return fmt::format(
-        "These {} readings are expected to decide between {} and {}: the wrong one would then be "
+        "{} {} expected to decide between {} and {}: the wrong one would then be "
         "behind by about {:.0f} nats (ln of a Bayes factor; 10 decide) if {} is true, by {:.0f} if "
         "{} is.{}\n",
-        plan.poses.size(), a, b, expected.if_a, a, expected.if_b, b, today);
+        these, plan.poses.size() == 1 ? "is" : "are", a, b, expected.if_a, a, expected.if_b, b,
+        today);
   std::string out = fmt::format(
-      "These {} readings cannot decide between {} and {}: the true one is expected to be ahead by "
+      "{} cannot decide between {} and {}: the true one is expected to be ahead by "
       "only {:.1f} nats (ln of a Bayes factor; 10 decide) if it is {}, by {:.1f} if it is {}.{}\n",
-      plan.poses.size(), a, b, expected.if_a, a, expected.if_b, b, today);
+      these, a, b, expected.if_a, a, expected.if_b, b, today);
   std::vector<std::string> could;
   if (plan.circumstances.load_matters && !loaded(plan))
     could.push_back("a second payload (--payload 0,10)");
@@ -288,13 +304,18 @@ std::string plan_text(const PlanRequest& request, const PosePlan& plan) {
   std::string out;
   if (request.separate.empty()) {
     out = fmt::format(
-        "Planned {} poses, chosen from {} random ones so that they tell most about the "
+        "Planned {}, chosen from {} random ones so that {} most about the "
         "{} parameters.\n\n",
-        plan.poses.size(), plan.pool, plan.parameters);
+        counted_words(plan.poses.size(), "pose", "poses"), plan.pool,
+        plan.poses.size() == 1 ? "it tells" : "they tell", plan.parameters);
   } else {
-    return fmt::format("Planned {} readings to tell {} apart.\n", plan.poses.size(),
+    const std::string decided = decided_text(request, plan);
+    return decided +
+           fmt::format("Planned {} to tell {} apart.\n",
+                       counted_words(plan.poses.size(), "reading", "readings"),
                        pair_words(request)) +
-           contrast_text(plan) + expected_text(request, plan) + "\n" + apart_text(request, plan);
+           contrast_text(plan) + (decided.empty() ? expected_text(request, plan) : "") + "\n" +
+           apart_text(request, plan);
   }
   return out + prediction_text(plan);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "fit/verdict.hpp"
+#include "program/counted_words.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
@@ -63,9 +64,9 @@ std::vector<std::string> open_words(const Cell& cell, const Found& found) {
 }
 
 std::string poses_words(const Recheck& found) {
-  return found.poses == found.readings ? fmt::format("{} poses", found.poses)
-                                       : fmt::format("{} readings of {} pose{}", found.readings,
-                                                     found.poses, found.poses == 1 ? "" : "s");
+  const std::string poses = counted_words(found.poses, "pose", "poses");
+  return found.poses == found.readings ? poses
+                                       : fmt::format("{} readings of {}", found.readings, poses);
 }
 
 /// "true" means as good as it was, which need not be good enough.
@@ -99,10 +100,10 @@ std::string changed_sentence(const Cell& cell, const Recheck& found, const Run& 
 std::string undecidable_sentence(const Cell& cell, const Recheck& found, const Run& run) {
   if (found.found.empty())
     return fmt::format(
-        "These {} cannot tell: nothing contradicts run {}, but they would not show {} before it "
+        "{} {} cannot tell: nothing contradicts run {}, but they would not show {} before it "
         "moves the measured point by {} mm.",
-        poses_words(found), run.number, words_of(found.blind.front().change, cell),
-        mm(found.blind.front().unseen_m));
+        found.readings == 1 ? "This" : "These", poses_words(found), run.number,
+        words_of(found.blind.front().change, cell), mm(found.blind.front().unseen_m));
   const auto open_one = std::find_if(found.found.begin(), found.found.end(), recheck::undecided);
   std::vector<std::string> open{words_of(open_one->change, cell)}, known;
   for (const auto& words : open_words(cell, *open_one)) open.push_back(words);
@@ -112,10 +113,12 @@ std::string undecidable_sentence(const Cell& cell, const Recheck& found, const R
   const std::size_t more = open.size() > kNamed ? open.size() - kNamed : 0;
   open.resize(std::min(open.size(), kNamed));
   return fmt::format(
-      "{} changed since run {} (mean error {} mm), but these {} cannot tell what: {}{}.{}",
+      "{} changed since run {} (mean error {} mm), but {} {} cannot tell what: {}{}.{}",
       known.empty() ? "Something" : "Something more", run.number, mm(found.before.mean),
-      poses_words(found), fmt::join(open, ", or "),
-      more > 0 ? fmt::format(", or one of {} others", more) : "",
+      found.readings == 1 ? "this" : "these", poses_words(found), fmt::join(open, ", or "),
+      more == 0   ? ""
+      : more == 1 ? ", or another one"
+                  : fmt::format(", or one of {} others", more),
       known.empty() ? "" : fmt::format(" Refitted: {}.", fmt::join(known, "; ")));
 }
 
@@ -311,10 +314,12 @@ std::string recheck_plan_text(const Cell& cell, const RecheckPlan& plan, const R
   TextTable table({"change that they show", "from [mm]"});
   for (const auto& v : plan.visible) table.add({words_of(v.change, cell), mm(v.unseen_m)});
   return fmt::format(
-             "Planned {} poses to measure again, which tell best what has changed since run {}.\n"
+             "Planned {} best what has changed since run {}.\n"
              "The second column is the motion of the measured point (RMS) from which on a change "
              "is found nearly always.\n\n",
-             plan.rows.size(), run.number) +
+             counted_words(plan.rows.size(), "pose to measure again, which tells",
+                           "poses to measure again, which tell"),
+             run.number) +
          table.text();
 }
 

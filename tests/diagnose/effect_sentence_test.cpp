@@ -6,6 +6,7 @@
 #include "diagnose/diagnosis_text.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/fitted_laws.hpp"
+#include "show/diagnose_view.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -108,8 +109,33 @@ TEST(EffectSentence, TheVerdictSaysHowSureItIsAndWhatElseItMayBe) {
                 "these poses hardly tell it from bending of links (link_flexure:J2+J3)."),
             std::string::npos)
       << verdict_text(cell, d);
+  EXPECT_EQ(verdict_text(cell, d).find("Certain"), std::string::npos) << "7 nats ahead of another";
+  EXPECT_NE(verdict_text(cell, d).find("Very likely"), std::string::npos);
   d.candidates.front().ln_bayes = 4.0;
   EXPECT_NE(verdict_text(cell, d).find("Likely"), std::string::npos);
+}
+
+TEST(EffectSentence, WhatIsCertainNeedsNoMeasurementToBeSure) {
+  const Cell cell = three_joints();
+  Diagnosis d;
+  d.finding = Finding::kMissing;
+  d.before.mean = 61e-6;
+  Candidate best, rival;
+  best.entry = {.name = "joint_compliance", .joints = {1}, .options = {}, .place = {}};
+  best.ln_bayes = 437.0;
+  best.alone.mean = 31e-6;
+  best.confounded_with = {"gear_harmonics:J3", "gear_harmonics:J2"};
+  rival.entry = {.name = "gear_harmonics", .joints = {1}, .options = {}, .place = {}};
+  for (double behind = 0.0; behind < 40.0; behind += 1.0) {
+    rival.ln_bayes = best.ln_bayes - behind;
+    d.candidates = {best, rival};
+    std::string next;
+    for (const auto& line : show::after_diagnosis(cell, d)) next += line + "\n";
+    const bool certain = verdict_text(cell, d).find("Certain") != std::string::npos;
+    EXPECT_EQ(certain, behind >= 10.0) << behind;
+    EXPECT_EQ(next.find("to be sure which it is") == std::string::npos, certain) << next;
+    EXPECT_EQ(next.find("joint_compliance:J2,gear_harmonics:J2") == std::string::npos, certain);
+  }
 }
 
 }  // namespace
