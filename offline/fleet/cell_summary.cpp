@@ -7,7 +7,7 @@
 namespace plumb::offline::fleet {
 namespace {
 
-constexpr const char* kSchema = "fleet.cell/1";
+constexpr const char* kSchema = "fleet.cell/2";
 
 Json diagnosis_to(const std::optional<CellDiagnosis>& d) {
   if (!d) return nullptr;
@@ -47,6 +47,7 @@ Json to_json(const CellSummary& s) {
                        {"std", n.std}});
   return {{"schema", kSchema},
           {"name", s.name},
+          {"arm", s.arm},
           {"inputs", inputs},
           {"ok", s.ok},
           {"error_code", s.error_code},
@@ -58,6 +59,8 @@ Json to_json(const CellSummary& s) {
           {"held_out", offline::to_json(s.held)},
           {"noise_floor_m", s.floor_m},
           {"verdict", s.verdict},
+          {"verdict_head", s.verdict_head},
+          {"verdict_class", s.verdict_class},
           {"good", s.good},
           {"effects", s.effects},
           {"diagnosis", diagnosis_to(s.diagnosis)},
@@ -69,6 +72,7 @@ CellSummary summary_from(const Json& j) {
   CellSummary out;
   if (j.at("schema") != kSchema) j.at("a summary of this version");
   j.at("name").get_to(out.name);
+  j.at("arm").get_to(out.arm);
   for (const auto& input : j.at("inputs"))
     out.inputs.push_back({input.at("file"), input.at("sha256"), input.at("of_measurement")});
   j.at("ok").get_to(out.ok);
@@ -81,6 +85,8 @@ CellSummary summary_from(const Json& j) {
   out.held = stats_from(j.at("held_out"));
   j.at("noise_floor_m").get_to(out.floor_m);
   j.at("verdict").get_to(out.verdict);
+  j.at("verdict_head").get_to(out.verdict_head);
+  j.at("verdict_class").get_to(out.verdict_class);
   j.at("good").get_to(out.good);
   j.at("effects").get_to(out.effects);
   out.diagnosis = diagnosis_from(j.at("diagnosis"));

@@ -47,6 +47,7 @@ struct CellDiagnosis {
 /// What is known of one cell of a fleet: the result of fitting it as it stands.
 struct CellSummary {
   std::string name;  // of its folder
+  std::string arm;   // as its cell.toml calls it
   std::vector<SummaryInput> inputs;
   bool ok = false;
   std::string error_code, error;  // of a cell that could not be fitted
@@ -54,9 +55,11 @@ struct CellSummary {
   std::string model;  // equal for arms of one nominal chain
   double tolerance_m = 0.0;
   ErrorStats held;
-  double floor_m = 0.0;  // mean error that noise alone would leave; 0: not known
-  std::string verdict;   // one sentence
-  bool good = false;     // the held-out error keeps the tolerance
+  double floor_m = 0.0;      // mean error that noise alone would leave; 0: not known
+  std::string verdict;       // one sentence, as fit says it; empty: it could not be fitted
+  std::string verdict_head;  // the same in few words
+  std::string verdict_class = "unknown";  // "good", "partly", "bad", "unknown"
+  bool good = false;                      // the held-out error keeps the tolerance
   std::vector<std::string> effects;
   std::optional<CellDiagnosis> diagnosis;  // none: it was not asked for
   std::vector<ArmNumber> numbers;

@@ -7,6 +7,7 @@
 
 #include "cell/fleet_priors.hpp"
 #include "cell/setups.hpp"
+#include "compare/full_verdict.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
@@ -128,6 +129,7 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   check_regular(folder / "cell.toml");
   const Cell cell = read_cell(folder / "cell.toml");
   for (const auto& file : measurement_files(cell.measurement)) check_regular(file);
+  out.arm = cell.name;
   out.robot = cell.robot_name;
   out.serial = cell.serial;
   out.model = model_key(cell.nominal);
@@ -138,7 +140,9 @@ void fit_into(const fs::path& folder, Asked asked, CellSummary& out) {
   out.held = usual_held(fit);
   out.floor_m = fit.floor.mean_m;
   out.good = fit.held.n > 0 && keeps(usual_held(fit), cell.tolerance_m);
-  out.verdict = verdict(fit, cell.tolerance_m);
+  out.verdict = compare::full_verdict(cell, measured, fit);
+  out.verdict_head = verdict_head(fit, cell.tolerance_m);
+  out.verdict_class = name_of(grade(fit, cell.tolerance_m));
   put_numbers(
       calibrate_from(with_hardly_any_prior(with_orientations_as_judged(cell, fit.orientations)),
                      measured, fit_rows(fit.split), fit.calibration.state),

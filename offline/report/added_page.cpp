@@ -5,6 +5,7 @@
 
 #include "figures/run_figures.hpp"
 #include "fit/series_numbers.hpp"
+#include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/units.hpp"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/counted.hpp"

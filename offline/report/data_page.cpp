@@ -8,6 +8,7 @@
 #include "check/data_findings.hpp"
 #include "check/data_sense.hpp"
 #include "check/effect_rules.hpp"
+#include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/units.hpp"

@@ -25,7 +25,8 @@ using fleet::Typical;
 constexpr double kErrorsHeight = 320.0;                  // [px]
 constexpr double kRowHeight = 17.0, kAroundRows = 60.0;  // [px]
 
-const draw::Mark kGood{.shape = draw::Shape::kCircle, .paint = Tone::kBlue};
+const draw::Mark kGood{.shape = draw::Shape::kCircle, .paint = Tone::kGreen};
+const draw::Mark kPartly{.shape = draw::Shape::kSquare, .paint = Tone::kOrange};
 const draw::Mark kNotGood{.shape = draw::Shape::kDiamond, .paint = Tone::kVermilion, .size = 5.0};
 const draw::Mark kUnlike{.shape = draw::Shape::kTriangle, .paint = Tone::kPurple, .size = 5.5};
 
@@ -37,6 +38,10 @@ std::vector<const CellSummary*> from_best_to_worst(const Fleet& fleet) {
     return a->held.p95 < b->held.p95;
   });
   return out;
+}
+
+draw::Mark mark_of(const CellSummary& cell) {
+  return cell.verdict_class == "good" ? kGood : cell.verdict_class == "bad" ? kNotGood : kPartly;
 }
 
 std::string errors_sentence(const std::vector<const CellSummary*>& sorted) {
@@ -132,8 +137,9 @@ std::string fleet_errors_figure(const Fleet& fleet, double width) {
       width,
       {.title = "Is the calibration of every arm good?",
        .sentence = errors_sentence(sorted),
-       .legend = {{.words = "keeps its tolerance", .mark = kGood},
-                  {.words = "does not", .mark = kNotGood},
+       .legend = {{.words = "good", .mark = kGood},
+                  {.words = "in part", .mark = kPartly},
+                  {.words = "not good enough", .mark = kNotGood},
                   {.words = "unlike its sisters", .mark = kUnlike}},
        .notes = {
            "Length of e = measured - predicted that 95 % of the held-out poses of each arm keep, "
@@ -160,9 +166,9 @@ std::string fleet_errors_figure(const Fleet& fleet, double width) {
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       const CellSummary& cell = *sorted[i];
       if ((show::odd_arm(fleet, cell.name) != nullptr) != odd) continue;
-      draw::Mark mark = odd ? kUnlike : cell.good ? kGood : kNotGood;
-      mark.words = fmt::format("{}: {} mm in 95 % of the poses, {} mm at most", cell.name,
-                               show::mm(cell.held.p95), show::mm(cell.held.max));
+      draw::Mark mark = odd ? kUnlike : mark_of(cell);
+      mark.words = fmt::format("{}: {}; {} mm in 95 % of the poses, {} mm at most", cell.name,
+                               cell.verdict_head, show::mm(cell.held.p95), show::mm(cell.held.max));
       panel.mark(static_cast<double>(i + 1), cell.held.p95 * 1e3, mark);
     }
   };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "draw/svg.hpp"
+#include "program/counted_words.hpp"
 #include "report/document.hpp"
 #include "report/fleet_figures.hpp"
 #include "report/page_words.hpp"
@@ -44,19 +45,21 @@ Html verdict_section(const Fleet& fleet) {
 Html cells_section(const Fleet& fleet) {
   Html html;
   HtmlTable table{.caption = "Held-out errors, measured - predicted [mm]",
-                  .head = {"cell", show::head::kMean, show::head::kP95, show::head::kMax,
-                           show::head::kEffects, "state"},
-                  .left_from = 4};
+                  .head = {"cell", "arm", show::head::kMean, show::head::kP95, show::head::kMax,
+                           show::head::kEffects, "verdict"},
+                  .left_from = 5};
   std::size_t left_out = 0;
   for (const auto& cell : fleet.cells) {
-    if (fleet.cells.size() > kAllListed && cell.good &&
-        show::odd_arm(fleet, cell.name) == nullptr) {
+    if (fleet.cells.size() > kAllListed && !show::needs_attention(fleet, cell)) {
       ++left_out;
       continue;
     }
     const auto mm = [&](double error_m) { return cell.ok ? show::mm(error_m) : "-"; };
-    table.rows.push_back({cell.name, mm(cell.held.mean), mm(cell.held.p95), mm(cell.held.max),
-                          show::counted(cell.effects), show::state_of(fleet, cell)});
+    table.rows.push_back(
+        {cell.name, cell.arm, mm(cell.held.mean), mm(cell.held.p95), mm(cell.held.max),
+         show::counted(cell.effects),
+         fmt::format("{} {}", verdict_mark(cell.verdict_class), show::state_of(fleet, cell))});
+    table.last_class.push_back(cell.verdict_class);
   }
   html.table(table);
   if (left_out > 0)

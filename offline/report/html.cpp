@@ -105,11 +105,15 @@ void Html::table(const HtmlTable& table) {
   for (std::size_t i = 0; i < table.head.size(); ++i)
     text_ += fmt::format("<th scope=\"col\"{}>{}</th>", side(i), draw::escaped(table.head[i]));
   text_ += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
+  for (std::size_t k = 0; k < table.rows.size(); ++k) {
+    const auto& row = table.rows[k];
     text_ += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i)
       text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", draw::escaped(row[i]))
-                      : fmt::format("<td{}>{}</td>", side(i), draw::escaped(row[i]));
+               : i + 1 == row.size() && k < table.last_class.size()
+                   ? fmt::format("<td class=\"left {}\">{}</td>", table.last_class[k],
+                                 draw::escaped(row[i]))
+                   : fmt::format("<td{}>{}</td>", side(i), draw::escaped(row[i]));
     text_ += "</tr>\n";
   }
   text_ += "</tbody></table></div>\n";

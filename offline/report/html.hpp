@@ -14,6 +14,7 @@ struct HtmlTable {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows = {};
   std::size_t left_from = std::numeric_limits<std::size_t>::max();  // from here on flush left
+  std::vector<std::string> last_class = {};  // of the last cell of each row; else none
 };
 
 /// The elements of one page, in their order. All words are escaped; only figures come as they are.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/fit_view.hpp"

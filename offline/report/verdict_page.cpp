@@ -8,6 +8,7 @@
 #include "fit/mean_interval.hpp"
 #include "fit/verdict.hpp"
 #include "plumb/format/version.hpp"
+#include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "report/report.hpp"
@@ -23,14 +24,10 @@ namespace {
 using show::mm;
 
 void put_verdict(const ReportData& data, Html& html) {
-  const Grade found = grade(data.run.fit, data.cell.tolerance_m);
-  const char* const mark = found == Grade::kGood     ? "✓"
-                           : found == Grade::kPartly ? "◐"
-                           : found == Grade::kBad    ? "✗"
-                                                     : "?";
+  const char* const found = name_of(grade(data.run.fit, data.cell.tolerance_m));
   html.raw(fmt::format(
-      "<div class=\"verdict {}\" role=\"note\"><strong>{} {}</strong><p>{}</p></div>\n",
-      name_of(found), mark, draw::escaped(verdict_head(data.run.fit, data.cell.tolerance_m)),
+      "<div class=\"verdict {}\" role=\"note\"><strong>{} {}</strong><p>{}</p></div>\n", found,
+      verdict_mark(found), draw::escaped(verdict_head(data.run.fit, data.cell.tolerance_m)),
       draw::escaped(compare::full_verdict(data.cell, data.measured, data.run.fit))));
 }
 

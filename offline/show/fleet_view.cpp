@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "program/counted_words.hpp"
 #include "program/printable.hpp"
 #include "show/counted.hpp"
 #include "show/heads.hpp"
@@ -46,7 +47,10 @@ std::string odd_words(const Fleet& all, const OddArm& odd) {
 Json cell_json(const Fleet& all, const CellSummary& cell) {
   Json out{{"name", cell.name}, {"ok", cell.ok}};
   out["held_out"] = stats_json(cell.held);
+  out["arm"] = cell.arm;
   out["verdict"] = cell.verdict;
+  out["verdict_head"] = cell.verdict_head;
+  out["verdict_class"] = cell.verdict_class;
   out["good"] = cell.good;
   out["effects"] = cell.effects;
   out["robot"] = cell.robot;
@@ -105,12 +109,11 @@ Json shares_json(const std::vector<fleet::EffectShare>& shares) {
 }
 
 std::string cells_text(const Fleet& all) {
-  TextTable table({"cell", head::kMean, head::kP95, head::kEffects, "state"});
+  TextTable table({"cell", head::kMean, head::kP95, head::kEffects, "verdict"});
   table.left_from(3);
   std::size_t left_out = 0;
   for (const auto& cell : all.cells) {
-    const bool fine = cell.good && odd_arm(all, cell.name) == nullptr;
-    if (fine && all.cells.size() > kAllShown) {
+    if (all.cells.size() > kAllShown && !needs_attention(all, cell)) {
       ++left_out;
       continue;
     }
@@ -119,7 +122,8 @@ std::string cells_text(const Fleet& all) {
                printable_line(state_of(all, cell))});
   }
   std::string out = "Held-out error in mm:\n\n" + table.text();
-  if (left_out > 0) out += fmt::format("  and {} good ones\n", left_out);
+  if (left_out > 0)
+    out += fmt::format("  and {}\n", counted_words(left_out, "good one", "good ones"));
   return out;
 }
 
@@ -160,11 +164,12 @@ const OddArm* odd_arm(const Fleet& all, const std::string& cell) {
 
 std::string state_of(const Fleet& all, const CellSummary& cell) {
   if (!cell.ok) return cell.error_code + ": " + cell.error;
-  const std::string good = cell.good          ? "good"
-                           : cell.held.n == 0 ? "cannot be judged: no pose was held out"
-                                              : "not good enough";
   const OddArm* const odd = odd_arm(all, cell.name);
-  return odd == nullptr ? good : good + "; " + odd_words(all, *odd);
+  return odd == nullptr ? cell.verdict_head : cell.verdict_head + "; " + odd_words(all, *odd);
+}
+
+bool needs_attention(const Fleet& all, const CellSummary& cell) {
+  return cell.verdict_class != "good" || odd_arm(all, cell.name) != nullptr;
 }
 
 std::string fleet_verdict(const Fleet& all) {
@@ -189,8 +194,8 @@ std::string fleet_verdict(const Fleet& all) {
 }
 
 std::string model_name(const Model& model) {
-  return fmt::format("{}, {} arm{}", model.robot.empty() ? "model " + model.key : model.robot,
-                     model.arms, model.arms == 1 ? "" : "s");
+  return fmt::format("{}, {}", model.robot.empty() ? "model " + model.key : model.robot,
+                     counted_words(model.arms, "arm", "arms"));
 }
 
 std::string too_few_words(const Model& model) {

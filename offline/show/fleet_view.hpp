@@ -16,9 +16,12 @@ Json fleet_json(const fleet::Fleet& fleet);
 /// One sentence: how many arms are good, which are unlike their sisters, what failed.
 std::string fleet_verdict(const fleet::Fleet& fleet);
 
-/// What is to be said of a cell: "good", "not good enough", why it is unlike its sisters, or why it
-/// could not be fitted.
+/// What is to be said of a cell: its verdict in few words, as fit and report say it, and why it is
+/// unlike its sisters; or why it could not be fitted.
 std::string state_of(const fleet::Fleet& fleet, const fleet::CellSummary& cell);
+
+/// Whether it must be listed among very many: its verdict is not good, or it is unlike its sisters.
+bool needs_attention(const fleet::Fleet& fleet, const fleet::CellSummary& cell);
 
 /// The arm as one that is unlike its sisters; null if it is not.
 const fleet::OddArm* odd_arm(const fleet::Fleet& fleet, const std::string& cell);

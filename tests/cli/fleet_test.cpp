@@ -84,6 +84,31 @@ TEST_F(FleetVerb, TheHeldOutErrorIsThatOfFitInTheCell) {
     EXPECT_EQ(value, alone["held_out"][key]) << key;
 }
 
+TEST_F(FleetVerb, TheVerdictIsThatOfFitInTheSameWordsClassAndColour) {
+  extra(box->read(name(1) + "/measurements.csv"));
+  std::string strict = box->read("cells/extra/cell.toml");
+  const auto at = strict.find("tolerance_mm = ");
+  ASSERT_NE(at, std::string::npos);
+  strict.replace(at, strict.find('\n', at) - at, "tolerance_mm = 0.001");
+  box->write("cells/extra/cell.toml", strict);
+  const auto all = fleet().json()["result"]["cells"];
+  const std::string screen = box->plumb({"fleet", "cells"}).out;
+  const std::string page = box->read("cells/fleet/fleet.html");
+  for (const auto& cell : all) {
+    const std::string folder = "cells/" + cell["name"].get<std::string>();
+    const auto alone = box->plumb({"-C", folder, "fit", "--dry-run", "--json"}).json()["result"];
+    for (const char* key : {"verdict", "verdict_head", "verdict_class"})
+      EXPECT_EQ(cell[key], alone[key]) << folder;
+    const std::string head = alone["verdict_head"], found = alone["verdict_class"];
+    EXPECT_NE(screen.find(head), std::string::npos) << screen;
+    const std::string mark = found == "good" ? "✓" : found == "bad" ? "✗" : "◐";
+    EXPECT_NE(page.find("<td class=\"left " + found + "\">" + mark + " " + head), std::string::npos)
+        << folder << ": " << found << " " << head;
+    EXPECT_NE(page.find(cell["arm"].get<std::string>()), std::string::npos);
+  }
+  EXPECT_NE(all.back()["verdict_class"], all.front()["verdict_class"]);
+}
+
 TEST_F(FleetVerb, ACellThatWasDoneIsNotDoneAgain) {
   ASSERT_EQ(fleet().exit, 0);
   const auto stamp = [&] {
