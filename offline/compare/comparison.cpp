@@ -2,8 +2,8 @@
 #include "compare/comparison.hpp"
 
 #include <algorithm>
-#include <set>
 
+#include "cell/group_rows.hpp"
 #include "compare/profiles.hpp"
 #include "fit/step_motions.hpp"
 
@@ -42,9 +42,15 @@ SamplesOf samples_of(const Measurements& measured, const Errors& errors, Compari
   for (const int i : errors.fit) fitted[static_cast<std::size_t>(i)] = true;
   for (const int i : set == Comparison::Set::kHeldOut ? errors.held : errors.fit)
     judged[static_cast<std::size_t>(i)] = true;
-  return [&measured, &errors, fitted, judged](const std::function<double(int)>& value) {
+  std::vector<bool> repeat, seen(count_groups(measured.replicate_group), false);
+  for (const int i : errors.used) {
+    const auto group = static_cast<std::size_t>(measured.replicate_group[i]);
+    repeat.push_back(seen[group]);
+    seen[group] = true;
+  }
+  return [&errors, fitted, judged, repeat](const std::function<double(int)>& value) {
     std::vector<Sample> out;
-    std::set<int> seen;
+    out.reserve(errors.used.size());
     for (const int i : errors.used) {
       const auto k = static_cast<std::size_t>(i);
       out.push_back({.value = value(i),
@@ -53,7 +59,7 @@ SamplesOf samples_of(const Measurements& measured, const Errors& errors, Compari
                             : fitted[k] ? Which::kBoth
                                         : Which::kJudged,
                      .fit_error_m = errors.final_M.row(i).norm(),
-                     .repeat = !seen.insert(measured.replicate_group[i]).second});
+                     .repeat = repeat[out.size()]});
     }
     return out;
   };

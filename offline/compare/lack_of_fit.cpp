@@ -2,8 +2,8 @@
 #include "compare/lack_of_fit.hpp"
 
 #include <algorithm>
-#include <map>
 
+#include "cell/group_rows.hpp"
 #include "fit/repeat_groups.hpp"
 #include "numbers/tails.hpp"
 
@@ -18,11 +18,8 @@ struct Squares {
 };
 
 Squares squares_of(const Measurements& measured, const Rows3& error, const std::vector<int>& rows) {
-  const std::vector<int> group_of = repeat_groups(measured);
-  std::map<int, std::vector<int>> groups;
-  for (const int i : rows) groups[group_of[i]].push_back(i);
   Squares out;
-  for (const auto& [group, members] : groups) {
+  visit_groups(repeat_groups(measured), rows, [&](std::span<const int> members) {
     Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
     const auto n = static_cast<double>(members.size());
     for (const int i : members) mean += error.row(i) / n;
@@ -30,7 +27,7 @@ Squares squares_of(const Measurements& measured, const Rows3& error, const std::
     out.model += n * mean.squaredNorm();
     ++out.groups;
     out.repeats += static_cast<int>(members.size()) - 1;
-  }
+  });
   return out;
 }
 

@@ -113,7 +113,9 @@ ScatterLines scatter_lines(const WhitenedFit& s, const Eigen::MatrixXd& columns)
 Repeatability repeatability_of(const WhitenedFit& s, const JointScatter& scatter) {
   ScatterLines lines;
   for (const auto& motion : s.joint) lines.joint.emplace_back(motion.head(s.fit_lines));
-  return repeatability_of(lines, scatter, {s.sigma.begin(), s.sigma.begin() + s.fit_lines});
+  SquaredMotions motions;
+  motions.add(lines, {s.sigma.begin(), s.sigma.begin() + s.fit_lines});
+  return motions.with(scatter);
 }
 
 WhitenedFit with_scatter(const WhitenedFit& s, const JointScatter& scatter) {

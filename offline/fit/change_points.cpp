@@ -66,21 +66,22 @@ class Scanner {
     if (!best || best->ln_p > std::log(kChance)) return;
     for (const auto& sums : sources_) better(drift_of(sums, s, task()), smooth);
     const bool drifts = smooth && smooth->ln_p < best->ln_p;
-    error_.middleCols(s.first, s.size()) -= drifts ? smooth->fitted : best->fitted;
     if (drifts) {
-      without_steps_.middleCols(s.first, s.size()) -= smooth->fitted;
+      smooth->take_from(error_);
+      smooth->take_from(without_steps_);
       if (out.drifts.size() >= kMostSteps) return;
       out.drifts.push_back(described(*smooth, s));
       return look(s, out);
     }
     found_.push_back(jumped(*best, s));
+    best->take_from(error_);
     look({s.first, best->cut}, out);
     look({best->cut, s.last}, out);
   }
 
   Jumped jumped(const Explained& e, const VisitRun& s) const {
-    return {static_cast<std::size_t>(e.sums - sources_.data()), e.cut,
-            e.sums->solve(e.cut, s.last) - e.sums->solve(s.first, e.cut), step(e, s)};
+    return {static_cast<std::size_t>(e.sums - sources_.data()), e.cut, e.behind - e.before,
+            step(e, s)};
   }
 
   /// Finds the cut of one step again with all other steps removed. In the first search some of
@@ -105,17 +106,16 @@ class Scanner {
   }
 
   DriftFound described(const Explained& e, const VisitRun& s) const {
-    const auto n = e.fitted.cols();
-    const Eigen::Index tenth = std::max<Eigen::Index>(1, n / 10);
+    const int tenth = std::max(1, s.size() / 10);
     DriftFound out{.source = e.sums->source(), .joint = e.sums->joint(), .ln_p = e.ln_p};
     out.from = motions_.rows()[static_cast<std::size_t>(s.first)];
     out.to = motions_.rows()[static_cast<std::size_t>(s.last - 1)];
     // The same drift moves the points of different poses differently: compare its parameters.
-    VisitRun head{s.first, s.first + static_cast<int>(tenth)};
-    VisitRun tail{s.last - static_cast<int>(tenth), s.last};
+    VisitRun head{s.first, s.first + tenth};
+    VisitRun tail{s.last - tenth, s.last};
     MotionSums again = *e.sums;
     Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, motions_.size());
-    all.middleCols(s.first, s.size()) = e.fitted;
+    for (int i = s.first; i < s.last; ++i) all.col(i) = e.at(i);
     again.sum(all);
     const MotionSums::Numbers moved =
         again.solve(tail.first, tail.last) - again.solve(head.first, head.last);
@@ -132,7 +132,7 @@ class Scanner {
   /// Must be called while `e.sums` still holds the residual in which the step was found.
   StepFound step(const Explained& e, const VisitRun& s) const {
     const MotionSums& sums = *e.sums;
-    const MotionSums::Numbers moved = sums.solve(e.cut, s.last) - sums.solve(s.first, e.cut);
+    const MotionSums::Numbers moved = e.behind - e.before;
     StepFound out;
     out.source = sums.source();
     out.joint = sums.joint();
@@ -141,12 +141,12 @@ class Scanner {
     out.size_m = rms(sums, s, moved);
     out.before = motions_.last_rows()[static_cast<std::size_t>(e.cut - 1)];
     out.after = motions_.rows()[static_cast<std::size_t>(e.cut)];
-    const double whole = sums.explained(s.first, s.last);
+    const MotionSums::Gain gain(sums, s.first, s.last);
     const double enough = e.gain - kChi95 * e.inflation * e.left / e.free;
     int low = e.cut, high = e.cut;
     const CutRange cuts = cuts_of(s, fewest_visits(sums));
     for (int c = cuts.first; c <= cuts.last; ++c) {
-      if (sums.gain(s.first, c, s.last) - whole < enough) continue;
+      if (gain(c) - gain.whole() < enough) continue;
       low = std::min(low, c);
       high = std::max(high, c);
     }

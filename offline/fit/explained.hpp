@@ -17,8 +17,18 @@ struct Explained {
   double gain = 0.0, left = 0.0;  // sums of squares explained and left [m^2]
   double inflation = 1.0;         // of F, by unequal variances and autocorrelation
   double free = 1.0;              // degrees of freedom left
-  double ln_p = 0.0;        // ln of the probability by chance, over all cuts and motion sources
-  Eigen::Matrix3Xd fitted;  // shape (3, segment)
+  double ln_p = 0.0;  // ln of the probability by chance, over all cuts and motion sources
+  VisitRun segment{0, 0};
+  MotionSums::Numbers before,
+      behind;             // of a jump: the motion on either side of it
+  Eigen::VectorXd drift;  // of a drift: constant, linear and quadratic in order
+
+  /// What is explained of the residual of this visit.
+  Eigen::Vector3d at(int visit) const;
+  /// The residual less what is explained; `error`: of all visits.
+  void take_from(Eigen::Matrix3Xd& error) const {
+    for (int i = segment.first; i < segment.last; ++i) error.col(i) -= at(i);
+  }
 };
 
 /// The residual to explain [m], and how many motion sources are tried.

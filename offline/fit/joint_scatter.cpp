@@ -13,7 +13,7 @@ constexpr double kFirstGuess_rad = 20e-6;  // of arms in good order; [m] of a sl
 constexpr double kSmallestNoise = 1e-12;   // variance of a line: noise-free data
 constexpr double kSettled = 3e-3;          // relative change of the largest contribution
 constexpr double kNothing = 1e-4;          // of the noise: less is no scatter
-constexpr Eigen::Index kSomePoses = 400, kMorePoses = 2500;
+constexpr Eigen::Index kSomePoses = 400;
 constexpr int kIterations = 40, kMoreIterations = 4;
 constexpr double kScatterRidge = 1e-9;
 
@@ -24,44 +24,48 @@ struct Whitened {
   Eigen::MatrixXd model;               // (lines, rank) the model's columns, orthonormal
   std::vector<Eigen::VectorXd> joint;  // (lines,)
   Eigen::MatrixXd unit;                // (lines, axes): the axes themselves
-  double ln_determinants = 0.0;        // of the covariance, and of the model's information
 };
 
-Eigen::MatrixXd covariance_at(const ScatterLines& s, const JointScatter& at, Eigen::Index pose) {
-  Eigen::MatrixXd V = at.noise_variance * Eigen::MatrixXd::Identity(s.axes, s.axes);
+constexpr int kMostAxes = 6;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostAxes, kMostAxes>;
+
+/// L of L L^T = covariance of the lines of one pose; they are whitened by L^-1.
+Square root_at(const ScatterLines& s, const JointScatter& at, Eigen::Index pose) {
+  Square V = at.noise_variance * Square::Identity(s.axes, s.axes);
   for (std::size_t j = 0; j < s.joint.size(); ++j) {
     const auto g = s.joint[j].segment(pose * s.axes, s.axes);
-    V += at.variance(static_cast<Eigen::Index>(j)) * g * g.transpose();
+    const double variance = at.variance(static_cast<Eigen::Index>(j));
+    if (variance > 0.0) V.noalias() += variance * g * g.transpose();
   }
-  return V;
+  return V.llt().matrixL();
 }
 
-Whitened whitened_by(const ScatterLines& s, const JointScatter& at, bool with_motions) {
-  Whitened out;
-  out.residual = s.y;
-  out.model = s.U;
-  if (with_motions) {
-    out.joint = s.joint;
-    out.unit = Eigen::MatrixXd::Identity(s.axes, s.axes).replicate(s.poses(), 1);
+/// L^-1 of some lines of one pose, in place.
+template <class Lines>
+void divide(const Square& root, Lines&& lines) {
+  for (Eigen::Index i = 0; i < root.rows(); ++i) {
+    for (Eigen::Index k = 0; k < i; ++k) lines.row(i) -= root(i, k) * lines.row(k);
+    lines.row(i) /= root(i, i);
   }
-  double ln_determinant = 0.0;
+}
+
+double ln_det(const Square& root) { return 2.0 * root.diagonal().array().log().sum(); }
+
+Whitened whitened_by(const ScatterLines& s, const JointScatter& at) {
+  Whitened out{s.y, s.U, s.joint,
+               Eigen::MatrixXd::Identity(s.axes, s.axes).replicate(s.poses(), 1)};
   for (Eigen::Index i = 0; i < s.poses(); ++i) {
-    const Cholesky root(covariance_at(s, at, i));
+    const Square root = root_at(s, at, i);
     const Eigen::Index line = i * s.axes;
-    ln_determinant += root.ln_det();
-    const auto divide = [&](auto&& lines) { lines = root.whitened(lines); };
-    divide(out.residual.segment(line, s.axes));
-    divide(out.model.middleRows(line, s.axes));
-    if (!with_motions) continue;
-    for (auto& motion : out.joint) divide(motion.segment(line, s.axes));
-    divide(out.unit.middleRows(line, s.axes));
+    divide(root, out.residual.segment(line, s.axes));
+    divide(root, out.model.middleRows(line, s.axes));
+    for (auto& motion : out.joint) divide(root, motion.segment(line, s.axes));
+    divide(root, out.unit.middleRows(line, s.axes));
   }
   Eigen::MatrixXd information = out.model.transpose() * out.model;
   information.diagonal().array() *= 1.0 + kScatterRidge;
-  const Cholesky root(information);
-  out.model = root.orthonormal(out.model);
+  out.model = Cholesky(information).orthonormal(out.model);
   out.residual -= out.model * (out.model.transpose() * out.residual).eval();
-  out.ln_determinants = ln_determinant + root.ln_det();
   return out;
 }
 
@@ -95,7 +99,7 @@ ScatterLines thinned(const ScatterLines& s, Eigen::Index most) {
   if (s.poses() <= most) return s;
   std::vector<Eigen::Index> line;
   for (Eigen::Index i = 0; i < s.poses(); ++i)
-    if (i * most / s.poses() != (i + 1) * most / s.poses())
+    if (is_among(i, s.poses(), most))
       for (int k = 0; k < s.axes; ++k) line.push_back(i * s.axes + k);
   ScatterLines out{s.y(line), s.U(line, Eigen::all), {}, s.axes, s.noise_variance, s.noise_dof};
   for (const auto& motion : s.joint) out.joint.emplace_back(motion(line));
@@ -104,17 +108,50 @@ ScatterLines thinned(const ScatterLines& s, Eigen::Index most) {
 
 }  // namespace
 
+void ScatterSums::add(const ScatterLines& s, const JointScatter& at) {
+  if (lines == 0.0) {
+    information.setZero(s.U.cols(), s.U.cols());
+    gradient.setZero(s.U.cols());
+  }
+  Eigen::VectorXd y = s.y;
+  Eigen::MatrixXd U = s.U;
+  for (Eigen::Index i = 0; i < s.poses(); ++i) {
+    const Square root = root_at(s, at, i);
+    ln_determinants += ln_det(root);
+    divide(root, y.segment(i * s.axes, s.axes));
+    divide(root, U.middleRows(i * s.axes, s.axes));
+  }
+  information.noalias() += U.transpose() * U;
+  gradient.noalias() += U.transpose() * y;
+  squares += y.squaredNorm();
+  lines += static_cast<double>(y.size());
+}
+
+ScatterSums ScatterSums::with_noise(double variance) const {
+  return {information / variance, gradient / variance, squares / variance,
+          lines * std::log(variance), lines};
+}
+
+double ln_likelihood_of_ratios(const ScatterSums& sums, double noise_dof) {
+  Eigen::MatrixXd information = sums.information;
+  information.diagonal().array() *= 1.0 + kScatterRidge;
+  const Cholesky root(information);
+  const double left = sums.squares - root.whitened(sums.gradient).squaredNorm();
+  const double free = sums.lines - static_cast<double>(sums.gradient.size());
+  return -0.5 * (sums.ln_determinants + root.ln_det()) -
+         0.5 * (free + noise_dof) * std::log(noise_dof + std::max(0.0, left));
+}
+
 double ln_likelihood_of_ratios(const ScatterLines& s, const JointScatter& at) {
-  const Whitened w = whitened_by(s, at, false);
-  const auto free = static_cast<double>(s.y.size() - s.U.cols());
-  return -0.5 * w.ln_determinants -
-         0.5 * (free + s.noise_dof) * std::log(s.noise_dof + w.residual.squaredNorm());
+  ScatterSums sums;
+  sums.add(s, at);
+  return ln_likelihood_of_ratios(sums, s.noise_dof);
 }
 
 JointScatter estimated_scatter(const ScatterLines& s, const JointScatter& start, int iterations) {
   JointScatter out = start;
   for (int i = 0; i < iterations; ++i) {
-    const Whitened w = whitened_by(s, out, true);
+    const Whitened w = whitened_by(s, out);
     double change = 0.0;
     for (std::size_t j = 0; j < s.joint.size(); ++j) {
       double& variance = out.variance(static_cast<Eigen::Index>(j));
@@ -139,14 +176,25 @@ JointScatter estimated_scatter(const ScatterLines& s, const JointScatter& start,
   return out;
 }
 
-JointScatter noise_alone(const ScatterLines& s) {
+JointScatter unit_noise(const ScatterLines& s) {
+  return {Eigen::VectorXd::Zero(static_cast<Eigen::Index>(s.joint.size())), 1.0};
+}
+
+JointScatter noise_alone(const ScatterSums& sums, const ScatterLines& some) {
   // Without scatter the iterations have a closed end.
-  const Cholesky information(s.U.transpose() * s.U);
-  const Eigen::VectorXd r = s.y - s.U * information.solve(s.U.transpose() * s.y);
-  const double free = std::max(1.0, static_cast<double>(s.y.size() - s.U.cols()));
-  const double variance = (r.squaredNorm() + s.noise_dof * s.noise_variance) / (free + s.noise_dof);
-  return {Eigen::VectorXd::Zero(static_cast<Eigen::Index>(s.joint.size())),
-          std::max(kSmallestNoise, variance)};
+  const Cholesky root(sums.information);
+  const double left = sums.squares - root.whitened(sums.gradient).squaredNorm();
+  const double free = std::max(1.0, sums.lines - static_cast<double>(sums.gradient.size()));
+  const double variance = (left + some.noise_dof * some.noise_variance) / (free + some.noise_dof);
+  JointScatter out = unit_noise(some);
+  out.noise_variance = std::max(kSmallestNoise, variance);
+  return out;
+}
+
+JointScatter noise_alone(const ScatterLines& s) {
+  ScatterSums sums;
+  sums.add(s, unit_noise(s));
+  return noise_alone(sums, s);
 }
 
 JointScatter noise_and_scatter(const ScatterLines& s) {
@@ -158,7 +206,7 @@ JointScatter noise_and_scatter(const ScatterLines& s) {
       start.variance(j) = kFirstGuess_rad * kFirstGuess_rad;
   JointScatter out = estimated_scatter(some, start, kIterations);
   if (s.poses() <= kSomePoses) return out;
-  return estimated_scatter(thinned(s, kMorePoses), out, kMoreIterations);
+  return estimated_scatter(thinned(s, kPosesOfScatter), out, kMoreIterations);
 }
 
 }  // namespace plumb::offline

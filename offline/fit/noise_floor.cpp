@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <utility>
 
+#include "cell/group_rows.hpp"
 #include "fit/repeat_groups.hpp"
 #include "numbers/quantile.hpp"
 
@@ -46,15 +47,16 @@ void take_copies_once(const Rows3& p_M, std::vector<int>& rows) {
 /// changes in between is a drift or a step, and no noise.
 std::vector<std::vector<int>> near_rows(const Measurements& m, const std::vector<int>& group,
                                         double far) {
-  std::map<int, std::vector<int>> groups;
+  std::vector<int> used;
   for (int i = 0; i < m.size(); ++i)
-    if (m.set.empty() || m.set[i] != SetMark::kIgnore) groups[group[i]].push_back(i);
+    if (m.set.empty() || m.set[i] != SetMark::kIgnore) used.push_back(i);
   std::vector<std::vector<int>> out;
-  for (const auto& [number, rows] : groups)
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (i == 0 || rows[i] - rows[i - 1] > far) out.emplace_back();
-      out.back().push_back(rows[i]);
+  visit_groups(group, std::move(used), [&](std::span<const int> rows) {
+    for (std::size_t i = 0, end = 0; i < rows.size(); i = end) {
+      for (end = i + 1; end < rows.size() && rows[end] - rows[end - 1] <= far;) ++end;
+      if (end - i > 1) out.emplace_back(rows.begin() + i, rows.begin() + end);
     }
+  });
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "fit/arm_change.hpp"
 #include "fit/orthonormal.hpp"
@@ -31,12 +32,6 @@ std::vector<Parameter> joint_offsets(const format::Chain& chain) {
   return out;
 }
 
-double mean_square(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
-}
-
 bool same_or_both_nan(double a, double b) { return a == b || (a != a && b != b); }
 
 bool same_row(const RowsN& values, int a, int b) {
@@ -52,6 +47,95 @@ bool stood_still(const Measurements& m, int a, int b) {
          (c.direction.rows() == 0 || same_row(c.direction, a, b));
 }
 
+constexpr std::size_t kReadingsInOneGo = 512;
+
+/// The lines of a calibrated model at some readings, as many at a time as fit into the cache.
+class ModelLines {
+ public:
+  ModelLines(const Measurements& measured, const Calibration& calibration, Rows3 sigma_m,
+             const std::vector<int>& rows)
+      : calibration_(calibration),
+        offsets_(joint_offsets(calibration.state.arm.calibrated)),
+        rows_(rows),
+        stops_(stops(measured, rows)) {
+    data_.measured = &measured;
+    data_.sigma_m = std::move(sigma_m);
+  }
+
+  /// Reading by reading.
+  ScatterLines readings(const std::vector<std::size_t>& chosen) {
+    data_.rows.clear();
+    for (const std::size_t i : chosen) data_.rows.push_back(rows_[i]);
+    Solution model = evaluate(data_, calibration_.state, calibration_.parameters);
+    const Solution joints = evaluate(data_, calibration_.state, offsets_);
+    ScatterLines out{std::move(model.residual), std::move(model.jacobian), {}, data_.per_pose()};
+    for (const auto motion : joints.jacobian.colwise()) out.joint.emplace_back(motion);
+    return out;
+  }
+
+  ScatterLines merged(const ScatterLines& lines, const std::vector<std::size_t>& chosen) const {
+    std::vector<int> stop;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const bool same = i > 0 && stops_[chosen[i]] == stops_[chosen[i - 1]];
+      stop.push_back(i == 0 ? 0 : stop.back() + (same ? 0 : 1));
+    }
+    return by_stop(lines, stop);
+  }
+
+  /// The stops from which the scatter is estimated.
+  std::vector<std::size_t> some() const {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (is_among(stops_[i], stops_.back() + 1, kPosesOfScatter)) out.push_back(i);
+    return out;
+  }
+
+  /// Calls visit(numbers of readings) for all of them, whole stops at a time.
+  template <class Visit>
+  void in_blocks(const Visit& visit) const {
+    std::vector<std::size_t> block;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const bool new_stop = i > 0 && stops_[i] != stops_[i - 1];
+      if (new_stop && block.size() >= kReadingsInOneGo) visit(std::exchange(block, {}));
+      block.push_back(i);
+    }
+    if (!block.empty()) visit(block);
+  }
+
+  double mean_square_sigma() const {
+    double sum = 0.0, lines = 0.0;
+    in_blocks([&](const std::vector<std::size_t>& block) {
+      const std::vector<double> sigma = sigma_m(block);
+      for (const double s : sigma) sum += s * s;
+      lines += static_cast<double>(sigma.size());
+    });
+    return sum / std::max(1.0, lines);
+  }
+
+  /// 1 sigma by which the lines of these readings were divided [m].
+  std::vector<double> sigma_m(const std::vector<std::size_t>& chosen) const {
+    std::vector<double> out;
+    for (const std::size_t i : chosen)
+      for (int k = 0; k < 3; ++k)
+        if (data_.measured->has_axis[k]) out.push_back(data_.sigma_m(rows_[i], k));
+    return out;
+  }
+
+ private:
+  const Calibration& calibration_;
+  const std::vector<Parameter> offsets_;
+  const std::vector<int>& rows_;
+  const std::vector<int> stops_;
+  FitData data_;
+};
+
+/// What the floor says of the variance of a line that was divided by such sigmas.
+void tell(const NoiseFloor& floor, double mean_square_m2, ScatterLines& lines) {
+  if (floor.source == NoiseFloor::Source::kNone) return;
+  lines.noise_variance = floor.sigma_m * floor.sigma_m / mean_square_m2;
+  lines.noise_dof = trusted_dof(floor);
+}
+
 }  // namespace
 
 bool Repeatability::supported() const { return nats > kSupported_nats && usual(); }
@@ -61,19 +145,24 @@ bool Repeatability::usual() const {
          std::all_of(std.begin(), std.end(), [](double joint) { return joint <= kMostOfJoint; });
 }
 
-Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& scatter,
-                               const std::vector<double>& sigma_m) {
+void SquaredMotions::add(const ScatterLines& lines, const std::vector<double>& sigma_m) {
+  joint_.resize(lines.joint.size(), 0.0);
+  for (const double sigma : sigma_m) sigma_ += sigma * sigma;
+  for (std::size_t j = 0; j < joint_.size(); ++j)
+    for (std::size_t i = 0; i < sigma_m.size(); ++i)
+      joint_[j] += std::pow(lines.joint[j](static_cast<Eigen::Index>(i)) * sigma_m[i], 2);
+  lines_ += static_cast<double>(sigma_m.size());
+}
+
+Repeatability SquaredMotions::with(const JointScatter& scatter) const {
+  const double lines = std::max(1.0, lines_);
   Repeatability out;
-  double variance = scatter.noise_variance * mean_square(sigma_m), usual = variance;
-  for (std::size_t j = 0; j < lines.joint.size(); ++j) {
+  double variance = scatter.noise_variance * sigma_ / lines, usual = variance;
+  for (std::size_t j = 0; j < joint_.size(); ++j) {
     const double joint = scatter.variance(static_cast<Eigen::Index>(j));
     out.std.push_back(std::sqrt(joint));
-    double moved = 0.0;
-    for (std::size_t i = 0; i < sigma_m.size(); ++i)
-      moved += std::pow(lines.joint[j](static_cast<Eigen::Index>(i)) * sigma_m[i], 2);
-    moved /= static_cast<double>(std::max<std::size_t>(1, sigma_m.size()));
-    variance += joint * moved;
-    usual += kUsual_rad * kUsual_rad * moved;
+    variance += joint * joint_[j] / lines;
+    usual += kUsual_rad * kUsual_rad * joint_[j] / lines;
   }
   out.usual_sigma_m = std::sqrt(usual);
   out.sigma_m = std::sqrt(variance);
@@ -82,33 +171,28 @@ Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& sc
 
 Repeatability repeatability(const Cell& cell, const Measurements& measured,
                             const Calibration& calibration, const std::vector<int>& rows) {
-  FitData data;
-  data.measured = &measured;
-  data.rows = rows;
-  data.sigma_m = stated_sigma(cell, measured);
-  const auto offsets = joint_offsets(calibration.state.arm.calibrated);
-  const Solution model = evaluate(data, calibration.state, calibration.parameters);
-  const Solution joints = evaluate(data, calibration.state, offsets);
-  ScatterLines lines;
-  lines.axes = data.per_pose();
-  lines.y = model.residual;
-  lines.U = orthonormal(model.jacobian, model.jacobian.rows()).U;
-  for (Eigen::Index j = 0; j < joints.jacobian.cols(); ++j)
-    lines.joint.emplace_back(joints.jacobian.col(j));
-  std::vector<double> sigma_m;
-  for (const int row : rows)
-    for (int k = 0; k < 3; ++k)
-      if (measured.has_axis[k]) sigma_m.push_back(data.sigma_m(row, k));
-  const NoiseFloor floor = noise_floor(cell, measured, calibration.state);
-  if (floor.source != NoiseFloor::Source::kNone) {
-    lines.noise_variance = floor.sigma_m * floor.sigma_m / mean_square(sigma_m);
-    lines.noise_dof = trusted_dof(floor);
-  }
-  const ScatterLines merged = by_stop(lines, stops(measured, rows));
-  const JointScatter scatter = noise_and_scatter(merged);
-  Repeatability out = repeatability_of(lines, scatter, sigma_m);
-  out.nats = ln_likelihood_of_ratios(merged, scatter) -
-             ln_likelihood_of_ratios(merged, noise_alone(merged)) -
+  if (rows.empty()) return {};
+  ModelLines model(measured, calibration, stated_sigma(cell, measured), rows);
+  SquaredMotions motions;
+  const auto chosen = model.some();
+  ScatterLines some = model.merged(model.readings(chosen), chosen);
+  const Eigen::MatrixXd half = orthonormal(some.U, some.U.rows()).half;
+  some.U *= half;
+  tell(noise_floor(cell, measured, calibration.state), model.mean_square_sigma(), some);
+  const JointScatter scatter = noise_and_scatter(some);
+  ScatterSums white, scattered;
+  model.in_blocks([&](const std::vector<std::size_t>& block) {
+    const ScatterLines lines = model.readings(block);
+    motions.add(lines, model.sigma_m(block));
+    ScatterLines merged = model.merged(lines, block);
+    merged.U *= half;
+    white.add(merged, unit_noise(merged));
+    scattered.add(merged, scatter);
+  });
+  const double noise = noise_alone(white, some).noise_variance;
+  Repeatability out = motions.with(scatter);
+  out.nats = ln_likelihood_of_ratios(scattered, some.noise_dof) -
+             ln_likelihood_of_ratios(white.with_noise(noise), some.noise_dof) -
              static_cast<double>((scatter.variance.array() > 0.0).count());
   return out;
 }

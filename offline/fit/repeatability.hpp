@@ -29,10 +29,20 @@ struct Repeatability {
   bool usual() const;
 };
 
-/// @param lines    Reading by reading, not stop by stop; only their motions are looked at.
-/// @param sigma_m  1 sigma by which each line was divided [m], shape (lines,).
-Repeatability repeatability_of(const ScatterLines& lines, const JointScatter& scatter,
-                               const std::vector<double>& sigma_m);
+/// How much each joint moves the measured coordinates, and their stated sigma: sums over lines,
+/// reading by reading and not stop by stop, that may be added a part at a time.
+class SquaredMotions {
+ public:
+  /// sigma_m: 1 sigma by which each line was divided [m], shape (lines,).
+  void add(const ScatterLines& lines, const std::vector<double>& sigma_m);
+
+  /// The repeatability with such variances; its nats are not set.
+  Repeatability with(const JointScatter& scatter) const;
+
+ private:
+  std::vector<double> joint_;
+  double sigma_ = 0.0, lines_ = 0.0;
+};
 
 /// What a calibrated model leaves of the poses that it was fitted to, as if nothing but noise and
 /// the scatter of the joints were in it. What the model lacks looks like scatter too.

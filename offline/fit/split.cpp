@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "cell/group_rows.hpp"
 #include "cell/random.hpp"
 #include "cell/replicates.hpp"
 
@@ -20,12 +21,11 @@ constexpr int kFoldsUpTo = 500;  // poses; from there on a fifth is no loss, and
 
 /// One row of each replicate group that is used.
 std::vector<int> representatives(const Measurements& m, const std::vector<bool>& used) {
-  std::map<int, int> first;
+  std::vector<int> first(count_groups(m.replicate_group), -1);
   for (int i = 0; i < m.size(); ++i)
-    if (used[i]) first.emplace(m.replicate_group[i], i);
-  std::vector<int> out;
-  for (const auto& [group, row] : first) out.push_back(row);
-  return out;
+    if (int& row = first[m.replicate_group[i]]; used[i] && row < 0) row = i;
+  std::erase(first, -1);
+  return first;
 }
 
 /// Orders rows so that neighbours in the list are neighbours in joint space: halves along the
@@ -90,15 +90,14 @@ void hold_share(const Measurements& m, double share, Random& random, Split& spli
   if (wanted >= n)
     fail(fmt::format("{} poses cannot give a held-out share of {:.0f}%", n, 100 * share),
          "set [measurement] held_out = \"kfold:5\"");
-  std::map<int, bool> held;
+  std::vector<bool> held(count_groups(m.replicate_group), false);
   for (int k = 0; k < wanted; ++k) {
     const int begin = static_cast<int>(static_cast<long long>(k) * n / wanted);
     const int end = static_cast<int>(static_cast<long long>(k + 1) * n / wanted);
     held[m.replicate_group[order[begin + random.below(end - begin)]]] = true;
   }
   std::vector<bool> marks(m.size(), false);
-  for (int i = 0; i < m.size(); ++i)
-    marks[i] = split.used[i] && held.contains(m.replicate_group[i]);
+  for (int i = 0; i < m.size(); ++i) marks[i] = split.used[i] && held[m.replicate_group[i]];
   split.held = marks;
 }
 
@@ -142,13 +141,13 @@ void hold_last_file(const Measurements& m, Split& split) {
 
 /// Held out wins: a pose that is fitted as well would vouch for itself.
 void leave_out_repeats_of_held(const Measurements& m, Split& split) {
-  std::set<int> held;
+  std::vector<bool> held(count_groups(m.replicate_group), false);
   for (int i = 0; i < m.size(); ++i)
-    if (split.held[i]) held.insert(m.replicate_group[i]);
+    if (split.held[i]) held[m.replicate_group[i]] = true;
   int left = 0;
   for (int i = 0; i < m.size(); ++i) {
     if (!split.used[i] || split.held[i]) continue;
-    const bool repeats = held.contains(m.replicate_group[i]);
+    const bool repeats = held[m.replicate_group[i]];
     split.used[i] = !repeats;
     (repeats ? split.repeats_of_held : left) += 1;
   }

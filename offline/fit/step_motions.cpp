@@ -34,7 +34,7 @@ StepMotions::StepMotions(const ArmState& state, const Measurements& measured, co
   from_middle_.colwise() -= Eigen::Vector3d(from_middle_.rowwise().mean());
 }
 
-Eigen::MatrixXd StepMotions::columns(int visit, MotionSource source, int j) const {
+StepMotions::Columns StepMotions::columns(int visit, MotionSource source, int j) const {
   if (source == MotionSource::kJoint) return joint(visit, j);
   if (source == MotionSource::kTool)
     return mask_.asDiagonal() * R_MT_[static_cast<std::size_t>(visit)];

@@ -33,7 +33,8 @@ class StepMotions {
   /// Tool, 3 columns: shift of the reflector along the tool's axes. Base, 6 columns: shift along
   /// the axes of the measurement frame, then turn about these axes through the mean of the points.
   /// Joint, 1 column.
-  Eigen::MatrixXd columns(int visit, MotionSource source, int j) const;
+  using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6>;
+  Columns columns(int visit, MotionSource source, int j) const;
 
  private:
   std::vector<int> rows_, last_rows_;

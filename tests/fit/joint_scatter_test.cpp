@@ -83,5 +83,25 @@ TEST(JointScatter, ItsLikelihoodIsThatOfTheNormalDistribution) {
               dense(a) - dense(b), 1e-5);
 }
 
+TEST(JointScatter, PartsOfTheLinesAddUpToTheSameLikelihood) {
+  const ScatterLines lines = lines_with(300, 40e-6, 15e-6, 5);
+  const JointScatter at = noise_and_scatter(lines);
+  ScatterSums white, scattered;
+  for (Eigen::Index first = 0; first < 900; first += 90) {
+    ScatterLines part = lines;
+    part.y = lines.y.segment(first, 90);
+    part.U = lines.U.middleRows(first, 90);
+    for (std::size_t j = 0; j < 2; ++j) part.joint[j] = lines.joint[j].segment(first, 90);
+    white.add(part, unit_noise(part));
+    scattered.add(part, at);
+  }
+  const JointScatter noise = noise_alone(white, lines);
+  EXPECT_NEAR(noise.noise_variance, noise_alone(lines).noise_variance, 1e-9);
+  EXPECT_NEAR(ln_likelihood_of_ratios(scattered, lines.noise_dof),
+              ln_likelihood_of_ratios(lines, at), 1e-6);
+  EXPECT_NEAR(ln_likelihood_of_ratios(white.with_noise(noise.noise_variance), lines.noise_dof),
+              ln_likelihood_of_ratios(lines, noise), 1e-6);
+}
+
 }  // namespace
 }  // namespace plumb::offline
