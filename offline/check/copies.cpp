@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <numeric>
 
 #include "check/equal_repeats.hpp"
 #include "check/row_lines.hpp"
@@ -13,9 +13,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kOnePlace = 5e-3;          // [m]: readings of one pose hardly differ by more
-constexpr std::size_t kMostCompared = 100;  // rows with the same point
-constexpr double kWorthSaying = 0.5;        // expected number of readings equal by rounding
+constexpr double kOnePlace = 5e-3;             // [m]: readings of one pose hardly differ by more
+constexpr std::ptrdiff_t kMostCompared = 100;  // rows with the same point
+constexpr double kWorthSaying = 0.5;           // expected number of readings equal by rounding
 
 /// A row, and an earlier one with exactly the same point: one with the same joint positions too if
 /// there is any, else the first.
@@ -25,14 +25,18 @@ struct EqualPoint {
 };
 
 std::vector<EqualPoint> equal_points(const Measurements& m) {
+  const auto point = [&](int i) { return std::array{m.p_M(i, 0), m.p_M(i, 1), m.p_M(i, 2)}; };
+  std::vector<int> rows(static_cast<std::size_t>(m.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return point(a) < point(b); });
   std::vector<EqualPoint> out;
-  std::map<std::array<double, 3>, std::vector<int>> seen;
-  for (int i = 0; i < m.size(); ++i) {
-    auto& before = seen[std::array{m.p_M(i, 0), m.p_M(i, 1), m.p_M(i, 2)}];
-    const auto same =
-        std::find_if(before.begin(), before.end(), [&](int k) { return m.q.row(k) == m.q.row(i); });
-    if (!before.empty()) out.push_back({i, same == before.end() ? before.front() : *same});
-    if (before.size() < kMostCompared) before.push_back(i);
+  auto first = rows.begin();
+  for (auto at = rows.begin(); at != rows.end(); ++at) {
+    if (point(*at) != point(*first)) first = at;
+    if (at == first) continue;
+    const auto end = first + std::min(at - first, kMostCompared);
+    const auto same = std::find_if(first, end, [&](int k) { return m.q.row(k) == m.q.row(*at); });
+    out.push_back({*at, same == end ? *first : *same});
   }
   return out;
 }

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
+#include "cell/group_rows.hpp"
 #include "check/rounding.hpp"
 
 namespace plumb::offline {
@@ -24,16 +27,6 @@ struct Pairs {
   std::array<double, 3> agree_in{};  // of these: pairs that agree in x, y, z
   double agree_in_joints = 0.0;      // of these: pairs that agree in all joint positions
 };
-
-std::vector<std::vector<int>> repeats_of(const Measurements& m) {
-  std::vector<std::vector<int>> out;
-  for (int i = 0; i < m.size(); ++i) {
-    const auto group = static_cast<std::size_t>(m.replicate_group[static_cast<std::size_t>(i)]);
-    if (group >= out.size()) out.resize(group + 1);
-    out[group].push_back(i);
-  }
-  return out;
-}
 
 void compare(const Measurements& m, int a, int b, Pairs& out) {
   if (m.p_M.row(a) == m.p_M.row(b)) return;
@@ -79,11 +72,15 @@ EqualRepeats equal_by_rounding(const MeasurementFiles& measured, const NoiseFloo
   for (std::size_t k = 0; k < 3; ++k)
     if (measured.has_axis[k]) out.step_m = std::max(out.step_m, steps[k]);
   Pairs pairs;
-  const auto poses = repeats_of(measured);
-  for (const auto& rows : poses)
+  std::vector<int> all(static_cast<std::size_t>(measured.size()));
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<double> sizes;  // of the poses
+  visit_groups(measured.replicate_group, std::move(all), [&](std::span<const int> rows) {
+    sizes.push_back(static_cast<double>(rows.size()));
     for (std::size_t a = 0; a < rows.size(); ++a)
       for (std::size_t b = a + 1; b < std::min(rows.size(), a + 1 + kNeighbours); ++b)
         compare(measured, rows[a], rows[b], pairs);
+  });
   double chance = 0.0, joints = 1.0;
   if (pairs.differ >= kEnoughPairs) {
     chance = chance_from_pairs(measured, pairs);
@@ -92,10 +89,7 @@ EqualRepeats equal_by_rounding(const MeasurementFiles& measured, const NoiseFloo
     out.assumed = floor.source == NoiseFloor::Source::kNone;
     chance = chance_from_steps(measured, steps, out.assumed ? kQuietTracker_m : floor.sigma_m);
   }
-  for (const auto& rows : poses) {
-    const auto n = static_cast<double>(rows.size());
-    out.points += std::min(n - 1.0, 0.5 * n * (n - 1.0) * chance);
-  }
+  for (const double n : sizes) out.points += std::min(n - 1.0, 0.5 * n * (n - 1.0) * chance);
   out.rows = out.points * joints;
   return out;
 }

@@ -67,6 +67,12 @@ bool multiples(const std::vector<double>& values, double step) {
   });
 }
 
+bool has_different(const std::vector<double>& values, std::size_t count) {
+  std::set<double> found;
+  for (auto v = values.begin(); v != values.end() && found.size() < count; ++v) found.insert(*v);
+  return found.size() >= count;
+}
+
 /// The coarsest step of 1, 2, 2.5 or 5 times a power of ten, in the column's unit, of which all
 /// values of a measured coordinate are multiples; 0 if there is none, or too few values to tell.
 double step_of_point(const Column& column) {
@@ -74,7 +80,7 @@ double step_of_point(const Column& column) {
   if (!unit) return 0.0;
   std::vector<double> values;
   for (const double v : column.values) values.push_back(unit->from_si(v));
-  if (std::set<double>(values.begin(), values.end()).size() < kFewestValues) return 0.0;
+  if (!has_different(values, kFewestValues)) return 0.0;
   for (int tens = kMostTens; tens >= -kMostDigits; --tens)
     for (const double leading : {5.0, 2.5, 2.0, 1.0}) {
       // Dividing by a power of ten keeps 0.1 exact to the last place; multiplying by 1e-1 does not.
