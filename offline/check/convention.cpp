@@ -179,8 +179,7 @@ Measurements read_as(const Measurements& measured, const Cell& cell, const Conve
   const double slide = ratio(meant.slide_unit, present.slide_unit);
   for (int j = 0; j < cell.joints(); ++j)
     out.q.col(j) = (slides(cell, j) ? slide : own_ratio(meant, j, present.turn_unit, turn)) *
-                   meant.factor[j] * (meant.reversed[j] ? -1.0 : 1.0) *
-                   values.col(meant.column[j]);
+                   meant.factor[j] * (meant.reversed[j] ? -1.0 : 1.0) * values.col(meant.column[j]);
   to_angles(Coupling(meant.coupling), out.q);
   out.p_M *= ratio(meant.point_unit, present.point_unit);
   mirror_points(out, meant.mirror);

@@ -129,9 +129,10 @@ class Robot {
   /// The joint angles at the controller's joint values q; fewer than the robot has joints if q has.
   std::span<const double> angles_at(std::span<const double> q, Angles& out) const noexcept {
     const std::size_t joints = cycle_.model().model().nominal.joints.size();
-    std::copy_n(q.begin(), std::min(q.size(), joints), out.begin());
-    if (q.size() >= joints) cycle_.model().coupling().to_angles(out);
-    return std::span(out).first(std::min(q.size(), joints));
+    const std::size_t given = std::min({q.size(), joints, out.size()});
+    std::copy_n(q.begin(), given, out.begin());
+    if (given == joints) cycle_.model().coupling().to_angles(out);
+    return std::span(out).first(given);
   }
 
   static Transformd no_pose() noexcept {

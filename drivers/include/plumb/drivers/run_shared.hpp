@@ -34,8 +34,6 @@ struct RunShared {
   std::atomic<std::uint64_t> beats{0};  // completed cycles; a watchdog checks that it grows
   std::atomic<bool> stop{false};        // request to ramp out and end
   SessionCopy copy;                     // for the record
-};                                      // request to ramp out and end
-std::atomic<std::uint64_t> beats{0};    // completed cycles; a watchdog checks that it grows
 };
 
 }  // namespace plumb::drivers
