@@ -40,6 +40,7 @@ constexpr EffectDescriptor kEncoderScaleDescriptor{
     .candidate_joints = CandidateJoints::kEach,
     .at_slide = &kEncoderScaleAtSlide,
     .turns_listed_joint_only = true,
+    .group_share = 0.3,
     .joints_apart = true,
 };
 
