@@ -23,8 +23,8 @@ struct PortCounters {
 };
 
 /// What the peer does not take: registers, and the Modbus exception with which it answers when they
-/// are written.
-struct WriteRefusal {
+/// are written. Aligned as large as it is, so that a processor reads and writes it at once.
+struct alignas(8) WriteRefusal {
   std::uint32_t exception = 0;  // 0: nothing is refused
   std::uint16_t first = 0;      // address of the first register
   std::uint16_t count = 0;

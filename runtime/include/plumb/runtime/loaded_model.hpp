@@ -38,15 +38,15 @@ class LoadedModel {
 
  private:
   LoadedModel(format::Model model, std::uint32_t number)
-      : number_(number),
+      : coupling_(model.nominal.coupling),
+        number_(number),
         model_(std::move(model)),
-        corrector_(model_),
-        coupling_(model_.nominal.coupling) {}
+        corrector_(model_) {}
 
+  Coupling coupling_;
   std::uint32_t number_;
   format::Model model_;
   Corrector corrector_;
-  Coupling coupling_;
 };
 
 }  // namespace plumb
