@@ -33,16 +33,16 @@ std::optional<double> parse_percent(std::string_view text) {
 
 std::optional<HeldOutRule> parse_held_out(std::string_view text,
                                           const std::filesystem::path& directory) {
-  using Kind = HeldOutRule::Kind;
+  using enum HeldOutRule::Kind;
   if (text == "auto") return HeldOutRule{};
-  if (text == "column:set") return HeldOutRule{.kind = Kind::kColumn};
+  if (text == "column:set") return HeldOutRule{.kind = kColumn};
   if (const auto share = parse_percent(text); share && *share > 0.0 && *share < 1.0)
-    return HeldOutRule{.kind = Kind::kShare, .share = *share};
+    return HeldOutRule{.kind = kShare, .share = *share};
   if (const auto count = behind(text, "kfold:"))
     if (const auto folds = whole<int>(*count); folds && *folds >= 2 && *folds <= kMostFolds)
-      return HeldOutRule{.kind = Kind::kFolds, .folds = *folds};
+      return HeldOutRule{.kind = kFolds, .folds = *folds};
   if (const auto file = behind(text, "file:"))
-    return HeldOutRule{.kind = Kind::kFile, .file = (directory / *file).lexically_normal()};
+    return HeldOutRule{.kind = kFile, .file = (directory / *file).lexically_normal()};
   return std::nullopt;
 }
 
