@@ -172,10 +172,8 @@ std::string cost_figure(const Benchmark& found, double width) {
   std::size_t left_out = 0;
   const auto parts = parts_of(found, left_out);
   const CostPart* dearest = nullptr;
-  double effects = 0.0;
   for (const CostPart& part : parts) {
     if (part.tone == Tone::kMuted) continue;
-    effects += std::max(0.0, part.ns);
     if (dearest == nullptr || part.ns > dearest->ns) dearest = &part;
   }
   const double step = found.cycle().ns.empty() ? 0.0 : found.cycle().median();
