@@ -30,8 +30,8 @@ TEST(OtherLines, LinesAboveBetweenAndBelowTheRowsAreNoRows) {
       "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\nMean,2.0,15.5\nStd. Dev.,0.7,7\n",
       "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\n\nMittelwert,2.0,15.5\nStabw.,0.7,7\nMax,9,9\n",
       "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\nMin,1.5,10.5\nMax,2.5,20.5\n",
-      "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\nMoyenne,2.0,15.5\n\xC3\x89"
-      "cart-type,1,7\n",
+      ("pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\nMoyenne,2.0,15.5\n\xC3\x89"
+       "cart-type,1,7\n"),
       "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\nRMS: 0.02\n",
       "pose,q1_deg,x_mm\r\nA,1.5,10.5\r\nB,2.5,20.5\r\n\x1A",
       "pose,q1_deg,x_mm\nA,1.5,10.5\nB,2.5,20.5\n\x1A\x1A\n",
