@@ -22,12 +22,6 @@ Vector3 end_of_link(const format::Chain& nominal, int joint) {
   return arm_up_to(nominal, joint + 1).constant(joint + 1).p;
 }
 
-double stretched_length(const format::Chain& nominal) {
-  double out = 0.0;
-  for (const auto& row : nominal.joints) out += std::abs(row.a) + std::abs(row.d);
-  return out;
-}
-
 constexpr double kOfLink = 1.0 / 3.0;
 constexpr double kOfArm = 0.15;
 
@@ -44,6 +38,12 @@ double distance_from_link(const format::Chain& nominal, int joint, const Vector3
       squared_length > 0.0 ? std::clamp(dot(along, point_P) / squared_length, 0.0, 1.0) : 0.0;
   const Vector3 beside = point_P - along * share;
   return std::sqrt(dot(beside, beside));
+}
+
+double stretched_length(const format::Chain& nominal) {
+  double out = 0.0;
+  for (const auto& row : nominal.joints) out += std::abs(row.a) + std::abs(row.d);
+  return out;
 }
 
 double widest_link(const format::Chain& nominal, int joint) {

@@ -15,6 +15,10 @@ Transformd link_frame(const format::Chain& nominal, int joint);
 /// frame that moves with the joint. Precondition: it is not the last joint.
 double distance_from_link(const format::Chain& nominal, int joint, const Vector3& point_P);
 
+/// Length of the stretched arm from base to flange [m]: the links' |a| and |d| added up, sliding
+/// joints as in the table.
+double stretched_length(const format::Chain& nominal);
+
 /// How far beside that line a centre of mass may be [m]: a third of the link's length, or 15 % of
 /// the length of the stretched arm if that is more, as for the short links of a wrist.
 /// Precondition: it is not the last joint.

@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
+#include "cell/link_frame.hpp"
 #include "numbers/quantile.hpp"
 
 namespace plumb::offline {
@@ -19,13 +19,11 @@ constexpr std::size_t kMostNamed = 10;
 
 /// No point of the arm is farther than this from its base, tool included.
 double farthest(const Cell& cell, const Measurements& measured) {
-  double out = kLongestTool_m;
-  for (int k = 0; k < cell.joints(); ++k) {
-    const auto& row = cell.nominal.joints[static_cast<std::size_t>(k)];
-    out += std::abs(row.a) + std::abs(row.d);
-    if (row.type == format::JointType::kPrismatic && measured.size() > 0)
+  double out = kLongestTool_m + stretched_length(cell.nominal);
+  for (int k = 0; k < cell.joints(); ++k)
+    if (cell.nominal.joints[static_cast<std::size_t>(k)].type == format::JointType::kPrismatic &&
+        measured.size() > 0)
       out += measured.q.col(k).cwiseAbs().maxCoeff();
-  }
   return out;
 }
 

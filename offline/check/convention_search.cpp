@@ -75,29 +75,30 @@ class ConventionSearch {
 
   Detection work() {
     if (!can_work()) return std::move(out_);
-    sweep(0);
-    judge();
-    if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits) {
-      leads_.clear();
-      sweep(2);
-      judge();
-    }
-    if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits &&
-        static_cast<int>(few_.size()) >= kFewestOfOrders) {
-      leads_.clear();
-      sweep_orders({labels_.coupling});
-      judge();
-    }
+    judge_all_of([this] { sweep(0); });
+    if (nothing_fits()) judge_all_of([this] { sweep(2); });
+    if (nothing_fits() && enough_poses())
+      judge_all_of([this] { sweep_orders({labels_.coupling}); });
     seek_coupling();
-    if (relative(out_.best.fitted_m, out_.best.size_m) > kReadingFits &&
-        static_cast<int>(few_.size()) >= kFewestOfOrders)
-      judge_joint_maps();
+    if (nothing_fits() && enough_poses()) judge_joint_maps();
     conclude();
     return std::move(out_);
   }
 
  private:
   static double relative(double rms, double size) { return size > 0.0 ? rms / size : 1e300; }
+  static double left(const Reading& reading) { return relative(reading.fitted_m, reading.size_m); }
+  bool nothing_fits() const { return left(out_.best) > kReadingFits; }
+  /// For what may be meant in hundreds of ways: joints in another order, a number for each joint.
+  bool enough_poses() const { return static_cast<int>(few_.size()) >= kFewestOfOrders; }
+
+  /// Looks closely at the best that a sweep finds.
+  template <class Sweep>
+  void judge_all_of(const Sweep& sweep_all) {
+    leads_.clear();
+    sweep_all();
+    judge();
+  }
 
   bool can_work() {
     out_.present.convention = out_.best.convention = labels_;
@@ -185,10 +186,8 @@ class ConventionSearch {
   void seek_coupling() {
     if (out_.best.fitted_m <= reasonable()) return;
     seek_coupling([this] { sweep_couplings(0); });
-    if (relative(out_.best.fitted_m, out_.best.size_m) <= kReadingFits) return;
-    seek_coupling([this] { sweep_couplings(1); });
-    if (relative(out_.best.fitted_m, out_.best.size_m) <= kReadingFits) return;
-    if (static_cast<int>(few_.size()) >= kFewestOfOrders)
+    if (nothing_fits()) seek_coupling([this] { sweep_couplings(1); });
+    if (nothing_fits() && enough_poses())
       seek_coupling([this] { sweep_orders(neighbour_couplings(cell_.nominal)); });
   }
 
@@ -196,12 +195,9 @@ class ConventionSearch {
   template <class Sweep>
   void seek_coupling(const Sweep& sweep_all) {
     const Detection before = out_;
-    leads_.clear();
-    sweep_all();
-    judge();
+    judge_all_of(sweep_all);
     const bool clearly = out_.best.convention.coupling != labels_.coupling &&
-                         kClearly * relative(out_.best.fitted_m, out_.best.size_m) <
-                             relative(before.best.fitted_m, before.best.size_m);
+                         kClearly * left(out_.best) < left(before.best);
     if (clearly) return;
     const auto tried = out_.tried;
     out_ = before;
@@ -392,14 +388,22 @@ class ConventionSearch {
   /// What may be left [m] of an arm that is read right and fitted.
   double reasonable() const { return kReasonable_m + kReasonableShare * out_.present.size_m; }
 
+  static void sort_by_left(std::vector<Reading>& readings) {
+    std::stable_sort(readings.begin(), readings.end(),
+                     [](const Reading& a, const Reading& b) { return left(a) < left(b); });
+  }
+
+  /// Of those that leave no more than the first, the one nearest to the labels.
+  static const Reading& simplest_of_best(const std::vector<Reading>& sorted) {
+    const Reading* out = &sorted.front();
+    for (const Reading& r : sorted)
+      if (left(r) <= kAlike * left(sorted.front()) && r.changes < out->changes - 1e-9) out = &r;
+    return *out;
+  }
+
   void choose() {
-    const auto left = [](const Reading& r) { return relative(r.fitted_m, r.size_m); };
-    std::stable_sort(out_.table.begin(), out_.table.end(),
-                     [&](const Reading& a, const Reading& b) { return left(a) < left(b); });
-    const double least = left(out_.table.front());
-    out_.best = out_.table.front();
-    for (const auto& r : out_.table)
-      if (left(r) <= kAlike * least && r.changes < out_.best.changes - 1e-9) out_.best = r;
+    sort_by_left(out_.table);
+    out_.best = simplest_of_best(out_.table);
     const bool clearly =
         kClearly * left(out_.best) < left(out_.present) && out_.present.fitted_m > reasonable();
     const bool odd = oddity(reach(cell_.nominal)) > kOdd;
@@ -460,22 +464,18 @@ class ConventionSearch {
       fit(candidate);
       found.push_back(candidate.reading);
     }
-    const auto left = [](const Reading& r) { return relative(r.fitted_m, r.size_m); };
-    std::stable_sort(found.begin(), found.end(),
-                     [&](const Reading& a, const Reading& b) { return left(a) < left(b); });
+    sort_by_left(found);
     std::erase_if(found, [&](const Reading& r) {
       return left(r) > kMapFits || kClearly * left(r) > left(out_.present) ||
              !is_large(r.convention);
     });
     if (found.empty()) return;
-    const Reading* best = &found.front();
+    const Reading& best = simplest_of_best(found);
     for (const Reading& r : found)
-      if (left(r) <= kAlike * left(found.front()) && r.changes < best->changes - 1e-9) best = &r;
-    for (const Reading& r : found)
-      if (&r != best && left(r) <= kAlike * left(*best) && r.changes < best->changes + kOneKind)
+      if (&r != &best && left(r) <= kAlike * left(best) && r.changes < best.changes + kOneKind)
         return;
-    out_.best = *best;
-    out_.table.insert(out_.table.begin(), *best);
+    out_.best = best;
+    out_.table.insert(out_.table.begin(), best);
     out_.same.clear();
   }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cell/cell.hpp"
+#include "cell/link_frame.hpp"
 #include "cli/dh_file.hpp"
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
@@ -78,8 +79,7 @@ Cell urdf_cell(const NewArguments& options, format::Convention convention, Outco
 
 /// An arm of hundreds of metres or of a millimetre is most often written in another unit.
 void doubt_reach(const NewArguments& options, const Cell& cell, Outcome& outcome) {
-  double size_m = 0.0;
-  for (const auto& row : cell.nominal.joints) size_m += std::abs(row.a) + std::abs(row.d);
+  const double size_m = stretched_length(cell.nominal);
   if (size_m == 0.0 || (size_m < kLongestReach_m && size_m > kShortestReach_m)) return;
   const bool urdf = !options.urdf.empty();
   outcome.remarks.push_back(

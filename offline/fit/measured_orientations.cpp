@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <span>
 #include <utility>
 
+#include "cell/group_rows.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
@@ -139,13 +142,14 @@ double largest_turn(const std::vector<Matrix3>& all) {
 /// Usual difference per axis between repeats of a pose; none if there are few.
 std::optional<double> scatter_of_repeats(const Measurements& measured,
                                          const std::vector<Matrix3>& read) {
-  std::map<int, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < read.size(); ++i) groups[measured.replicate_group[i]].push_back(i);
+  std::vector<int> all(read.size());
+  std::iota(all.begin(), all.end(), 0);
   std::vector<double> off;
-  for (const auto& [group, rows] : groups)
+  visit_groups(measured.replicate_group, std::move(all), [&](std::span<const int> rows) {
     for (std::size_t k = 1; k < rows.size(); k += 2)
       off.push_back(rotation_vector(read[rows[k]] * read[rows[k - 1]].transpose()).norm() /
                     M_SQRT2);
+  });
   if (off.size() < kFewestRepeats) return std::nullopt;
   return median(off) / kMedianOf3;
 }
@@ -171,7 +175,7 @@ class Judge {
         others_(others),
         rows_(static_cast<std::size_t>(measured.size())),
         labelled_(rotations_of(measured.quat_M)) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i] = static_cast<int>(i);
+    std::iota(rows_.begin(), rows_.end(), 0);
     out_.stated = cell.measurement.sigma_rad.has_value();
     out_.kind = Kind::kUnjudged;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell/link_frame.hpp"
 #include "cell/setups.hpp"
 #include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
@@ -103,11 +104,7 @@ bool Parameter::of_robot() const {
   return kind != Kind::kFrame && kind != Kind::kTarget && kind != Kind::kTargetRotation;
 }
 
-double reach(const format::Chain& chain) {
-  double sum = 0.0;
-  for (const auto& row : chain.joints) sum += std::abs(row.a) + std::abs(row.d);
-  return std::max(0.1, sum);
-}
+double reach(const format::Chain& chain) { return std::max(0.1, stretched_length(chain)); }
 
 std::string frame_prefix(const MeasurementSettings& settings, int setup) {
   return "frame" + of_setup(settings, setup);

@@ -21,6 +21,7 @@ namespace {
 
 using scrambled::Case;
 using scrambled::Files;
+using scrambled::six_joints;
 
 /// RMS 3-D residual with frame and target placed by the calibration's own code.
 double placed_rms(const Cell& cell, const MeasurementFiles& m) {
@@ -103,19 +104,6 @@ TEST(ConventionSearch, ChangesNothingInSoundFiles) {
   }
   std::printf("%.1f ms each, at most %.1f ms\n", timed.total_ms / static_cast<double>(count),
               timed.most_ms);
-}
-
-/// A random 6-joint arm in either convention and 80 poses.
-Files six_joints(std::uint64_t seed) {
-  const auto convention =
-      seed % 2 == 0 ? format::Convention::kStandard : format::Convention::kModified;
-  const Cell cell = random_cell(seed, 6, convention, ArmKind::kRevolute);
-  SimulationPlan plan;
-  plan.poses = 80;
-  plan.noise_m = 20e-6;
-  plan.seed = seed;
-  plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
-  return {write_cell(cell), simulated_csv(cell, simulate(cell, plan)), {}};
 }
 
 TEST(ConventionSearch, FindsZerosTurnedByQuarterTurns) {

@@ -19,20 +19,9 @@ namespace {
 
 using scrambled::Case;
 using scrambled::Files;
+using scrambled::six_joints;
 
 constexpr double kDegree = M_PI / 180.0;
-
-Files sound_files(std::uint64_t seed) {
-  const auto convention =
-      seed % 2 == 0 ? format::Convention::kStandard : format::Convention::kModified;
-  const Cell cell = random_cell(seed, 6, convention, ArmKind::kRevolute);
-  SimulationPlan plan;
-  plan.poses = 80;
-  plan.noise_m = 20e-6;
-  plan.seed = seed;
-  plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
-  return {write_cell(cell), simulated_csv(cell, simulate(cell, plan)), {}};
-}
 
 /// The file whose joint columns were made of the others' values [deg]: `change(q)`.
 Files read_otherwise(Files files, const std::function<void(std::vector<double>&)>& change) {
@@ -89,7 +78,7 @@ TEST(JointMaps, AZeroThatIsNoQuarterTurnIsNamedWithItsAngle) {
       {0, 12, -33, 0, 0, 0}, {0, 0, 0, 0, 140, 0},    {25, 0, 20, 0, 0, -70}};
   std::uint64_t seed = 0;
   for (const auto& zero : zeros) {
-    const Files broken = read_otherwise(sound_files(++seed), [&](std::vector<double>& q) {
+    const Files broken = read_otherwise(six_joints(++seed), [&](std::vector<double>& q) {
       for (std::size_t j = 0; j < 6; ++j) q[j] += zero[j];
     });
     const Case c = opened(broken, folder.path());
@@ -123,7 +112,7 @@ TEST(JointMaps, OneColumnInAnotherUnitOrScaleIsNamed) {
   };
   std::uint64_t seed = 10;
   for (const auto& a : cases) {
-    const Files broken = read_otherwise(sound_files(++seed), [&](std::vector<double>& q) {
+    const Files broken = read_otherwise(six_joints(++seed), [&](std::vector<double>& q) {
       q[a.joint] = a.factor * q[a.joint] + a.zero;
     });
     const Case c = opened(broken, folder.path());
@@ -147,7 +136,7 @@ TEST(JointMaps, NothingIsSaidWhereFrameOrTargetOrAnotherArmMayBeIt) {
   std::uint64_t seed = 2;
   for (const auto& [what, change] : cases) {
     ++seed;
-    const Case c = opened(read_otherwise(sound_files(seed), change), folder.path());
+    const Case c = opened(read_otherwise(six_joints(seed), change), folder.path());
     const Detection d = detect_convention(c.cell, c.measured);
     const Convention& labels = d.present.convention;
     EXPECT_EQ(d.best.convention.zero, labels.zero) << what << ": " << changes_of(c, d);

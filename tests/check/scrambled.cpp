@@ -129,6 +129,18 @@ Files random_files(tests::Random& random) {
   return {write_cell(cell), simulated_csv(cell, simulate(cell, plan)), {}};
 }
 
+Files six_joints(std::uint64_t seed) {
+  const auto convention =
+      seed % 2 == 0 ? format::Convention::kStandard : format::Convention::kModified;
+  const Cell cell = random_cell(seed, 6, convention, ArmKind::kRevolute);
+  SimulationPlan plan;
+  plan.poses = 80;
+  plan.noise_m = 20e-6;
+  plan.seed = seed;
+  plan.truth.geometry_m = plan.truth.geometry_rad = 0.5e-3;
+  return {write_cell(cell), simulated_csv(cell, simulate(cell, plan)), {}};
+}
+
 Files scramble(const Files& files, tests::Random& random) {
   Files out = files;
   const int wanted = 1 + random.below(3);

@@ -20,6 +20,11 @@ namespace fs = std::filesystem;
 class JournalFile : public testing::Test {
  protected:
   fs::path file() const { return folder_ / "events.jsonl"; }
+  static void note_fault(Journal& journal, SessionMoment& moment) {
+    moment.state = SessionState::kFault;
+    moment.cause = FaultCause::kPoseMismatch;
+    journal.note_change(moment);
+  }
   ScratchFolder scratch{"plumb-journal-"};
   const fs::path& folder_ = scratch.path();
 };
@@ -83,9 +88,7 @@ TEST_F(JournalFile, WhatLedToAFaultIsNotPushedOutByWhatFollows) {
   Journal journal(file(), Journal::Echo::kNone);
   SessionMoment moment{.time_ns = 1'000'000'000, .model = 4711};
   journal.note_change(moment);
-  moment.state = SessionState::kFault;
-  moment.cause = FaultCause::kPoseMismatch;
-  journal.note_change(moment);
+  note_fault(journal, moment);
   for (int k = 0; k < 20'000; ++k) {  // a week of it
     moment.time_ns += 30'000'000'000;
     moment.model = static_cast<std::uint32_t>(k + 1);
@@ -104,9 +107,7 @@ TEST_F(JournalFile, TheEventsOfAFaultAreNotShownTwice) {
   Journal journal(file(), Journal::Echo::kNone);
   SessionMoment moment{.time_ns = 1'000'000'000, .model = 1};
   journal.note_change(moment);
-  moment.state = SessionState::kFault;
-  moment.cause = FaultCause::kPoseMismatch;
-  journal.note_change(moment);
+  note_fault(journal, moment);
   const auto lines = [](const fs::path& of) {
     std::ifstream in(of);
     return std::count(std::istreambuf_iterator<char>(in), {}, '\n');
