@@ -23,7 +23,7 @@ namespace {
 
 using Kind = MeasuredOrientations::Kind;
 
-constexpr int kJudgedRows = 1500;
+constexpr int kJudgedRows = 500;  // tell a scatter to 4 %, and cost less than the fit itself
 constexpr int kFewestRows = 6;
 constexpr double kMedianOf3 = 1.5382;       // of the length of three unit normals
 constexpr double kAsStatedTimes = 2.0;      // the stated error: not worth a word
