@@ -164,8 +164,8 @@ std::string compare_verdict(const Cell& cell, const Measurements& measured,
         "{}\nPossibly something moved too: {}. It would cause at most {:.0f} % of the squared "
         "error; what else is missing may look like a jump, so diagnose first.",
         error, step_words(cell, measured, steps.front()), std::ceil(100.0 * share));
-  return fmt::format("Something moved during the measurement: {}.\n{}",
-                     step_words(cell, measured, steps.front()), error);
+  return fmt::format("{}\nSomething moved during the measurement: {}.", error,
+                     step_words(cell, measured, steps.front()));
 }
 
 }  // namespace
