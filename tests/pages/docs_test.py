@@ -39,6 +39,14 @@ class Readme(unittest.TestCase):
         for page in (SOURCE / "docs").glob("*.md"):
             self.assertIn(f"docs/{page.name}", README)
 
+    def test_the_page_of_the_model_has_every_effect(self):
+        laws = [*(SOURCE / "runtime/include/plumb/runtime/detail/effects").glob("*.hpp"),
+                *(SOURCE / "offline/effects/measurement").glob("*.hpp")]
+        self.assertGreater(len(laws), 20)
+        page = (SOURCE / "docs/model.md").read_text()
+        for law in laws:
+            self.assertIn(f"`{law.stem}`", page)
+
 
 def stages(script):
     """What a script of tests runs, in order: names of stages, and presets."""
