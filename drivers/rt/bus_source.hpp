@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "plumb/drivers/bus_layout.hpp"
 #include "plumb/drivers/bus_port.hpp"
@@ -28,6 +29,15 @@ class OpenBus {
   virtual bool finished() const noexcept { return false; }
 };
 
+/// How a bus is reached, for rules about who may.
+struct BusEndpoint {
+  enum class Kind : std::uint8_t { kNone, kConnects, kListens, kCan } kind = Kind::kNone;
+  std::string address = {};    // of the controller, or of ours on which it is listened
+  std::string interface = {};  // kCan; kListens: instead of an address
+  int port = 0;
+  std::vector<std::string> peers = {};  // kListens
+};
+
 /// The bus that [source] of rt.toml names. Desired targets come from it and, unless it is a file,
 /// corrected targets are sent to it.
 class BusSource {
@@ -39,6 +49,9 @@ class BusSource {
 
   /// Its name in the record: "can0", "modbus", "csv".
   virtual std::string name() const = 0;
+
+  /// kNone: another user of this machine cannot be kept from it by the kernel's firewall.
+  virtual BusEndpoint endpoint() const { return {}; }
 
   /// True if a robot and an operator are at the other end; false if targets come from a file.
   virtual bool has_robot() const noexcept { return true; }

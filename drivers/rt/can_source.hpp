@@ -14,6 +14,9 @@ class CanSource final : public BusSource {
                                                const std::filesystem::path& folder);
   BusUse use() const noexcept override { return BusUse::kCan; }
   std::string name() const override { return interface; }
+  BusEndpoint endpoint() const override {
+    return {.kind = BusEndpoint::Kind::kCan, .interface = interface};
+  }
 
   /// Refuses an interface that cannot do what the layout asks for.
   std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;

@@ -44,7 +44,24 @@ std::shared_ptr<const BusSource> ModbusSource::read(TomlTable& source,
   out->device = source.text_or("device", "");
   read_whole(source, "baud", {300, 4'000'000}, out->baud);
   out->interface = source.text_or("interface", "");
+  if (out->role == Role::kServer && out->device.empty() && out->peers.empty())
+    source.error(source.source().code("PEERS"),
+                 "as Modbus server, plumb-rt admits nobody whom 'peers' does not name",
+                 *source.node("role"), "needs 'peers' beside it",
+                 "peers = [\"192.168.0.10\"], the address of the controller; then: plumb-rt seal "
+                 "FOLDER");
   return out;
+}
+
+BusEndpoint ModbusSource::endpoint() const {
+  using Kind = BusEndpoint::Kind;
+  if (!device.empty()) return {};
+  if (role == Role::kClient) return {.kind = Kind::kConnects, .address = address, .port = port};
+  return {.kind = Kind::kListens,
+          .address = interface.empty() ? address : "",
+          .interface = interface,
+          .port = port,
+          .peers = peers};
 }
 
 std::unique_ptr<OpenBus> ModbusSource::open(const Deployment& deployment) const {

@@ -15,7 +15,7 @@ class ModbusSource final : public BusSource {
   std::string address = "127.0.0.1";  // TCP: address of the controller, or the one to listen on
   int port = 502;
   int unit = 1;
-  std::vector<std::string> peers;  // server: addresses that may connect
+  std::vector<std::string> peers;  // TCP server: addresses that may connect, one at least
   std::string device;              // RTU; empty: TCP
   int baud = 115200;
 
@@ -23,6 +23,7 @@ class ModbusSource final : public BusSource {
                                                const std::filesystem::path& folder);
   BusUse use() const noexcept override { return BusUse::kModbus; }
   std::string name() const override { return "modbus"; }
+  BusEndpoint endpoint() const override;
   std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
 };
 

@@ -96,12 +96,6 @@ bool is_wildcard(const SocketAddress& address) noexcept {
   return true;
 }
 
-bool is_loopback(const SocketAddress& address) noexcept {
-  const auto host = host_bytes(address);
-  if (is_mapped(host)) return host[12] == 127;
-  return std::memcmp(host.data(), &in6addr_loopback, host.size()) == 0;
-}
-
 std::uint16_t port_of(const SocketAddress& address) noexcept {
   return ntohs(address.family() == AF_INET ? as<sockaddr_in>(address).sin_port
                                            : as<sockaddr_in6>(address).sin6_port);

@@ -78,6 +78,9 @@ Fault find_fault(const ModbusServerSettings& settings) {
     if (auto fault = find_time(key, value_s)) return fault;
   if (const auto* line = std::get_if<SerialLine>(&settings.at))
     return find_fault(*line, settings.unit);
+  if (settings.peers.empty())
+    return LinkFault{"peers", "no peer is named, so whoever reaches the port could send targets",
+                     "name the address of the controller, as in 192.168.0.10"};
   for (const auto& peer : settings.peers)
     if (!socket_address(peer, 0)) return not_an_address("peers", peer);
   if (settings.most_connections < 1 || settings.most_connections > 64)

@@ -131,7 +131,6 @@ bool ModbusTcpListener::make_room(const SocketAddress& for_host) {
 }
 
 bool ModbusTcpListener::is_allowed(const SocketAddress& from) const {
-  if (allowed_.empty()) return is_loopback(from);
   return std::ranges::any_of(allowed_,
                              [&](const SocketAddress& peer) { return same_host(peer, from); });
 }

@@ -792,6 +792,10 @@ constexpr Explanation kCodes[] = {
     {"E-FIX-RIGHTS",
      "plumb-rt doctor --fix writes files below /etc, which only root may. Nothing was written. Run "
      "it with sudo, or look first with --dry-run, which needs no rights."},
+    {"E-FIX-FIREWALL",
+     "plumb-rt doctor --fix wrote a file of firewall rules, and the kernel did not take it; the "
+     "message has what nft says. An interface may be missing yet, or the kernel older than 5.16, "
+     "which has no hook for CAN. plumb-rt@NAME tries again at every start."},
     {"E-RT-KEY",
      "rt.toml has a key that plumb-rt does not know; nothing was sent. Rename it as proposed."},
     {"E-RT-TYPE", "A value of rt.toml is of the wrong type. The message says what is expected."},
@@ -799,6 +803,10 @@ constexpr Explanation kCodes[] = {
     {"E-RT-MISSING",
      "rt.toml lacks a key without which plumb-rt does not start; plumb deploy writes a complete "
      "one."},
+    {"E-RT-PEERS",
+     "plumb-rt as Modbus TCP server takes targets from those whom [source] peers of rt.toml names, "
+     "and from nobody else, also of this machine; rt.toml names nobody. Nothing was opened. Write "
+     "the address of the controller there and seal the folder."},
     {"E-RT-BUS",
      "The bus layout in rt.toml cannot be used, for the same reasons as E-CELL-BUS. Nothing was "
      "sent."},

@@ -48,7 +48,8 @@ std::string source(const DeploySettings& deploy) {
   return "[source]   # of desired targets: kind = \"can\", \"modbus\" or \"csv\"\n" +
          (can ? on_can : on_modbus) +
          "# CSV: kind = \"csv\", file = \"targets.csv\"; Modbus RTU: device = \"/dev/ttyUSB0\", "
-         "baud = 115200;\n# Modbus server: peers = [\"192.168.0.10\"], who may connect\n\n"
+         "baud = 115200;\n# Modbus TCP server: peers = [\"192.168.0.10\"], who may connect; "
+         "without it refused\n\n"
          "[sink]\nkind = \"same\"   # where the targets came from; or \"csv\" with file = "
          "\"corrected.csv\"\n\n";
 }

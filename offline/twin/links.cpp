@@ -127,6 +127,7 @@ std::unique_ptr<Link> open_link(const LinkChoice& choice, const drivers::BusLayo
   if (serves) {
     drivers::ModbusServerSettings settings;
     settings.at = address(choice);
+    settings.peers = {"127.0.0.1", "::1"};
     settings.self = drivers::Sender::kController;
     settings.unit = unit;
     return std::make_unique<ModbusBus<drivers::ModbusServer>>(layout, settings, plan, time, seed);

@@ -13,17 +13,11 @@ TEST(ModbusAddress, IsWrittenInNumbers) {
     EXPECT_FALSE(socket_address(wrong, 502)) << wrong;
 }
 
-TEST(ModbusAddress, KnowsWhatEveryInterfaceAndThisMachineAre) {
+TEST(ModbusAddress, KnowsWhatEveryInterfaceIs) {
   for (const char* host : {"0.0.0.0", "::", "::ffff:0.0.0.0"})
     EXPECT_TRUE(is_wildcard(*socket_address(host, 1))) << host;
-  for (const char* host : {"127.0.0.1", "127.3.2.1", "::1", "::ffff:127.0.0.1"}) {
-    EXPECT_TRUE(is_loopback(*socket_address(host, 1))) << host;
+  for (const char* host : {"127.0.0.1", "::1", "::ffff:127.0.0.1", "10.0.0.1", "::2"})
     EXPECT_FALSE(is_wildcard(*socket_address(host, 1))) << host;
-  }
-  for (const char* host : {"10.0.0.1", "128.0.0.1", "::2", "fe80::1", "::ffff:10.0.0.1"}) {
-    EXPECT_FALSE(is_loopback(*socket_address(host, 1))) << host;
-    EXPECT_FALSE(is_wildcard(*socket_address(host, 1))) << host;
-  }
 }
 
 TEST(ModbusAddress, AHostIsTheSameOnEveryPortAndMappedIntoIpv6) {

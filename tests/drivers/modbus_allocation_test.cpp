@@ -27,7 +27,9 @@ TEST(ModbusAllocation, IsCaughtWhenPlanted) {
 
 TEST(ModbusAllocation, NeverHappensOnceALinkRuns) {
   const BusLayout layout = default_layout(6, 0.001);
-  ModbusServer server(layout, {.at = TcpAddress{"127.0.0.1", 0}, .self = Sender::kController});
+  ModbusServer server(
+      layout,
+      {.at = TcpAddress{"127.0.0.1", 0}, .peers = {"127.0.0.1"}, .self = Sender::kController});
   ASSERT_FALSE(server.start());
   ModbusClient client(layout, {.server = TcpAddress{"127.0.0.1", server.port()}});
   ASSERT_FALSE(client.start());

@@ -87,8 +87,9 @@ TEST(ModbusLinkFaults, APeerThatGoesAndComesBackIsFoundAgain) {
     ASSERT_TRUE(soon([&] { return near.port.state() == LinkState::kDown; }));
     EXPECT_FALSE(near.port.send(lawful(layout, MessageKind::kCorrected, 1)));
     server = std::make_unique<ModbusServer>(
-        layout,
-        ModbusServerSettings{.at = TcpAddress{"127.0.0.1", port}, .self = Sender::kController});
+        layout, ModbusServerSettings{.at = TcpAddress{"127.0.0.1", port},
+                                     .peers = {"127.0.0.1"},
+                                     .self = Sender::kController});
     std::this_thread::sleep_for(300ms);
     const auto fault = server->start();
     ASSERT_FALSE(fault) << words(fault);

@@ -16,7 +16,8 @@ namespace {
 bool run_on_modbus(Sender at_server, const Watched& how, WatchedCalls& calls) {
   const BusLayout layout = default_layout(6, 1e-9 * static_cast<double>(kBeat_ns));
   const Sender at_client = at_server == Sender::kPlumb ? Sender::kController : Sender::kPlumb;
-  ModbusServer server(layout, {.at = TcpAddress{"127.0.0.1", 0}, .self = at_server});
+  ModbusServer server(
+      layout, {.at = TcpAddress{"127.0.0.1", 0}, .peers = {"127.0.0.1"}, .self = at_server});
   if (server.start()) std::abort();
   ModbusClient client(layout,
                       {.server = TcpAddress{"127.0.0.1", server.port()}, .self = at_client});

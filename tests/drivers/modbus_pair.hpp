@@ -99,6 +99,7 @@ class Pair {
   Talker near, far;
 };
 
-inline const ModbusServerSettings kAnyPort{.at = TcpAddress{.host = "127.0.0.1", .port = 0}};
+inline const ModbusServerSettings kAnyPort{.at = TcpAddress{.host = "127.0.0.1", .port = 0},
+                                           .peers = {"127.0.0.1"}};
 
 }  // namespace plumb::tests

@@ -62,6 +62,7 @@ class Peer {
 
 ModbusServerSettings brisk() {
   return {.at = TcpAddress{"127.0.0.1", 0},
+          .peers = {"127.0.0.1", "127.0.0.2"},
           .most_connections = 2,
           .request_timeout_s = 0.1,
           .idle_timeout_s = 0.4};
@@ -97,11 +98,6 @@ TEST(ModbusServer, AnswersWithTheTransactionAndUnitOfTheRequest) {
 }
 
 TEST(ModbusServer, LetsInOnlyThosePeersThatItIsTold) {
-  Started loopback(brisk());
-  const Peer here(loopback.server.port(), "127.0.0.2");
-  ASSERT_TRUE(here.send(kRead));
-  EXPECT_EQ(here.receive(), kAnswer) << "all of 127.0.0.0/8 is this machine";
-
   auto settings = brisk();
   settings.peers = {"127.0.0.3", "10.0.0.1"};
   Started told(settings);

@@ -59,26 +59,34 @@ TEST(ModbusThread, HasANameNoSignalsAndNoPriority) {
 
 TEST(ModbusStart, SaysWhatIsWrongBeforeAnythingIsSent) {
   const BusLayout layout = default_layout(6, 0.001);
+  const std::vector<std::string> here{"127.0.0.1"};
   const auto server_fault = [&](ModbusServerSettings s) {
     return words(ModbusServer(layout, s).start());
   };
   const auto client_fault = [&](ModbusClientSettings s) {
     return words(ModbusClient(layout, s).start());
   };
-  EXPECT_EQ(server_fault({.at = TcpAddress{"0.0.0.0", 0}}),
+  EXPECT_EQ(server_fault({.at = TcpAddress{"0.0.0.0", 0}, .peers = here}),
             "host: 0.0.0.0 would listen on every interface; name the interface or the address that "
             "the controller is on");
-  EXPECT_NE(server_fault({.at = TcpAddress{"::", 0}}).find("every interface"), std::string::npos);
-  EXPECT_EQ(server_fault({.at = TcpAddress{"0.0.0.0", 0},
-                          .wildcard = ModbusServerSettings::Wildcard::kAllowed}),
-            "started");
-  EXPECT_NE(server_fault({.at = TcpAddress{"nosuch0", 0}}).find("neither an address nor"),
+  EXPECT_NE(server_fault({.at = TcpAddress{"::", 0}, .peers = here}).find("every interface"),
             std::string::npos);
-  EXPECT_NE(server_fault({.at = TcpAddress{"192.0.2.1", 0}}).find("no address of this machine"),
+  EXPECT_EQ(server_fault({.at = TcpAddress{"0.0.0.0", 0},
+                          .wildcard = ModbusServerSettings::Wildcard::kAllowed,
+                          .peers = here}),
+            "started");
+  EXPECT_NE(
+      server_fault({.at = TcpAddress{"nosuch0", 0}, .peers = here}).find("neither an address nor"),
+      std::string::npos);
+  EXPECT_NE(server_fault({.at = TcpAddress{"192.0.2.1", 0}, .peers = here})
+                .find("no address of this machine"),
             std::string::npos);
   ModbusServer first(layout, kAnyPort);
   ASSERT_FALSE(first.start());
-  EXPECT_NE(server_fault({.at = TcpAddress{"127.0.0.1", first.port()}}).find("already"),
+  EXPECT_NE(
+      server_fault({.at = TcpAddress{"127.0.0.1", first.port()}, .peers = here}).find("already"),
+      std::string::npos);
+  EXPECT_NE(server_fault({.at = TcpAddress{"127.0.0.1", 0}}).find("peers: no peer is named"),
             std::string::npos);
   EXPECT_NE(server_fault({.peers = {"robot7"}}).find("in numbers"), std::string::npos);
   EXPECT_NE(client_fault({.server = TcpAddress{"robot7", 502}}).find("in numbers"),

@@ -16,6 +16,9 @@ namespace plumb::tests {
 namespace {
 
 const std::string kCan = "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"can\"\n";
+const std::string kServer =
+    "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\nrole = "
+    "\"server\"\n";
 
 struct Bad {
   const char* name;
@@ -60,6 +63,8 @@ const Bad kBad[] = {
     {"tool of 256", Deployed::csv("[expect]\ntool = 256\n"), 3, "E-RT-RANGE", "tool"},
     {"port of 0", "schema = \"rt/1\"\n[source]\nkind = \"modbus\"\nport = 0\n", 3, "E-RT-RANGE",
      "port"},
+    {"server for everyone", kServer, 3, "E-RT-PEERS", "role = \"server\""},
+    {"server for nobody", kServer + "peers = []\n", 3, "E-RT-PEERS", "needs 'peers' beside it"},
     {"identifier out of range", kCan + "[bus.target]\ncan_id = 0x900\n", 3, "E-RT-BUS", "can_id"},
     {"identifiers twice", kCan + "[bus.target]\ncan_id = 0x120\n", 3, "E-RT-BUS", ""},
     {"registers twice", Deployed::csv("[bus.target]\nregister = 1000\n"), 3, "E-RT-BUS", ""},
@@ -209,7 +214,7 @@ TEST(RunConfig, APortInUseIsAnEnvironmentError) {
   EXPECT_NE(first.err.find("error[E-RT-METRICS]"), std::string::npos) << first.err;
   const Deployed server(
       "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-      "role = \"server\"\nport = " +
+      "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
       port + "\n");
   const RtRan second = plumb_rt({"run", server.folder.string()}, server.folder);
   EXPECT_EQ(second.exit, 5);

@@ -19,7 +19,7 @@ class ARunAfterAnother : public testing::Test {
  protected:
   static std::string toml(int port) {
     return "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-           "role = \"server\"\nport = " +
+           "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
            std::to_string(port) + "\n[limits]\nmode = \"full\"\n[log]\nrecord = \"record.log\"\n";
   }
 

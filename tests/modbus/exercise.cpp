@@ -101,8 +101,9 @@ int main(int count, char** words) {
   const double seconds = std::atof(words[3]);
   const double sound_from = count > 4 ? std::atof(words[4]) : now_s();
   if (std::strcmp(words[1], "server") == 0)
-    return run<ModbusServer>(std::pair{address, ModbusServerSettings{.at = address}}, seconds,
-                             sound_from);
+    return run<ModbusServer>(
+        std::pair{address, ModbusServerSettings{.at = address, .peers = {"127.0.0.1"}}}, seconds,
+        sound_from);
   return run<ModbusClient>(std::pair{address, ModbusClientSettings{.server = address}}, seconds,
                            sound_from);
 }

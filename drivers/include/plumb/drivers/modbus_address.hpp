@@ -49,7 +49,6 @@ std::optional<SocketAddress> socket_address(const std::string& host, std::uint16
 std::optional<SocketAddress> interface_address(const std::string& name, std::uint16_t port);
 
 bool is_wildcard(const SocketAddress& address) noexcept;  // stands for every interface
-bool is_loopback(const SocketAddress& address) noexcept;
 std::uint16_t port_of(const SocketAddress& address) noexcept;
 
 /// True if both addresses are equal except for the port. An IPv4 address equals its mapping into

@@ -19,7 +19,7 @@ struct ModbusServerSettings {
 
   ModbusAddress at = TcpAddress{};         // host: an address or interface ("eth1") of this machine
   Wildcard wildcard = Wildcard::kRefused;  // whether host may be 0.0.0.0 or ::
-  std::vector<std::string> peers = {};     // addresses that may connect; empty: this machine only
+  std::vector<std::string> peers = {};     // TCP: addresses that may connect; one at least
   Sender self = Sender::kPlumb;
   std::uint8_t unit = 1;  // over TCP the units 0 and 255 are answered, too
 
