@@ -51,14 +51,14 @@ std::vector<std::string> places_below(const fs::path& store) {
   return out;
 }
 
+}  // namespace
+
 bool is_place_name(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.front() != '-' && name.size() <= 100 &&
          name.find_first_not_of(
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-"
              ":@") == std::string::npos;
 }
-
-}  // namespace
 
 bool is_version_id(const std::string& text) {
   return text.size() == kVersionDigits &&

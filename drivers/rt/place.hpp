@@ -31,6 +31,9 @@ struct Place {
   std::vector<std::string> ids() const;
 };
 
+/// True if --to takes it as the name of a place below the store.
+bool is_place_name(const std::string& name);
+
 bool is_version_id(const std::string& text);
 
 /// True if the folder has a `current`, or a folder `versions` and no rt.toml of its own.

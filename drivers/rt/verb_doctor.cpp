@@ -9,7 +9,9 @@
 #include "plumb/drivers/can_interface.hpp"
 #include "program/output_files.hpp"
 #include "rt/doctor_report.hpp"
+#include "rt/firewall.hpp"
 #include "rt/machine_settings.hpp"
+#include "rt/place.hpp"
 #include "rt/processor_variant.hpp"
 #include "rt/rt_probe.hpp"
 #include "rt/signing_rules.hpp"
@@ -40,12 +42,32 @@ FixMode mode_of(const WriteOptions& options) {
   return options.force ? FixMode::kForce : FixMode::kWrite;
 }
 
+/// Lets the kernel take the rules, which stand last among the files.
+void load(const std::vector<MachineSetting>& firewall, Fix& done, Outcome& outcome) {
+  auto file = done.files.end() - static_cast<std::ptrdiff_t>(firewall.size());
+  for (; file != done.files.end(); ++file) {
+    const auto refusal = load_firewall(file->path);
+    if (!refusal) {
+      file->then = "in force; plumb-rt@NAME loads it at every start";
+      continue;
+    }
+    outcome.exit = Exit::kEnvironment;
+    outcome.errors.push_back({.code = "E-FIX-FIREWALL",
+                              .message = fmt::format("{} is written and not in force: {}",
+                                                     file->path.string(), *refusal),
+                              .help = file->then});
+  }
+}
+
 /// Writes the settings, and adds to the outcome what was written and what no file can change.
 void fix(const DoctorOptions& options, const MachineFiles& files, const Examination& seen,
-         Outcome& outcome) {
-  const Fix done{
-      .files = write_settings(options.root, machine_settings(files), mode_of(options.write)),
-      .beyond = beyond_settings(files, seen.checks)};
+         const FirewallRules& found, Outcome& outcome) {
+  std::vector<MachineSetting> settings = machine_settings(files);
+  const auto firewall = firewall_settings(found.rules);
+  settings.insert(settings.end(), firewall.begin(), firewall.end());
+  Fix done{.files = write_settings(options.root, settings, mode_of(options.write)),
+           .beyond = beyond_settings(files, seen.checks)};
+  if (options.root == "/" && !options.write.dry_run) load(firewall, done, outcome);
   outcome.result["fix"] = to_json(done);
   outcome.text += to_text(done);
 }
@@ -65,9 +87,14 @@ void look(const DoctorOptions& options, Outcome& outcome) {
                                         ? std::filesystem::path(options.etc)
                                         : root / std::filesystem::path(options.etc).relative_path();
   for (Check& check : signing_checks(etc)) seen.checks.push_back(std::move(check));
+  const FirewallRules found = firewall_rules(root / std::filesystem::path(kStore).relative_path());
+  const FirewallInForce now =
+      this_machine ? read_firewall()
+                   : FirewallInForce{.why_not = "another machine's firewall cannot be asked"};
+  for (Check& check : firewall_checks(found, now)) seen.checks.push_back(std::move(check));
   outcome.result = to_json(seen);
   outcome.text = to_text(seen);
-  if (options.fix) fix(options, files, seen, outcome);
+  if (options.fix) fix(options, files, seen, found, outcome);
   if (!options.strict || seen.fit()) return;
   outcome.exit = Exit::kEnvironment;
   outcome.errors = {{.code = "E-UNFIT", .message = verdict(seen), .help = "plumb-rt doctor"}};
@@ -92,8 +119,10 @@ void add_doctor(Program& program) {
       .type_name("DIR");
   add_etc_option(verb, options->etc);
   verb.add_flag("--strict", options->strict, "Exit code 5 when the machine is not fit");
-  verb.add_flag("--fix", options->fix,
-                "Write settings for this machine below /etc, or below DIR/etc with --root");
+  verb.add_flag(
+      "--fix", options->fix,
+      "Write settings for this machine below /etc, and let its firewall keep the buses of "
+      "installed places for plumb-rt; with --root below DIR/etc only");
   options->write.add_to(verb);
   for (const char* name : {"--force", "--dry-run"})
     verb.get_option(name).needs(verb.get_option("--fix"));

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rules by which the kernel's firewall keeps a bus for the user of the service.
+#include "rt/firewall.hpp"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+
+#include "tests/drivers/fake_machine.hpp"
+
+namespace plumb::drivers::rt {
+namespace {
+
+using tests::FakeMachine;
+using Kind = BusEndpoint::Kind;
+
+constexpr char kNobody[] = "nobody";
+constexpr uid_t kNobodyId = 65534, kOtherId = 1;
+constexpr std::uint16_t kPort = 1502;
+
+const BusEndpoint kClient{.kind = Kind::kConnects, .address = "127.0.0.1", .port = kPort};
+const BusEndpoint kServer{
+    .kind = Kind::kListens, .address = "127.0.0.1", .port = kPort, .peers = {"127.0.0.7"}};
+
+std::string text_of(const std::optional<FirewallRule>& rule) {
+  return rule ? firewall_settings({*rule}).front().text : "";
+}
+
+/// A place as plumb-rt install makes it, with this [source].
+void install(const FakeMachine& machine, const std::string& name, const std::string& source) {
+  const std::string place = "var/lib/plumb/" + name + "/", id = "0123456789abcdef";
+  machine.write(place + "versions/" + id + "/rt.toml", "schema = \"rt/1\"\n[source]\n" + source);
+  std::filesystem::create_symlink("versions/" + id, machine.root() / place / "current");
+}
+
+FirewallRules rules_of(const FakeMachine& machine) {
+  return firewall_rules(machine.root() / "var/lib/plumb");
+}
+
+TEST(Firewall, AClientsControllerIsForTheServiceOnly) {
+  const std::string text = text_of(firewall_rule("cell4", kClient, "plumb"));
+  EXPECT_NE(text.find("ip daddr 127.0.0.1 tcp dport 1502 meta skuid != \"plumb\" counter reject"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("cell4: only user plumb may connect to 127.0.0.1, port 1502"),
+            std::string::npos);
+  EXPECT_EQ(text.rfind("# Written by plumb-rt doctor --fix", 0), 0U);  // as postrm asks
+}
+
+TEST(Firewall, AServersPortIsForItsPeersOnlyInBothFamilies) {
+  BusEndpoint bus{.kind = Kind::kListens,
+                  .interface = "eth1",
+                  .port = 502,
+                  .peers = {"192.168.0.10", "::ffff:192.168.0.11", "fd00::7"}};
+  const std::string text = text_of(firewall_rule("cell4", bus, "plumb"));
+  for (const char* line :
+       {"iifname \"eth1\" meta nfproto ipv4 tcp dport 502 ip saddr != { "
+        "192.168.0.10, 192.168.0.11 } counter drop",
+        "iifname \"eth1\" meta nfproto ipv6 tcp dport 502 ip6 saddr != { fd00::7 "
+        "} counter drop",
+        "oifname \"eth1\" tcp sport 502 meta skuid != \"plumb\" counter drop"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+}
+
+TEST(Firewall, WhatIsNoAddressOrInterfaceMakesNoRule) {
+  for (const char* word : {"robot7", "", "10.0.0.1; flush ruleset"})
+    EXPECT_FALSE(firewall_rule("a", {.kind = Kind::kConnects, .address = word}, "plumb")) << word;
+  for (const char* word : {"", "can0\"; flush ruleset; #", "a b", "0123456789abcdef"})
+    EXPECT_FALSE(firewall_rule("a", {.kind = Kind::kCan, .interface = word}, "plumb")) << word;
+  BusEndpoint bus = kServer;
+  bus.peers = {"10.0.0.1\n } }\nflush ruleset"};
+  EXPECT_EQ(text_of(firewall_rule("a", bus, "plumb")).find("flush"), std::string::npos);
+}
+
+TEST(Firewall, EveryPlaceHasItsRulesAndCanAFileOfItsOwn) {
+  const FakeMachine machine;
+  install(machine, "one", "kind = \"modbus\"\naddress = \"192.168.0.7\"\n");
+  install(machine, "two",
+          "kind = \"modbus\"\nrole = \"server\"\naddress = \"192.168.1.1\"\npeers = "
+          "[\"192.168.1.2\"]\n");
+  install(machine, "three", "kind = \"can\"\ninterface = \"can1\"\n");
+  install(machine, "serial", "kind = \"modbus\"\ndevice = \"/dev/ttyS0\"\n");
+  install(machine, "wrong", "kind = \"modbus\"\nrole = \"server\"\n");
+  const FirewallRules found = rules_of(machine);
+  ASSERT_EQ(found.rules.size(), 3U);
+  ASSERT_EQ(found.unread.size(), 1U);
+  EXPECT_EQ(found.unread.front().rfind("wrong: ", 0), 0U) << found.unread.front();
+  const auto files = firewall_settings(found.rules);
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].file, "etc/plumb/firewall-can1.nft");
+  EXPECT_NE(files[0].text.find("hook egress device \"can1\" priority filter; policy drop;"),
+            std::string::npos);
+  EXPECT_EQ(files[1].file, "etc/plumb/firewall.nft");
+  EXPECT_NE(files[1].text.find("192.168.0.7"), std::string::npos);
+  EXPECT_NE(files[1].text.find("192.168.1.2"), std::string::npos);
+}
+
+TEST(Firewall, DoctorSaysWhetherTheRuleIsInForce) {
+  const FirewallRule rule = firewall_rule("cell4", kServer, "plumb").value();
+  const auto said = [&](const FirewallInForce& now) {
+    return firewall_checks({.rules = {rule}}, now).front().finding;
+  };
+  EXPECT_EQ(said({.listed = text_of(rule)}).grant, Grant::kGranted);
+  EXPECT_EQ(said({.listed = ""}).grant, Grant::kDenied);
+  EXPECT_EQ(said({.listed = ""}).remedy, "sudo plumb-rt doctor --fix");
+  std::string part = text_of(rule);
+  part.erase(part.find("chain input"));  // a rule of which a part is gone is not in force
+  EXPECT_EQ(said({.listed = part}).grant, Grant::kDenied);
+  EXPECT_EQ(said({.why_not = "not known"}).grant, Grant::kSkipped);
+  EXPECT_EQ(firewall_checks({}, {.listed = ""}).front().finding.grant, Grant::kSkipped);
+}
+
+/// A child in a network of its own, in which these rules are in force; false: it can have none.
+class OwnNetwork {
+ public:
+  static int run(const std::string& rules, const std::function<int()>& in_it) {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(entered(rules) ? in_it() : kImpossible);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  static constexpr int kImpossible = 77;
+
+ private:
+  static bool entered(const std::string& rules) {
+    if (::access("/usr/sbin/nft", X_OK) != 0 || ::unshare(CLONE_NEWNET) != 0) return false;
+    ifreq loopback{};
+    std::snprintf(loopback.ifr_name, sizeof loopback.ifr_name, "lo");
+    loopback.ifr_flags = IFF_UP;
+    const int any = ::socket(AF_INET, SOCK_DGRAM, 0);
+    if (::ioctl(any, SIOCSIFFLAGS, &loopback) != 0 || !read_firewall().listed) return false;
+    const std::string file = "/tmp/plumb-rules-" + std::to_string(::getpid());
+    std::ofstream(file) << rules;
+    // Twice: what is loaded again replaces itself.
+    const auto refused = load_firewall(file);
+    const auto again = load_firewall(file);
+    ::unlink(file.c_str());
+    if (refused || again) std::fprintf(stderr, "nft: %s\n", refused.value_or("again").c_str());
+    return true;
+  }
+};
+
+sockaddr_in at(const char* host, int port) {
+  sockaddr_in out{};
+  out.sin_family = AF_INET;
+  out.sin_port = htons(static_cast<std::uint16_t>(port));
+  ::inet_pton(AF_INET, host, &out.sin_addr);
+  return out;
+}
+
+int bound(const char* host, int port) {
+  const int out = ::socket(AF_INET, SOCK_STREAM, 0);
+  const sockaddr_in address = at(host, port);
+  const int on = 1;
+  ::setsockopt(out, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  return ::bind(out, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ? out : -1;
+}
+
+/// Whether a connection from this address to our port is made.
+bool connects(const char* from) {
+  const int own = bound(from, 0);
+  const timeval soon{.tv_sec = 0, .tv_usec = 300'000};
+  ::setsockopt(own, SOL_SOCKET, SO_SNDTIMEO, &soon, sizeof soon);
+  const sockaddr_in to = at("127.0.0.1", kPort);
+  return ::connect(own, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+}
+
+/// The owner of a socket is the user who made it.
+bool connects_as(uid_t user) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::setuid(user) != 0) ::_exit(2);
+    ::_exit(connects("127.0.0.1") ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+int listen_as(uid_t user) {
+  if (::seteuid(user) != 0) return -1;
+  const int out = bound("127.0.0.1", kPort);
+  (void)::seteuid(0);
+  return ::listen(out, 4) == 0 ? out : -1;
+}
+
+TEST(FirewallInTheKernel, OnlyTheServicesUserReachesTheController) {
+  const int seen = OwnNetwork::run(text_of(firewall_rule("a", kClient, kNobody)), [] {
+    if (listen_as(0) < 0) return 70;
+    return (connects_as(kNobodyId) ? 0 : 1) + (connects_as(kOtherId) ? 2 : 0) +
+           (connects_as(0) ? 4 : 0);
+  });
+  if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+  EXPECT_EQ(seen, 0) << "1: the service cannot; 2: another user can; 4: root can";
+  const int open =
+      OwnNetwork::run("", [] { return listen_as(0) >= 0 && connects_as(kOtherId) ? 0 : 1; });
+  EXPECT_EQ(open, 0) << "without the rule anyone can";
+}
+
+TEST(FirewallInTheKernel, OnlyPeersReachTheServerAndOnlyTheServiceAnswersThere) {
+  const std::string rules = text_of(firewall_rule("a", kServer, kNobody));
+  const int seen = OwnNetwork::run(rules, [] {
+    if (listen_as(kNobodyId) < 0) return 70;
+    return (connects("127.0.0.7") ? 0 : 1) + (connects("127.0.0.1") ? 2 : 0);
+  });
+  if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+  EXPECT_EQ(seen, 0) << "1: the peer cannot; 2: another address can";
+  const int other = OwnNetwork::run(
+      rules, [] { return listen_as(kOtherId) >= 0 && connects("127.0.0.7") ? 1 : 0; });
+  EXPECT_EQ(other, 0) << "another user stands in for plumb-rt";
+}
+
+TEST(FirewallInTheKernel, IsSeenByDoctorOnceItIsLoaded) {
+  for (const BusEndpoint& bus : {kClient, kServer}) {
+    const FirewallRule rule = firewall_rule("a", bus, kNobody).value();
+    const int seen = OwnNetwork::run(text_of(rule), [&] {
+      const auto checks = firewall_checks({.rules = {rule}}, read_firewall());
+      return checks.front().finding.grant == Grant::kGranted ? 0 : 1;
+    });
+    if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+    EXPECT_EQ(seen, 0);
+  }
+}
+
+}  // namespace
+}  // namespace plumb::drivers::rt
