@@ -148,7 +148,9 @@ void Controller::walk_on() {
 }
 
 Receiver::Own Controller::own_state() const {
-  return {.drives_on = !fault(FaultKind::kDrivesOff), .automatic = !fault(FaultKind::kManual)};
+  return {.drives_on = !fault(FaultKind::kDrivesOff),
+          .automatic = !fault(FaultKind::kManual),
+          .acknowledge = state().acknowledge};
 }
 
 /// With drives off or at a protective stop the arm stands where it is, whatever its correction.

@@ -69,6 +69,15 @@ void Receiver::hear_status(const drivers::BusMessage& message, std::int64_t now_
   has_status_ = true;
   status_counter_ = message.counter;
   beat_ns_ = now_ns;
+  const bool in_fault = status_.state == drivers::SessionState::kFault;
+  faulted_ = in_fault || (faulted_ && !acknowledged_);
+  acknowledged_ = acknowledged_ && faulted_;
+}
+
+/// Only pressing it after the fault acknowledges the fault.
+void Receiver::see_button(bool pressed) {
+  acknowledged_ = faulted_ && (acknowledged_ || (pressed && !pressed_));
+  pressed_ = pressed;
 }
 
 void Receiver::hear_answer(const drivers::BusMessage& message, std::int64_t now_ns) {
@@ -99,13 +108,13 @@ bool Receiver::alive(std::int64_t now_ns) const {
 /// True if what is wanted may be the goal.
 bool Receiver::applies(std::int64_t now_ns) const {
   using drivers::SessionState;
-  const bool answers = status_.state == SessionState::kActive ||
-                       status_.state == SessionState::kHold ||
-                       status_.state == SessionState::kFault;
-  return fresh(now_ns) && alive(now_ns) && answers && status_.has_output;
+  const bool answers =
+      status_.state == SessionState::kActive || status_.state == SessionState::kHold;
+  return fresh(now_ns) && alive(now_ns) && answers && !faulted_ && status_.has_output;
 }
 
 const Offset& Receiver::step(std::int64_t now_ns, double dt_s, const Own& own) {
+  see_button(own.acknowledge);
   if (!own.drives_on) return present_ = Offset{};
   const Offset goal = own.automatic && applies(now_ns) ? wanted_ : Offset{};
   present_.translation =

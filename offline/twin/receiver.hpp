@@ -46,6 +46,7 @@ class Receiver {
   struct Own {
     bool drives_on = true;
     bool automatic = true;
+    bool acknowledge = false;  // the operator's button
   };
 
   struct Counters {
@@ -85,6 +86,7 @@ class Receiver {
   };
   const Sent* remembered(std::uint16_t counter) const;
   bool applies(std::int64_t now_ns) const;
+  void see_button(bool pressed);
   void hear_status(const drivers::BusMessage& message, std::int64_t now_ns);
   void hear_answer(const drivers::BusMessage& message, std::int64_t now_ns);
   std::optional<Offset> offset_in(const drivers::BusMessage& message, const Sent& target) const;
@@ -99,6 +101,9 @@ class Receiver {
   std::uint16_t status_counter_ = 0;
   bool has_status_ = false;
   bool has_beat_ = false;
+  bool faulted_ = false;       // a status said FAULT, and since then no other state counts
+  bool acknowledged_ = false;  // and the operator has acknowledged that
+  bool pressed_ = false;
   std::int64_t beat_ns_ = 0;  // when a status with another counter than before came
   Counters counters_;
 };

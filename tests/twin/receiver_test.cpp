@@ -124,7 +124,7 @@ constexpr Said kSaid[] = {
     {6,
      "plumb-rt is alive if a status whose counter differs from the one before came within the "
      "last 100 ms; the first status alone proves nothing."},
-    {7, "The goal is zero unless the last status says output, in the state ACTIVE, HOLD or FAULT."},
+    {7, "The goal is zero unless the last status says output, in the state ACTIVE or HOLD."},
     {8,
      "The offset moves towards the goal by the slew limit of the model at most: in, out and in "
      "between."},
@@ -138,6 +138,9 @@ constexpr Said kSaid[] = {
     {12,
      "In manual mode the offset goes to zero by the slew limit and stays zero, whatever is "
      "heard."},
+    {13,
+     "Once a status says FAULT, the goal is zero until the operator has pressed the controller's "
+     "own button after that, and a later status says another state."},
 };
 
 TEST(Receiver, EverySentenceOfTheDocumentIsTestedHere) {
@@ -260,7 +263,7 @@ TEST(Receiver, Says6WithoutANewStatusFor100MsTheGoalIsZero) {
   EXPECT_EQ(first.offset_m(), 0.0) << "the first status alone";
 }
 
-TEST(Receiver, Says7OnlyOutputInThreeStatesIsFollowed) {
+TEST(Receiver, Says7OnlyOutputInTwoStatesIsFollowed) {
   for (const auto state : {SessionState::kInit, SessionState::kSync, SessionState::kShadow,
                            SessionState::kActive, SessionState::kHold, SessionState::kFault})
     for (const bool output : {false, true}) {
@@ -268,8 +271,7 @@ TEST(Receiver, Says7OnlyOutputInThreeStatesIsFollowed) {
       line.status = {.state = state, .has_output = output};
       line.answered(100, 0.003);
       const bool follows =
-          output && (state == SessionState::kActive || state == SessionState::kHold ||
-                     state == SessionState::kFault);
+          output && (state == SessionState::kActive || state == SessionState::kHold);
       EXPECT_NEAR(line.offset_m(), follows ? 0.003 : 0.0, 1e-12) << static_cast<int>(state);
       line.status = {.state = SessionState::kShadow};
       line.answered(100, 0.003);
@@ -339,6 +341,38 @@ TEST(Receiver, Says12InManualModeTheOffsetGoesOutAndStaysOut) {
   EXPECT_EQ(line.offset_m(), 0.0);
   EXPECT_LE(line.largest_m, kStep_m);
   line.answered(100, 0.003);
+  EXPECT_EQ(line.offset_m(), 0.0);
+}
+
+/// Whoever writes answers and states in the name of a plumb-rt that is in FAULT.
+TEST(Receiver, Says13AfterAFaultNothingIsFollowedUntilTheOperatorHasPressed) {
+  Line line;
+  line.answered(100, 0.003);
+  line.status.state = SessionState::kFault;
+  line.answered(1, 0.003);
+  line.status.state = SessionState::kActive;
+  line.answered(1000, 0.0055);
+  EXPECT_EQ(line.offset_m(), 0.0) << "forged";
+  EXPECT_LE(line.largest_m, kStep_m);
+
+  line.status.state = SessionState::kFault;
+  line.own.acknowledge = true;
+  line.answered(50, 0.003);
+  EXPECT_EQ(line.offset_m(), 0.0) << "acknowledged, and still in FAULT";
+  line.own.acknowledge = false;
+  line.status.state = SessionState::kActive;
+  line.answered(100, 0.003);
+  EXPECT_NEAR(line.offset_m(), 0.003, 1e-12);
+}
+
+TEST(Receiver, AButtonThatIsStuckAcknowledgesNothing) {
+  Line line;
+  line.own.acknowledge = true;
+  line.answered(10, 0.003);
+  line.status.state = SessionState::kFault;
+  line.answered(10, 0.003);
+  line.status.state = SessionState::kActive;
+  line.answered(200, 0.003);
   EXPECT_EQ(line.offset_m(), 0.0);
 }
 
