@@ -83,6 +83,7 @@ std::span<const NamedNumber> names_of(MessageKind kind, const std::string& signa
                                           named(Status::kLimited),
                                           named(Status::kRamping),
                                           named(Status::kPartial),
+                                          {kAsksForAcknowledgement, "acknowledge"},
                                           named(Status::kNotFinite),
                                           named(Status::kNearSingular),
                                           named(Status::kOtherConfiguration),

@@ -21,7 +21,7 @@ static_assert(sizeof(Session) / kPart < 0x7FF,
 
 /// To be raised whenever members of Session or of its parts change, so that a copy is never read
 /// by a program that would take its bytes for something else.
-constexpr int kLayoutVersion = 1;
+constexpr int kLayoutVersion = 2;
 
 std::uint64_t first_of(std::string_view bytes) {
   const std::string digits = sha256(bytes).substr(0, 16);

@@ -81,43 +81,49 @@ BusMessage controller_message(const ControllerState& state, std::uint16_t counte
                     counter);
 }
 
-ControllerState controller_in(const BusMessage& message) {
+std::optional<ControllerState> possible_controller(const BusMessage& message) {
   const auto word = whole(message, 0, 0, (1 << 23) - 1);
   const auto tool = whole(message, 1, 0, 255), frame = whole(message, 2, 0, 255),
              payload = whole(message, 3, 0, 255);
-  if (!word || !tool || !frame || !payload) return {};
+  if (!word || !tool || !frame || !payload) return std::nullopt;
   const auto flags = static_cast<unsigned>(*word);
-  return {.drives_on = (flags & kDrivesOn) != 0,
-          .automatic = (flags & kAutomatic) != 0,
-          .protective_stop = (flags & kProtectiveStop) != 0,
-          .correction_enabled = (flags & kCorrectionEnabled) != 0,
-          .acknowledge = (flags & kAcknowledge) != 0,
-          .tool = static_cast<std::uint8_t>(*tool),
-          .frame = static_cast<std::uint8_t>(*frame),
-          .payload = static_cast<std::uint8_t>(*payload)};
+  return ControllerState{.drives_on = (flags & kDrivesOn) != 0,
+                         .automatic = (flags & kAutomatic) != 0,
+                         .protective_stop = (flags & kProtectiveStop) != 0,
+                         .correction_enabled = (flags & kCorrectionEnabled) != 0,
+                         .acknowledge = (flags & kAcknowledge) != 0,
+                         .tool = static_cast<std::uint8_t>(*tool),
+                         .frame = static_cast<std::uint8_t>(*frame),
+                         .payload = static_cast<std::uint8_t>(*payload)};
+}
+
+ControllerState controller_in(const BusMessage& message) {
+  return possible_controller(message).value_or(ControllerState{});
 }
 
 BusMessage status_message(const SessionStatus& status, std::uint16_t counter) {
-  return message_of(MessageKind::kStatus,
-                    {static_cast<double>(status.state), static_cast<double>(status.mode),
-                     static_cast<double>(status.status), status.has_output ? 1.0 : 0.0,
-                     static_cast<double>(status.refused), static_cast<double>(status.limited),
-                     static_cast<double>(status.stale)},
-                    counter);
+  return message_of(
+      MessageKind::kStatus,
+      {static_cast<double>(status.state), static_cast<double>(status.mode),
+       static_cast<double>(status.asks ? kAsksForAcknowledgement : static_cast<int>(status.status)),
+       status.has_output ? 1.0 : 0.0, static_cast<double>(status.refused),
+       static_cast<double>(status.limited), static_cast<double>(status.stale)},
+      counter);
 }
 
 SessionStatus status_in(const BusMessage& message) {
   const auto state = whole(message, 0, 0, 5), mode = whole(message, 1, 0, 2),
-             status = whole(message, 2, static_cast<int>(Status::kStale),
-                            static_cast<int>(Status::kPartial)),
+             status = whole(message, 2, static_cast<int>(Status::kStale), kAsksForAcknowledgement),
              output = whole(message, 3, 0, 1);
   if (!state || !mode || !status || !output) return {};
+  const bool asks = *status == kAsksForAcknowledgement;
   const auto counter = [&](std::size_t i) {
     return static_cast<std::uint16_t>(whole(message, i, 0, 0xFFFF).value_or(0));
   };
   return {.state = static_cast<SessionState>(*state),
           .mode = static_cast<CorrectionMode>(*mode),
-          .status = static_cast<Status>(*status),
+          .status = asks ? Status::kOk : static_cast<Status>(*status),
+          .asks = asks,
           .has_output = *output == 1,
           .refused = counter(4),
           .limited = counter(5),

@@ -81,7 +81,7 @@ void Session::hear(const BusMessage& message) noexcept {
     case MessageKind::kActual:
       return hear_actual(message);
     case MessageKind::kController:
-      hear_controller(message);
+      if (button_.hear(message, asks())) acknowledged_ = true;
       break;
     case MessageKind::kRobot:
       if (!std::isfinite(message.values[0])) return;
@@ -128,14 +128,6 @@ void Session::hear_target(const BusMessage& message) noexcept {
   target_ = message;
   arm_.aim(X_BD);
   inbox_.hear(message);
-}
-
-/// An acknowledgement counts only if it is seen to change from off to on, so that a stuck button
-/// acknowledges nothing.
-void Session::hear_controller(const BusMessage& message) noexcept {
-  const bool on = controller_in(message).acknowledge;
-  if (on && !acknowledge_was_on_) acknowledged_ = true;
-  acknowledge_was_on_ = on;
 }
 
 /// Takes the target of this cycle. A target that is too old is ignored and counted.
@@ -198,8 +190,7 @@ void Session::note_permission(const SessionTick& tick, double ageing_s) noexcept
   if (acknowledged_ && state_ == SessionState::kShadow) needs_acknowledgement_ = false;
   lost_ = find_all_lost(tick);
   permitted_s_ = lost_ == Lost::kNothing ? permitted_s_ + ageing_s : 0.0;
-  // An acknowledgement that was switched on while the controller was silent does not count.
-  if (has(lost_, Lost::kController) || has(lost_, Lost::kRestart)) acknowledge_was_on_ = true;
+  if (has(lost_, Lost::kRestart)) button_.forget();
 }
 
 void Session::note_foreign(const SessionTick& tick, double ageing_s) noexcept {
@@ -213,6 +204,13 @@ FaultCause Session::fault() const noexcept {
   if (robot.size > 0 && robot.values[0] != static_cast<double>(settings_.robot))
     return FaultCause::kOtherRobot;
   return sync_.mismatched() ? FaultCause::kPoseMismatch : FaultCause::kNone;
+}
+
+/// True while an acknowledgement would have an effect: in FAULT when the cause is gone and the
+/// correction is out, and in SHADOW before the first correction.
+bool Session::asks() const noexcept {
+  if (state_ == SessionState::kFault) return fault() == FaultCause::kNone && at_zero();
+  return state_ == SessionState::kShadow && needs_acknowledgement_;
 }
 
 SessionFacts Session::facts(const SessionTick& tick) const noexcept {
@@ -300,6 +298,7 @@ void Session::tell(double ageing_s, SessionOutput& out) noexcept {
         status_message({.state = state_,
                         .mode = settings_.mode,
                         .status = report_.status,
+                        .asks = asks(),
                         .has_output = report_.has_output,
                         .refused = static_cast<std::uint16_t>(report_.guard.refused),
                         .limited = static_cast<std::uint16_t>(report_.guard.limited),

@@ -209,11 +209,11 @@ Isometry3d Controller::shown_pose() const {
   return out;
 }
 
-/// Pressed for a fifth of a second in every one, the first time after half of it.
+/// Pressed for 0.3 s in every second, the first time after half of it.
 bool Controller::operator_acknowledges() const {
   if (shadow_ns_ == 0) return false;
   const double second = std::fmod(seconds(time_.now_ns - shadow_ns_), 1.0);
-  return second >= 0.5 && second < 0.7;
+  return second >= 0.5 && second < 0.8;
 }
 
 drivers::ControllerState Controller::state() const {

@@ -49,7 +49,7 @@ class Controller {
  private:
   void beat() {
     const bool shadow = state == static_cast<int>(SessionState::kShadow);
-    rig_.state.acknowledge = acknowledge || (shadow && rig_.counter / 50 % 2 == 1);
+    rig_.state.acknowledge = acknowledge || (shadow && rig_.counter / 75 % 2 == 1);
     sent_ns_[rig_.counter] = tests::now_ns();
     for (const BusMessage& message : rig_.controller_says()) port_->send(message);
     for (BusMessage message; port_->receive(message);) hear(message);
@@ -107,7 +107,7 @@ class ASecondSender : public testing::Test {
   /// A push of the button.
   void acknowledge() {
     controller.acknowledge = true;
-    wait_ms(200);
+    wait_ms(300);
     controller.acknowledge = false;
     wait_ms(200);
   }

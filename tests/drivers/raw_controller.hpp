@@ -43,7 +43,7 @@ class RawController {
 
   void press() {
     acknowledge = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     acknowledge = false;
   }
 

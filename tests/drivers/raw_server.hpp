@@ -71,7 +71,7 @@ class RawServer {
 
   void press() {
     acknowledge = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     acknowledge = false;
   }
 

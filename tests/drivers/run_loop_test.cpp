@@ -201,6 +201,9 @@ TEST(RunLoop, AFrameOfOurOwnIdentifierIsAFaultThatRampsOutAndWaitsForAnOperator)
   EXPECT_EQ(applied_m(), 0.0);
   EXPECT_EQ(run.rig.session->state(), SessionState::kFault) << "nobody acknowledged";
   run.rig.state.acknowledge = true;
+  for (int i = 0; i < 50; ++i) run.cycle();
+  EXPECT_EQ(run.rig.session->state(), SessionState::kFault) << "the button was not released";
+  run.rig.state.acknowledge = false;
   run.cycle();
   EXPECT_EQ(run.rig.session->state(), SessionState::kInit);
   EXPECT_TRUE(run.run_to(SessionState::kActive));

@@ -441,7 +441,7 @@ TEST(SessionFaults, RandomMessagesNeverMakeAStep) {
       if (wild.kind == MessageKind::kTarget) rig.targets[wild.counter] = pose_in(wild).value();
     }
     if (random.below(1000) == 0) rig.now_ns += random.below(2'000'000'000);
-    rig.state.acknowledge = random.below(2) == 0;
+    if (random.below(60) == 0) rig.state.acknowledge = !rig.state.acknowledge;
     rig.cycle(messages);
   }
   std::printf("%d cycles, seed 7, %ld answers, %llu faults, %llu holds\n", count, rig.answers,

@@ -202,13 +202,127 @@ TEST(Session, LeavesSyncAndShadowWhenTheControllerFallsSilent) {
   EXPECT_EQ(rig.session->state(), kInit);
 }
 
-/// Acknowledges: off, then on.
-void acknowledge(SessionRig& rig) {
+/// Acknowledges: off, on for 0.2 s, off.
+void acknowledge(SessionRig& rig, int cycles = 50) {
   rig.state.acknowledge = false;
   rig.run(2);
   rig.state.acknowledge = true;
-  rig.run(1);
+  rig.run(cycles);
   rig.state.acknowledge = false;
+  rig.run(1);
+}
+
+/// A session in FAULT whose cause is gone, and whose correction is out.
+class AFaultToAcknowledge : public testing::Test {
+ protected:
+  AFaultToAcknowledge() {
+    EXPECT_TRUE(rig.run_to(kActive));
+    rig.robot = kRobot + 1;
+    EXPECT_TRUE(rig.run_to(kFault));
+    rig.robot = kRobot;
+    rig.run(600);
+  }
+  void toggle(int on, int off, int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      rig.state.acknowledge = i % (on + off) >= off;
+      rig.cycle();
+      ASSERT_EQ(rig.session->state(), kFault) << on << " on, " << off << " off, cycle " << i;
+    }
+    rig.state.acknowledge = false;
+    rig.run(10);
+    ASSERT_EQ(rig.session->state(), kFault) << on << " on, " << off << " off";
+  }
+  SessionRig rig{in_mode(CorrectionMode::kFull)};
+};
+
+TEST_F(AFaultToAcknowledge, IsNotEndedByASingleFrameNorByABitThatAProgramToggles) {
+  toggle(1, 1000, 3003);
+  toggle(25, 25, 5000);  // 5 Hz
+  toggle(1, 1, 5000);
+  toggle(49, 1, 5000);
+  acknowledge(rig);
+  EXPECT_EQ(rig.session->state(), kInit);
+}
+
+TEST_F(AFaultToAcknowledge, IsEndedByTheReleaseOfTheButtonAndNotBefore) {
+  rig.state.acknowledge = true;
+  rig.run(3000);
+  EXPECT_EQ(rig.session->state(), kFault);
+  rig.state.acknowledge = false;
+  rig.cycle();
+  EXPECT_EQ(rig.session->state(), kInit);
+}
+
+TEST_F(AFaultToAcknowledge, IsNotEndedByAPressWithAGap) {
+  rig.state.acknowledge = true;
+  rig.run(40);
+  for (int i = 0; i < 25; ++i) rig.cycle({});  // 0.1 s without a word
+  rig.run(60);
+  rig.state.acknowledge = false;
+  rig.run(10);
+  EXPECT_EQ(rig.session->state(), kFault);
+
+  rig.state.acknowledge = true;
+  rig.run(60);
+  auto messages = rig.controller_says();
+  messages.front().values[1] = 0.5;  // no number of a tool: it says nothing about the button either
+  rig.cycle(messages);
+  rig.run(10);
+  rig.state.acknowledge = false;
+  rig.run(10);
+  EXPECT_EQ(rig.session->state(), kFault);
+  acknowledge(rig);
+  EXPECT_EQ(rig.session->state(), kInit);
+}
+
+TEST(Session, APressThatBeganBeforeTheFaultAcknowledgesNothing) {
+  SessionRig rig(in_mode(CorrectionMode::kFull));
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.state.acknowledge = true;
+  rig.run(100);
+  rig.robot = kRobot + 1;
+  ASSERT_TRUE(rig.run_to(kFault));
+  rig.robot = kRobot;
+  rig.run(600);
+  rig.state.acknowledge = false;
+  rig.run(10);
+  EXPECT_EQ(rig.session->state(), kFault);
+}
+
+/// The status that the controller hears next.
+SessionStatus next_status(SessionRig& rig) {
+  while (true) {
+    const SessionOutput out = rig.cycle();
+    for (const auto& message : out.sent())
+      if (message.kind == MessageKind::kStatus) return status_in(message);
+  }
+}
+
+TEST(Session, TheStatusAsksForAnAcknowledgementWhileOneHasAnEffect) {
+  SessionRig rig(in_mode(CorrectionMode::kFull));
+  ASSERT_TRUE(rig.run_to(kActive));
+  rig.run(600);
+  EXPECT_FALSE(next_status(rig).asks);
+  rig.robot = kRobot + 1;
+  ASSERT_TRUE(rig.run_to(kFault));
+  EXPECT_FALSE(next_status(rig).asks) << "the correction ramps out";
+  rig.run(600);
+  EXPECT_FALSE(next_status(rig).asks) << "the cause is there still";
+  rig.robot = kRobot;
+  rig.run(10);
+  EXPECT_TRUE(next_status(rig).asks);
+  EXPECT_EQ(next_status(rig).state, kFault);
+  acknowledge(rig);
+  EXPECT_FALSE(next_status(rig).asks);
+
+  SessionSettings settings = in_mode(CorrectionMode::kFull);
+  settings.start.acknowledgement = SessionStart::Acknowledgement::kNeeded;
+  SessionRig first(settings);
+  EXPECT_FALSE(next_status(first).asks) << "nothing was compared yet";
+  ASSERT_TRUE(first.run_to(kShadow));
+  EXPECT_TRUE(next_status(first).asks);
+  acknowledge(first);
+  EXPECT_FALSE(next_status(first).asks);
 }
 
 TEST(Session, AnotherPoseIsAFaultInSyncAndEverAfter) {

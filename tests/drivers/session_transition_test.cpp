@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "plumb/drivers/session_acknowledgement.hpp"
 #include "plumb/drivers/session_inputs.hpp"
 
 namespace plumb::drivers {
@@ -118,6 +121,23 @@ TEST(SessionTransition, TheDocumentNamesEveryReasonAndEveryFaultAsTheStatusDoes)
     const char* const word = to_string(static_cast<FaultCause>(i));
     EXPECT_TRUE(named(word)) << word;
   }
+}
+
+TEST(SessionTransition, TheDocumentSaysHowAnAcknowledgementIsPressedAndAskedForAsTheCodeDoes) {
+  const std::string page = safety_page();
+  const auto said = [&](const std::string& before, double number) {
+    const std::size_t at = page.find(before);
+    if (at == std::string::npos) return testing::AssertionFailure() << "no \"" << before << "\"";
+    const double found = std::strtod(page.c_str() + at + before.size(), nullptr);
+    return (std::abs(found - number) < 1e-9 ? testing::AssertionSuccess()
+                                            : testing::AssertionFailure())
+           << before << found;
+  };
+  EXPECT_TRUE(said("| FAULT | INIT | acknowledged (the button held for ",
+                   1e-9 * AcknowledgeButton::kHeld_ns));
+  EXPECT_TRUE(said("the button held for at least ", 1e-9 * AcknowledgeButton::kHeld_ns));
+  EXPECT_TRUE(said("without a gap of ", 1e-9 * AcknowledgeButton::kGap_ns));
+  EXPECT_TRUE(said("value `status` is then ", kAsksForAcknowledgement));
 }
 
 TEST(SessionTransition, IsTheTableForEveryStateAndAllFacts) {

@@ -161,7 +161,7 @@ TEST(Faults, AFaultOnTheWayStaysUntilAnOperatorAcknowledges) {
     EXPECT_EQ(left_alone.loop().session().state(), SessionState::kFault);
     EXPECT_EQ(left_alone.controller().receiver().present().translation.norm(), 0.0);
 
-    Case acknowledged({fault, "acknowledge@6+0.2"});
+    Case acknowledged({fault, "acknowledge@6+0.3"});
     acknowledged.controller().knows(Case::twin().model().model().calibrated);
     EXPECT_TRUE(course_of(acknowledged).came_back);
     acknowledged.expect_no_step();

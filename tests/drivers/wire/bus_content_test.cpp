@@ -147,6 +147,15 @@ TEST(BusContent, SessionStatesComeBack) {
   EXPECT_EQ(back.stale, 2);
 }
 
+TEST(BusContent, AStatusThatAsksForAnAcknowledgementComesBack) {
+  const BusMessage asking =
+      status_message({.state = SessionState::kFault, .status = Status::kStale, .asks = true}, 1);
+  EXPECT_EQ(asking.values[2], 6.0) << "as docs/safety.md says";
+  EXPECT_TRUE(status_in(asking).asks);
+  EXPECT_EQ(status_in(asking).state, SessionState::kFault);
+  EXPECT_FALSE(status_in(status_message({.status = Status::kOk}, 1)).asks);
+}
+
 TEST(BusContent, ASessionStateThatCannotBeIsInitWithoutOutput) {
   const BusMessage good = status_message(
       {.state = SessionState::kActive, .status = Status::kOk, .has_output = true}, 1);

@@ -32,7 +32,7 @@ struct ControllerState {
   bool automatic = false;  // operating mode automatic
   bool protective_stop = true;
   bool correction_enabled = false;  // the enable signal of the cell
-  bool acknowledge = false;         // acknowledgement by an operator; its rising edge counts
+  bool acknowledge = false;         // an operator's button (session_acknowledgement.hpp)
   std::uint8_t tool = 0;            // active tool, frame and payload, in the controller's numbers
   std::uint8_t frame = 0;
   std::uint8_t payload = 0;
@@ -51,11 +51,17 @@ struct SessionStatus {
   SessionState state = SessionState::kInit;
   CorrectionMode mode = CorrectionMode::kShadow;
   Status status = Status::kNoModel;
+  bool asks = false;  // for an acknowledgement; the status is then not sent
   bool has_output = false;
   std::uint16_t refused = 0;  // lower 16 bits of the guard's counters
   std::uint16_t limited = 0;
   std::uint16_t stale = 0;
 };
+
+/// The number of value "status" that asks the controller for an acknowledgement; no number of
+/// Status.
+inline constexpr int kAsksForAcknowledgement = 6;
+static_assert(kAsksForAcknowledgement > static_cast<int>(Status::kPartial));
 
 /// Conversion to and from messages. Positions [m] and rotation vectors [rad] are in the base frame,
 /// joints in [rad] or [m]. An offset (d, r) to a desired pose D gives p = p_D + d and
@@ -67,6 +73,7 @@ BusMessage offset_message(const Transformd& desired, const Transformd& corrected
 Transformd add_offset(const Transformd& desired, const BusMessage& offset);
 BusMessage joints_message(MessageKind kind, std::span<const double> q, std::uint16_t counter);
 BusMessage controller_message(const ControllerState& state, std::uint16_t counter);
+std::optional<ControllerState> possible_controller(const BusMessage& message);  // none: impossible
 ControllerState controller_in(const BusMessage& message);
 BusMessage status_message(const SessionStatus& status, std::uint16_t counter);
 SessionStatus status_in(const BusMessage& message);

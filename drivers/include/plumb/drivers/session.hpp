@@ -11,6 +11,7 @@
 #include "plumb/drivers/bus_content.hpp"
 #include "plumb/drivers/bus_layout.hpp"
 #include "plumb/drivers/sensor_places.hpp"
+#include "plumb/drivers/session_acknowledgement.hpp"
 #include "plumb/drivers/session_arm.hpp"
 #include "plumb/drivers/session_inbox.hpp"
 #include "plumb/drivers/session_inputs.hpp"
@@ -123,7 +124,7 @@ struct SessionReport {
 /// pose or the offset, under the counter of the target. A target that is too old, is no pose, or
 /// exceeds its limits is not answered, nor is any target before the guard has an output. Status and
 /// signature are sent at their periods in every state; the counter of the status is plumb-rt's
-/// heart-beat.
+/// heart-beat. It also says when an operator's acknowledgement is asked for.
 ///
 /// A correction begins, changes and ends only by the guard's ramps and slew limits. Cycles missed
 /// for longer than an input's limit are a lost input: the correction is then where the ramp would
@@ -163,7 +164,6 @@ class Session {
 
  private:
   void hear_target(const BusMessage& message) noexcept;
-  void hear_controller(const BusMessage& message) noexcept;
   CycleInput cycle_input(std::int64_t now_ns) const noexcept;
   void take_target() noexcept;
   void hear_joints(const BusMessage& message) noexcept;
@@ -173,6 +173,7 @@ class Session {
   Lost find_all_lost(const SessionTick& tick) const noexcept;
   void note_foreign(const SessionTick& tick, double ageing_s) noexcept;
   FaultCause fault() const noexcept;
+  bool asks() const noexcept;
   SessionFacts facts(const SessionTick& tick) const noexcept;
   void change_state(const SessionTick& tick) noexcept;
   GuardOutput correct(std::int64_t now_ns, double dt_s) noexcept;
@@ -189,6 +190,7 @@ class Session {
   SyncCheck sync_;
   TargetGate gate_;
   ArmWatch arm_;
+  AcknowledgeButton button_;
   CorrectionShare share_;
   CycleTime time_;
   SessionState state_ = SessionState::kInit;
@@ -197,8 +199,7 @@ class Session {
   Transformd X_BC_;                     // corrected pose of the target
   bool target_came_ = false;            // a target arrived in this cycle and is not too old
   bool target_misbehaved_ = false;      // a target of this cycle exceeded its limits
-  bool acknowledged_ = false;           // an acknowledgement began in this cycle
-  bool acknowledge_was_on_ = true;      // true until the signal was seen off
+  bool acknowledged_ = false;           // an operator acknowledged in this cycle
   bool needs_acknowledgement_ = false;  // before the first correction
   bool has_output_ = false;             // the guard has an output
   bool owes_zero_ = false;              // the last answer contained a correction

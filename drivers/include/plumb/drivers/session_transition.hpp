@@ -29,7 +29,7 @@ struct SessionFacts {
   bool permitted = false;     // all inputs have allowed a correction for SessionSettings::rearm_s
   bool lost = true;           // at least one input does not allow a correction now
   bool at_zero = true;        // the correction on the target is zero
-  bool acknowledged = false;  // an operator's acknowledgement began in this cycle
+  bool acknowledged = false;  // an operator acknowledged in this cycle
   bool stopping = false;      // plumb-rt was told to end
   CorrectionMode mode = CorrectionMode::kShadow;
 };
