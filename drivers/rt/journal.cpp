@@ -19,6 +19,7 @@
 #include "program/file.hpp"
 #include "program/problem.hpp"
 #include "rt/lost_words.hpp"
+#include "rt/record_disk.hpp"
 #include "rt/standard_error.hpp"
 #include "rt/utc.hpp"
 
@@ -168,9 +169,13 @@ void Journal::append(const std::string& line) {
       ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
   const bool plain = fd >= 0 && ::fstat(fd, &now) == 0 && S_ISREG(now.st_mode);
   const std::string text = (plain && ends_within_line(file_, now.st_size) ? "\n" : "") + line;
+  if (plain) errno = ENOSPC;  // why a part of it is written, which sets no errno
   const bool written =
       plain && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  failure_ = written ? "" : plain || fd < 0 ? std::strerror(errno) : "not a regular file";
+  const int error = errno;
+  failure_ = written           ? ""
+             : plain || fd < 0 ? why_not_written(file_, error, "the journal", real_disk())
+                               : "not a regular file";
   if (fd >= 0) ::close(fd);
 }
 

@@ -6,8 +6,10 @@
 #include <sys/statvfs.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -45,6 +47,19 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 }  // namespace
 
 RecordDisk real_disk() { return {.wall_s = system_clock_s, .free_bytes = system_free_bytes}; }
+
+std::string why_not_written(const std::filesystem::path& file, int error, const std::string& what,
+                            const RecordDisk& disk) {
+  if (error != ENOSPC && error != EDQUOT)
+    return fmt::format("{}: {}", file.string(), std::strerror(error));
+  const std::uint64_t free = disk.free_bytes(folder_of(file));
+  const bool known = free != std::numeric_limits<std::uint64_t>::max();
+  return fmt::format(
+      "{}: the {} is full{}: {} is no longer written, everything else goes on; make "
+      "room on it",
+      file.string(), error == EDQUOT ? "quota of the disk" : "disk",
+      known ? fmt::format(", {:.1f} MB are free", 1e-6 * static_cast<double>(free)) : "", what);
+}
 
 std::vector<RecordPart> record_parts(const std::filesystem::path& file) {
   std::vector<RecordPart> out;

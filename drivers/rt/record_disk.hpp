@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace plumb::drivers::rt {
@@ -15,6 +16,11 @@ struct RecordDisk {
   std::function<std::uint64_t(const std::filesystem::path& folder)> free_bytes;
 };
 RecordDisk real_disk();
+
+/// Why `what` ("the record") is not written to a file any more: a disk that is full is named, with
+/// what is free on it and what to do; else the words of the system for `error`.
+std::string why_not_written(const std::filesystem::path& file, int error, const std::string& what,
+                            const RecordDisk& disk);
 
 /// One of the files of a record: FILE itself has number 0, FILE.1 number 1, and so on.
 struct RecordPart {

@@ -92,11 +92,25 @@ void RecordWriter::pause(const std::string& why, std::int64_t now_ns) {
 
 void RecordWriter::pause_on_error(std::int64_t now_ns) {
   if (!out_ || out_->error() == 0) return;
-  pause(fmt::format("{}: {}", name_.string(), std::strerror(out_->error())), now_ns);
+  pause(why_not_written(name_, out_->error(), "the record", disk_), now_ns);
 }
 
 bool RecordWriter::is_open(const RecordPart& part) const {
   return out_ && part.file.filename() == name_.filename();
+}
+
+std::string RecordWriter::full_text(const std::filesystem::path& folder, std::uint64_t free) const {
+  const auto mb = [](std::uint64_t bytes) { return 1e-6 * static_cast<double>(bytes); };
+  const bool full = free < kSpare;
+  const std::string floor = fmt::format("the record leaves free_space_floor_mb = {} alone, and ",
+                                        settings_.free_space_floor_mb);
+  return fmt::format(
+      "{}: the disk {} {:.1f} MB are free; {}is no longer written until {:.0f} MB are free, "
+      "everything "
+      "else goes on; make room on it, or lower {}max_total_mb in [record] of rt.toml",
+      folder.string(), full ? "is full," : "is nearly full,", mb(free),
+      settings_.free_space_floor_mb > 0 ? floor : "the record ",
+      mb(settings_.floor_bytes() + kSpare), settings_.free_space_floor_mb > 0 ? "that or " : "");
 }
 
 /// Removes old files of the record until the floor is kept. If all of them would not be enough,
@@ -116,8 +130,7 @@ bool RecordWriter::has_space() {
     std::filesystem::remove(part.file, ignored);
     if (disk_.free_bytes(folder) >= wanted) return true;
   }
-  failure_ = fmt::format("{}: less than free_space_floor_mb = {} is free", folder.string(),
-                         settings_.free_space_floor_mb);
+  failure_ = full_text(folder, free);
   return false;
 }
 

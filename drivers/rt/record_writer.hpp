@@ -62,6 +62,7 @@ class RecordWriter {
   void pause_on_error(std::int64_t now_ns);
   bool is_open(const RecordPart& part) const;
   bool has_space();
+  std::string full_text(const std::filesystem::path& folder, std::uint64_t free) const;
   void remove_old(std::uint64_t coming);
   void look(std::int64_t now_ns);
 

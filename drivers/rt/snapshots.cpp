@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string_view>
 
 #include "rt/lost_words.hpp"
+#include "rt/record_disk.hpp"
 #include "rt/utc.hpp"
 
 namespace plumb::drivers::rt {
@@ -88,7 +88,7 @@ std::filesystem::path Snapshots::make(const std::string& reason, std::int64_t no
 
 void Snapshots::note_error(const LineFile& file) {
   if (file.error() != 0)
-    failure_ = fmt::format("{}: {}", file.file().string(), std::strerror(file.error()));
+    failure_ = why_not_written(file.file(), file.error(), "the snapshot", real_disk());
 }
 
 void Snapshots::tend(std::int64_t now_ns) {

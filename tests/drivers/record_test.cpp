@@ -141,6 +141,28 @@ TEST_F(RecordFiles, ADiskThatRunsFullMakesAPauseAndTheRecordGoesOnWhenThereIsSpa
   EXPECT_EQ(names(), (std::vector<std::string>{"record.log", "record.log.1"}));
 }
 
+TEST_F(RecordFiles, ADiskThatIsFullIsCalledSoWithWhatIsFreeAndWhatToDo) {
+  settings.free_space_floor_mb = 0;
+  RecordWriter record(settings, disk());
+  write(record, 100);
+  free = 300'000;
+  RecordWriter next(settings, disk());
+  wait(next, 1.1);
+  write(next, 1);
+  const std::string why = next.failure();
+  for (const char* const word :
+       {"the disk is full, 0.3 MB are free", "the record is no longer written",
+        "everything else goes on", "make room", "max_total_mb"})
+    EXPECT_NE(why.find(word), std::string::npos) << word << ": " << why;
+  EXPECT_EQ(why.find("free_space_floor_mb"), std::string::npos) << why;
+  const std::string journal =
+      why_not_written(folder / "events.jsonl", ENOSPC, "the journal", disk());
+  EXPECT_EQ(journal, (folder / "events.jsonl").string() +
+                         ": the disk is full, 0.3 MB are free: the journal is no longer written, "
+                         "everything else goes on; make room on it");
+  EXPECT_EQ(why_not_written("/a/b", EACCES, "the journal", disk()), "/a/b: Permission denied");
+}
+
 TEST_F(RecordFiles, OldFilesGoForTheFloorOnlyIfThatIsEnough) {
   settings.free_space_floor_mb = 100;
   std::ofstream(settings.file) << std::string(2'000'000, 'a') << "\n";
