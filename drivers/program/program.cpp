@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/program.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <tuple>
 
 #include "plumb/format/version.hpp"
 #include "program/command_table.hpp"
@@ -46,6 +48,13 @@ std::string option_help(const CLI::App& verb, const std::string& command) {
   if (const auto near = did_you_mean(option, option_names(verb)); !option.empty() && near)
     return fmt::format("did you mean '{}'?", *near);
   return command + " --help";
+}
+
+/// No file that is opened later may get the number of a standard stream that is closed, or what is
+/// said would go into it. What stands there cannot be written, like a closed stream.
+void keep_standard_numbers() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(number, F_GETFD) < 0) std::ignore = ::open("/dev/null", O_RDONLY);
 }
 
 }  // namespace
@@ -128,6 +137,7 @@ int Program::run(int argc, char** argv) {
     parsed.emplace_back("--help");
   }
   std::reverse(parsed.begin(), parsed.end());  // as CLI11 wants them
+  keep_standard_numbers();
   // Exceeding a file size limit shall be a reported write error instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

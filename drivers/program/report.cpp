@@ -2,8 +2,10 @@
 #include "program/report.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -16,6 +18,8 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t kShown = 20;  // problems of one kind
+constexpr unsigned kLongestWait_s = 1;
+std::atomic<int> exit_of_hurried{-1};  // -1: readers are waited for
 
 Json error_json(const Outcome& outcome) {
   if (outcome.errors.empty()) return nullptr;
@@ -30,10 +34,13 @@ Json error_json(const Outcome& outcome) {
   return out;
 }
 
+/// Unlike fmt::print it throws nothing if nobody can be told.
+void tell(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
+
 void print_problems(const std::vector<Problem>& problems, const Screen& screen) {
   for (std::size_t i = 0; i < std::min(kShown, problems.size()); ++i)
-    fmt::print(stderr, "{}\n", painted(render(problems[i]), screen));
-  if (problems.size() > kShown) fmt::print(stderr, "... and {} more\n", problems.size() - kShown);
+    tell(painted(render(problems[i]), screen));
+  if (problems.size() > kShown) tell(fmt::format("... and {} more", problems.size() - kShown));
 }
 
 /// False with errno set if not everything went out.
@@ -43,10 +50,9 @@ bool print_out(const std::string& text) {
 }
 
 int cannot_print(int reason) {
-  fmt::print(stderr, "{}\n",
-             render({.code = "E-WRITE",
-                     .message = fmt::format("cannot write to stdout: {}", std::strerror(reason)),
-                     .help = "check what reads it: df -h"}));
+  tell(render({.code = "E-WRITE",
+               .message = fmt::format("cannot write to stdout: {}", std::strerror(reason)),
+               .help = "check what reads it: df -h"}));
   return static_cast<int>(Exit::kEnvironment);
 }
 
@@ -81,7 +87,20 @@ int report(const Command& command, const Globals& globals, const Outcome& outcom
                      : laid_out(printable_text(outcome.text), screen_of(STDOUT_FILENO)));
   const int reason = errno;
   print_problems(outcome.errors, messages);
-  return printed ? static_cast<int>(outcome.exit) : cannot_print(reason);
+  const int failed = printed ? 0 : cannot_print(reason);
+  return printed || exit_of_hurried >= 0 ? static_cast<int>(outcome.exit) : failed;
+}
+
+void hurry_readers(Exit exit) {
+  exit_of_hurried = static_cast<int>(exit);
+  struct sigaction action {};
+  action.sa_handler = [](int) { ::_exit(exit_of_hurried); };
+  sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm;
+  sigemptyset(&alarm);
+  sigaddset(&alarm, SIGALRM);
+  pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
+  ::alarm(kLongestWait_s);
 }
 
 int print_verbatim(const std::string& text) {

@@ -15,6 +15,7 @@
 #include "plumb/drivers/run_loop.hpp"
 #include "program/file.hpp"
 #include "program/folder_lock.hpp"
+#include "program/report.hpp"
 #include "program/shell_word.hpp"
 #include "rt/journal.hpp"
 #include "rt/rt_probe.hpp"
@@ -210,6 +211,7 @@ void run_folder(const RunOptions& options, Outcome& outcome) {
   outcome.result = status_json(service.snapshot(), service.facts());
   outcome.text = status_text(outcome.result);
   refuse_end(next, deployment, outcome);
+  hurry_readers(outcome.exit);
 }
 
 /// A run that is refused leaves its reason in the journal of the folder.
