@@ -92,11 +92,21 @@ std::optional<Descriptor> listening(Descriptor fd, const sockaddr* address, sock
   return fd;
 }
 
+Descriptor accepted(int listening, ReserveDescriptor& reserve) {
+  const auto accept = [&] {
+    return Descriptor(::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  };
+  Descriptor out = accept();
+  if (out.open() || (errno != EMFILE && errno != ENFILE)) return out;
+  reserve.give_up();
+  return accept();
+}
+
 }  // namespace
 
-std::optional<Asked> take_request(int listening, const std::string& end_of_request,
-                                  const Patience& patience) {
-  Descriptor peer(::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+std::optional<Asked> take_request(int listening, ReserveDescriptor& reserve,
+                                  const std::string& end_of_request, const Patience& patience) {
+  Descriptor peer = accepted(listening, reserve);
   if (!peer.open()) return std::nullopt;
   auto request =
       read_until(peer.get(), end_of_request, patience.most_bytes, Deadline(patience.within_ms));
@@ -109,9 +119,10 @@ void reply_to(const Descriptor& peer, const std::string& answer, const Patience&
   write_all(peer.get(), answer, Deadline(patience.within_ms));
 }
 
-void serve_one(int listening, const std::string& end_of_request, const Patience& patience,
+void serve_one(int listening, ReserveDescriptor& reserve, const std::string& end_of_request,
+               const Patience& patience,
                const std::function<std::string(const std::string&)>& answer) {
-  const auto asked = take_request(listening, end_of_request, patience);
+  const auto asked = take_request(listening, reserve, end_of_request, patience);
   if (asked) reply_to(asked->peer, answer(asked->request), patience);
 }
 

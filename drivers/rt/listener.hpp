@@ -8,6 +8,7 @@
 #include <string>
 
 #include "plumb/drivers/descriptor.hpp"
+#include "rt/reserve_descriptor.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -26,16 +27,18 @@ struct Asked {
 };
 
 /// If a connection waits at `listening`: accepts it and reads a request up to `end_of_request`.
-/// Nothing if there is none, or if the peer exceeds the limits.
-std::optional<Asked> take_request(int listening, const std::string& end_of_request,
-                                  const Patience& patience);
+/// Nothing if there is none, or if the peer exceeds the limits. `reserve` is given up if no other
+/// descriptor is left for the connection.
+std::optional<Asked> take_request(int listening, ReserveDescriptor& reserve,
+                                  const std::string& end_of_request, const Patience& patience);
 
 /// Writes the answer, as far as the peer reads it in time.
 void reply_to(const Descriptor& peer, const std::string& answer, const Patience& patience);
 
 /// If a connection waits at `listening`: accepts it, reads a request up to `end_of_request`, writes
 /// the result of `answer`, and closes. A peer that exceeds the limits gets no answer.
-void serve_one(int listening, const std::string& end_of_request, const Patience& patience,
+void serve_one(int listening, ReserveDescriptor& reserve, const std::string& end_of_request,
+               const Patience& patience,
                const std::function<std::string(const std::string&)>& answer);
 
 /// Listens on a Unix domain socket that only its owner may use. Empty on failure, with errno.

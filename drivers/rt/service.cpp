@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,6 +16,7 @@
 #include "program/problem.hpp"
 #include "rt/install_history.hpp"
 #include "rt/model_change.hpp"
+#include "rt/packing_text.hpp"
 #include "rt/screen_units.hpp"
 
 namespace plumb::drivers::rt {
@@ -40,6 +42,16 @@ std::optional<Descriptor> open_metrics(int port) {
       {.code = "E-RT-METRICS",
        .message = fmt::format("127.0.0.1:{} cannot be listened on: {}", port, std::strerror(errno)),
        .help = "choose another port in rt.toml, [log] metrics_port"});
+}
+
+std::string shortage_text() {
+  rlimit most{};
+  ::getrlimit(RLIMIT_NOFILE, &most);
+  return fmt::format(
+      "no file descriptor is left (limit {}): files and connections cannot be opened, the "
+      "correction "
+      "goes on; see what keeps them with ls -l /proc/{}/fd, and raise LimitNOFILE of the service",
+      most.rlim_cur, ::getpid());
 }
 
 std::string name_of(const RunningModel& model, const std::filesystem::path& file) {
@@ -165,6 +177,7 @@ void Service::pass() {
 
 void Service::write_down() {
   shared_.snapshots.take(snapshot_);
+  note_packing();
   for (SessionMoment moment; shared_.events.take(moment);) {
     journal_.note_change(moment);
     note_state(moment);
@@ -184,6 +197,14 @@ void Service::note_state(const SessionMoment& moment) {
   if (latched && moment.state == state_) return;
   state_ = moment.state;
   facts_.cause = cause_text(moment);
+}
+
+/// Once, although the link may doubt it now and then.
+void Service::note_packing() {
+  facts_.packing = packing_text(snapshot_.packing, deployment_.layout);
+  if (facts_.packing.empty() || snapshot_.packing == packing_) return;
+  packing_ = snapshot_.packing;
+  journal_.note("packing", {{"packing", facts_.packing}});
 }
 
 void Service::remember() {
@@ -226,24 +247,29 @@ void Service::tell_manager() {
 }
 
 void Service::serve() {
+  reserve_.take();
+  if (!reserve_.held())  // a connection that cannot be accepted waits on
+    std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kPass_ms * 1'000'000LL);
   pollfd at[] = {{.fd = control_.listening.get(), .events = POLLIN, .revents = 0},
                  {.fd = metrics_ ? metrics_->get() : -1, .events = POLLIN, .revents = 0}};
   if (::poll(at, 2, kPass_ms) <= 0) return;
   if (at[0].revents != 0) serve_control();
   if (at[1].revents != 0)
-    serve_one(at[1].fd, "\r\n\r\n", {},
+    serve_one(at[1].fd, reserve_, "\r\n\r\n", {},
               [this](const std::string& request) { return page(request); });
 }
 
 void Service::serve_control() {
-  auto asked = take_request(control_.listening.get(), "\n", {});
+  auto asked = take_request(control_.listening.get(), reserve_, "\n", {});
   if (!asked || (asked->uid != 0 && asked->uid != static_cast<std::int64_t>(::geteuid()))) return;
   shared_.snapshots.take(snapshot_);
+  facts_.shortage = reserve_.held() ? "" : shortage_text();
   look_at_place();
   if (asked->request.starts_with("swap "))
     begin_swap(std::move(*asked));
   else
     reply_to(asked->peer, control(asked->request), {});
+  facts_.shortage.clear();
 }
 
 std::string Service::control(const std::string& request) const {

@@ -61,6 +61,7 @@ class Service {
   void pass();
   void write_down();
   void note_state(const SessionMoment& moment);
+  void note_packing();
   void tell_manager();
   void serve();
   void serve_control();
@@ -83,10 +84,12 @@ class Service {
   ServiceManager manager_;
   ControlSocket control_;
   std::optional<Descriptor> metrics_;
+  ReserveDescriptor reserve_;  // before the files that are opened and closed again
   Journal journal_;
   std::unique_ptr<Recorder> recorder_;  // none for a service that is not started
   RunFacts facts_;
   RunSnapshot snapshot_;
+  RegisterPacking packing_;                   // that the journal has
   SessionState state_ = SessionState::kInit;  // whose cause is in facts_
   RunningModel next_;  // the model before, kept while the cycle may still use it
   struct Swap {

@@ -75,9 +75,9 @@ Json counters_json(const SessionReport& report) {
           {"swaps", g.swaps}};
 }
 
-Json link_json(const RunSnapshot& snapshot, const std::string& bus) {
+Json link_json(const RunSnapshot& snapshot, const RunFacts& facts) {
   const PortCounters& p = snapshot.port;
-  return {{"bus", bus},
+  return {{"bus", facts.bus},
           {"state", to_string(snapshot.link)},
           {"received", p.received},
           {"sent", p.sent},
@@ -90,7 +90,8 @@ Json link_json(const RunSnapshot& snapshot, const std::string& bus) {
           {"restarts", p.restarts},
           {"foreign_senders", p.foreign_senders},
           {"refused_writes", p.refused_writes},
-          {"refusal", refusal_text(snapshot.refusal)}};
+          {"refusal", refusal_text(snapshot.refusal)},
+          {"packing", facts.packing}};
 }
 
 Json record_json(const RecordFacts& record) {
@@ -134,6 +135,7 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
       {"status", plumb::to_string(report.status)},
       {"lost", lost_words(report.lost)},
       {"acknowledge", facts.acknowledge},
+      {"shortage", facts.shortage},
       {"has_output", report.has_output},
       {"correction",
        {{"wanted_um", 1e6 * report.wanted_m},
@@ -144,7 +146,7 @@ Json status_json(const RunSnapshot& snapshot, const RunFacts& facts) {
       {"ages", ages_json(report)},
       {"sync", sync_json(report.sync)},
       {"counters", counters_json(report)},
-      {"link", link_json(snapshot, facts.bus)},
+      {"link", link_json(snapshot, facts)},
       {"clock",
        {{"ticks", snapshot.clock.ticks},
         {"missed", snapshot.clock.missed},

@@ -110,6 +110,8 @@ std::string status_text(const Json& status) {
                                 status["mode"].get<std::string>(),
                                 status["status"].get<std::string>(), reasons(status));
   out += request_to_operator(status);
+  if (const std::string lacks = status.value("shortage", ""); !lacks.empty())
+    out += fmt::format("shortage    {}\n", lacks);
   out += fmt::format(
       "correction  {:.1f} um, {:.1f} urad on the target; the model asks for {:.1f} um\n",
       number(correction, "applied_um"), number(correction, "applied_urad"),
@@ -136,12 +138,16 @@ std::string status_text(const Json& status) {
                      status["link"]["state"].get<std::string>(), all(status["link"]));
   if (const std::string refused = status["link"].value("refusal", ""); !refused.empty())
     out += fmt::format("refused     the controller refuses what is written to {}\n", refused);
+  if (const std::string packed = status["link"].value("packing", ""); !packed.empty())
+    out += fmt::format("registers   {}\n", packed);
   out += fmt::format("clock       {}\n", all(status["clock"]));
   out += fmt::format("model       {}, {} {}\n", status["model"]["name"].get<std::string>(),
                      status["model"]["file"].get<std::string>(),
                      status["model"]["sha256"].get<std::string>().substr(0, 12));
   out += run_origin_text(status["install"]);
   out += record_text(status["record"]);
+  if (const std::string failed = status["events"].value("failure", ""); !failed.empty())
+    out += fmt::format("journal     NOT WRITTEN: {}\n", failed);
   out += fmt::format("wake-up     {}\n{}", latency(status["wake"]), bars(status["wake"]));
   out += fmt::format("cycle       {}\n{}", latency(status["work"]), bars(status["work"]));
   return out;

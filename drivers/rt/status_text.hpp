@@ -22,6 +22,8 @@ struct RunFacts {
   RecordFacts record;
   std::string cause;           // of the present state, as cause_text() says
   std::string acknowledge;     // why an operator must acknowledge first; empty: that is not needed
+  std::string packing;         // of the controller's registers, and its remedy; empty: as laid out
+  std::string shortage;        // of file descriptors; empty: there is none
   std::string events;          // file of the journal; empty: none
   std::string events_failure;  // empty: none
   std::uint64_t events_lost = 0;

@@ -12,16 +12,6 @@ namespace {
 constexpr int kValueBytes = 4;
 constexpr std::size_t kCheckSumWords = 2;
 
-std::uint32_t check_sum(std::uint16_t address, std::span<const std::uint16_t> registers) noexcept {
-  Crc32P4 crc;
-  crc.add(address, {});
-  for (const std::uint16_t word : registers) {
-    crc.add(static_cast<std::uint8_t>(word >> 8));
-    crc.add(static_cast<std::uint8_t>(word));
-  }
-  return crc.value();
-}
-
 bool is_blank(std::span<const std::uint16_t> registers) noexcept {
   return std::all_of(registers.begin(), registers.end(), [](std::uint16_t w) { return w == 0; });
 }
@@ -37,6 +27,17 @@ ModbusCodec::ModbusCodec(const BusLayout& layout) : word_order_(layout.word_orde
     for (std::size_t i = 0; i < message.signals.size(); ++i)
       entry.scale[i] = message.signals[i].scale;
   }
+}
+
+std::uint32_t ModbusCodec::check_sum(std::uint16_t address,
+                                     std::span<const std::uint16_t> registers) noexcept {
+  Crc32P4 crc;
+  crc.add(address, {});
+  for (const std::uint16_t word : registers) {
+    crc.add(static_cast<std::uint8_t>(word >> 8));
+    crc.add(static_cast<std::uint8_t>(word));
+  }
+  return crc.value();
 }
 
 ModbusCodec::Block ModbusCodec::block(MessageKind kind) const noexcept { return known(kind).block; }

@@ -52,6 +52,10 @@ PortCounters ModbusPort::counters() const noexcept {
   return out;
 }
 
+RegisterPacking ModbusPort::packing() const noexcept {
+  return exchange_->packing.load(std::memory_order_relaxed);
+}
+
 WriteRefusal ModbusPort::refusal() const noexcept {
   return exchange_->refusal.load(std::memory_order_relaxed);
 }

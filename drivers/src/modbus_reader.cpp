@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kShortestPoll_s = 100e-6;
 constexpr double kPollWithoutReads_s = 1e-3;
+constexpr std::int64_t kLook_ns = 200'000'000;
 
 Sender other(Sender side) { return side == Sender::kPlumb ? Sender::kController : Sender::kPlumb; }
 
@@ -20,7 +21,7 @@ Sender other(Sender side) { return side == Sender::kPlumb ? Sender::kController 
 ModbusReader::ModbusReader(const BusLayout& layout, ModbusCodec& codec,
                            const ModbusClientSettings& settings, ModbusTalk& talk,
                            ModbusExchange& exchange)
-    : codec_(codec), talk_(talk), exchange_(exchange) {
+    : codec_(codec), talk_(talk), exchange_(exchange), packing_(layout, codec, exchange) {
   const auto spans =
       join(blocks_of(layout, codec_, other(settings.self)), kMostRead, widest_gap(settings));
   double wake_s = spans.empty() ? kPollWithoutReads_s : spans.front().period_s / 2;
@@ -42,10 +43,13 @@ bool ModbusReader::round(std::int64_t now_ns) {
   for (std::size_t i = 0; i < polls_.size(); ++i) {
     Poll& poll = polls_[i];
     if (poll.due_ns > now_ns + wake_ns_ / 2) continue;  // read in the round nearest to the due time
+    corrupt_ = false;
     const ModbusTalk::Result result = read(poll.span);
     if (!ModbusTalk::goes_on(result)) return false;
     poll.due_ns += poll.period_ns;
     if (poll.due_ns <= now_ns) poll.due_ns = now_ns + poll.period_ns;
+    const bool missed = corrupt_ || result == ModbusTalk::Result::kRefused;
+    if (missed && !look_around(poll.span, now_ns)) return false;
     if (result == ModbusTalk::Result::kRefused) split_if_gaps_are_refused(i);
   }
   return true;
@@ -65,21 +69,40 @@ ModbusTalk::Result ModbusReader::read(const ModbusSpan& span) {
   const ModbusTalk::Result result = talk_.read(span.first, registers);
   if (result != ModbusTalk::Result::kDone) return result;
   const std::int64_t now_ns = MonotonicTime::now_ns();
-  for (const auto& block : span.blocks)
-    take(block, registers.subspan(block.first - span.first, block.count), now_ns);
+  for (const auto& block : span.blocks) take(block, span, now_ns);
   return result;
 }
 
-void ModbusReader::take(const ModbusBlock& block, std::span<const std::uint16_t> registers,
-                        std::int64_t now_ns) {
+/// As long as no message is understood, the registers on both sides of one that is read by itself
+/// may show where it stands. Returns false if the connection can no longer be used.
+bool ModbusReader::look_around(const ModbusSpan& span, std::int64_t now_ns) {
+  if (span.blocks.size() != 1 || now_ns < look_ns_ || packing_.understands(now_ns)) return true;
+  look_ns_ = now_ns + kLook_ns;
+  for (const int shift : {1, -1}) {
+    const auto first = static_cast<std::uint16_t>(span.first + shift);
+    const auto registers = std::span(registers_).first(span.count);
+    const ModbusTalk::Result result = talk_.read(first, registers);
+    if (!ModbusTalk::goes_on(result)) return false;
+    if (result == ModbusTalk::Result::kDone)
+      packing_.wrong(span.blocks.front().kind, first, registers);
+  }
+  return true;
+}
+
+void ModbusReader::take(const ModbusBlock& block, const ModbusSpan& span, std::int64_t now_ns) {
+  const auto around = std::span<const std::uint16_t>(registers_).first(span.count);
   BusMessage message;
-  const Heard heard = codec_.decode(block.kind, registers, message);
+  const Heard heard =
+      codec_.decode(block.kind, around.subspan(block.first - span.first, block.count), message);
   if (heard == Heard::kComplete) {
     message.time_ns = now_ns;
     exchange_.from_peer[static_cast<std::size_t>(block.kind)].put(message);
     ++exchange_.counters.received;
+    packing_.right(block.kind, now_ns);
   } else if (heard == Heard::kCorrupt) {
     ++exchange_.counters.corrupt;
+    packing_.wrong(block.kind, span.first, around);
+    corrupt_ = true;
     talk_.note_unclean();
   }
 }

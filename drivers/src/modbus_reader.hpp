@@ -7,6 +7,7 @@
 
 #include "modbus_spans.hpp"
 #include "modbus_talk.hpp"
+#include "packing_watch.hpp"
 
 namespace plumb::drivers {
 
@@ -36,14 +37,17 @@ class ModbusReader {
   Poll poll_of(const ModbusSpan& span) const;
   void split_if_gaps_are_refused(std::size_t poll);
   ModbusTalk::Result read(const ModbusSpan& span);
-  void take(const ModbusBlock& block, std::span<const std::uint16_t> registers,
-            std::int64_t now_ns);
+  void take(const ModbusBlock& block, const ModbusSpan& span, std::int64_t now_ns);
+  bool look_around(const ModbusSpan& span, std::int64_t now_ns);
 
   ModbusCodec& codec_;
   ModbusTalk& talk_;
   ModbusExchange& exchange_;
   std::vector<Poll> polls_;
+  PackingWatch packing_;
   std::int64_t wake_ns_ = 0;
+  bool corrupt_ = false;      // a message of the last read was
+  std::int64_t look_ns_ = 0;  // when it may next look around a message
   std::array<std::uint16_t, kMostRead> registers_{};
 };
 

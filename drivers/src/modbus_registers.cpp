@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "packing_watch.hpp"
+
 namespace plumb::drivers {
 namespace {
 
@@ -13,7 +15,11 @@ constexpr std::int64_t kPeriodsUntilStale =
 
 ModbusRegisters::ModbusRegisters(const BusLayout& layout, Sender self, std::int64_t stale_after_ns,
                                  ModbusExchange& exchange)
-    : codec_(layout), exchange_(&exchange), values_(kAddresses), peers_(kAddresses) {
+    : codec_(layout),
+      exchange_(&exchange),
+      packing_(std::make_unique<PackingWatch>(layout, codec_, exchange)),
+      values_(kAddresses),
+      peers_(kAddresses) {
   for (const auto& entry : layout.messages) {
     const auto [first, count] = codec_.block(entry.kind);
     if (count == 0 || first + std::size_t{count} > kAddresses) continue;
@@ -35,6 +41,8 @@ ModbusRegisters::ModbusRegisters(const BusLayout& layout, Sender self, std::int6
   begin_ = std::min(begin_, first);
   end_ = std::max(end_, first + kOwnerRegisters);
 }
+
+ModbusRegisters::~ModbusRegisters() = default;
 
 bool ModbusRegisters::readable(std::uint16_t first, std::uint16_t count) const noexcept {
   return count > 0 && first >= begin_ && first + std::size_t{count} <= end_;
@@ -87,13 +95,24 @@ void ModbusRegisters::hear(const Message& message, std::int64_t now_ns) noexcept
       heard.time_ns = now_ns;
       exchange_->from_peer[static_cast<std::size_t>(message.kind)].put(heard);
       ++counters.received;
+      packing_->right(message.kind, now_ns);
       break;
     case Heard::kRepeated:
       ++counters.repeated;
       break;
+    case Heard::kCorrupt:
+      packing_->wrong(message.kind, 0, values_);
+      [[fallthrough]];
     default:
       ++counters.corrupt;
   }
+}
+
+void ModbusRegisters::refused(std::uint16_t first, std::span<const std::uint16_t> words) noexcept {
+  const std::size_t end = first + words.size();
+  for (const Message& message : theirs_)
+    if (first < message.first + message.count && message.first < end)
+      packing_->wrong(message.kind, first, words);
 }
 
 }  // namespace plumb::drivers

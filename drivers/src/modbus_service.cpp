@@ -80,8 +80,10 @@ ModbusService::Bytes ModbusService::write_multiple(Bytes pdu, const ModbusPeer& 
   const std::uint16_t count = word_at(pdu, 3);
   if (!holds_words(pdu, kWriteMultipleHead, count, kMostWrite))
     return refuse(pdu[0], ModbusException::kIllegalValue);
-  if (const auto why = objection(first, count, peer, now_ns)) return refuse(pdu[0], *why);
-  store(first, pdu.subspan(kWriteMultipleHead), now_ns);
+  const Bytes words = pdu.subspan(kWriteMultipleHead);
+  if (const auto why = objection(first, count, peer, now_ns))
+    return refuse_words(pdu[0], *why, first, words);
+  store(first, words, now_ns);
   std::copy_n(pdu.begin(), kReadSize, answer_.begin());
   return served(kReadSize);
 }
@@ -98,9 +100,10 @@ ModbusService::Bytes ModbusService::read_write(Bytes pdu, const ModbusPeer& peer
     return refuse(pdu[0], ModbusException::kIllegalValue);
   if (!registers_->readable(read_first, read_count))
     return refuse(pdu[0], ModbusException::kIllegalAddress);
+  const Bytes words = pdu.subspan(kReadWriteHead);
   if (const auto why = objection(write_first, write_count, peer, now_ns))
-    return refuse(pdu[0], *why);
-  store(write_first, pdu.subspan(kReadWriteHead), now_ns);
+    return refuse_words(pdu[0], *why, write_first, words);
+  store(write_first, words, now_ns);
   return registers_answer(pdu[0], read_first, read_count, now_ns);
 }
 
@@ -133,6 +136,16 @@ std::optional<ModbusException> ModbusService::objection(std::uint16_t first, std
   writer_ = peer;
   written_ns_ = now_ns;
   return std::nullopt;
+}
+
+ModbusService::Bytes ModbusService::refuse_words(std::uint8_t function, ModbusException why,
+                                                 std::uint16_t first, Bytes words) noexcept {
+  std::array<std::uint16_t, kMostWrite> content{};
+  const std::size_t count = std::min(words.size() / 2, content.size());
+  for (std::size_t i = 0; i < count; ++i) content[i] = word_at(words, 2 * i);
+  if (why == ModbusException::kIllegalAddress)
+    registers_->refused(first, std::span(content).first(count));
+  return refuse(function, why);
 }
 
 void ModbusService::store(std::uint16_t first, Bytes words, std::int64_t now_ns) noexcept {

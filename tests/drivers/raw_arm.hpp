@@ -19,7 +19,17 @@ class RawArm {
   using Bytes = std::vector<std::uint8_t>;
   using Kind = drivers::MessageKind;
 
-  RawArm(const format::Chain& arm, std::uint32_t robot) : arm_(arm), robot_(robot) {}
+  /// How the controller packs its registers otherwise than the map of registers says.
+  struct Packing {
+    bool words = false;       // the two registers of every number are swapped
+    bool bytes = false;       // the two bytes of every register are swapped
+    int shift = 0;            // registers by which everything stands too far on
+    bool sum_before = false;  // the check sum is formed before that
+  };
+
+  RawArm(const format::Chain& arm, std::uint32_t robot) : RawArm(arm, robot, {}) {}
+  RawArm(const format::Chain& arm, std::uint32_t robot, Packing packing)
+      : arm_(arm), robot_(robot), packing_(packing) {}
 
   struct Buttons {
     bool acknowledge = false;
@@ -39,7 +49,8 @@ class RawArm {
     std::vector<std::pair<std::uint16_t, Bytes>> out;
     const auto add = [&](Kind kind, const std::vector<double>& values) {
       const auto& message = *layout.find(kind);
-      out.emplace_back(message.first_register, block(message, values, counter_));
+      out.emplace_back(static_cast<std::uint16_t>(message.first_register + packing_.shift),
+                       block(message, values, counter_));
     };
     add(Kind::kController, {static_cast<double>(flags), 0, 0, 0});
     add(Kind::kRobot, {static_cast<double>(robot_)});
@@ -64,11 +75,16 @@ class RawArm {
       put_pair(out, static_cast<std::uint32_t>(static_cast<std::int32_t>(
                         std::lround(values[i] / message.signals[i].scale))));
     put(out, counter);
-    Bytes sum{static_cast<std::uint8_t>(message.first_register),
-              static_cast<std::uint8_t>(message.first_register >> 8), 0, 0};
-    sum.insert(sum.end(), out.begin(), out.end());
-    put_pair(out, crc(sum));
-    return out;
+    const Bytes content = packing_.sum_before ? out : packed(out);
+    const int address = message.first_register + (packing_.sum_before ? 0 : packing_.shift);
+    Bytes sum{static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(address >> 8), 0, 0};
+    sum.insert(sum.end(), content.begin(), content.end());
+    Bytes end;
+    put_pair(end, crc(sum));
+    Bytes all = packed(out);
+    const Bytes packed_end = packed(end);
+    all.insert(all.end(), packed_end.begin(), packed_end.end());
+    return all;
   }
 
   static void put(Bytes& out, std::uint32_t word) {
@@ -95,8 +111,20 @@ class RawArm {
     put(out, (big ? value : value >> 16) & 0xFFFF);
   }
 
+  /// Numbers of four bytes, and a counter of two behind them if there is one.
+  Bytes packed(Bytes bytes) const {
+    for (std::size_t i = 0; packing_.words && i + 3 < bytes.size(); i += 4) {
+      std::swap(bytes[i], bytes[i + 2]);
+      std::swap(bytes[i + 1], bytes[i + 3]);
+    }
+    for (std::size_t i = 0; packing_.bytes && i + 1 < bytes.size(); i += 2)
+      std::swap(bytes[i], bytes[i + 1]);
+    return bytes;
+  }
+
   Chain arm_;
   std::uint32_t robot_;
+  Packing packing_;
   std::uint16_t counter_ = 0;
   std::map<std::uint16_t, Vector3> targets_;
   double phase_ = 0.0;

@@ -23,8 +23,9 @@ namespace plumb::tests {
 /// alone: frames, numbers and check sums are its own.
 class RawController {
  public:
-  RawController(std::uint16_t port, const format::Chain& arm, std::uint32_t robot)
-      : port_(port), arm_(arm, robot), thread_([this] {
+  RawController(std::uint16_t port, const format::Chain& arm, std::uint32_t robot,
+                RawArm::Packing packing = {})
+      : port_(port), arm_(arm, robot, packing), thread_([this] {
           while (!ended_) beat();
         }) {}
   ~RawController() {
@@ -39,12 +40,18 @@ class RawController {
   std::atomic<bool> another_tool{false};  // the pose shown is not the nominal arm's
   std::atomic<int> state{-1};             // of plumb-rt; -1: none was heard
 
+  std::atomic<bool> asks{false};  // for an acknowledgement, as its status says
+
   bool sees(drivers::SessionState wanted) const { return state == static_cast<int>(wanted); }
 
+  /// As an operator does: again if the button is still lit, because a busy machine left a gap.
   void press() {
-    acknowledge = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    acknowledge = false;
+    for (int i = 0; i < 10 && (i == 0 || asks); ++i) {
+      acknowledge = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      acknowledge = false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
   }
 
  private:
@@ -100,10 +107,12 @@ class RawController {
   void read_status() {
     Bytes pdu{3};
     RawArm::put(pdu, arm_.layout.find(drivers::MessageKind::kStatus)->first_register);
-    RawArm::put(pdu, 2);
-    const Bytes said = ask(pdu);  // number of bytes, then the pair of the state
-    if (said.size() != 5) return;
-    state = arm_.layout.word_order == drivers::ByteOrder::kBig ? said[4] : said[2];
+    RawArm::put(pdu, 6);
+    const Bytes said = ask(pdu);  // number of bytes, then the pairs of state, mode and status
+    if (said.size() != 13) return;
+    const bool big = arm_.layout.word_order == drivers::ByteOrder::kBig;
+    asks = said[big ? 12 : 10] == 6;
+    state = said[big ? 4 : 2];
   }
 
   void beat() {

@@ -29,7 +29,9 @@ class RawServer {
   static constexpr std::uint16_t kCorrected = 1200, kStatus = 1248, kSignature = 1272,
                                  kOwner = 1288, kOurs = 1200, kEnd = 1290;
 
-  RawServer(const format::Chain& arm, std::uint32_t robot) : arm_(arm, robot) {
+  RawServer(const format::Chain& arm, std::uint32_t robot, RawArm::Packing packing = {},
+            bool strict = false)
+      : arm_(arm, robot, packing), strict_(strict) {
     listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in at{};
     at.sin_family = AF_INET;
@@ -69,11 +71,17 @@ class RawServer {
     refusal_ = {exception, first, end};
   }
 
+  /// As an operator does: again if the button is still lit, because a busy machine left a gap.
   void press() {
-    acknowledge = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    acknowledge = false;
+    for (int i = 0; i < 10 && (i == 0 || asks()); ++i) {
+      acknowledge = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      acknowledge = false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
   }
+  /// plumb-rt's status asks for an acknowledgement.
+  bool asks() { return registers(kStatus, 17)[5] == 6; }
 
   /// The registers of plumb-rt become zero, as a controller's do whose program starts.
   void zero() {
@@ -259,6 +267,9 @@ class RawServer {
     const std::lock_guard lock(mutex_);
     const std::uint16_t first = word(pdu, 1), count = word(pdu, 3);
     if (first <= kCorrected && first + count > kCorrected) ++looks_[client.number];
+    for (std::uint16_t i = 0; strict_ && i < count; ++i)
+      if (first + i < kOurs && !registers_.contains(static_cast<std::uint16_t>(first + i)))
+        return {0x83, 2};
     Bytes out{3, static_cast<std::uint8_t>(2 * count)};
     for (const std::uint16_t one : get(first, count)) RawArm::put(out, one);
     return out;
@@ -282,6 +293,7 @@ class RawServer {
   };
 
   RawArm arm_;
+  bool strict_ = false;  // of the controller's registers there are only those of messages
   Refusal refusal_;
   int listener_ = -1;
   std::vector<Client> clients_;

@@ -3,6 +3,7 @@
 // beside a second plumb-rt, beside another client, and with a controller that starts again.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "tests/drivers/deployed.hpp"
 #include "tests/drivers/raw_server.hpp"
@@ -69,6 +70,7 @@ class RegistersOfOne : public testing::Test {
   }
   void activate() {
     ASSERT_TRUE(comes(kShadow));
+    EXPECT_TRUE(becomes([&] { return server.asks() || server.sees(kActive); }));
     server.press();
     ASSERT_TRUE(comes(kActive));
     ASSERT_TRUE(
@@ -172,8 +174,133 @@ TEST_F(RegistersOfOne, AControllerThatIsBusyForAMomentLosesNothing) {
   const Json said = plumb.status();
   EXPECT_EQ(said["state"], "active");
   EXPECT_EQ(said["counters"]["holds"], 0);
+  EXPECT_EQ(said["link"]["packing"], "");
   EXPECT_GT(said["link"]["refused_writes"], 0);
   plumb.end();
+}
+
+/// What is said of the check sums of a controller that packs its registers so.
+struct PackedOtherwise {
+  RawArm::Packing packing;
+  const char* says;
+  const char* remedy;
+  bool strict = false;
+};
+constexpr const char* kSwapped = "with the two registers of each number swapped: ";
+constexpr const char* kFurther = "with every register one further on, ";
+constexpr const char* kNoKey = "no key of rt.toml";
+const PackedOtherwise kPackings[] = {
+    {{.words = true}, kSwapped, "word_order = \"little\" into [bus]"},
+    {{.words = true, .sum_before = true}, kSwapped, kNoKey},
+    {{.bytes = true}, "with the two bytes of each register swapped: ", kNoKey},
+    {{.words = true, .bytes = true, .sum_before = true},
+     "number swapped and the two bytes",
+     kNoKey},
+    {{.shift = 1, .sum_before = true}, kFurther, kNoKey},
+    {{.shift = 1}, kFurther, " into [bus."},
+    {{.shift = -1, .sum_before = true}, "with every register one further back, ", kNoKey},
+    {{.shift = 1, .sum_before = true}, kFurther, kNoKey, true},
+};
+
+TEST_F(RegistersOfOne, ThatAreSwappedOrShiftedAreToldByTheirCheckSumsAndNeverUsed) {
+  for (const auto& [packing, says, remedy, strict] : kPackings) {
+    SCOPED_TRACE(says);
+    RawServer other{Deployed::arm().nominal, drivers::fingerprint(Deployed::arm().serial), packing,
+                    strict};
+    ClientOf plumb(other, kWithOwner);
+    std::string said;
+    EXPECT_TRUE(becomes([&] {
+      const Json now = plumb.status();
+      said = now.contains("link") ? now["link"]["packing"].get<std::string>() : "";
+      return !said.empty();
+    }));
+    EXPECT_NE(said.find(says), std::string::npos) << said;
+    EXPECT_NE(said.find(remedy), std::string::npos) << said;
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(plumb.status()["state"], "init") << "it is told, and not switched";
+    EXPECT_EQ(plumb.events("packing"), 1);
+    plumb.run->kill(SIGTERM);
+    const RtRan ran = plumb.run->wait();
+    EXPECT_EQ(ran.exit, 0);
+    EXPECT_NE(ran.err.find(says), std::string::npos);
+    EXPECT_NE(ran.out.find("registers   the check sums"), std::string::npos) << ran.out;
+  }
+}
+
+TEST_F(RegistersOfOne, TheRemedyForSwappedRegistersIsOne) {
+  RawServer other{
+      Deployed::arm().nominal, drivers::fingerprint(Deployed::arm().serial), {.words = true}};
+  ClientOf plumb(other, "[bus]\nowner_register = 1288\nword_order = \"little\"\n");
+  EXPECT_TRUE(becomes([&] { return plumb.status()["state"] == "shadow"; }));
+  EXPECT_EQ(plumb.status()["link"]["packing"], "");
+  plumb.end();
+}
+
+/// The lowest number that no file of the process has.
+int free_number(pid_t pid) {
+  int out = 0;
+  while (std::filesystem::exists(
+      std::filesystem::symlink_status(fmt::format("/proc/{}/fd/{}", pid, out))))
+    ++out;
+  return out;
+}
+
+TEST_F(RegistersOfOne, WithoutADescriptorTheStatusAnswersAndSaysSo) {
+  ClientOf plumb(server, kWithOwner);
+  ASSERT_NO_FATAL_FAILURE(activate());
+  rlimit before{};
+  ASSERT_EQ(::prlimit(plumb.run->pid(), RLIMIT_NOFILE, nullptr, &before), 0);
+  rlimit least = before;
+  least.rlim_cur = static_cast<rlim_t>(free_number(plumb.run->pid()));
+  ASSERT_EQ(::prlimit(plumb.run->pid(), RLIMIT_NOFILE, &least, nullptr), 0);
+  for (int i = 0; i < 5; ++i) {
+    const Json said = plumb.status();
+    ASSERT_NE(said["state"], "none");
+    EXPECT_EQ(said["shortage"].get<std::string>().rfind("no file descriptor is left (limit", 0), 0U)
+        << said["shortage"];
+  }
+  server.forget_writes();
+  EXPECT_TRUE(becomes([&] { return server.writes().size() > 20; })) << "the correction goes on";
+  ASSERT_EQ(::prlimit(plumb.run->pid(), RLIMIT_NOFILE, &before, nullptr), 0);
+  EXPECT_EQ(plumb.status()["shortage"], "");
+  plumb.end();
+}
+
+bool has_ended(const RtProgram& run) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(run.pid()), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid != 0;
+}
+
+TEST_F(RegistersOfOne, WhoReadsTheSummaryNoMoreHoldsNothingUpAndChangesNoExitCode) {
+  int ends[2], closed[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC | O_NONBLOCK), 0);
+  while (::write(ends[1], "x", 1) == 1) {
+  }
+  ::fcntl(ends[1], F_SETFL, 0);
+  ASSERT_EQ(::pipe2(closed, O_CLOEXEC), 0);
+  ::close(closed[0]);
+  const std::function<void()> streams[] = {
+      [&] { ::dup2(ends[1], STDOUT_FILENO); },
+      [&] { ::dup2(ends[1], STDOUT_FILENO), ::dup2(ends[1], STDERR_FILENO); },
+      [&] { ::dup2(closed[1], STDOUT_FILENO); },
+      [&] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); },
+      [&] { ::close(STDOUT_FILENO), ::close(STDERR_FILENO), ::close(STDIN_FILENO); }};
+  ClientOf plumb(server, kWithOwner);
+  ASSERT_NO_FATAL_FAILURE(activate());
+  plumb.end();
+  for (std::size_t i = 0; i < std::size(streams); ++i) {
+    SCOPED_TRACE(i);
+    plumb.start(streams[i]);
+    ASSERT_TRUE(comes(kActive)) << "the run before ended well";
+    plumb.run->kill(SIGTERM);
+    EXPECT_TRUE(becomes([&] { return has_ended(*plumb.run); }));
+    plumb.run->kill(SIGKILL);
+    EXPECT_EQ(plumb.run->wait().exit, 0);
+    plumb.run.reset();
+    server.zero();
+  }
+  for (const int end : {ends[0], ends[1], closed[1]}) ::close(end);
 }
 
 TEST_F(RegistersOfOne, WhoReadsStderrNoMoreHoldsNothingUp) {

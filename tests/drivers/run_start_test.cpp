@@ -180,6 +180,36 @@ TEST_F(ARunAfterAnother, AStoppedRunGoesOnWithoutCorrectionAndIsNoSecondSenderTo
   end(SIGTERM);
 }
 
+/// A controller that writes into plumb-rt, and packs its registers otherwise.
+TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
+  const std::pair<RawArm::Packing, const char*> packings[] = {
+      {{.words = true}, "word_order = \"little\" into [bus]"},
+      {{.bytes = true}, "with the two bytes of each register swapped"},
+      {{.shift = 1, .sum_before = true}, "with every register one further on"},
+      {{.shift = -1}, "with every register one further back"}};
+  const int port = 26'000 + static_cast<int>(::getpid() % 6'000);
+  for (const auto& [packing, says] : packings) {
+    const Deployed folder(
+        "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
+        "role = \"server\"\nport = " +
+        std::to_string(port) + "\n");
+    const RawController controller(static_cast<std::uint16_t>(port), Deployed::arm().nominal,
+                                   drivers::fingerprint(Deployed::arm().serial), packing);
+    RtProgram run({"run", folder.folder.string()}, folder.folder);
+    Json link;
+    EXPECT_TRUE(becomes([&] {
+      const Json said =
+          plumb_rt({"status", folder.folder.string(), "--json"}, folder.folder).json();
+      link = said.is_object() && said["result"].is_object() ? said["result"]["link"] : Json();
+      return link.is_object() && link["packing"] != "";
+    }));
+    ASSERT_TRUE(link.is_object());
+    EXPECT_NE(link["packing"].get<std::string>().find(says), std::string::npos) << link["packing"];
+    run.kill(SIGTERM);
+    EXPECT_EQ(run.wait().exit, 0);
+  }
+}
+
 TEST(RunModel, WhatIsNoRegularFileIsRefusedAndHoldsNothingUp) {
   const Deployed folder;
   const std::string first = folder.text("targets.csv");

@@ -32,6 +32,27 @@ struct alignas(8) WriteRefusal {
   bool any() const noexcept { return exception != 0; }
 };
 
+/// How the peer packs messages into registers, where their check sums say that it is otherwise than
+/// in the layout. Aligned as large as it is, as WriteRefusal.
+struct alignas(8) RegisterPacking {
+  enum class Words : std::uint8_t {
+    kAsLaidOut,
+    kAll,     // the two registers of each value and of the check sum are swapped
+    kValues,  // those of the values only
+  } words = Words::kAsLaidOut;
+  bool bytes_swapped = false;  // of each register
+  std::int8_t shift = 0;       // registers by which messages stand too far on
+  /// Whether the check sum was formed of what was sent, or before it was swapped or shifted.
+  enum class Sum : std::uint8_t { kAsSent, kAsLaidOut };
+  Sum sum_content = Sum::kAsSent, sum_address = Sum::kAsSent;
+  MessageKind kind = MessageKind::kJoints;  // one of the messages that are packed so
+  bool alone = false;                       // there are others, which are as in the layout
+
+  /// Otherwise than in the layout.
+  bool any() const noexcept { return words != Words::kAsLaidOut || bytes_swapped || shift != 0; }
+  bool operator==(const RegisterPacking&) const = default;
+};
+
 enum class LinkState : std::uint8_t {
   kUp,
   kDegraded,  // up, but the bus controller reports errors (warning, passive)
@@ -57,6 +78,9 @@ class BusPort {
 
   /// What the peer has refused to take for longer than a moment; nothing on a bus where nobody can.
   virtual WriteRefusal refusal() const noexcept { return {}; }
+
+  /// How the peer packs its messages, if that is known to be otherwise than in the layout.
+  virtual RegisterPacking packing() const noexcept { return {}; }
 };
 
 }  // namespace plumb::drivers

@@ -36,6 +36,10 @@ class ModbusCodec {
   /// Marks an encoded block as containing no message, by inverting its checksum.
   static void withdraw(std::span<std::uint16_t> registers) noexcept;
 
+  /// The check sum of a block: of its first address, and of its registers before the check sum.
+  static std::uint32_t check_sum(std::uint16_t address,
+                                 std::span<const std::uint16_t> registers) noexcept;
+
   /// Decodes a block that was read; the caller must set the time of the message. The result is
   /// kRepeated if its counter equals the last one decoded, and kNotOurs if the layout has no such
   /// message. It is kNothing for a withdrawn block, and for a block of zeros before the first

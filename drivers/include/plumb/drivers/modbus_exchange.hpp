@@ -57,6 +57,8 @@ struct ModbusExchange {
   std::atomic<LinkState> state{LinkState::kDown};
   std::atomic<WriteRefusal> refusal{WriteRefusal{}};
   static_assert(std::atomic<WriteRefusal>::is_always_lock_free);
+  std::atomic<RegisterPacking> packing{RegisterPacking{}};
+  static_assert(std::atomic<RegisterPacking>::is_always_lock_free);
   ModbusCounters counters;
 };
 

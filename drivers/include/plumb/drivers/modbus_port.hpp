@@ -28,6 +28,7 @@ class ModbusPort final : public BusPort {
   LinkState state() const noexcept override;
   PortCounters counters() const noexcept override;
   WriteRefusal refusal() const noexcept override;
+  RegisterPacking packing() const noexcept override;
 
  private:
   ModbusExchange* exchange_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,8 @@
 
 namespace plumb::drivers {
 
+class PackingWatch;
+
 /// The registers of a server: which of them exist, who may write them, and their values.
 ///
 /// Heap: only in the constructor. Thread: one, that of the link.
@@ -19,6 +22,9 @@ class ModbusRegisters {
  public:
   ModbusRegisters(const BusLayout& layout, Sender self, std::int64_t stale_after_ns,
                   ModbusExchange& exchange);
+  ~ModbusRegisters();
+  ModbusRegisters(const ModbusRegisters&) = delete;
+  ModbusRegisters& operator=(const ModbusRegisters&) = delete;
 
   /// True if registers first .. first + count - 1 lie between the first and the last register of
   /// the layout. Registers that belong to no message are 0.
@@ -35,6 +41,9 @@ class ModbusRegisters {
   /// Writes a register. Precondition: writable(address, 1). When the last register of a block is
   /// written, its message is delivered.
   void write(std::uint16_t address, std::uint16_t value, std::int64_t now_ns) noexcept;
+
+  /// Looks at registers that the peer wrote where it may not: it may mean messages of the layout.
+  void refused(std::uint16_t first, std::span<const std::uint16_t> words) noexcept;
 
  private:
   static constexpr std::size_t kAddresses = 65536;
@@ -53,6 +62,7 @@ class ModbusRegisters {
 
   ModbusCodec codec_;
   ModbusExchange* exchange_;
+  std::unique_ptr<PackingWatch> packing_;
   std::vector<std::uint16_t> values_;
   std::vector<bool> peers_;  // true if the peer may write the register
   std::size_t begin_ = kAddresses;

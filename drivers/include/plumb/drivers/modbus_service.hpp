@@ -62,6 +62,8 @@ class ModbusService {
                                            const ModbusPeer& peer, std::int64_t now_ns) noexcept;
   bool holds(const ModbusPeer& peer, std::int64_t now_ns) noexcept;
   void store(std::uint16_t first, Bytes words, std::int64_t now_ns) noexcept;
+  Bytes refuse_words(std::uint8_t function, ModbusException why, std::uint16_t first,
+                     Bytes words) noexcept;
 
   ModbusRegisters* registers_;
   ModbusCounters* counters_;

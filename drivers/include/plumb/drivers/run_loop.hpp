@@ -61,6 +61,7 @@ class RunLoop {
     snapshot_.port = port_.counters();
     snapshot_.link = port_.state();
     snapshot_.refusal = port_.refusal();
+    snapshot_.packing = port_.packing();
     snapshot_.clock = clock_.counters();
     snapshot_.wake = clock_.latency();
     snapshot_.work = work_;

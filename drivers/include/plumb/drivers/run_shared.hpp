@@ -20,6 +20,7 @@ struct RunSnapshot {
   PortCounters port;
   LinkState link = LinkState::kDown;
   WriteRefusal refusal;
+  RegisterPacking packing;
   ClockCounters clock;
   LatencyHistogram wake;  // delays of the beginning of a cycle
   LatencyHistogram work;  // durations of a cycle
