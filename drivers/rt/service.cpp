@@ -199,11 +199,14 @@ void Service::note_state(const SessionMoment& moment) {
   facts_.cause = cause_text(moment);
 }
 
-/// Once, although the link may doubt it now and then.
+/// Once, although the link may doubt it now and then, and other messages be found to be so.
 void Service::note_packing() {
   facts_.packing = packing_text(snapshot_.packing, deployment_.layout);
-  if (facts_.packing.empty() || snapshot_.packing == packing_) return;
-  packing_ = snapshot_.packing;
+  RegisterPacking now = snapshot_.packing;
+  now.kind = packing_.kind;
+  now.alone = packing_.alone;
+  if (facts_.packing.empty() || now == packing_) return;
+  packing_ = now;
   journal_.note("packing", {{"packing", facts_.packing}});
 }
 

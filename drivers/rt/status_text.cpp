@@ -76,7 +76,7 @@ std::string request_to_operator(const Json& status) {
   const std::string why = status.value("acknowledge", "");
   if (why.empty()) return "";
   const bool fault = status["state"] == "fault";
-  return fmt::format("acknowledge {}: {}\n",
+  return fmt::format("acknowledge {}; hold the button for 0.2 s, then release it: {}\n",
                      fault ? "at the controller, once the cause is gone"
                            : "at the controller in state shadow, before the first correction",
                      why);

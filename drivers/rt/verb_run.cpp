@@ -140,7 +140,8 @@ void ask_operator(const Service& service, const Deployment& deployment) {
         .code = "W-RT-ACKNOWLEDGE",
         .message = fmt::format("an operator must acknowledge before the first correction: {}",
                                service.acknowledgement()),
-        .help = "the controller's button, when this says state shadow: plumb-rt status " +
+        .help = "hold the controller's button for 0.2 s and release it, when this says state "
+                "shadow: plumb-rt status " +
                 shell_word(display_name(deployment.folder))}});
 }
 

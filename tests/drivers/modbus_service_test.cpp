@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "tests/drivers/modbus_support.hpp"
+#include "tests/random_numbers.hpp"
 
 using namespace plumb::drivers;
 using plumb::tests::lawful;
@@ -107,6 +109,36 @@ TEST_F(Service, DeliversAMessageOnceItsLastRegisterIsWritten) {
   EXPECT_EQ(heard.counter, 9);
   EXPECT_EQ(heard.time_ns, kSecond_ns);
   EXPECT_TRUE(plumb::tests::is_lawful(layout, heard));
+}
+
+TEST_F(Service, RandomRegistersAreNoMessageThatIsPackedOtherwise) {
+  plumb::tests::Random random(5);
+  auto words = words_of(lawful(layout, MessageKind::kJoints, 9));
+  for (long i = 0; i < plumb::tests::scaled(20'000); ++i) {
+    for (auto& word : words) word = static_cast<std::uint16_t>(random.below(4) * random.below(70));
+    ask(write_request(MessageKind::kJoints, words));
+    ASSERT_FALSE(exchange.packing.load().any()) << i;
+  }
+  EXPECT_EQ(exchange.counters.received, 0U);
+}
+
+TEST_F(Service, OneMessageThatIsPackedOtherwiseIsNamedUntilItIsRight) {
+  ask(write_request(MessageKind::kRobot, words_of(lawful(layout, MessageKind::kRobot, 1))));
+  for (std::uint16_t counter = 1; counter <= 5; ++counter) {
+    EXPECT_EQ(exchange.packing.load().any(), counter > 3) << "three messages in a row";
+    auto words = words_of(lawful(layout, MessageKind::kJoints, counter));
+    for (std::size_t i = 0; i < 12; i += 2) std::swap(words[i], words[i + 1]);
+    std::swap(words[13], words[14]);  // of the check sum; the counter stands alone
+    for (int again = 0; again < 3; ++again) ask(write_request(MessageKind::kJoints, words));
+  }
+  const RegisterPacking packing = exchange.packing.load();
+  EXPECT_EQ(packing.kind, MessageKind::kJoints);
+  EXPECT_EQ(packing.words, RegisterPacking::Words::kAll);
+  EXPECT_EQ(packing.sum_content, RegisterPacking::Sum::kAsLaidOut);
+  EXPECT_TRUE(packing.alone);
+  EXPECT_EQ(exchange.counters.received, 1U) << "nothing is decoded by it";
+  ask(write_request(MessageKind::kJoints, words_of(lawful(layout, MessageKind::kJoints, 9))));
+  EXPECT_FALSE(exchange.packing.load().any());
 }
 
 TEST_F(Service, WritesInOneRequestAndReadsInTheSame) {
