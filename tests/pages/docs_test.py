@@ -7,6 +7,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -117,6 +118,21 @@ class AtNight(unittest.TestCase):
         words = status["properties"]["result"]["properties"]
         self.assertLessEqual(set(words["fault"]["enum"]) - {"none", "unknown"}, self.rows_of("Faults"))
         self.assertLessEqual(set(words["lost"]["items"]["enum"]), self.rows_of("Missing inputs"))
+
+
+class Packages(unittest.TestCase):
+    """What scripts/package needs and does not find it names, with what installs it, before it builds anything."""
+
+    def test_without_lintian(self):
+        help_line = "scripts/install-deps --package"
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("env", "bash", "dirname"):
+                os.symlink(shutil.which(name), pathlib.Path(folder, name))
+            for name in ("dpkg-architecture", "file"):
+                os.symlink("/bin/true", pathlib.Path(folder, name))
+            ran = subprocess.run([SOURCE / "scripts/package"], env={"PATH": folder}, capture_output=True, text=True, check=False)
+        self.assertEqual((ran.returncode, ran.stderr), (5, f"error: lintian is not installed\nhelp: {help_line}\n"))
+        self.assertIn(help_line, (SOURCE / "docs/install.md").read_text())
 
 
 class BlindStudy(unittest.TestCase):
