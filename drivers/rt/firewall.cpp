@@ -146,8 +146,10 @@ std::vector<MachineSetting> firewall_settings(const std::vector<FirewallRule>& r
   return out;
 }
 
+bool can_load_firewall() { return fs::exists(kNft); }
+
 FirewallInForce read_firewall() {
-  if (!fs::exists(kNft))
+  if (!can_load_firewall())
     return {.why_not = "nft is not installed: every user of this machine may use the buses",
             .remedy = "sudo apt-get install nftables, then: sudo plumb-rt doctor --fix"};
   try {
@@ -162,7 +164,6 @@ FirewallInForce read_firewall() {
 }
 
 std::optional<std::string> load_firewall(const fs::path& file) {
-  if (!fs::exists(kNft)) return "nft is not installed: sudo apt-get install nftables";
   try {
     const ShortRun ran = nft({"-f", file.string()});
     if (ran.exit_code == 0) return std::nullopt;

@@ -33,6 +33,9 @@ struct FirewallInForce {
 };
 FirewallInForce read_firewall();
 
+/// True if nft is installed.
+bool can_load_firewall();
+
 /// Lets the kernel take a file of rules. Returns what nft says against it; nothing if it is done.
 std::optional<std::string> load_firewall(const std::filesystem::path& file);
 

@@ -46,6 +46,10 @@ FixMode mode_of(const WriteOptions& options) {
 void load(const std::vector<MachineSetting>& firewall, Fix& done, Outcome& outcome) {
   auto file = done.files.end() - static_cast<std::ptrdiff_t>(firewall.size());
   for (; file != done.files.end(); ++file) {
+    if (!can_load_firewall()) {
+      file->then = "sudo apt-get install nftables, then: " + file->then;
+      continue;
+    }
     const auto refusal = load_firewall(file->path);
     if (!refusal) {
       file->then = "in force; plumb-rt@NAME loads it at every start";
