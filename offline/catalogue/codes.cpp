@@ -367,8 +367,18 @@ constexpr Explanation kCodes[] = {
      "The arm goes from the file's root to one link. If several links end the tree, name one: "
      "--tip."},
     {"E-URDF-JOINT",
-     "plumb calibrates serial arms of 1 to 9 revolute or sliding joints. Mimicking, floating and "
-     "planar joints on the way to the tip are not of that kind."},
+     "plumb calibrates serial arms of 1 to 9 revolute or sliding joints. Floating and planar "
+     "joints "
+     "on the way to the tip are not of that kind. A joint that mimics another can be read where it "
+     "moves about the axis of a joint with a value of its own that lies directly before or behind "
+     "it: both motions are then one DH row with a coupling. Elsewhere it needs a row, and so a "
+     "column of readings, of its own."},
+    {"N-URDF-MIMIC",
+     "A <mimic> joint of the file has no readings of its own. It moves about the axis of its "
+     "neighbour, so that both motions are one DH row: coupling = { \"J3,J2\" = -1 } of [robot] "
+     "says "
+     "what is added, in values of the URDF's joints. A controller may show the sum instead; plumb "
+     "check compares both with the data."},
     {"E-URDF-SIZE",
      "The file has elements nested more than 100 deep, or more than 2000 links. No robot has: it "
      "is "

@@ -13,9 +13,12 @@
 #include <map>
 
 #include "cell/assumed_limits.hpp"
+#include "plumb/format/coupling.hpp"
+#include "plumb/format/limits.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "urdf/dh_conversion.hpp"
+#include "urdf/followers.hpp"
 #include "urdf/urdf_text.hpp"
 
 namespace plumb::offline {
@@ -92,7 +95,7 @@ class ConsoleLines final : public console_bridge::OutputHandler {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const UrdfEnds& ends, std::vector<Problem>* remarks)
+  Reader(const std::filesystem::path& file, const UrdfEnds& ends)
       : file_(display_name(file)), tip_(ends.tip), base_(ends.base) {
     const std::string text = urdf_text(read_file_up_to(file, kMostUrdfBytes), file_);
     const UrdfSize size = size_of(text);
@@ -111,7 +114,7 @@ class Reader {
            said.first_error().empty() ? "this is no URDF of a robot"
                                       : "this is no URDF of a robot: " + said.first_error(),
            "export the robot again, or mend that element");
-    if (remarks != nullptr) *remarks = urdf_unit_warnings(text, file_);
+    remarks_ = urdf_unit_warnings(text, file_);
   }
 
   /// Breaks the ownership between links. Links that form a loop own each other and would never be
@@ -129,6 +132,7 @@ class Reader {
     check_tree();
     walk();
     if (axes_.empty()) fail("E-URDF-JOINT", "no joint moves between root and tip", tips_help());
+    const OwnJoints own = fold_followers();
     if (axes_.size() > static_cast<std::size_t>(format::kMaxJoints))
       fail("E-URDF-JOINT",
            fmt::format("{} joints move, plumb handles {}", axes_.size(), format::kMaxJoints),
@@ -137,6 +141,8 @@ class Reader {
     Cell cell;
     cell.robot_name = cell.name = tree_->getName();
     cell.nominal = arm.chain;
+    cell.nominal.coupling = own.coupling;
+    for (std::size_t i = 0; i < axes_.size(); ++i) cell.nominal.joints[i].scale = own.scale[i];
     cell.assumed_limits = assumed_;
     if (!base_.empty()) cell.gravity = gravity_in_base(tree_->getLink(base_));
     cell.mechanics.resize(axes_.size());
@@ -149,10 +155,19 @@ class Reader {
     return cell;
   }
 
+  std::vector<Problem>& remarks() { return remarks_; }
+
  private:
   struct Mass {
     double kg = 0.0;
     Vector3 first_moment = Vector3::Zero();  // root frame, at zero
+  };
+
+  /// Joint `joint` of axes_ moves by `ratio` times the value of the joint of that name.
+  struct Leader {
+    std::size_t joint = 0;
+    std::string leader;
+    double ratio = 1.0;
   };
 
   [[noreturn]] void fail(const char* code, std::string message, std::string help) const {
@@ -263,12 +278,6 @@ class Reader {
              fmt::format("joint '{}' is neither revolute, prismatic nor fixed", joint.name),
              "plumb calibrates serial arms; name another tip: --tip LINK");
     }
-    if (joint.mimic)
-      fail(
-          "E-URDF-JOINT", fmt::format("joint '{}' mimics another one", joint.name),
-          fmt::format("if '{}' moves by itself, delete its <mimic> element; if the arm ends before "
-                      "it, name that link: --tip LINK",
-                      joint.name));
     axis.name = joint.name;
     axis.point = X_RL_.p;
     axis.direction = X_RL_.R * Vector3(joint.axis.x, joint.axis.y, joint.axis.z);
@@ -283,8 +292,120 @@ class Reader {
     assumed_.push_back(!limited);
     axis.q_min = limited ? joint.limits->lower : -range;
     axis.q_max = limited ? joint.limits->upper : range;
+    if (joint.mimic) follow(joint, axis);
     axes_.push_back(axis);
     masses_.emplace_back();
+  }
+
+  /// A joint that mimics another stands where it is when the other is at zero.
+  void follow(const urdf::Joint& joint, const JointAxis& axis) {
+    double ratio = 1.0, offset = 0.0;
+    std::string leader;
+    std::size_t steps = 0;
+    for (const urdf::Joint* one = &joint; one != nullptr && one->mimic;
+         one = tree_->getJoint(leader).get()) {
+      offset += ratio * one->mimic->offset;
+      ratio *= one->mimic->multiplier;
+      leader = one->mimic->joint_name;
+      if (++steps > tree_->joints_.size()) refuse_mimic(joint.name, "mimics itself");
+    }
+    X_RL_ = X_RL_ * from_turn(joint, axis.type, offset);
+    leaders_.push_back({axes_.size(), leader, ratio});
+  }
+
+  /// Motion of a joint in its own frame.
+  static Transformd from_turn(const urdf::Joint& joint, format::JointType type, double q) {
+    const Vector3 along = Vector3(joint.axis.x, joint.axis.y, joint.axis.z).normalized();
+    Transformd out;
+    if (type == format::JointType::kPrismatic)
+      out.p = q * along;
+    else
+      out.R = Eigen::AngleAxisd(q, along).toRotationMatrix();
+    return out;
+  }
+
+  [[noreturn]] void refuse_mimic(const std::string& joint, const std::string& why) const {
+    fail("E-URDF-JOINT", fmt::format("joint '{}' {}", joint, why),
+         fmt::format("delete its <mimic> element and give the position of '{}' in a column of its "
+                     "own; if the arm ends before it, name that link: --tip LINK",
+                     joint));
+  }
+
+  /// Leaves the joints that have values of their own: the others become their coupling.
+  OwnJoints fold_followers() {
+    std::vector<Follower> followers;
+    for (const Leader& one : leaders_) {
+      const auto leader = std::find_if(axes_.begin(), axes_.end(),
+                                       [&](const JointAxis& a) { return a.name == one.leader; });
+      if (leader == axes_.end())
+        refuse_mimic(
+            axes_[one.joint].name,
+            fmt::format("mimics '{}', which does not move between base and tip", one.leader));
+      followers.push_back({one.joint, static_cast<std::size_t>(leader - axes_.begin()), one.ratio});
+    }
+    OwnJoints own = without_followers(axes_, followers);
+    if (!own.left_over.empty()) {
+      const Follower& one = *own.left_over.front();
+      refuse_mimic(axes_[one.joint].name,
+                   fmt::format("mimics '{}' about an axis of its own: only beside a joint that "
+                               "moves about the same axis is that a coupling of DH rows",
+                               axes_[one.leader].name));
+    }
+    check_ratios(own, followers);
+    say_coupled(own, followers);
+    keep_own(own, followers);
+    return own;
+  }
+
+  /// What cell.toml can hold.
+  void check_ratios(const OwnJoints& own, const std::vector<Follower>& followers) const {
+    auto ordered = own.coupling;
+    bool fits = format::put_in_order(ordered);
+    for (const double scale : own.scale) fits = fits && scale >= 0.5 && scale <= 2.0;
+    for (const auto& one : own.coupling)
+      fits = fits && std::abs(one.ratio) <= format::kMaxCouplingRatio;
+    if (fits) return;
+    const Follower& one = followers.front();
+    refuse_mimic(
+        axes_[one.joint].name,
+        fmt::format("mimics '{}', and so joints would depend on each other, or move by more "
+                    "than {:g} times the value of another or 0.5 to 2 times their own",
+                    axes_[one.leader].name, format::kMaxCouplingRatio));
+  }
+
+  void say_coupled(const OwnJoints& own, const std::vector<Follower>& followers) {
+    for (const Follower& one : followers) {
+      const std::string& joint = own.axes[own.own[one.joint]].name;
+      const std::string& leader = axes_[one.leader].name;
+      remarks_.push_back(
+          {.severity = Severity::kNote,
+           .code = "N-URDF-MIMIC",
+           .message =
+               fmt::format("joint '{}' mimics '{}' about the axis of '{}'; its motion became "
+                           "{}",
+                           axes_[one.joint].name, leader, joint,
+                           joint == leader ? "the scale of that joint" : "the coupling of the two"),
+           .place = Place{.file = file_},
+           .help = fmt::format("the limits of '{}' are those of both motions together; if the "
+                               "controller shows their sum, delete the {}",
+                               joint, joint == leader ? "scale" : "coupling")});
+    }
+  }
+
+  /// A link between two joints on one axis is weighed with the one that has a value of its own.
+  void keep_own(const OwnJoints& own, const std::vector<Follower>& followers) {
+    std::vector<Mass> masses(own.axes.size());
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      masses[own.own[i]].kg += masses_[i].kg;
+      masses[own.own[i]].first_moment += masses_[i].first_moment;
+    }
+    for (const Follower& one : followers) assumed_[one.joint] = assumed_[one.leader];
+    std::vector<bool> assumed(own.axes.size());
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      assumed[own.own[i]] = assumed[own.own[i]] || assumed_[i];
+    masses_ = std::move(masses);
+    assumed_ = std::move(assumed);
+    axes_ = own.axes;
   }
 
   void weigh(const urdf::Link& link) { weigh_at(link, X_RL_); }
@@ -318,6 +439,8 @@ class Reader {
   urdf::ModelInterfaceSharedPtr tree_;
   std::vector<JointAxis> axes_;
   std::vector<bool> assumed_;  // whether the limits of each axis were assumed
+  std::vector<Leader> leaders_;
+  std::vector<Problem> remarks_;
   std::vector<Mass> masses_;
   Transformd X_RL_;  // pose of the link reached so far, at joint positions zero
 };
@@ -326,7 +449,10 @@ class Reader {
 
 Cell read_urdf(const std::filesystem::path& file, const UrdfEnds& ends,
                format::Convention convention, std::vector<Problem>* remarks) {
-  return Reader(file, ends, remarks).read(convention);
+  Reader reader(file, ends);
+  Cell cell = reader.read(convention);
+  if (remarks != nullptr) *remarks = std::move(reader.remarks());
+  return cell;
 }
 
 }  // namespace plumb::offline

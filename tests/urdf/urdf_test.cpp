@@ -9,6 +9,7 @@
 
 #include "cell/cell.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "plumb/runtime/coupling.hpp"
 #include "tests/import/temporary_file.hpp"
 #include "tests/random_numbers.hpp"
 #include "urdf/urdf_reader.hpp"
@@ -224,8 +225,9 @@ TEST(Urdf, ALinkWithTwoParentsOrItsOwnAncestorEndsInAMessage) {
 }
 
 TEST(Urdf, AMimicJointStandsInTheWayOnlyOnTheWayToTheTip) {
-  const std::string hand = link("l") + link("m") + link("finger") + joint("j", "l", "m") +
-                           joint("f", "m", "finger", "<mimic joint=\"j\"/>");
+  const std::string hand =
+      link("l") + link("m") + link("finger") + joint("j", "l", "m") +
+      joint("f", "m", "finger", "<origin xyz=\"0 0.1 0\"/><mimic joint=\"j\"/>");
   EXPECT_EQ(refusal(robot(hand), "m"), "accepted");
   const tests::TemporaryFolder folder;
   try {
@@ -270,8 +272,9 @@ TEST(Urdf, WhatIsNoSerialArmIsRefusedByName) {
 
 /// A joint behind an origin.
 std::string placed(const std::string& name, const std::string& parent, const std::string& child,
-                   const std::string& origin, const std::string& type = "continuous") {
-  return joint(name, parent, child, "<origin " + origin + "/><axis xyz=\"0 1 0\"/>", type);
+                   const std::string& origin, const std::string& type = "continuous",
+                   const std::string& more = "") {
+  return joint(name, parent, child, "<origin " + origin + "/><axis xyz=\"0 1 0\"/>" + more, type);
 }
 
 std::string arm_of_three(const std::string& xyz, const std::string& rpy = "0 0 0") {
@@ -279,6 +282,175 @@ std::string arm_of_three(const std::string& xyz, const std::string& rpy = "0 0 0
                placed("base", "w", "b", "xyz=\"0 0 2\" rpy=\"3.141592653589793 0 0\"", "fixed") +
                placed("j", "b", "m", "xyz=\"" + xyz + "\" rpy=\"" + rpy + "\"") +
                placed("k", "m", "n", "xyz=\"0.3 0 0\"") + placed("i", "n", "o", "xyz=\"0 0 0.2\""));
+}
+
+/// A drawn arm some of whose joints mimic others, beside a joint about the same axis. KDL knows
+/// nothing of mimicking: every joint of the file gets the position that the file says.
+struct MimicArm {
+  KDL::Chain kdl;
+  std::string urdf = "<robot name=\"m\"><link name=\"l0\"/>";
+  struct Moving {
+    int leader = -1;  // itself: -1
+    double multiplier = 1.0, offset = 0.0;
+  };
+  std::vector<Moving> moving;
+
+  void add(const KDL::Frame& origin, bool slides, double sign, const Moving& one) {
+    const std::size_t i = moving.size();
+    double r = 0, p = 0, y = 0;
+    origin.M.GetRPY(r, p, y);
+    std::string inside = fmt::format(
+        "<origin xyz=\"{} {} {}\" rpy=\"{} {} {}\"/><axis xyz=\"0 0 {}\"/>"
+        "<limit lower=\"-1\" upper=\"2\" effort=\"1\" velocity=\"1\"/>",
+        origin.p.x(), origin.p.y(), origin.p.z(), r, p, y, sign);
+    if (one.leader >= 0)
+      inside += fmt::format("<mimic joint=\"j{}\" multiplier=\"{}\" offset=\"{}\"/>", one.leader,
+                            one.multiplier, one.offset);
+    urdf += link(fmt::format("l{}", i + 1)) + joint(fmt::format("j{}", i), fmt::format("l{}", i),
+                                                    fmt::format("l{}", i + 1), inside,
+                                                    slides ? "prismatic" : "revolute");
+    kdl.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), origin));
+    kdl.addSegment(KDL::Segment(KDL::Joint("", KDL::Vector::Zero(), KDL::Vector(0, 0, sign),
+                                           slides ? KDL::Joint::TransAxis : KDL::Joint::RotAxis)));
+    moving.push_back(one);
+  }
+
+  /// Largest difference from our reading of the file over some poses [m].
+  double difference(format::Convention convention, Random& dice) const {
+    const tests::TemporaryFolder folder;
+    Cell cell = read_urdf(folder.put("m.urdf", urdf + "</robot>"), {}, convention);
+    cell.measurement.files = {"/cell/measurements.csv"};
+    cell.directory = "/cell";
+    cell = parse_cell(write_cell(cell), "/cell/cell.toml");
+    KDL::ChainFkSolverPos_recursive solver(kdl);
+    double worst = 0.0;
+    for (int pose = 0; pose < 20; ++pose) {
+      KDL::JntArray q(static_cast<unsigned>(moving.size()));
+      std::vector<double> own;
+      for (unsigned i = 0; i < moving.size(); ++i)
+        if (moving[i].leader < 0) own.push_back(q(i) = dice.uniform(-1, 2));
+      // A joint may mimic one that mimics a third one, in any order.
+      for (std::size_t round = 0; round < moving.size(); ++round)
+        for (unsigned i = 0; i < moving.size(); ++i)
+          if (const Moving& m = moving[i]; m.leader >= 0)
+            q(i) = m.multiplier * q(static_cast<unsigned>(m.leader)) + m.offset;
+      KDL::Frame there;
+      solver.JntToCart(q, there);
+      EXPECT_EQ(own.size(), static_cast<std::size_t>(cell.joints()));
+      Coupling(cell.nominal.coupling).to_angles(own);
+      for (int i = 0; i < cell.joints(); ++i) {
+        EXPECT_GE(own[i], cell.nominal.joints[i].q_min - 1e-9);
+        EXPECT_LE(own[i], cell.nominal.joints[i].q_max + 1e-9);
+      }
+      const Transformd X = Chain(cell.nominal).forward(own);
+      for (int i = 0; i < 3; ++i) {
+        worst = std::max(worst, std::abs(X.p(i) - there.p(i)));
+        for (int j = 0; j < 3; ++j) worst = std::max(worst, std::abs(X.R(i, j) - there.M(i, j)));
+      }
+    }
+    return worst;
+  }
+};
+
+TEST(UrdfMimic, BesideAJointOnItsAxisItIsACouplingWithTheSameForwardKinematics) {
+  double worst = 0.0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random dice(seed);
+    MimicArm arm;
+    const auto frame = [&] {
+      return KDL::Frame(KDL::Rotation::RPY(dice.uniform(-3, 3), dice.uniform(-1, 1), 0.4),
+                        KDL::Vector(dice.uniform(-1, 1), dice.uniform(-1, 1), 0.3));
+    };
+    // Along the axis, turned about it, perhaps upside down.
+    const auto on_axis = [&] {
+      return KDL::Frame(KDL::Rotation::RPY(dice.below(2) * M_PI, 0, dice.uniform(-3, 3)),
+                        KDL::Vector(0, 0, dice.uniform(-1, 1)));
+    };
+    const auto sign = [&] { return dice.below(2) == 0 ? 1.0 : -1.0; };
+    const auto follows = [&](int leader) {
+      return MimicArm::Moving{leader, dice.uniform(-1.5, 1.5), dice.uniform(-1, 1)};
+    };
+    const bool slides = dice.below(4) == 0;  // the pair of joints 1 to 4
+    arm.add(frame(), false, sign(), {});     // 0
+    arm.add(frame(), slides, sign(), {});    // 1: the leader
+    switch (dice.below(4)) {
+      case 0:  // behind its neighbour
+        arm.add(frame(), slides, sign(), {});
+        arm.add(on_axis(), slides, sign(), follows(1));
+        break;
+      case 1:  // ahead of it
+        arm.add(frame(), slides, sign(), follows(1));
+        arm.add(on_axis(), slides, sign(), {});
+        break;
+      case 2:  // two of them, one of which mimics the other
+        arm.add(frame(), slides, sign(), {});
+        arm.add(on_axis(), slides, sign(), follows(1));
+        arm.add(on_axis(), slides, sign(), follows(3));
+        break;
+      default:  // the leader's own axis, so that it moves twice
+        arm.add(on_axis(), slides, sign(), {1, 0.5, 0.3});
+    }
+    arm.add(frame(), false, sign(), {});
+    for (const auto convention : {format::Convention::kStandard, format::Convention::kModified})
+      worst = std::max(worst, arm.difference(convention, dice));
+  }
+  EXPECT_LT(worst, 1e-9);
+}
+
+/// A palletiser: rods keep the forearm's bearing upright while J2 leans the upper arm.
+std::string palletiser(const std::string& bearing_to_forearm, const std::string& mimic) {
+  const std::string limit = "<limit lower=\"-1\" upper=\"2\" effort=\"1\" velocity=\"1\"/>";
+  return robot(link("b") + link("c") + link("u") + link("t") + link("f") + link("h") +
+               placed("J1", "b", "c", "xyz=\"0 0 0.5\"", "revolute", limit) +
+               placed("J2", "c", "u", "xyz=\"0.3 0 0\"", "revolute", limit) +
+               placed("rod", "u", "t", "xyz=\"0 0 1.1\"", "revolute", limit + mimic) +
+               placed("J3", "t", "f", bearing_to_forearm, "revolute", limit) +
+               placed("hand", "f", "h", "xyz=\"1.3 0 0\"", "fixed"));
+}
+
+TEST(UrdfMimic, APalletisersRodIsTheCouplingOfItsForearm) {
+  const tests::TemporaryFolder folder;
+  std::vector<Problem> remarks;
+  const std::string mimic = "<mimic joint=\"J2\" multiplier=\"-1\"/>";
+  const Cell cell = read_urdf(folder.put("p.urdf", palletiser("xyz=\"0 0.1 0\"", mimic)), {},
+                              format::Convention::kStandard, &remarks);
+  EXPECT_EQ(cell.nominal.coupling, (std::vector<format::JointCoupling>{{2, 1, -1.0}}));
+  EXPECT_DOUBLE_EQ(cell.nominal.joints[2].q_min, -3.0);
+  EXPECT_DOUBLE_EQ(cell.nominal.joints[2].q_max, 3.0);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].code, "N-URDF-MIMIC");
+  std::vector<double> leaning = {0.0, 0.4, 0.2}, upright = {0.0, 0.0, 0.2};
+  Coupling(cell.nominal.coupling).to_angles(leaning);
+  const Chain chain(cell.nominal);
+  EXPECT_LT((chain.forward(leaning).R - chain.forward(upright).R).norm(), 1e-12);
+  EXPECT_NEAR(chain.forward(leaning).p(0) - chain.forward(upright).p(0), 1.1 * std::sin(0.4), 1e-9);
+}
+
+TEST(UrdfMimic, WhatIsNoCouplingOfDhRowsIsRefusedWithTheReasonAndTheRemedy) {
+  const tests::TemporaryFolder folder;
+  const auto mimics = [](const std::string& leader, double multiplier) {
+    return fmt::format("<mimic joint=\"{}\" multiplier=\"{}\"/>", leader, multiplier);
+  };
+  const std::string near = "xyz=\"0 0 0\"";
+  for (const auto& [urdf, tip, reason] : std::vector<std::array<std::string, 3>>{
+           {palletiser("xyz=\"0.2 0 0\"", mimics("J2", -1)), "h", "about an axis of its own"},
+           {palletiser("xyz=\"0 0 0\" rpy=\"0.1 0 0\"", mimics("J2", -1)), "h", "of its own"},
+           {palletiser(near, mimics("rod", -1)), "h", "mimics itself"},
+           {palletiser(near, mimics("hand", -1)), "h", "'hand', which does not move"},
+           {palletiser(near, mimics("J3", -1)), "t", "'J3', which does not move"},
+           {palletiser(near, mimics("no such joint", -1)), "h", "which does not move"},
+           {palletiser(near, mimics("J2", 11)), "h", "more than 10 times"},
+           {palletiser(near, mimics("J3", -1)), "h", "0.5 to 2 times"}})
+    try {
+      (void)read_urdf(folder.put("p.urdf", urdf), {.tip = tip}, format::Convention::kStandard);
+      ADD_FAILURE() << reason;
+    } catch (const Failure& failure) {
+      const Problem& problem = failure.problems().front();
+      EXPECT_EQ(problem.code, "E-URDF-JOINT");
+      EXPECT_NE(problem.message.find("'rod'"), std::string::npos) << problem.message;
+      EXPECT_NE(problem.message.find(reason), std::string::npos) << problem.message;
+      EXPECT_NE(problem.help.find("delete its <mimic> element"), std::string::npos);
+    }
 }
 
 TEST(UrdfText, TabsAndLineEndsInAnAttributeAreBlanks) {
