@@ -29,6 +29,7 @@ class ProblemList {
   }
   bool full() const { return errors_.size() >= kMost; }
   const std::vector<Problem>& errors() const { return errors_; }
+  std::vector<Problem>& errors() { return errors_; }
   std::vector<Problem>& remarks() { return remarks_; }
 
   /// Throws Failure (kInput) if there is an error.

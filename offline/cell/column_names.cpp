@@ -16,14 +16,14 @@ using Names = std::map<std::string, Quantity, std::less<>>;
 
 const Names& unitless_names() {
   static const Names names{
-      {"pose", Quantity::kText},  {"set", Quantity::kText},      {"note", Quantity::kText},
-      {"time", Quantity::kText},  {"joint", Quantity::kText},    {"type", Quantity::kText},
-      {"joint", Quantity::kText}, {"type", Quantity::kText},     {"status", Quantity::kText},
-      {"setup", Quantity::kText}, {"repeat", Quantity::kNumber}, {"fold", Quantity::kNumber},
-      {"qw", Quantity::kNumber},  {"qx", Quantity::kNumber},     {"qy", Quantity::kNumber},
-      {"qz", Quantity::kNumber},  {"pqw", Quantity::kNumber},    {"pqx", Quantity::kNumber},
-      {"pqy", Quantity::kNumber}, {"pqz", Quantity::kNumber},    {"cqw", Quantity::kNumber},
-      {"cqx", Quantity::kNumber}, {"cqy", Quantity::kNumber},    {"cqz", Quantity::kNumber},
+      {"pose", Quantity::kText},   {"set", Quantity::kText},   {"note", Quantity::kText},
+      {"time", Quantity::kText},   {"joint", Quantity::kText}, {"type", Quantity::kText},
+      {"status", Quantity::kText}, {"setup", Quantity::kText}, {"repeat", Quantity::kNumber},
+      {"fold", Quantity::kNumber}, {"qw", Quantity::kNumber},  {"qx", Quantity::kNumber},
+      {"qy", Quantity::kNumber},   {"qz", Quantity::kNumber},  {"pqw", Quantity::kNumber},
+      {"pqx", Quantity::kNumber},  {"pqy", Quantity::kNumber}, {"pqz", Quantity::kNumber},
+      {"cqw", Quantity::kNumber},  {"cqx", Quantity::kNumber}, {"cqy", Quantity::kNumber},
+      {"cqz", Quantity::kNumber},
   };
   return names;
 }
@@ -116,8 +116,6 @@ std::vector<Quantity> allowed_quantities(std::string_view name) {
 }
 
 std::string usual_unit(std::string_view name) {
-  for (const char* angle : {"alpha", "theta", "beta", "q_min", "q_max", "offset"})
-    if (name == angle) return "deg";  // of DH tables
   const auto allowed = allowed_quantities(name);
   if (allowed.empty()) return "mm";
   switch (allowed.front()) {

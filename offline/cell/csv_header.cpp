@@ -24,8 +24,7 @@ std::string listed(const std::vector<Quantity>& kinds) {
 
 class HeaderReader {
  public:
-  HeaderReader(const CsvPlace& place, TableOf of, ProblemList& problems)
-      : at_(place), of_(of), problems_(problems) {}
+  HeaderReader(const CsvPlace& place, ProblemList& problems) : at_(place), problems_(problems) {}
 
   Column read(const CsvCell& cell) {
     Column column;
@@ -47,8 +46,10 @@ class HeaderReader {
     const Heading heading = split_heading(column.header);
     const auto unit = unit_of(heading.unit);
     if (!unit)
-      return heading.unit.empty() || is_name_alone(column.header) ? no_unit(cell, column)
-                                                                  : bad_unit(cell, column, heading);
+      // A known name may have an underscore of its own: payload_cx, travel_j1.
+      return heading.unit.empty() || misspelt_header(column.header)
+                 ? no_unit(cell, column)
+                 : bad_unit(cell, column, heading);
     column.name = heading.name;
     column.unit = heading.unit;
     column.quantity = unit->quantity;
@@ -69,26 +70,16 @@ class HeaderReader {
           fmt::format("rename it to '{}_{}' if it is meant", *known, column.unit));
   }
 
-  /// A name with an underscore of its own: payload_cx, travel_j1, q_min.
-  bool is_name_alone(const std::string& header) const {
-    if (of_ == TableOf::kRobot) return header == "q_min" || header == "q_max";
-    return misspelt_header(header).has_value();
-  }
-
   void no_unit(const CsvCell& cell, const Column& column) {
-    const bool robot = of_ == TableOf::kRobot;
-    const auto meant = robot ? std::nullopt : misspelt_header(column.header);
+    const auto meant = misspelt_header(column.header);
     std::string renamed = meant.value_or(column.header + "_" + usual_unit(column.header));
     std::replace(renamed.begin(), renamed.end(), ' ', '_');
-    std::string help = fmt::format("rename it to '{}'", renamed);
-    if (!robot)
-      help += fmt::format(", or: plumb import {} --map {}", at_.file,
-                          shell_word(column.header + "=" + renamed));
     const bool another = meant && !meant->starts_with(column.header + "_");
     problems_.error("E-CSV-UNIT", fmt::format("column '{}' has no unit", column.header),
                     at_.of(cell.text, another ? fmt::format("did you mean '{}'?", renamed)
                                               : "add a unit suffix"),
-                    help);
+                    fmt::format("rename it to '{}', or: plumb import {} --map {}", renamed,
+                                at_.file, shell_word(column.header + "=" + renamed)));
   }
 
   void bad_unit(const CsvCell& cell, const Column& column, const Heading& heading) {
@@ -108,18 +99,11 @@ class HeaderReader {
   }
 
   const CsvPlace& at_;
-  TableOf of_;
   ProblemList& problems_;
 };
 
-/// Joint limits of arms that turn and slide stand in two pairs of columns: q_min_deg, q_min_mm.
-bool of_two_kinds(const Column& a, const Column& b, TableOf of) {
-  return of == TableOf::kRobot && (a.name == "q_min" || a.name == "q_max") &&
-         a.quantity != b.quantity;
-}
-
-bool same_meaning(const Column& a, const Column& b, TableOf of) {
-  return (a.name == b.name && !of_two_kinds(a, b, of)) || a.header == b.header;
+bool same_meaning(const Column& a, const Column& b) {
+  return a.name == b.name || a.header == b.header;
 }
 
 }  // namespace
@@ -146,12 +130,12 @@ char find_separator(std::string_view header) {
 }
 
 std::vector<Column> read_header(const std::vector<CsvCell>& cells, const CsvPlace& place,
-                                TableOf of, ProblemList& problems) {
+                                ProblemList& problems) {
   std::vector<Column> out;
   for (const auto& cell : cells) {
-    Column column = HeaderReader(place, of, problems).read(cell);
+    Column column = HeaderReader(place, problems).read(cell);
     const auto twin = std::find_if(out.begin(), out.end(),
-                                   [&](const Column& c) { return same_meaning(c, column, of); });
+                                   [&](const Column& c) { return same_meaning(c, column); });
     if (twin != out.end() && !column.header.empty())
       problems.error("E-CSV-DUPLICATE",
                      twin->header == column.header

@@ -26,6 +26,6 @@ char find_separator(std::string_view header);
 
 /// The columns named by a header's cells, without values. What is wrong goes to `problems`.
 std::vector<Column> read_header(const std::vector<CsvCell>& cells, const CsvPlace& place,
-                                TableOf of, ProblemList& problems);
+                                ProblemList& problems);
 
 }  // namespace plumb::offline

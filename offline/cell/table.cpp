@@ -46,8 +46,8 @@ const Column* Table::find(std::string_view name) const {
   return nullptr;
 }
 
-Table parse_table(std::string_view text, const std::string& file_name, TableOf of) {
-  TableReader reader(file_name, of);
+Table parse_table(std::string_view text, const std::string& file_name) {
+  TableReader reader(file_name);
   reader.expect(lines_of(text), text.size());
   reader.read(text);
   Table table = finished(reader);
@@ -55,9 +55,9 @@ Table parse_table(std::string_view text, const std::string& file_name, TableOf o
   return table;
 }
 
-Table read_table(const std::filesystem::path& file, TableOf of) {
+Table read_table(const std::filesystem::path& file) {
   LineSource source(file);
-  TableReader reader(display_name(file), of);
+  TableReader reader(display_name(file));
   std::string block;
   std::size_t after_error = 0;
   // An empty file has an empty block, which is read too: its header row is missing.

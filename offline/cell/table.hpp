@@ -53,13 +53,9 @@ struct Table {
 /// Index of the table of each row, if the tables are joined: 0, ..., 0, 1, ...
 std::vector<int> file_of_rows(const std::vector<Table>& tables);
 
-/// What a table is about; messages propose other names for the columns of a DH table.
-enum class TableOf { kMeasurements, kRobot };
-
 /// Reads a CSV file strictly: UTF-8, header with units, no ragged rows, only finite numbers.
 /// Throws Failure with all problems (exit 3).
-Table read_table(const std::filesystem::path& file, TableOf of = TableOf::kMeasurements);
-Table parse_table(std::string_view text, const std::string& file_name,
-                  TableOf of = TableOf::kMeasurements);
+Table read_table(const std::filesystem::path& file);
+Table parse_table(std::string_view text, const std::string& file_name);
 
 }  // namespace plumb::offline

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
+#include "cell/column_names.hpp"
 #include "cell/csv_bytes.hpp"
 #include "program/utf8.hpp"
 
@@ -15,12 +16,48 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+/// Its heading was reported (E-CSV-UNIT), so that its cells are kept as texts.
+bool lacks_unit(const Column& column) {
+  return column.quantity == Quantity::kText && !column.header.empty() &&
+         !unitless_quantity(column.header);
+}
+
+/// The first text of a column that holds nothing else; empty if there is none, or a number.
+std::string first_text(const Column& column, char separator) {
+  std::string out;
+  for (const std::string& cell : column.text) {
+    double value = 0.0;
+    const NumberFault fault = read_number(cell, separator, value);
+    if (fault == NumberFault::kEmpty) continue;
+    if (fault != NumberFault::kNotANumber) return {};
+    if (out.empty()) out = cell;
+  }
+  return out;
+}
+
+/// The heading is a slip for the name of a column of texts: "psoe".
+bool names_texts(const Column& column) {
+  const auto meant = misspelt_header(column.header);
+  return meant && unitless_quantity(*meant) == Quantity::kText;
+}
+
+/// Turns the problem of a heading without unit into that of a column of texts.
+void holds_texts(const Column& column, const std::string& text, bool has_note, Problem& problem) {
+  problem.code = "E-CSV-TEXT";
+  problem.message = fmt::format("column '{}' holds texts such as '{}', which plumb does not read",
+                                column.header, text);
+  problem.place->label = "no numbers";
+  problem.help = has_note ? "remove it, or move its texts to the column 'note'"
+                          : "remove it, or rename it to 'note': a column of that name may hold any "
+                            "text";
+}
+
 }  // namespace
 
-TableReader::TableReader(std::string file, TableOf of) : of_(of) { table_.file = std::move(file); }
+TableReader::TableReader(std::string file) { table_.file = std::move(file); }
 
 TableReader TableReader::below(int first_line) const {
-  TableReader out(table_.file, of_);
+  TableReader out(table_.file);
   out.table_.comments = table_.comments;
   out.table_.raw_header = table_.raw_header;
   out.table_.header_line = table_.header_line;
@@ -98,7 +135,7 @@ void TableReader::read_header_line(std::string_view line) {
   if (separator_ == ';') semicolon_ = here(line).of(line.substr(line.find(';'), 1), "separator");
   if (!cut(line)) return;
   const CsvPlace place = here(line);
-  table_.columns = read_header(cells_, place, of_, problems_);
+  table_.columns = read_header(cells_, place, problems_);
   for (const auto& column : table_.columns) units_.push_back(unit_of(column.unit).value_or(Unit{}));
   append_canonical(line);
   table_.raw_header = kept_;
@@ -163,18 +200,9 @@ void TableReader::read_cell(std::size_t i, std::string_view line) {
   if (separator_ == ';') commas_ = commas_ || cells_[i].text.find(',') != std::string_view::npos;
   NumberFault fault = read_number(cells_[i].text, separator_, value);
   value = units_[i].to_si(value);
-  if (fault == NumberFault::kEmpty && may_be_empty(column)) {
-    column.values.push_back(std::numeric_limits<double>::quiet_NaN());
-    return;
-  }
   if (fault == NumberFault::kNone && !std::isfinite(value)) fault = NumberFault::kOutOfRange;
   if (fault != NumberFault::kNone) bad_cell(i, line, fault);
   column.values.push_back(value);
-}
-
-/// Joint limits that are not known, or of the other kind of joint.
-bool TableReader::may_be_empty(const Column& column) const {
-  return of_ == TableOf::kRobot && (column.name == "q_min" || column.name == "q_max");
 }
 
 void TableReader::bad_cell(std::size_t i, std::string_view line, NumberFault fault) {
@@ -196,7 +224,23 @@ void TableReader::bad_cell(std::size_t i, std::string_view line, NumberFault fau
            "not a number");
 }
 
+void TableReader::check_texts() {
+  auto problem = problems_.errors().begin();
+  bool has_note = table_.find("note") != nullptr;
+  for (const Column& column : table_.columns) {
+    if (!lacks_unit(column)) continue;
+    problem = std::find_if(problem, problems_.errors().end(),
+                           [](const Problem& p) { return p.code == "E-CSV-UNIT"; });
+    if (problem == problems_.errors().end()) return;
+    const std::string text = first_text(column, separator_);
+    if (!text.empty() && !names_texts(column))
+      holds_texts(column, text, std::exchange(has_note, true), *problem);
+    ++problem;
+  }
+}
+
 void TableReader::check_content() {
+  check_texts();
   const Place whole{.file = table_.file};
   if (!problems_.errors().empty()) return;
   if (table_.columns.empty())

@@ -21,7 +21,7 @@ namespace plumb::offline {
 /// file can be read side by side.
 class TableReader {
  public:
-  TableReader(std::string file, TableOf of);
+  explicit TableReader(std::string file);
 
   /// A reader of the lines from `first_line` on: it knows header and comments, and has no rows yet.
   TableReader below(int first_line) const;
@@ -42,7 +42,12 @@ class TableReader {
   /// N-CSV-SEMICOLON, if columns are separated by it.
   std::optional<Problem> separator_note(bool decimal_comma) const;
 
-  /// Reports as problems that there is no header or no row, unless there are problems already.
+  /// E-CSV-TEXT in place of E-CSV-UNIT for a column without unit whose cells hold texts: no unit
+  /// helps it. To be called when its rows are read.
+  void check_texts();
+
+  /// The same, and reports as problems that there is no header or no row, unless there are problems
+  /// already.
   void check_content();
 
   /// The rows, and the remarks of `problems`.
@@ -57,12 +62,10 @@ class TableReader {
   void read_row(std::string_view line);
   void ragged(std::string_view line);
   void read_cell(std::size_t i, std::string_view line);
-  bool may_be_empty(const Column& column) const;
   void bad_cell(std::size_t i, std::string_view line, NumberFault fault);
   void append_canonical(std::string_view line);
   CsvPlace here(std::string_view line) const { return {table_.file, line_number_, line}; }
 
-  TableOf of_;
   Table table_;
   ProblemList problems_;
   std::vector<CsvCell> cells_;

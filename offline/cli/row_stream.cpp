@@ -49,6 +49,7 @@ std::vector<Problem> below(int header_line, std::vector<Problem> problems) {
 Block worked_on(TableReader& reader, const show::PassThrough& columns,
                 const RowStream::Work& work) {
   Block out;
+  reader.check_texts();
   out.rows = static_cast<std::size_t>(reader.rows());
   out.decimal_comma = reader.has_decimal_comma();
   out.of_text = reader.problems().errors();
@@ -82,10 +83,7 @@ class Pass {
  public:
   Pass(const std::filesystem::path& file, const std::vector<std::string>& ours,
        const RowStream::Work& work, Spool& spool)
-      : source_(file),
-        first_(std::in_place, display_name(file), TableOf::kMeasurements),
-        work_(work),
-        spool_(spool) {
+      : source_(file), first_(std::in_place, display_name(file)), work_(work), spool_(spool) {
     read_header();
     base_ = first_->below(1);
     Table header = base_->below(1).take();

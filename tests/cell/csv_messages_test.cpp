@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -60,14 +62,28 @@ TEST(CsvMessage, OfAMisspeltNameWithoutUnitProposesTheKnownOne) {
   EXPECT_EQ(help("Q1_DEG"), "did you mean 'q1_deg'?");
 }
 
-TEST(CsvMessage, OfADhTableProposesItsOwnColumns) {
-  const auto help = [](const std::string& header) {
-    return problems_of([&] { parse_table(header + "\n1\n", "dh.csv", TableOf::kRobot); })[0].help;
-  };
-  EXPECT_EQ(help("alpha"), "rename it to 'alpha_deg'");
-  EXPECT_EQ(help("theta"), "rename it to 'theta_deg'");
-  EXPECT_EQ(help("a"), "rename it to 'a_mm'");
-  EXPECT_EQ(help("q_min"), "rename it to 'q_min_deg'");
+/// No unit helps a column of texts, however its heading looks.
+TEST(CsvMessage, OfTextsUnderAHeadingWithoutUnitNeverProposesAUnit) {
+  for (const char* header : {"operator", "tool_id", "Serial no.", "name", "x", "load", "part_no"}) {
+    const auto problems =
+        of_table(std::string("pose,") + header + ",y_mm\nA,,1\nB,Anna,2\nC,S-12,3\n");
+    EXPECT_EQ(summary(problems), Summary{"E-CSV-TEXT 1:6"}) << header;
+    EXPECT_EQ(
+        problems[0].message,
+        fmt::format("column '{}' holds texts such as 'Anna', which plumb does not read", header));
+    EXPECT_EQ(problems[0].help,
+              "remove it, or rename it to 'note': a column of that name may hold any text");
+  }
+}
+
+TEST(CsvMessage, OfSeveralColumnsOfTextsOnlyOneCanBeTheNote) {
+  const auto problems = of_table("operator,x,tool,y_mm\nAnna,1,T1,2\nBert,n/a,T2,bad\n");
+  EXPECT_EQ(summary(problems),
+            (Summary{"E-CSV-TEXT 1:1", "E-CSV-UNIT 1:10", "E-CSV-TEXT 1:12", "E-CSV-NUMBER 3:13"}));
+  EXPECT_EQ(problems[1].help, "rename it to 'x_mm', or: plumb import t.csv --map x=x_mm");
+  EXPECT_EQ(problems[2].help, "remove it, or move its texts to the column 'note'");
+  EXPECT_EQ(of_table("note,tool\nhot,T1\n")[0].help, problems[2].help);
+  EXPECT_EQ(of_table("psoe,x_mm\nA,1\n")[0].place->label, "did you mean 'pose'?");
 }
 
 /// The nearest unit of plumb would be wrong by a factor of ten.
@@ -274,20 +290,6 @@ TEST(ArmMessage, OfAStandardDeviationOfZeroWhichIsReplacedByTheSmallestOfItsAxis
   EXPECT_EQ(none.sigma_m.rows(), 0);
   EXPECT_EQ(summary(none.tables[0].remarks), Summary{"W-CSV-SIGMA 2:9"});
   EXPECT_EQ(summary(of_sigmas("1,2,3,4,5,9\n").tables[0].remarks), Summary{});
-}
-
-TEST(RobotTable, GivesLimitsOfBothKindsOfJointsAndMayLeaveThemEmpty) {
-  const std::string text =
-      "joint,q_min_deg,q_max_deg,q_min_mm,q_max_mm\nJ1,-90,90,,\nJ2,,,0,1500\nJ3,,,,\n";
-  const Table table = parse_table(text, "dh.csv", TableOf::kRobot);
-  ASSERT_EQ(table.columns.size(), 5u);
-  EXPECT_TRUE(std::isnan(table.columns[1].values[1]));
-  EXPECT_DOUBLE_EQ(table.columns[4].values[1], 1.5);
-  // Elsewhere an empty cell and a quantity given twice stay mistakes.
-  EXPECT_EQ(problems_of([&] { parse_table(text, "m.csv"); }).empty(), false);
-  EXPECT_EQ(summary(problems_of(
-                [] { parse_table("q_min_deg,q_min_rad\n1,1\n", "dh.csv", TableOf::kRobot); })),
-            Summary{"E-CSV-DUPLICATE 1:11"});
 }
 
 TEST(ArmMessage, OfColumnsWhoseNameIsASlip) {
