@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cell/units.hpp"
-#include "import/unit_words.hpp"
+#include "import/heading.hpp"
 #include "program/problem.hpp"
 #include "program/utf8.hpp"
 
@@ -19,7 +19,7 @@ using Words = std::pair<std::string_view, std::string_view>;
 /// Small letters, Greek ones spelled out, "alpha_{i-1}" as "alpha_i-1".
 std::string plain_heading(std::string_view header) {
   constexpr std::array kLetters{Words{"α", "alpha"}, Words{"β", "beta"}, Words{"θ", "theta"},
-                                Words{"ϑ", "theta"}, Words{"−", "-"},    Words{"º", "°"}};
+                                Words{"ϑ", "theta"}, Words{"−", "-"}};
   std::string out(trimmed(header));
   for (const auto& [letter, word] : kLetters)
     for (auto at = out.find(letter); at != std::string::npos; at = out.find(letter))
@@ -43,28 +43,32 @@ std::string known_name(std::string_view word) {
   word = trimmed(word);
   for (const auto& [written, name] : kNames)
     if (word == written) return std::string(name);
-  for (const std::string_view index : {"_i-1", "i-1", "_i", "i", "_j", "j"})
+  for (const std::string_view index : {"_i-1", "(i-1)", "i-1", "_i", "(i)", "i", "_j", "j"})
     if (word.size() > index.size() && word.ends_with(index))
       for (const std::string_view name : {"alpha", "a", "d", "theta", "beta"})
         if (word.substr(0, word.size() - index.size()) == name) return std::string(name);
   return "";
 }
 
-/// "a [mm]" as "a" and "mm"; the unit is empty if none stands in brackets or behind / or a comma.
-std::pair<std::string, std::string> split_brackets(const std::string& header) {
-  const auto at = header.find_first_of("[(/,");
-  if (at == std::string::npos || at == 0) return {header, ""};
-  std::string unit = header.substr(at + 1);
-  while (!unit.empty() && (unit.back() == ']' || unit.back() == ')' || unit.back() == ' '))
-    unit.pop_back();
-  std::string name(trimmed(std::string_view(header).substr(0, at)));
-  if (name.ends_with("_")) name.pop_back();
-  return {name, std::string(trimmed(unit))};
+/// The column that a word in front of a unit names.
+std::string measured_name(std::string_view word) {
+  while (word.ends_with("_")) word.remove_suffix(1);
+  std::string name = known_name(word);
+  return name == "joint" || name == "type" ? "" : name;
 }
 
-/// As written, so that "mm" and "Mm" are told apart by known_unit.
-bool is_nearly_a_unit(const std::string& text) {
-  return foreign_unit(text) != nullptr || did_you_mean(text, unit_names()).has_value();
+/// "a [furlong]", "a_mmm": what stands where a unit belongs and is none.
+DhHeading with_bad_unit(std::string_view text) {
+  const auto at = text.find_first_of("[(/,");
+  const bool marked = at != text.npos;
+  const auto split = marked ? at : text.find_last_of("_ ");
+  if (split == text.npos) return {};
+  std::string_view unit = trimmed(text.substr(split + 1));
+  while (unit.ends_with("]") || unit.ends_with(")")) unit.remove_suffix(1);
+  std::string name = measured_name(text.substr(0, split));
+  if (name.empty() || unit.empty()) return {std::move(name)};
+  const bool nearly = marked || did_you_mean(std::string(unit), unit_names());
+  return nearly ? DhHeading{std::move(name), "", std::string(unit)} : DhHeading{};
 }
 
 }  // namespace
@@ -72,22 +76,10 @@ bool is_nearly_a_unit(const std::string& text) {
 DhHeading read_dh_heading(std::string_view header) {
   const std::string text = plain_heading(header);
   if (std::string name = known_name(text); !name.empty()) return {std::move(name)};
-  auto [word, unit] = split_brackets(text);
-  const bool in_brackets = !unit.empty();
-  if (!in_brackets) {
-    const auto at = text.find_last_of("_ ");
-    const auto degree = text.find("°");
-    if (degree != std::string::npos && degree > 0)
-      word = text.substr(0, degree), unit = text.substr(degree);
-    else if (at != std::string::npos && at > 0)
-      word = text.substr(0, at), unit = text.substr(at + 1);
-  }
-  std::string name = known_name(word);
-  if (name.empty() || name == "joint" || name == "type") return {};
-  const std::string known = known_unit(unit);
-  if (!known.empty()) return {std::move(name), known};
-  if (in_brackets || is_nearly_a_unit(unit)) return {std::move(name), "", unit};
-  return {};
+  WrittenHeading written = read_heading(text);
+  std::string name = measured_name(written.name);
+  if (name.empty() || (written.unit.empty() && written.foreign.empty())) return with_bad_unit(text);
+  return {std::move(name), std::move(written.unit), std::move(written.foreign)};
 }
 
 }  // namespace plumb::offline::cli

@@ -20,6 +20,7 @@
 #include "cli/dh_heading.hpp"
 #include "cli/dh_units.hpp"
 #include "cli/dh_value.hpp"
+#include "import/source_text.hpp"
 #include "program/shell_word.hpp"
 #include "program/utf8.hpp"
 #include "show/units.hpp"
@@ -42,18 +43,13 @@ Quantity usual_quantity(std::string_view name) {
   return name == "a" || name == "d" ? Quantity::kLength : Quantity::kAngle;
 }
 
-/// What a text that is no CSV is, by its first line; empty if it may be a table.
-std::string other_format(std::string_view line) {
-  if (line.starts_with("PK\x03\x04")) return "a spreadsheet";
-  if (line.starts_with("<")) return "XML";
-  if (line.starts_with("{")) return "JSON";
+/// The same of texts that import can read, but that are no table of columns.
+std::string_view other_text(std::string_view line) {
+  if (const auto format = other_format(line); !format.empty()) return format;
   if (line.starts_with("|")) return "a table in Markdown";
   if (line.starts_with("---") || line.starts_with("- ")) return "YAML";
   if (line.starts_with("["))
-    return line.ends_with("]") && !line.starts_with("[[") &&
-                   line.find(',') == std::string_view::npos
-               ? "TOML"
-               : "a list of numbers";
+    return line.ends_with("]") && line.find(',') == line.npos ? "TOML" : "a list of numbers";
   const auto colon = line.find(':');
   const auto word = line.substr(0, colon);
   const bool key = colon != std::string_view::npos && !word.empty() &&
@@ -104,7 +100,7 @@ class DhTableReader {
                          !content.starts_with("#;") && !content.starts_with("#\t");
     if (comment) return;
     if (!table_.columns.empty()) return read_row(line);
-    if (const std::string other = other_format(content); !other.empty()) {
+    if (const auto other = other_text(content); !other.empty()) {
       no_table_ = true;
       return problems_.error("E-DH-FILE", fmt::format("this is {}, no table of columns", other),
                              here(line).of(content, ""), kDhExample);

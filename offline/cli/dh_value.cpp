@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cell/units.hpp"
+#include "import/number_text.hpp"
 #include "import/unit_words.hpp"
 
 namespace plumb::offline::cli {
@@ -21,18 +22,13 @@ void replace_all(std::string& text, std::string_view what, std::string_view by) 
 
 /// In ASCII, without blanks.
 std::string plain(std::string_view text, bool comma) {
+  using Signs = std::pair<std::string_view, std::string_view>;
+  constexpr std::array kSigns{Signs{"π", "pi"}, Signs{"θ", "theta"}, Signs{"ϑ", "theta"},
+                              Signs{"·", "*"},  Signs{"×", "*"},     Signs{"½", "0.5"}};
   std::string out(text);
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kSigns{{{"π", "pi"},
-                                                                                 {"θ", "theta"},
-                                                                                 {"ϑ", "theta"},
-                                                                                 {"−", "-"},
-                                                                                 {"–", "-"},
-                                                                                 {"·", "*"},
-                                                                                 {"×", "*"},
-                                                                                 {"º", "°"},
-                                                                                 {"½", "0.5"}}};
   for (const auto& [sign, by] : kSigns) replace_all(out, sign, by);
-  std::erase_if(out, [](char c) { return c == ' '; });
+  for (const auto minus : kMinus) replace_all(out, minus, "-");
+  for (const auto blank : kBlanks) replace_all(out, blank, "");
   if (comma) std::replace(out.begin(), out.end(), ',', '.');
   return out;
 }
@@ -90,12 +86,8 @@ class ValueReader {
       out_.of_pi = true;
       return std::numbers::pi;
     }
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (error != std::errc{} || rest_.starts_with('-') || !std::isfinite(value))
-      return std::nullopt;
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    return value;
+    const auto number = take_number(rest_, '.');
+    return number ? number_in(*number, '.') : std::nullopt;
   }
 
   /// q, q2, q_2, theta2: once.
@@ -126,7 +118,10 @@ class ValueReader {
 }  // namespace
 
 std::optional<DhValue> read_dh_value(std::string_view text, bool comma) {
-  return ValueReader(plain(text, comma)).read();
+  if (const auto degrees = sexagesimal(text)) return DhValue{*degrees, "deg"};
+  const std::string written = plain(text, comma);
+  // Whether a comma divides thousands or is a decimal sign cannot be told between commas.
+  return written.find(',') == written.npos ? ValueReader(written).read() : std::nullopt;
 }
 
 }  // namespace plumb::offline::cli

@@ -309,24 +309,11 @@ void set_ragged_aside(const SourceText& text, RawRows& rows) {
   if (kept == 0 && !rows.faults.empty()) throw Failure(Exit::kInput, rows.faults);
 }
 
-/// XML, JSON or YAML, which are no tables; empty for other texts.
-std::string format_of(const SourceText& text) {
-  for (const auto line : text.lines) {
-    const auto begin = trimmed(line);
-    if (begin.empty()) continue;
-    if (begin.starts_with("<")) return "XML";
-    if (begin.starts_with("{") || begin.starts_with("[{") || begin == "[" ||
-        begin.starts_with("[["))
-      return "JSON";
-    const bool key = begin.ends_with(":") && begin.find_first_of(" ,;\t") == begin.npos;
-    return key || begin == "---" ? "YAML" : "";
-  }
-  return {};
-}
-
 void refuse_other_formats(const SourceText& text) {
-  const std::string format = format_of(text);
-  if (!format.empty())
+  const auto first = std::find_if(text.lines.begin(), text.lines.end(),
+                                  [](std::string_view line) { return !trimmed(line).empty(); });
+  if (first == text.lines.end()) return;
+  if (const auto format = other_format(trimmed(*first)); !format.empty())
     fail(text, 1, "E-IMPORT-FORMAT", fmt::format("this is {}, no table", format),
          "export a table as text (CSV), one row a pose");
 }

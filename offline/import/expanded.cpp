@@ -4,6 +4,7 @@
 #include <regex>
 #include <vector>
 
+#include "import/heading.hpp"
 #include "import/unit_words.hpp"
 
 namespace plumb::offline {
@@ -68,6 +69,7 @@ std::string with_sigma(const std::string& text) {
 }  // namespace
 
 std::optional<Expanded> expanded_uncertainty(const std::string& heading) {
+  if (heading.size() > kLongestHeading) return std::nullopt;
   Expanded out{1.0, "", with_factor_apart(heading)};
   bool found = false;
   for (const auto& pattern : patterns()) {

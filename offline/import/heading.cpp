@@ -26,6 +26,7 @@ Split split_unit(const std::string& text, std::string (*read_unit)(std::string))
 }  // namespace
 
 WrittenHeading read_heading(const std::string& text) {
+  if (text.size() > kLongestHeading) return {text, "", ""};
   const Split known = split_unit(text, known_unit);
   if (!known.unit.empty()) return {known.name, known.unit, ""};
   const Split other = split_unit(text, unit_of_others);

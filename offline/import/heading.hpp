@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace plumb::offline {
+
+/// [bytes] Longer ones say nothing, and std::regex recurses over each of their letters.
+inline constexpr std::size_t kLongestHeading = 1000;
 
 /// A heading as people write it, "alpha [°]", "x(mm)", "Joint 1 / deg": its name, and its unit as
 /// plumb writes it, or one that plumb does not convert.

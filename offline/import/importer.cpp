@@ -111,6 +111,8 @@ class Importer {
   void leave_out(const ColumnPlan& plan, std::size_t k) {
     if (std::find(used_.begin(), used_.end(), k) != used_.end()) return;
     out_.left_out.push_back(plan.from.empty() ? fmt::format("column {}", k + 1) : plan.from);
+    if (out_.left_out.size() == 1 && !contents_[k].numeric() && !contents_[k].empty)
+      kept_as_ = "=note";
     const bool of_quaternion = plan.named.letter_q || plan.named.quaternion_part;  // said elsewhere
     if (!plan.wished && !of_quaternion && contents_[k].numeric() && !plan.from.empty())
       out_.unused.push_back({plan.from, contents_[k].largest});
@@ -740,8 +742,7 @@ class Importer {
         {.severity = Severity::kNote,
          .code = "N-IMPORT-LEFT",
          .message = fmt::format("columns left out: {}", fmt::join(out_.left_out, ", ")),
-         .help =
-             fmt::format("to keep one: {}", map_option({out_.left_out.front() + "=NAME_UNIT"}))});
+         .help = fmt::format("to keep one: {}", map_option({out_.left_out.front() + kept_as_}))});
   }
 
   const SourceText& text_;
@@ -752,7 +753,8 @@ class Importer {
   bool joined_date_ = false;
   std::vector<std::size_t> used_;  // columns that became part of another
   std::optional<PoseMatrix> matrix_;
-  std::string thousands_;  // the first number of which signs divide the thousands
+  std::string kept_as_ = "=NAME_UNIT";  // how the first column that is left out could be kept
+  std::string thousands_;               // the first number of which signs divide the thousands
   ProblemList problems_;
   Imported out_;
 };

@@ -15,8 +15,6 @@ namespace {
 
 using Signs = std::span<const std::string_view>;
 
-constexpr std::string_view kMinus[] = {"-", "\u2212", "\u2013", "\uFE63", "\uFF0D"};
-constexpr std::string_view kBlanks[] = {" ", "\u00A0", "\u202F", "\u2009", "\u2007"};
 constexpr std::string_view kApostrophes[] = {"'", "\u2019"};
 constexpr std::string_view kPlus[] = {"+"};
 constexpr std::string_view kExponent[] = {"e", "E", "d", "D"};
@@ -109,38 +107,40 @@ std::optional<double> part(std::string_view& text) {
 
 }  // namespace
 
-std::optional<std::string> plain_number(std::string_view cell, char decimal) {
-  if (decimal == '.' && is_plain(cell)) return std::string(cell);
-  cell = without_blanks(cell);
-  std::string out;
-  if (!take(cell, kMinus).empty())
-    out = "-";
-  else if (cell.starts_with('+'))
-    cell.remove_prefix(1);
-  const auto whole = whole_part(cell, decimal);
+std::optional<std::string> take_number(std::string_view& text, char decimal) {
+  const auto whole = whole_part(text, decimal);
   if (!whole) return std::nullopt;
-  out += *whole;
+  std::string out = *whole;
   bool any = !whole->empty();
-  if (cell.starts_with(decimal)) {
-    cell.remove_prefix(1);
-    const auto behind = digits(cell);
+  if (text.starts_with(decimal)) {
+    text.remove_prefix(1);
+    const auto behind = digits(text);
     any = any || !behind.empty();
     out += '.';
     out += behind;
   }
   if (!any) return std::nullopt;
-  if (const auto letter = take(cell, kExponent); !letter.empty()) {
-    out += letter == "e" ? 'e' : 'E';
-    if (!take(cell, kMinus).empty())
-      out += '-';
-    else if (!take(cell, kPlus).empty())
-      out += '+';
-    const auto exponent = digits(cell);
-    if (exponent.empty()) return std::nullopt;
-    out += exponent;
+  std::string_view rest = text;  // "90deg" has no exponent
+  if (const auto letter = take(rest, kExponent); !letter.empty()) {
+    const bool minus = !take(rest, kMinus).empty();
+    const bool plus = !minus && !take(rest, kPlus).empty();
+    if (const auto exponent = digits(rest); !exponent.empty()) {
+      (out += letter == "e" ? 'e' : 'E') += minus ? "-" : plus ? "+" : "";
+      out += exponent;
+      text = rest;
+    }
   }
-  if (!cell.empty()) return std::nullopt;
   return out;
+}
+
+std::optional<std::string> plain_number(std::string_view cell, char decimal) {
+  if (decimal == '.' && is_plain(cell)) return std::string(cell);
+  cell = without_blanks(cell);
+  const bool minus = !take(cell, kMinus).empty();
+  if (!minus) (void)take(cell, kPlus);
+  const auto number = take_number(cell, decimal);
+  if (!number || !cell.empty()) return std::nullopt;
+  return (minus ? "-" : "") + *number;
 }
 
 std::optional<double> number_in(std::string_view cell, char decimal) {

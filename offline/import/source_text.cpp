@@ -177,4 +177,13 @@ void decode(std::string bytes, const std::string& file, SourceText& out) {
     fail("E-IMPORT-EMPTY", "the file is empty", "export the measurements again");
 }
 
+std::string_view other_format(std::string_view line) {
+  if (line.starts_with("PK\x03\x04")) return "a spreadsheet";
+  if (line.starts_with("<")) return "XML";
+  if (line.starts_with("{") || line.starts_with("[{") || line.starts_with("[[") || line == "[")
+    return "JSON";
+  const bool key = line.ends_with(":") && line.find_first_of(" ,;\t") == line.npos;
+  return key || line == "---" ? "YAML" : "";
+}
+
 }  // namespace plumb::offline

@@ -27,4 +27,8 @@ struct SourceText {
 /// for text that cannot be Latin-1 (Chinese, Korean, Cyrillic), which would turn into nonsense.
 void decode(std::string bytes, const std::string& file, SourceText& out);
 
+/// What a file is that holds no table, by its first line that is not empty: "XML", "JSON", "YAML",
+/// "a spreadsheet"; empty if it may be one.
+std::string_view other_format(std::string_view line);
+
 }  // namespace plumb::offline

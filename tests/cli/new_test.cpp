@@ -35,6 +35,9 @@ TEST(NewDh, TheSameTableAsOtherPeopleWriteItIsTheSameArm) {
            "deg,J2\n60°,0.5mm,0,-45°,J3\n",
            "i,alpha,a_mm,d_mm,theta\nJ1,0,0,118,q1\nJ2,-pi/2,612,0,q_2 + "
            "pi\nJ3,2*pi/6,0.5,0,-pi/4\n",
+           // As import reads them: wide blanks, thousands, minutes of arc, brackets of all kinds.
+           "joint,alpha {deg},a(i-1) <um>,d_mm,theta°\nJ1,0,0,118\u00A0mm,0\n"
+           "J2,\u221290\u202F°,612'000,0,180°0′\nJ3,60°0′0″,5e2,0,-45\n",
            "\xEF\xBB\xBF# my arm\r\n#,alphai_deg,ai_mm,di_mm,thetai_deg\r\nJ1,0,0,118,0\r\n"
            "J2,-90,612,0,180\r\nJ3,60,0.5,0,-45\r\n",
        }) {
@@ -67,6 +70,9 @@ TEST(NewDh, TheRemedyNeitherDeletesAJointNorGivesATextAUnit) {
            {"joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,pi/2,0,0,0\n", "write 90 there"},
            {"joint,alpha_rad,a_mm,d_mm,theta_rad\nJ1,90°,0,0,0\n", "write 1.57079632679489"},
            {"joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,x,0,0,0\n", "'x' is not a number"},
+           {"joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,0,\"1,234\",0,0\n", "'1,234' is not a number"},
+           {"joint,alpha_deg,a [furlong],d_mm,theta_deg\nJ1,0,3,0,0\n", "'furlong' is not a unit"},
+           {"joint,alpha_deg,a_mmm,d_mm,theta_deg\nJ1,0,3,0,0\n", "'mmm' is not a unit"},
            {"joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,,0,0,0\n", "has an empty cell"},
            {"joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,0,0,0\n", "complete this row"},
            {"joint,alpha_deg,a_mm,d_mm,theta_deg\nJ1,0,0,q1,0\n", "prismatic"},
@@ -92,6 +98,24 @@ TEST(NewDh, TheRemedyNeitherDeletesAJointNorGivesATextAUnit) {
          {"delete the row", "delete this row", "j_mm", "name_mm", "plumb import"})
       EXPECT_EQ(ran.err.find(wrong), std::string::npos) << table << ran.err;
   }
+}
+
+TEST(NewDh, LimitsMayStandInColumnsOfBothKindsAndBeEmptyButNotTwiceInOneKind) {
+  const Sandbox box;
+  const std::string head = "alpha_deg,a_mm,d_mm,theta_deg,type,q_min_deg,q_max_deg,q_min_mm,";
+  const Ran ran = new_from(box, head +
+                                    "q_max_mm\n0,0,0,0,,-90,80,,\n0,0,0,0,prismatic,,,0,1500\n"
+                                    "0,1,0,0,,,,,\n");
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const std::string cell = box.read("c/cell.toml");
+  EXPECT_NE(cell.find("q = [-90, 80]"), std::string::npos) << cell;
+  EXPECT_NE(cell.find("q = [0, 1500]"), std::string::npos) << cell;
+  EXPECT_NE(ran.err.find("N-DH-LIMITS"), std::string::npos) << ran.err;
+  const Ran twice = new_from(box, head + "q_min_rad\n0,0,0,0,,-90,80,,-1\n");
+  EXPECT_EQ(twice.exit, 3);
+  EXPECT_NE(twice.err.find("'q_min_deg' and 'q_min_rad' are the same quantity"), std::string::npos);
+  const Ran none = new_from(box, "alpha_deg,a_mm,d_mm,theta_deg,q_min\n0,0,0,0,1.2\n");
+  EXPECT_NE(none.err.find("rename it to 'q_min_deg'"), std::string::npos) << none.err;
 }
 
 TEST(NewDh, EveryMistakeOfTheTextIsToldAtOnce) {

@@ -111,6 +111,25 @@ TEST(Spelling, WhatIsAssumedIsSaid) {
             std::string::npos);
 }
 
+/// Patterns of the standard library recurse over every letter.
+TEST(Spelling, AHeadingOfALineLengthIsLeftOut) {
+  const std::string endless(300000, 'a');
+  EXPECT_EQ(in_short(imported_text("q1_deg;" + endless + ";x_mm\n1;2;3\n2;3;4\n")),
+            "q1_deg=1|2 x_mm=3|4");
+}
+
+TEST(Spelling, AColumnOfTextsThatIsLeftOutMayBeKeptAsTheNote) {
+  const auto remedy = [](const std::string& text) {
+    for (const Problem& remark : imported_text(text).remarks)
+      if (remark.code == "N-IMPORT-LEFT") return remark.help;
+    return std::string();
+  };
+  EXPECT_EQ(remedy("q1_deg;x_mm;operator\n1;2;Anna\n2;3;Bert\n"),
+            "to keep one: --map \"operator=note\"");
+  EXPECT_EQ(remedy("q1_deg;x_mm;speed;operator\n1;2;9;Anna\n2;3;8;Bert\n"),
+            "to keep one: --map \"speed=NAME_UNIT\"");
+}
+
 TEST(Spelling, UnitsInCellsThatDisagreeAreRefused) {
   EXPECT_EQ(refusal_of("q1;x\n1 deg;2 mm\n2 deg;3 m\n").code, "E-IMPORT-CELLS");
   EXPECT_EQ(refusal_of("q1 [rad];x\n1 deg;2 mm\n2 deg;3 mm\n").code, "E-IMPORT-CELLS");
