@@ -55,6 +55,9 @@ std::string path_of(Point at, Shape shape, double r) {
     case Shape::kTriangle:
       return fmt::format("M{}l{}h{}z", pair_of(at.x, at.y - 1.2 * r), pair_of(1.15 * r, 2.0 * r),
                          number(-2.3 * r));
+    case Shape::kTriangleRight:
+      return fmt::format("M{}l{}v{}z", pair_of(at.x + 1.2 * r, at.y), pair_of(-2.0 * r, 1.15 * r),
+                         number(-2.3 * r));
     case Shape::kDiamond:
       r *= 1.25;
       return fmt::format("M{}l{}l{}l{}z", pair_of(at.x, at.y - r), pair_of(r, r), pair_of(-r, r),

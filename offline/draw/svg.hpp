@@ -38,7 +38,7 @@ struct LineStyle {
   std::string dashes = {};
 };
 
-enum class Shape { kCircle, kSquare, kTriangle, kDiamond, kCross };
+enum class Shape { kCircle, kSquare, kTriangle, kTriangleRight, kDiamond, kCross };
 
 /// A sign at a place. A pose is named, so that a page can find it, and its numbers stand in
 /// `words`, which a browser shows when the mouse rests on it.

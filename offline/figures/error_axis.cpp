@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figures/error_axis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -12,13 +17,14 @@ constexpr double kSmallestShown_m = 1e-9;
 }  // namespace
 
 double ErrorAxis::of(double error_m) const {
-  const double value = error_m * unit.per_m;
+  const double value = std::min(error_m * unit.per_m, axis.high);
   return is_log() ? std::max(value, axis.low) : value;
 }
 
 ErrorAxis error_axis(const RunResults& results) {
   std::vector<int> rows = results.held;
   rows.insert(rows.end(), results.fit.begin(), results.fit.end());
+  rows = usual_rows(results, std::move(rows));
   const auto before = sorted_errors(results, rows, Which::kBefore);
   const auto after = sorted_errors(results, rows, Which::kAfter);
   const double largest = std::max({quantile_of(before, 1.0), quantile_of(after, 1.0),
@@ -30,11 +36,36 @@ ErrorAxis error_axis(const RunResults& results) {
   if (usual > kSmallestShown_m && largest > kLogBeyond * usual) {
     out.axis.scale = draw::Axis::Scale::kLog;
     const double least = std::max(quantile_of(after, 0.02), 1e-3 * usual);
-    const auto ticks = draw::log_ticks(least * out.unit.per_m, out.axis.high, draw::kMostTicks);
-    out.axis.low = ticks.front().value;
-    out.axis.high = ticks.back().value;
+    out.axis.low = least * out.unit.per_m;
   }
+  const auto ticks = (out.is_log() ? draw::log_ticks : draw::round_ticks)(
+      out.axis.low, out.axis.high, draw::kMostTicks);
+  out.axis.low = ticks.front().value;
+  out.axis.high = ticks.back().value;
+  out.axis.ends = draw::Axis::Ends::kExact;
   return out;
+}
+
+void add_beyond(const RunResults& results, const ErrorAxis& axis, const std::vector<int>& rows,
+                draw::SheetText& text) {
+  std::vector<int> beyond;
+  for (const int row : rows)
+    if (axis.ends_before(results.before(row)) || axis.ends_before(results.after(row)))
+      beyond.push_back(row);
+  if (beyond.empty()) return;
+  std::stable_sort(beyond.begin(), beyond.end(),
+                   [&](int a, int b) { return results.after(a) > results.after(b); });
+  const auto n = static_cast<long long>(beyond.size());
+  text.legend.push_back(
+      {.words = std::to_string(n) + " beyond the axis",
+       .mark = draw::Mark{.shape = draw::Shape::kTriangleRight, .paint = draw::Tone::kInk}});
+  text.notes.push_back(
+      fmt::format("{} and {} beyond the axis, drawn as {} at its edge: {}{}, {} after "
+                  "calibration.",
+                  counted_words(n, "reading stands out", "readings stand out"),
+                  n == 1 ? "lies" : "lie", n == 1 ? "a triangle" : "triangles",
+                  n == 1 ? "" : "the worst is ", pose_list(results, std::span(beyond).first(1), 1),
+                  length_text(results.after(beyond.front()))));
 }
 
 ErrorAxis mean_error_axis(double least_m, double most_m) {

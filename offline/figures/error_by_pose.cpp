@@ -16,6 +16,7 @@ using draw::Mark;
 using draw::Tone;
 
 constexpr std::size_t kMostPoses = 1200, kNamedPoses = 3;
+constexpr double kEdge_px = 5.0;  // of a mark at the end of the axis
 
 }  // namespace
 
@@ -32,12 +33,14 @@ std::string error_by_pose(const RunResults& results, double width) {
   std::stable_sort(rows.begin(), rows.end(),
                    [&](int a, int b) { return results.after(a) < results.after(b); });
   const std::string kind = held ? ", held out" : ", fitted";
-  draw::Sheet sheet(width, {.title = "Error of every pose, sorted",
-                            .sentence = where_sentence(results),
-                            .legend = {{.words = "before" + kind, .mark = before},
-                                       {.words = "after" + kind, .mark = after}},
-                            .notes = std::move(notes)});
   const ErrorAxis axis = error_axis(results);
+  draw::SheetText text{.title = "Error of every pose, sorted",
+                       .sentence = where_sentence(results),
+                       .legend = {{.words = "before" + kind, .mark = before},
+                                  {.words = "after" + kind, .mark = after}},
+                       .notes = std::move(notes)};
+  add_beyond(results, axis, rows, text);
+  draw::Sheet sheet(width, std::move(text));
   draw::Panel panel(sheet.svg(), sheet.room(380.0),
                     {.title = "poses in the order of their error after calibration",
                      .low = 0.0,
@@ -45,13 +48,15 @@ std::string error_by_pose(const RunResults& results, double width) {
                     axis.axis);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double x = static_cast<double>(i) + 0.5;
-    Mark one = before;
-    one.pose = results.pose(rows[i]);
-    panel.mark(x, axis.of(results.before(rows[i])), one);
-    one = after;
-    one.pose = results.pose(rows[i]);
-    one.words = pose_numbers(results, rows[i]);
-    panel.mark(x, axis.of(results.after(rows[i])), one);
+    const auto draw_one = [&](Mark one, double error_m) {
+      one.pose = results.pose(rows[i]);
+      if (axis.ends_before(error_m)) one.shape = draw::Shape::kTriangle, one.size = kEdge_px;
+      panel.mark(x, axis.of(error_m), one);
+    };
+    draw_one(before, results.before(rows[i]));
+    Mark told = after;
+    told.words = pose_numbers(results, rows[i]);
+    draw_one(told, results.after(rows[i]));
   }
   draw_limits(results, axis, Along::kY, panel);
   for (std::size_t k = 0; k < std::min(kNamedPoses, rows.size()); ++k) {

@@ -37,6 +37,7 @@ std::vector<int> counts_of(const std::vector<double>& errors_m, const ErrorAxis&
                            const std::vector<double>& edges) {
   std::vector<int> out(edges.size() - 1, 0);
   for (const double error : errors_m) {
+    if (axis.ends_before(error)) continue;
     const auto above = std::upper_bound(edges.begin(), edges.end(), axis.of(error));
     const auto bin = std::clamp<std::ptrdiff_t>(above - edges.begin() - 1, 0,
                                                 static_cast<std::ptrdiff_t>(out.size()) - 1);
@@ -47,8 +48,10 @@ std::vector<int> counts_of(const std::vector<double>& errors_m, const ErrorAxis&
 
 struct Bars {
   std::vector<int> held, fit;
+  int beyond = 0;  // the axis
   int most() const {
     int out = 1;
+    out = std::max(out, beyond);
     for (const auto* counts : {&held, &fit})
       for (const int n : *counts) out = std::max(out, n);
     return out;
@@ -71,11 +74,17 @@ void draw_bars(const Bars& bars, const std::vector<double>& edges, const ErrorAx
   };
   draw_one(bars.held, "held out", true);
   draw_one(bars.fit, "fitted", false);
+  if (bars.beyond == 0) return;
+  const std::string words = fmt::format("{} beyond", bars.beyond);
+  panel.mark(axis.axis.high, bars.beyond,
+             {.shape = draw::Shape::kTriangleRight, .paint = tone, .size = 5.0, .words = words});
+  panel.label(axis.axis.high, bars.beyond, words);
 }
 
 std::string hist_sentence(const RunResults& results) {
-  const auto before = sorted_errors(results, results.judged(), Which::kBefore);
-  const auto after = sorted_errors(results, results.judged(), Which::kAfter);
+  const auto rows = usual_rows(results, results.judged());
+  const auto before = sorted_errors(results, rows, Which::kBefore);
+  const auto after = sorted_errors(results, rows, Which::kAfter);
   if (after.empty()) return "There is no pose to judge.";
   const double tolerance = results.cell.tolerance_m;
   const auto within = std::upper_bound(after.begin(), after.end(), tolerance) - after.begin();
@@ -98,23 +107,22 @@ std::string error_hist(const RunResults& results, double width) {
   if (!results.fit.empty())
     legend.push_back(
         {.words = "fitted poses (outline)", .line = draw::LineStyle{Tone::kBlue, 1.4}});
-  draw::Sheet sheet(width, {.title = "Distribution of the error, before and after calibration",
-                            .sentence = hist_sentence(results),
-                            .legend = std::move(legend),
-                            .notes = error_notes(results)});
   const ErrorAxis axis = error_axis(results);
-  // Before the bins are known the axis must end where the panel lets it end.
-  ErrorAxis exact = axis;
-  if (!axis.is_log()) {
-    const auto ticks = draw::round_ticks(axis.axis.low, axis.axis.high, draw::kMostTicks);
-    exact.axis.low = ticks.front().value;
-    exact.axis.high = ticks.back().value;
-  }
-  exact.axis.ends = draw::Axis::Ends::kExact;
-  const auto edges = bin_edges(exact.axis);
+  draw::SheetText text{.title = "Distribution of the error, before and after calibration",
+                       .sentence = hist_sentence(results),
+                       .legend = std::move(legend),
+                       .notes = error_notes(results)};
+  std::vector<int> all = results.held;
+  all.insert(all.end(), results.fit.begin(), results.fit.end());
+  add_beyond(results, axis, all, text);
+  draw::Sheet sheet(width, std::move(text));
+  const auto edges = bin_edges(axis.axis);
   const auto bars_of = [&](Which which) {
-    return Bars{counts_of(sorted_errors(results, results.held, which), exact, edges),
-                counts_of(sorted_errors(results, results.fit, which), exact, edges)};
+    const auto errors = sorted_errors(results, all, which);
+    return Bars{counts_of(sorted_errors(results, results.held, which), axis, edges),
+                counts_of(sorted_errors(results, results.fit, which), axis, edges),
+                static_cast<int>(std::count_if(errors.begin(), errors.end(),
+                                               [&](double e) { return axis.ends_before(e); }))};
   };
   const Bars before = bars_of(Which::kBefore), after = bars_of(Which::kAfter);
   const draw::Axis count{.title = "poses",
@@ -122,14 +130,14 @@ std::string error_hist(const RunResults& results, double width) {
                          .high = 1.3 * std::max(before.most(), after.most()),
                          .scale = draw::Axis::Scale::kLog,
                          .ends = draw::Axis::Ends::kExact};
-  draw::Axis upper = exact.axis;
+  draw::Axis upper = axis.axis;
   upper.title.clear();
   draw::Panel first(sheet.svg(), sheet.room(kPanelHeight), upper, count, "before");
-  draw_bars(before, edges, exact, Tone::kVermilion, first);
-  draw_limits(results, exact, Along::kX, first);
-  draw::Panel second(sheet.svg(), sheet.room(kPanelHeight), exact.axis, count, "after");
-  draw_bars(after, edges, exact, Tone::kBlue, second);
-  draw_limits(results, exact, Along::kX, second);
+  draw_bars(before, edges, axis, Tone::kVermilion, first);
+  draw_limits(results, axis, Along::kX, first);
+  draw::Panel second(sheet.svg(), sheet.room(kPanelHeight), axis.axis, count, "after");
+  draw_bars(after, edges, axis, Tone::kBlue, second);
+  draw_limits(results, axis, Along::kX, second);
   return sheet.file();
 }
 

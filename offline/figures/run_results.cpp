@@ -7,6 +7,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/earlier_runs.hpp"
 #include "fit/measured_orientations.hpp"
+#include "fit/verdict.hpp"
 
 namespace plumb::offline::figures {
 
@@ -27,6 +28,13 @@ RunResults results_of(const Cell& cell, const Measurements& measured, const Run&
     if (split.used[static_cast<std::size_t>(row)] && !is_held[static_cast<std::size_t>(row)])
       out.fit.push_back(row);
   return out;
+}
+
+std::vector<int> usual_rows(const RunResults& results, std::vector<int> rows) {
+  const Fit& fit = results.run.fit;
+  const auto single = single_bad(fit);
+  return without_outliers(without_outliers(std::move(rows), fit.calibration.outliers),
+                          {single.begin(), single.end()});
 }
 
 std::vector<std::optional<Parameter>> fitted_parameters(const Run& run) {

@@ -32,6 +32,9 @@ struct RunResults {
   const std::vector<int>& judged() const { return held.empty() ? fit : held; }
 };
 
+/// Those of the rows that no headline leaves out because they are listed as standing out.
+std::vector<int> usual_rows(const RunResults& results, std::vector<int> rows);
+
 /// Cost: one small fit of tracker frame and target; later runs are read. Throws as `place_nominal`.
 /// `measured` must stand on the base of the run.
 RunResults results_of(const Cell& cell, const Measurements& measured, const Run& run);

@@ -10,6 +10,8 @@
 #include "draw/text_width.hpp"
 #include "draw/ticks.hpp"
 #include "effects/registry.hpp"
+#include "fit/verdict.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -18,8 +20,8 @@ constexpr double kMicrometresBelow_m = 0.2e-3;
 constexpr double kNamed_px = 160.0;  // a longer name of a pose is cut
 constexpr std::size_t kWorstShare = 10;
 
-std::string counted_poses(std::size_t n, const char* kind) {
-  return fmt::format("{} {} {}", n, kind, n == 1 ? "pose" : "poses");
+std::string counted_poses(std::size_t n, const std::string& kind) {
+  return counted_words(static_cast<long long>(n), kind + " pose", kind + " poses");
 }
 
 std::string plain_name(const std::string& effect) {
@@ -54,8 +56,9 @@ std::string length_text(double metres) {
 }
 
 std::string judged_words(const RunResults& results) {
-  return results.held.empty() ? counted_poses(results.fit.size(), "fitted")
-                              : counted_poses(results.held.size(), "held-out");
+  return counted_poses(usual_rows(results, results.judged()).size(),
+                       results.held.empty() ? "fitted" : "held-out") +
+         without_words(results.run.fit);
 }
 
 std::string pose_names(const RunResults& results, std::span<const int> rows, std::size_t most) {

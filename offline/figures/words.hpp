@@ -21,7 +21,8 @@ LengthUnit unit_for(double largest_m);
 /// "0.41 mm", "12 µm": two significant digits.
 std::string length_text(double metres);
 
-/// "12 held-out poses" or, without any, "80 fitted poses"; one is "1 held-out pose".
+/// "12 held-out poses" or, without any, "80 fitted poses"; one is "1 held-out pose". Of those that
+/// count: "57 held-out poses (without 3 readings that stand out)".
 std::string judged_words(const RunResults& results);
 
 /// "12, 57 and 80", or with the word before them, "poses 12, 57 and 80" or "pose 12"; at most

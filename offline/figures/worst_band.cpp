@@ -37,7 +37,7 @@ std::string range_text(const RunResults& results, const WorstBand& band) {
 }  // namespace
 
 std::optional<WorstBand> worst_band(const RunResults& results) {
-  const auto& rows = results.judged();
+  const auto rows = usual_rows(results, results.judged());
   std::optional<WorstBand> best;
   double most = kStandardErrors;
   Sums all;
@@ -75,7 +75,7 @@ std::optional<WorstBand> worst_band(const RunResults& results) {
 }
 
 std::string where_sentence(const RunResults& results) {
-  std::vector<int> rows = results.judged();
+  std::vector<int> rows = usual_rows(results, results.judged());
   if (rows.empty()) return "There is no pose to judge.";
   std::stable_sort(rows.begin(), rows.end(),
                    [&](int a, int b) { return results.after(a) > results.after(b); });

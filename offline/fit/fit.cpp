@@ -17,13 +17,13 @@
 #include "fit/imagined_poses.hpp"
 #include "fit/orientation_words.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/usual_errors.hpp"
+#include "program/counted_words.hpp"
 #include "tree/domain.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kFarTimes = 6.0;              // the usual scatter: an outlier
-constexpr double kSmallestScatter_m = 0.1e-6;  // of noise-free data
 constexpr std::size_t kListed = 5;
 constexpr int kSpareOfSetup = 6;   // coordinates beyond its own numbers: two readings
 constexpr double kAnyError = 1e3;  // noise floors, which few poses may leave
@@ -169,24 +169,18 @@ bool says_nothing(const Calibration& c, double coordinates) {
 /// Held-out poses far outside the scatter of the others. They stay in the figure.
 void find_held_outliers(const Measurements& measured, const std::vector<int>& held, Fit& out) {
   const Rows3 error = residuals(measured, out.predicted_M);
+  std::vector<double> norms;
+  for (const int row : held) norms.push_back(error.row(row).norm());
   const int axes =
       static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
-  const double sigma = std::max(out.floor.sigma_m, kSmallestScatter_m);
-  Eigen::VectorXd distance(static_cast<Eigen::Index>(held.size()));
-  for (std::size_t i = 0; i < held.size(); ++i) distance(i) = error.row(held[i]).norm() / sigma;
-  const double scatter = usual_scatter(distance, axes);
-  std::vector<int> rest;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const double times = distance(i) / scatter;
-    if (times > kFarTimes)
-      out.held_outliers.push_back({.row = held[i],
-                                   .error_m = distance(i) * sigma,
-                                   .times = times,
-                                   .pose = measured.pose.empty() ? "" : measured.pose[held[i]]});
-    else
-      rest.push_back(held[i]);
-  }
-  out.held_without_outliers = stats_of(measured, out.predicted_M, rest);
+  const StandingOut far = standing_out(norms, axes, out.floor.sigma_m);
+  for (const std::size_t i : far.which)
+    out.held_outliers.push_back({.row = held[i],
+                                 .error_m = norms[i],
+                                 .times = far.times[i],
+                                 .pose = measured.pose.empty() ? "" : measured.pose[held[i]]});
+  out.held_without_outliers =
+      stats_of(measured, out.predicted_M, without_outliers(held, out.held_outliers));
 }
 
 std::string named(const Measurements& measured, const std::vector<Outlier>& found) {
@@ -259,10 +253,11 @@ void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit&
     out.remarks.push_back(
         {.severity = Severity::kWarning,
          .code = "W-FIT-SETUP-TIGHT",
-         .message = fmt::format("set-up {} has {} readings for {} numbers of its own (frame, "
-                                "reflector): they fit whatever was read, and may be off by "
-                                "millimetres",
-                                setup_name(cell.measurement, k), readings, numbers),
+         .message = fmt::format("set-up {} has {} for {} of its own (frame, reflector): these "
+                                "fit whatever was read, and may be off by millimetres",
+                                setup_name(cell.measurement, k),
+                                counted_words(readings, "reading", "readings"),
+                                counted_words(numbers, "number", "numbers")),
          .help = "measure at least 10 poses in each set-up, far apart"});
   }
 }
@@ -293,9 +288,11 @@ void remark_on_repeats_of_held(Fit& out) {
   out.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-FIT-HELD-TWICE",
-       .message = fmt::format("{} rows repeat poses that are held out and were not fitted: else "
-                              "these poses would vouch for themselves",
-                              out.split.repeats_of_held),
+       .message = fmt::format("{} held out and {} not fitted: else these poses would vouch for "
+                              "themselves",
+                              counted_words(out.split.repeats_of_held, "row repeats a pose that is",
+                                            "rows repeat poses that are"),
+                              out.split.repeats_of_held == 1 ? "was" : "were"),
        .help = "hold out poses that are not fitted, all repeats of a pose on one side"});
 }
 
@@ -304,8 +301,9 @@ void remark_on_marks(const Cell& cell, Fit& out) {
   out.remarks.push_back(
       {.severity = Severity::kNote,
        .code = "N-FIT-MARKED",
-       .message = fmt::format("the held-out poses are the {} rows that column 'set' marks as held",
-                              held_rows(out.split).size()),
+       .message = fmt::format(
+           "the held-out poses are the {} that column 'set' marks as held",
+           counted_words(static_cast<long long>(held_rows(out.split).size()), "row", "rows")),
        .help = "to let plumb choose instead: plumb fit --held-out 20%"});
 }
 

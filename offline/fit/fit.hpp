@@ -32,7 +32,7 @@ struct Fit {
   ErrorStats held;                    // after
   ErrorStats geometry_held;           // geometry without the tree
   ErrorStats turn_held;               // of orientations [rad]; none if these are not fitted
-  MeasuredOrientations orientations;  // as they were judged before the fit; not kept with a run
+  MeasuredOrientations orientations;  // as they were judged before the fit
   std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` counts them
   ErrorStats held_without_outliers;    // the second figure
   ErrorStats fit;                      // in-sample: never accuracy

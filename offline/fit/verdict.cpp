@@ -5,19 +5,21 @@
 
 #include <algorithm>
 
+#include "fit/usual_errors.hpp"
+#include "program/counted_words.hpp"
+
 namespace plumb::offline {
 namespace {
 
 constexpr double kBelowTheFloor = 0.75;  // times the noise floor: the floor is not only noise
 constexpr double kFarBeyond = 3.0;       // tolerances
-constexpr double kMostStandOut = 0.15;   // of the held-out readings
 constexpr std::size_t kNamed = 3;        // readings, in the head
 
 std::string mm(double m) { return fmt::format("{:.3f} mm", m * 1e3); }
 
-std::string readings(int n) { return fmt::format("{} reading{}", n, n == 1 ? "" : "s"); }
+std::string readings(int n) { return counted_words(n, "reading", "readings"); }
 
-bool leaves_out(const Fit& fit) { return &usual_held(fit) != &fit.held; }
+bool leaves_out(const Fit& fit) { return !single_bad(fit).empty(); }
 
 /// Those of a pose that stands out several times are named once. Empty: no names are known.
 std::vector<std::string> names_of(const std::vector<Outlier>& outliers) {
@@ -157,11 +159,21 @@ std::string limited_words(const Fit& fit, const std::string& size, double tolera
 
 }  // namespace
 
+std::span<const Outlier> single_bad(const Fit& fit) {
+  const bool single = are_single(fit.held_outliers.size(), static_cast<std::size_t>(fit.held.n));
+  if (!single || fit.held_without_outliers.n == 0) return {};
+  return fit.held_outliers;
+}
+
 const ErrorStats& usual_held(const Fit& fit) {
-  const auto out = static_cast<double>(fit.held_outliers.size());
-  const bool single = out <= kMostStandOut * static_cast<double>(fit.held.n);
-  return out > 0.0 && single && fit.held_without_outliers.n > 0 ? fit.held_without_outliers
-                                                                : fit.held;
+  return leaves_out(fit) ? fit.held_without_outliers : fit.held;
+}
+
+std::string without_words(const Fit& fit) {
+  if (!leaves_out(fit)) return {};
+  return fmt::format(" (without {})",
+                     counted_words(static_cast<long long>(single_bad(fit).size()),
+                                   "reading that stands out", "readings that stand out"));
 }
 
 std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit) {

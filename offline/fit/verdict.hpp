@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fit/fit.hpp"
@@ -9,9 +10,15 @@
 
 namespace plumb::offline {
 
-/// The held-out errors that the verdict rests on: without the readings that are listed as standing
-/// out, unless these are more than one in seven, which would be no single bad readings any more.
+/// The held-out readings that stand out, unless they are more than one in seven, which would be no
+/// single bad readings any more: then none.
+std::span<const Outlier> single_bad(const Fit& fit);
+
+/// The held-out errors that every headline rests on: without those of `single_bad`.
 const ErrorStats& usual_held(const Fit& fit);
+
+/// " (without 3 readings that stand out)" where `usual_held` leaves so many out; else nothing.
+std::string without_words(const Fit& fit);
 
 /// What a calibration comes to. Within tolerance: at 95 % of the held-out poses and nowhere three
 /// times beyond it, by `usual_held`.

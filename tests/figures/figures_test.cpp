@@ -9,6 +9,7 @@
 
 #include "figures/bench_figures.hpp"
 #include "figures/data_figures.hpp"
+#include "figures/error_axis.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/evidence_figure.hpp"
 #include "figures/formula_law.hpp"
@@ -150,6 +151,51 @@ TEST(WorstBand, IsTheOneThatWasPlanted) {
 }
 
 TEST(WorstBand, NoiseHasNone) { EXPECT_FALSE(worst_band(MadeRun(400, 6).results())); }
+
+/// Of 60 readings, 12 of them held out, some that are listed as standing out by a quarter metre.
+MadeRun with_bad_readings(const std::vector<int>& rows) {
+  MadeRun made(60, 6);
+  Fit& fit = made.run.fit;
+  fit.held.n = 12;
+  fit.held_without_outliers.n = 12 - static_cast<int>(rows.size());
+  for (const int row : rows) {
+    made.after_M.row(row) = Eigen::RowVector3d(0.15, 0.2, 0.0);
+    made.before_M.row(row) = made.after_M.row(row);
+    fit.held_outliers.push_back({.row = row, .error_m = 0.25, .times = 900.0});
+  }
+  return made;
+}
+
+TEST(BadReadings, LieAtTheEdgeOfAnAxisThatIsMadeForTheOthers) {
+  const MadeRun made = with_bad_readings({25});
+  const RunResults results = made.results();
+  const ErrorAxis axis = error_axis(results);
+  EXPECT_EQ(axis.unit.name, "mm");
+  EXPECT_LT(axis.axis.high, 20.0);
+  EXPECT_EQ(axis.of(0.25), axis.axis.high);
+  for (const auto& svg :
+       {error_by_pose(results, 900.0), error_hist(results, 900.0), error_ecdf(results, 900.0)}) {
+    EXPECT_NE(svg.find("1 beyond the axis"), std::string::npos);
+    EXPECT_NE(svg.find("1 reading stands out and lies beyond the axis"), std::string::npos);
+    EXPECT_EQ(collisions(svg, 900.0), "");
+  }
+  MadeRun unlisted = made;
+  unlisted.run.fit.held_outliers.clear();
+  EXPECT_GE(error_axis(unlisted.results()).axis.high, 250.0);
+  EXPECT_EQ(error_hist(unlisted.results(), 900.0).find("beyond the axis"), std::string::npos);
+}
+
+TEST(BadReadings, AreLeftOutOfTheSentences) {
+  const MadeRun one = with_bad_readings({25});
+  const std::string svg = error_ecdf(one.results(), 4000.0);
+  EXPECT_NE(svg.find("11 held-out poses (without 1 reading that stands out) miss"),
+            std::string::npos);
+  EXPECT_EQ(where_sentence(one.results()).find("250 mm"), std::string::npos);
+  // Three of twelve are no single bad readings any more: all count.
+  const MadeRun three = with_bad_readings({25, 30, 35});
+  EXPECT_NE(where_sentence(three.results()).find("250 mm"), std::string::npos);
+  EXPECT_GE(error_axis(three.results()).axis.high, 250.0);
+}
 
 TEST(ErrorHist, CountsEveryPoseOnceBeforeAndOnceAfter) {
   const MadeRun made(200, 6);
