@@ -17,24 +17,18 @@ namespace plumb::offline::cli {
 namespace {
 
 /// Why the held-out figure of a model does not keep the tolerance; empty if it does.
-std::string beyond_tolerance(const format::Model& model, double tolerance_m) {
-  const auto& held = model.provenance.held_out;
-  if (held.poses == 0 || keeps({.n = static_cast<int>(held.poses),
-                                .mean = held.mean_m,
-                                .rms = held.rms_m,
-                                .p95 = held.p95_m,
-                                .max = held.max_m},
-                               tolerance_m))
-    return "";
-  if (held.p95_m > tolerance_m)
-    return fmt::format("the held-out error at 95 %, {} mm, exceeds the tolerance of {} mm",
-                       show::mm(held.p95_m), show::mm(tolerance_m));
+std::string beyond_tolerance(const Compiled& made, double tolerance_m) {
+  const ErrorStats& held = made.held;
+  if (held.n == 0 || keeps(held, tolerance_m)) return "";
+  if (held.p95 > tolerance_m)
+    return fmt::format("the held-out error at 95 %{}, {} mm, exceeds the tolerance of {} mm",
+                       made.without, show::mm(held.p95), show::mm(tolerance_m));
   return fmt::format("a held-out pose misses by {} mm, far beyond the tolerance of {} mm",
-                     show::mm(held.max_m), show::mm(tolerance_m));
+                     show::mm(held.max), show::mm(tolerance_m));
 }
 
-void warn_of_tolerance(const format::Model& model, double tolerance_m, Outcome& outcome) {
-  const std::string why = beyond_tolerance(model, tolerance_m);
+void warn_of_tolerance(const Compiled& made, double tolerance_m, Outcome& outcome) {
+  const std::string why = beyond_tolerance(made, tolerance_m);
   if (why.empty()) return;
   outcome.remarks.push_back({.severity = Severity::kWarning,
                              .code = "W-COMPILE-TOLERANCE",
@@ -137,16 +131,18 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
   check_effect_sizes(model.effects);
   note_what_is_left(run, model, outcome);
   warn_of_serial(cell, outcome);
-  if (!options.gate) warn_of_tolerance(model, cell.tolerance_m, outcome);
   model.provenance.run = options.refit_all ? kept + ", refitted on all poses" : kept;
-  return {.model = std::move(model),
-          .run = number,
-          .refit_all = options.refit_all,
-          .folds = run.recheck ? 0 : run.fit.split.folds};
+  Compiled out{.model = std::move(model),
+               .run = number,
+               .refit_all = options.refit_all,
+               .folds = run.recheck ? 0 : run.fit.split.folds,
+               .held = usual_held(run.fit),
+               .without = without_words(run.fit)};
+  if (!options.gate) warn_of_tolerance(out, cell.tolerance_m, outcome);
+  return out;
 }
 
-void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
-                Outcome& outcome) {
+void check_gate(const Audit& audit, const Compiled& made, double tolerance_m, Outcome& outcome) {
   const auto fail = [&](const std::string& why) {
     outcome.exit = Exit::kGateFailed;
     outcome.errors.push_back({.code = "E-GATE",
@@ -155,17 +151,17 @@ void check_gate(const Audit& audit, const format::Model& model, double tolerance
   };
   for (const auto& remark : audit.remarks)
     if (remark.severity == Severity::kWarning) fail(remark.message);
-  if (const std::string why = beyond_tolerance(model, tolerance_m); !why.empty()) fail(why);
+  if (const std::string why = beyond_tolerance(made, tolerance_m); !why.empty()) fail(why);
 }
 
 std::string compiled_headline(const Compiled& made, double tolerance_m) {
   const format::Model& model = made.model;
-  const auto& held = model.provenance.held_out;
-  const std::string error = held.poses == 0
-                                ? "no held-out figure"
-                                : fmt::format("held-out mean {} mm, 95 % {} mm",
-                                              show::mm(held.mean_m), show::mm(held.p95_m));
-  const std::string beyond = beyond_tolerance(model, tolerance_m);
+  const ErrorStats& held = made.held;
+  const std::string error =
+      held.n == 0 ? "no held-out figure"
+                  : fmt::format("held-out mean {} mm, 95 % {} mm{}", show::mm(held.mean),
+                                show::mm(held.p95), made.without);
+  const std::string beyond = beyond_tolerance(made, tolerance_m);
   const std::string whose =
       made.folds == 0 ? ""
                       : fmt::format(

@@ -20,7 +20,9 @@ struct Compiled {
   format::Model model;
   int run = 0;  // 0: it was not kept
   bool refit_all = false;
-  int folds = 0;  // of the held-out figure; 0: one held-out set, or none
+  int folds = 0;        // of the held-out figure; 0: one held-out set, or none
+  ErrorStats held;      // that the verdict rests on; the model carries that of all readings
+  std::string without;  // what it leaves out, in words
 
   /// Adds `run`, or null with its reason, and `refit_all`.
   void put_run(Json& result) const;
@@ -34,8 +36,7 @@ Compiled compiled(const Cell& cell, const CompileOptions& options, const WriteOp
 
 /// What --gate requires: no warning of the audit, and held-out poses that keep the tolerance.
 /// What fails becomes an error of `outcome`, exit kGateFailed.
-void check_gate(const Audit& audit, const format::Model& model, double tolerance_m,
-                Outcome& outcome);
+void check_gate(const Audit& audit, const Compiled& made, double tolerance_m, Outcome& outcome);
 
 /// "Compiled Line for Arm (serial 1): held-out mean 0.02 mm, 95 % 0.04 mm." With folds, a sentence
 /// more: which models that error is of.

@@ -52,10 +52,11 @@ std::string before_and_after(const MeasurementFiles& measured, const Fit& before
 }
 
 std::string judged(const std::string& what, const Fit& before, const Fit& after) {
-  const double change = before.held.mean > 0.0 ? after.held.mean / before.held.mean - 1.0 : 0.0;
+  const double then_m = usual_held(before).mean, now_m = usual_held(after).mean;
+  const double change = then_m > 0.0 ? now_m / then_m - 1.0 : 0.0;
   const char* word = change < -0.01 ? "fell" : change > 0.01 ? "ROSE" : "hardly changed";
-  return fmt::format("{}: the held-out error {}: {} -> {} mm ({:+.0f} %).", what, word,
-                     show::mm(before.held.mean), show::mm(after.held.mean), 100.0 * change);
+  return fmt::format("{}: the held-out error {}: {} -> {} mm ({:+.0f} %){}.", what, word,
+                     show::mm(then_m), show::mm(now_m), 100.0 * change, without_words(after));
 }
 
 /// A sentence if a tree was asked for and has no leaves; else nothing.
@@ -146,7 +147,7 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   if (floor) keep_floor(edited, after, after.fit.floor);
   replace_cell(cell, edited, options.dry_run, outcome);
   outcome.result["run"] = after.number;
-  const bool rose = after.fit.held.mean > before.fit.held.mean;
+  const bool rose = usual_held(after.fit).mean > usual_held(before.fit).mean;
   outcome.text += fmt::format("kept as run {}{}\n", after.number,
                               rose ? "" : "; to take it back: " + to_type(globals, change.undo));
   say_next(globals, rose ? change.undo + "   # takes it back" : next, outcome);

@@ -38,6 +38,7 @@ Json result_of(const Compiled& made, const Audit& audit, const bench::StepCost& 
                                       .rms = held.rms_m,
                                       .p95 = held.p95_m,
                                       .max = held.max_m});
+  out["verdict_error"] = show::stats_json(made.held);
   out["audit"] = show::audit_json(audit, made.model);
   out["cost"] = show::cost_json(cost);
   return out;
@@ -86,7 +87,7 @@ void compile_cell(const CompileArguments& options, const Globals& globals, Outco
   if (!options.c_output.empty()) outcome.result["c"] = options.c_output;
   const std::string text = compiled_headline(made, cell.tolerance_m) +
                            show::audit_text(found, model) + show::cost_text(cost);
-  if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
+  if (options.compile.gate) check_gate(found, made, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) {
     outcome.text = text;
     return say_next(globals, "compare   # where does the model fail?", outcome);

@@ -175,7 +175,7 @@ void deploy(const DeployArguments& options, const Globals& globals, Outcome& out
   outcome.text = compiled_headline(made, cell.tolerance_m) + show::audit_text(found, model) +
                  show::cost_text(cost);
   judge_cycle(options, cost, cell.deploy.cycle_s, outcome);
-  if (options.compile.gate) check_gate(found, model, cell.tolerance_m, outcome);
+  if (options.compile.gate) check_gate(found, made, cell.tolerance_m, outcome);
   if (!outcome.errors.empty()) return;
   const std::string bytes = model_bytes(model);
   const auto files = files_of(cell, layout, model.guard, bytes, mode_of(options));

@@ -107,14 +107,15 @@ void override_split(const FitArguments& options, Cell& cell) {
 /// The gate of --max-rms; true if it is passed.
 bool passes(const FitArguments& options, const Fit& fit, Outcome& outcome) {
   if (!options.max_rms_mm) return true;
-  if (fit.held.n > 0 && show::to_mm(fit.held.rms) <= *options.max_rms_mm) return true;
+  const double rms_m = usual_held(fit).rms;
+  if (fit.held.n > 0 && show::to_mm(rms_m) <= *options.max_rms_mm) return true;
   outcome.exit = Exit::kGateFailed;
   outcome.errors.push_back(
       {.code = "E-GATE-RMS",
        .message = fit.held.n == 0
                       ? "--max-rms: no pose was held out"
-                      : fmt::format("held-out RMS {} mm exceeds --max-rms {} mm; no run was kept",
-                                    show::mm(fit.held.rms), *options.max_rms_mm),
+                      : fmt::format("held-out RMS {} mm{} exceeds --max-rms {} mm; no run was kept",
+                                    show::mm(rms_m), without_words(fit), *options.max_rms_mm),
        .help = "see where it fails: plumb compare"});
   return false;
 }
@@ -212,7 +213,8 @@ void add_fit(Program& program) {
       [options](const Globals& g, Outcome& o) { fit(*options, g, o); });
   verb.add_flag("--dry-run", options->dry_run, "Fit and show, but keep no run");
   verb.add_option("--max-rms", options->max_rms_mm,
-                  "Gate: exit 1 and keep nothing if the held-out RMS exceeds this [mm]")
+                  "Gate: exit 1 and keep nothing if the held-out RMS, without single readings that "
+                  "stand out, exceeds this [mm]")
       .type_name("MM")
       .check(greater_than_zero());
   verb.add_option("--seed", options->seed, "Seed of the split, instead of the cell's")

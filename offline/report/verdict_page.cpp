@@ -64,8 +64,9 @@ std::string tolerance_words(const ReportData& data) {
     return out + fmt::format(" is kept at {} of the fitted readings, which is no accuracy.",
                              percent_words(data.comparison.fit_within_tolerance));
   return out +
-         fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm.",
-                     100.0 * data.comparison.within_tolerance, mm(data.run.fit.held.max));
+         fmt::format(" is kept at {:.1f} % of the held-out readings; the worst misses by {} mm{}.",
+                     100.0 * data.comparison.within_tolerance, mm(usual_held(data.run.fit).max),
+                     without_words(data.run.fit));
 }
 
 std::string inferred_words(const NoiseFloor& floor) {

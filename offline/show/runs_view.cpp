@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/verdict.hpp"
+#include "program/counted_words.hpp"
 #include "show/counted.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
@@ -75,14 +77,13 @@ bool same_held_out(const Run& a, const Run& b) {
 std::string verdict_of(const Run& a, const Run& b) {
   if (a.fit.held.n == 0 || b.fit.held.n == 0)
     return "One of the runs has no held-out poses: their accuracy cannot be compared.";
-  const double change = b.fit.held.mean - a.fit.held.mean;
-  return fmt::format("Held-out mean {} -> {} mm from run {} to run {} ({:+.1f} %){}.",
-                     mm(a.fit.held.mean), mm(b.fit.held.mean), a.number, b.number,
-                     a.fit.held.mean > 0 ? 100.0 * change / a.fit.held.mean : 0.0,
-                     a.inputs != b.inputs ? "; the measurements differ"
-                     : !same_held_out(a, b)
-                         ? "; but other poses were held out, so part of it is chance"
-                         : "");
+  const double before = usual_held(a.fit).mean, after = usual_held(b.fit).mean;
+  return fmt::format(
+      "Held-out mean {} -> {} mm from run {} to run {} ({:+.1f} %){}.", mm(before), mm(after),
+      a.number, b.number, before > 0 ? 100.0 * (after - before) / before : 0.0,
+      a.inputs != b.inputs   ? "; the measurements differ"
+      : !same_held_out(a, b) ? "; but other poses were held out, so part of it is chance"
+                             : "");
 }
 
 Json recheck_of_json(const RecheckOf& recheck) {
@@ -94,12 +95,23 @@ Json recheck_of_json(const RecheckOf& recheck) {
           {"control_limit_mm", to_mm(recheck.limit_m)}};
 }
 
+/// "; 3 readings that stand out miss by up to 5.100 mm", or nothing.
+std::string beside(const Fit& fit) {
+  const auto n = static_cast<long long>(single_bad(fit).size());
+  if (n == 0) return {};
+  return fmt::format(
+      "; {} by up to {} mm",
+      counted_words(n, "reading that stands out misses", "readings that stand out miss"),
+      mm(fit.held.max));
+}
+
 /// What the last column says of a run.
 std::string content_of(const Run& run) {
   if (run.recheck)
     return fmt::format("recheck of run {}: {}", run.recheck->parent, run.recheck->verdict);
-  return fmt::format("{}{}", counted(run.effects),
-                     run.fit.base == Base::kController ? ", on the controller's positions" : "");
+  return fmt::format("{}{}{}", counted(run.effects),
+                     run.fit.base == Base::kController ? ", on the controller's positions" : "",
+                     beside(run.fit));
 }
 
 }  // namespace
@@ -113,6 +125,7 @@ Json runs_json(const std::vector<ListedRun>& runs) {
                     {"base", name_of(run.fit.base)},
                     {"current", state == ListedRun::State::kCurrent},
                     {"held_out", stats_json(run.fit.held)},
+                    {"verdict_error", stats_json(usual_held(run.fit))},
                     {"fit", stats_json(run.fit.fit)},
                     {"cell_sha256", run.cell_sha256}});
     if (run.recheck) list.back()["recheck"] = recheck_of_json(*run.recheck);
@@ -126,13 +139,13 @@ std::string runs_text(const std::vector<ListedRun>& runs) {
                    head::kMax, head::kEffects});
   table.left_from(7);
   for (const auto& [run, state] : runs) {
-    const auto& s = run.fit.held;
+    const auto& s = usual_held(run.fit);
     table.add({fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
                run.created, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max),
                content_of(run)});
   }
-  return fmt::format("{} run{}, held-out error in mm (* of the present cell and data):\n\n",
-                     runs.size(), runs.size() == 1 ? "" : "s") +
+  return fmt::format("{}, held-out error in mm (* of the present cell and data):\n\n",
+                     counted_words(static_cast<long long>(runs.size()), "run", "runs")) +
          table.text();
 }
 
@@ -146,7 +159,9 @@ Json diff_json(const Run& a, const Run& b) {
            {"parameters", parameters},
            {"effects_added", only_in(b.effects, a.effects)},
            {"effects_dropped", only_in(a.effects, b.effects)},
-           {"held_out", {{"a", stats_json(a.fit.held)}, {"b", stats_json(b.fit.held)}}}};
+           {"held_out", {{"a", stats_json(a.fit.held)}, {"b", stats_json(b.fit.held)}}},
+           {"verdict_error",
+            {{"a", stats_json(usual_held(a.fit))}, {"b", stats_json(usual_held(b.fit))}}}};
   const bool known = a.fit.held.n > 0 && b.fit.held.n > 0;
   put(out["held_out"], "change_mean_mm", known ? to_mm(b.fit.held.mean - a.fit.held.mean) : NAN,
       "a run has no held-out poses");

@@ -7,6 +7,7 @@
 namespace plumb::offline::show {
 
 void add_verdict(const Cell& cell, const Measurements& measured, const Fit& fit, Json& out) {
+  out["verdict_error"] = stats_json(usual_held(fit));
   out["verdict"] = compare::full_verdict(cell, measured, fit);
   out["verdict_head"] = verdict_head(fit, cell.tolerance_m);
   out["verdict_class"] = name_of(grade(fit, cell.tolerance_m));

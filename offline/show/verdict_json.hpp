@@ -9,7 +9,7 @@
 namespace plumb::offline::show {
 
 /// verdict: the answer in one sentence; verdict_head: in few words; verdict_class: good, partly,
-/// bad or unknown.
+/// bad or unknown; verdict_error: the held-out error that it rests on.
 void add_verdict(const Cell& cell, const Measurements& measured, const Fit& fit, Json& out);
 
 }  // namespace plumb::offline::show

@@ -123,6 +123,28 @@ TEST_F(FitVerb, TheGateFailsWithExitOneAndStillShowsTheResult) {
   EXPECT_EQ(box->plumb({"-C", "cell", "fit", "--max-rms", "10", "--dry-run"}).exit, 0);
 }
 
+TEST_F(FitVerb, NoHeadlineCountsSingleBadReadings) {
+  ASSERT_EQ(box->plumb({"demo", "clean", "bad"}).exit, 0);
+  ASSERT_EQ(box->plumb({"-C", "bad", "simulate", "--poses", "100", "--repeats", "2", "--outliers",
+                        "3%", "--seed", "5", "-o", "bad/measurements.csv", "--force"})
+                .exit,
+            0);
+  const Ran fitted = box->plumb({"-C", "bad", "fit", "--max-rms", "0.1", "--json"});
+  ASSERT_EQ(fitted.exit, 0) << fitted.err;
+  const Json result = fitted.json().at("result");
+  EXPECT_GT(result.at("held_out").at("rms_mm"), 0.1);
+  EXPECT_LT(result.at("verdict_error").at("rms_mm"), 0.05);
+  const Ran missed = box->plumb({"-C", "bad", "fit", "--max-rms", "0.001", "--dry-run"});
+  EXPECT_NE(missed.err.find("that stand out) exceeds"), std::string::npos) << missed.err;
+  const Ran compiled = box->plumb({"-C", "bad", "compile", "--dry-run", "--json"});
+  EXPECT_EQ(compiled.err.find("W-COMPILE-TOLERANCE"), std::string::npos) << compiled.err;
+  EXPECT_EQ(compiled.json().at("result").at("verdict_error"), result.at("verdict_error"));
+  const Json run = box->plumb({"-C", "bad", "runs", "--json"}).json().at("result").at("runs").at(0);
+  EXPECT_EQ(run.at("verdict_error"), result.at("verdict_error"));
+  const Ran runs = box->plumb({"-C", "bad", "runs"});
+  EXPECT_NE(runs.out.find("that stand"), std::string::npos) << runs.out;
+}
+
 TEST_F(FitVerb, AnotherSeedOrRuleChangesTheSplitOnly) {
   const auto held = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"-C", "cell", "fit", "--dry-run", "--json"};

@@ -141,7 +141,7 @@ const server = createServer(async (request, answer) => {
   }
   if ((found = /^\/api\/runs\/(\d+)$/.exec(path))) {
     const row = (await runs()).find((r) => r.run === Number(found[1])), compared = (await ask("compare", found[1])).result;
-    return json({ parameters: [], held_out: row?.held_out, fit: row?.fit, noise_floor_mm: compared?.noise_floor_mm ?? null, effects: (row?.effects ?? []).map((effect) => ({ effect, joints: [] })) });
+    return json({ parameters: [], held_out: row?.held_out, verdict_error: row?.verdict_error, fit: row?.fit, noise_floor_mm: compared?.noise_floor_mm ?? null, effects: (row?.effects ?? []).map((effect) => ({ effect, joints: [] })) });
   }
   if (path === "/api/figures") return json({ figures: (await ask("plot", "--list")).result.figures.map((f) => ({ ...f, title: f.name })) });
   if ((found = /^\/fig\/([\w-]+)\.svg$/.exec(path))) {

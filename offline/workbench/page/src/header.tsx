@@ -13,14 +13,14 @@ function RunChoice() {
     <select aria-label="Run" value={String(runNumber.value)}
       onChange={(event) => setParams({ run: event.currentTarget.value })}>
       {[...runs].filter((run) => !run.damaged).reverse().map((run) => (
-        <option value={String(run.run)}>{run.run}{run.current ? ", present" : ""}: {run.held_out ? mm(run.held_out.mean_mm) : "not held out"}</option>
+        <option value={String(run.run)}>{run.run}{run.current ? ", present" : ""}: {run.verdict_error ? mm(run.verdict_error.mean_mm) : "not held out"}</option>
       ))}
     </select>
   );
 }
 
 export function Header() {
-  const detail = runDetail.value, held = detail?.held_out ?? runRow.value?.held_out ?? null;
+  const detail = runDetail.value, held = detail?.verdict_error ?? runRow.value?.verdict_error ?? null;
   const { word, kind, sentence } = verdict.value;
   const name = cell.value?.cell?.name ?? "";
   return (

@@ -31,6 +31,7 @@ export interface RunRow {
   base?: string;
   current: boolean;
   held_out?: Statistics | null;
+  verdict_error?: Statistics | null;   // the same without single readings that stand out
   fit?: Statistics | null;
   damaged?: Problem;   // instead of the rest, if it cannot be read
 }
@@ -59,6 +60,7 @@ export type VerdictClass = "good" | "partly" | "bad" | "unknown";
 export interface RunDetail {
   parameters: Parameter[];
   held_out: Statistics | null;
+  verdict_error: Statistics | null;
   fit: Statistics | null;
   nominal?: Statistics | null;
   noise_floor_mm: number | null;

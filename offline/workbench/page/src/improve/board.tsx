@@ -19,7 +19,7 @@ export function Board() {
   const runs = [...(cell.value?.runs ?? [])].reverse();
   const against = Number(param("against"));
   return (
-    <Card title="Model board" class="wide" lead="Held-out error only: poses that no fit saw. The error of fitted poses is never accuracy.">
+    <Card title="Model board" class="wide" lead="Held-out error only: poses that no fit saw, without single readings that stand out. The error of fitted poses is never accuracy.">
       <Scroll label="Runs">
         <table>
           <thead><tr><th scope="col">Run</th><th scope="col">Effects</th><th scope="col">n</th><th scope="col">Mean [mm]</th><th scope="col">95 % [mm]</th><th scope="col">Largest [mm]</th><th scope="col">Compare with</th></tr></thead>
@@ -28,10 +28,10 @@ export function Board() {
               <tr key={row.run} class={row.run === runNumber.value ? "picked" : ""}>
                 <th scope="row"><button type="button" class="link" aria-pressed={row.run === runNumber.value} onClick={() => setParams({ run: row.run })}>{row.run}{row.current ? " (present)" : ""}</button></th>
                 <td class="text">{row.damaged ? `cannot be read: ${row.damaged.message}` : effectWords(row.effects ?? [])}</td>
-                <td class="n">{row.held_out?.n ?? 0}</td>
-                <td class="n">{mm(row.held_out?.mean_mm)}</td>
-                <td class="n">{mm(row.held_out?.p95_mm)}</td>
-                <td class="n">{mm(row.held_out?.max_mm)}</td>
+                <td class="n">{row.verdict_error?.n ?? 0}</td>
+                <td class="n">{mm(row.verdict_error?.mean_mm)}</td>
+                <td class="n">{mm(row.verdict_error?.p95_mm)}</td>
+                <td class="n">{mm(row.verdict_error?.max_mm)}</td>
                 <td>{row.run !== runNumber.value && !row.damaged && <button type="button" class="small" aria-pressed={row.run === against} aria-label={`Compare with run ${row.run}`} onClick={() => setParams({ against: row.run === against ? null : row.run })}>compare</button>}</td>
               </tr>
             ))}

@@ -13,7 +13,7 @@ import type { Statistics } from "../types";
 const kModel = "robot.plumb", kLatency = "latency.svg", kFolder = "deploy";
 
 interface Audit { worst_correction_mm: number | null; worst_rotation_deg: number | null; max_correction_mm: number | null; worst_leaf_jump_mm: number | null; leaves: number; bytes: number; poses_looked_at: number }
-interface Compiled { run: number | null; held_out: Statistics; audit: Audit }
+interface Compiled { run: number | null; verdict_error: Statistics; audit: Audit }
 interface Inspected { sound: boolean; robot: string; serial: string; effects: { effect: string; version: number; formula?: string }[]; trees: { axis: string; leaves: number }[]; domain: Record<string, string | number>[]; guard: Record<string, unknown> }
 interface Bench { ns_median: number | null; ns_p99: number | null; ns_max: number | null; allocations: number; representative: boolean; cycle_us: number; share_of_cycle_pct: number; conditions: { why_not_representative: string[] } }
 interface Deployed { folder: string; files: string[]; robot_number: number; model_number: number; mode?: string; max_correction_mm?: number; worst_bus_load_pct: number | null }
@@ -34,7 +34,7 @@ function CompileCard() {
       {made && (
         <dl class="facts">
           <div><dt>Made of run</dt><dd>{made.run ?? "–"}</dd></div>
-          <div><dt>Held-out error</dt><dd>{withMm(made.held_out?.mean_mm)}</dd></div>
+          <div><dt>Held-out error</dt><dd>{withMm(made.verdict_error?.mean_mm)}</dd></div>
           <div><dt>Largest correction</dt><dd>{mm(made.audit.worst_correction_mm)} of {mm(made.audit.max_correction_mm)} mm allowed</dd></div>
           <div><dt>Size</dt><dd>{size(made.audit.bytes)}</dd></div>
           <div><dt>Audit looked at</dt><dd>{count(made.audit.poses_looked_at, "random pose")}</dd></div>
