@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "fit/verdict.hpp"
 #include "report/kept_diagnosis.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/units.hpp"
@@ -43,13 +44,13 @@ void refuse(const Fit& fitted, double before_m, Outcome& outcome) {
       "\nNot kept: fitted together from the start, these effects raise the error on unseen "
       "readings "
       "from {} to {} mm. cell.toml was not changed.\n",
-      show::mm(before_m), show::mm(fitted.held.mean));
+      show::mm(before_m), show::mm(usual_held(fitted).mean));
   outcome.remarks.push_back(
       {.severity = Severity::kWarning,
        .code = "W-DIAGNOSE-ROSE",
        .message = fmt::format("the effects were not added: fitted together they raise the error on "
                               "unseen readings from {} to {} mm",
-                              show::mm(before_m), show::mm(fitted.held.mean)),
+                              show::mm(before_m), show::mm(usual_held(fitted).mean)),
        .help = "plumb explain W-DIAGNOSE-ROSE"});
 }
 
@@ -86,7 +87,7 @@ bool keep_applied(const DiagnoseArguments& options, const Cell& cell,
     return true;
   }
   Fit fitted = fit_with_progress(edited, measured, outcome);
-  if (fitted.held.n > 0 && fitted.held.mean > kRose * before_m) {
+  if (fitted.held.n > 0 && usual_held(fitted).mean > kRose * before_m) {
     refuse(fitted, before_m, outcome);
     return false;
   }
@@ -108,7 +109,7 @@ void diagnose_cell(const DiagnoseArguments& options, const Globals& globals, Out
                                   ? current_run(cell, measured)
                                   : current_or_new_run(cell, measured, Keep::kRun, outcome);
   if (before) {
-    if (!options.dry_run && before->fit.held.n > 0) before_m = before->fit.held.mean;
+    if (!options.dry_run && before->fit.held.n > 0) before_m = usual_held(before->fit).mean;
     stand_on_base_of(*before, cell, measured);
   }
   const auto found = [&] {

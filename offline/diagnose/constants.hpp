@@ -68,8 +68,6 @@ inline constexpr double kFarAboveFloor = 3.0;
 inline constexpr double kMostRise = 1.05;
 /// A single step may not raise it beyond this. outside.
 inline constexpr double kLeap = 1.5;
-/// Times the median error: a reading beyond is gross, not the model's. outside.
-inline constexpr double kGross = 6.0;
 
 // One effect beside another.
 

@@ -23,7 +23,7 @@
 #include "fit/few_poses.hpp"
 #include "fit/measured_orientations.hpp"
 #include "fit/split.hpp"
-#include "numbers/quantile.hpp"
+#include "fit/usual_errors.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -39,6 +39,12 @@ Cell physics_of(Cell cell) {
   std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
   return cell;
 }
+
+/// Readings that stand out of what the model leaves at the start, and the noise of one axis.
+struct BadRows {
+  std::set<int> rows;
+  double sigma_m = 0.0;
+};
 
 /// Predictions of poses that had no say.
 class HeldOut {
@@ -57,18 +63,32 @@ class HeldOut {
     for (int row : rows_) norms.push_back(error.row(row).norm());
     return norms;
   }
-  ErrorStats stats() const { return summarise(norms()); }
 
-  /// Mean without gross errors, which are the reading's and not the model's.
-  double usual_mean() const {
-    std::vector<double> all = norms();
-    if (all.empty()) return 0.0;
-    const double limit = kGross * median(all);
-    std::erase_if(all, [limit](double norm) { return norm > limit; });
-    return summarise(std::move(all)).mean;
+  /// Rows that stand out, if they are single ones: as the verdict of a fit leaves them out.
+  std::set<int> bad_rows(double sigma_m) const {
+    const auto far = far_rows(norms(), sigma_m);
+    return are_single(far.size(), rows_.size()) ? far : std::set<int>();
+  }
+
+  /// Without those of the bad rows that stand out here too: a pose that a model has made worse
+  /// counts, and so does one that it has put right.
+  ErrorStats stats(const BadRows& bad) const {
+    std::vector<double> all = norms(), usual;
+    const auto far = far_rows(all, bad.sigma_m);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (!bad.rows.contains(rows_[i]) || !far.contains(rows_[i])) usual.push_back(all[i]);
+    return summarise(std::move(usual));
   }
 
  private:
+  std::set<int> far_rows(const std::vector<double>& errors_m, double sigma_m) const {
+    const auto& has = measured_->has_axis;
+    const auto axes = static_cast<int>(std::count(has.begin(), has.end(), true));
+    std::set<int> out;
+    for (const std::size_t i : standing_out(errors_m, axes, sigma_m).which) out.insert(rows_[i]);
+    return out;
+  }
+
   const Measurements* measured_;
   std::vector<int> rows_;
   Rows3 predicted_;
@@ -85,6 +105,7 @@ struct Work {
   std::vector<std::string> not_testable;
   std::vector<Testable> excluded;  // the same with the reasons
   const DiagnosisRequest& request;
+  BadRows bad = {};
 
   bool all_choose() const { return choosing.size() == fit.size(); }
   ForwardStart start(const std::vector<int>& rows, bool quiet) const {
@@ -140,7 +161,7 @@ HeldOut nested_held_out(const Work& w) {
 std::optional<HeldOutExcess> held_out_excess_of(const Work& w, const HeldOut& held,
                                                 const Calibration& fitted,
                                                 const NoiseFloor& floor) {
-  return held_out_excess(held.usual_mean(), floor,
+  return held_out_excess(held.stats(w.bad).mean, floor,
                          unavoidable_ratio(fitted_coordinates(w.measured, w.split),
                                            fitted.decided + fitted.series_dof));
 }
@@ -262,18 +283,18 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
   for (const auto& step : found.steps) {
     held_by_step.push_back(held_out_of(w, step.effects, step.calibration));
     out.added.push_back({step.entry, step.cycles, step.peaks, step.ln_bayes,
-                         held_by_step.back().stats(), step.alternatives, step.moves});
+                         held_by_step.back().stats(w.bad), step.alternatives, step.moves});
   }
   std::optional<HeldOut> nested;
   if (chosen_in_folds(w, found.steps)) nested = nested_held_out(w);
-  const bool rises = nested && rises_over(out.before, nested->stats());
+  const bool rises = nested && rises_over(out.before, nested->stats(w.bad));
   const std::size_t kept = rises ? 0 : steps_kept(out.before.mean, out.added);
   const bool refused = kept < out.added.size();
-  if (rises) out.refused = nested->stats();
+  if (rises) out.refused = nested->stats(w.bad);
   if (refused) {
     say_what_was_refused(w.cell, out.added, kept,
                          kept == 0 ? out.before.mean : out.added[kept - 1].held.mean,
-                         rises ? nested->stats().mean : out.added[kept].held.mean, out);
+                         rises ? nested->stats(w.bad).mean : out.added[kept].held.mean, out);
     out.added.erase(out.added.begin() + static_cast<std::ptrdiff_t>(kept), out.added.end());
     found.steps.erase(found.steps.begin() + static_cast<std::ptrdiff_t>(kept), found.steps.end());
     held_by_step.erase(held_by_step.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -288,7 +309,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
       out.added[i].entry = found.steps[i].entry;
       out.added[i].moves = found.steps[i].moves;
     }
-    out.added.back().held = held_by_step.back().stats();
+    out.added.back().held = held_by_step.back().stats(w.bad);
   }
   std::optional<HeldOut> held;
   if (!held_by_step.empty()) held = std::move(held_by_step.back());
@@ -313,7 +334,7 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     held = std::move(nested);
   }
   if (held) {
-    out.after = held->stats();
+    out.after = held->stats(w.bad);
     out.held_out_excess = held_out_excess_of(
         w, *held, found.steps.empty() ? base : found.steps.back().calibration, out.floor);
   }
@@ -415,7 +436,9 @@ Diagnosis diagnose(const Cell& cell, const MeasurementFiles& measured,
   facts.other_gravity = out.gravity && !wrong_gravity;
   tell_step(request, 2);
   const HeldOut held = held_out_of(w, w.cell.effects, present);
-  out.before = out.after = held.stats();
+  w.bad.sigma_m = out.floor.sigma_m;
+  w.bad.rows = held.bad_rows(w.bad.sigma_m);
+  out.before = out.after = held.stats(w.bad);
   out.held_out_excess = held_out_excess_of(w, held, present, out.floor);
   out.effects = w.cell.effects;
   if (request.apply) tell_step(request, 3);

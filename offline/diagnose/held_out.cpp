@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/held_out.hpp"
 
+#include "fit/usual_errors.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -49,12 +51,12 @@ ErrorStats held_out_error(const Scorer& scorer) {
   std::vector<double> norms;
   if (s.held.size() > 0) {
     add_norms(s, s.held, s.y(lines_of(s, s.held)), norms);
-    return summarise(std::move(norms));
+    return usual_errors(std::move(norms), s.axes, s.sigma_m);
   }
   norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
     add_norms(s, s.folds[f], left_in_fold(scorer, f), norms);
-  return summarise(std::move(norms));
+  return usual_errors(std::move(norms), s.axes, s.sigma_m);
 }
 
 ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
@@ -66,12 +68,12 @@ ErrorStats held_out_error(const Scorer& scorer, const Regressor& regressor,
     const Eigen::VectorXd moved = motion(s, regressor, scored.theta);
     const Eigen::VectorXd a = -(s.U.topRows(s.fit_lines).transpose() * moved.head(s.fit_lines));
     add_norms(s, s.held, s.y(at) - s.U(at, Eigen::all) * a - moved(at), norms);
-    return summarise(std::move(norms));
+    return usual_errors(std::move(norms), s.axes, s.sigma_m);
   }
   norms = s.contradicted_m;
   for (std::size_t f = 0; f < s.folds.size(); ++f)
     add_norms(s, s.folds[f], left_in_fold(scorer, f, in_folds), norms);
-  return summarise(std::move(norms));
+  return usual_errors(std::move(norms), s.axes, s.sigma_m);
 }
 
 Gain held_out_gain(const Scorer& scorer, const CandidateInFolds& in_folds) {

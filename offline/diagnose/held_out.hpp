@@ -9,8 +9,8 @@
 
 namespace plumb::offline {
 
-/// 3-D error on poses that were not fitted, to first order: on the held-out poses of the whitened
-/// fit, or if there are none, by cross-validation over its folds.
+/// 3-D error on poses that were not fitted, to first order, without single bad readings: on the
+/// held-out poses of the whitened fit, or if there are none, by cross-validation over its folds.
 ErrorStats held_out_error(const Scorer& scorer);
 
 /// A candidate as each fold has it: the same everywhere, but of waves the frequencies that the

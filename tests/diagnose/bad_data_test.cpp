@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "diagnose/diagnosis.hpp"
+#include "fit/verdict.hpp"
 #include "simulate/blind_case.hpp"
 #include "simulate/planar.hpp"
 
@@ -70,6 +71,23 @@ TEST(DiagnoseBadData, GrossOutliersAreListedAndChangeNoVerdict) {
   EXPECT_NEAR(d.floor.mean_m, clean.floor.mean_m, 0.1 * clean.floor.mean_m);
   EXPECT_FALSE(d.outliers.empty());
   EXPECT_LE(d.added.size(), 2U);
+}
+
+TEST(DiagnoseBadData, SingleBadReadingsRuleNoFigureAndRefuseNoEffect) {
+  BlindRequest request;
+  request.outlier_share = 0.05;
+  request.poses = 57;  // so few that the choice is made anew without each fold
+  request.effects = {"reversal:J2:5"};
+  const BlindCase blind = make_blind_case(request);
+  const MeasurementFiles& measured = blind.measured.measured;
+  const Fit fit = fit_cell(blind.cell, measured);
+  ASSERT_FALSE(fit.held_outliers.empty());
+  ASSERT_GT(fit.held.mean, 1.5 * usual_held(fit).mean);
+  const Diagnosis d = diagnose(blind.cell, measured, {.apply = true, .tell = {}});
+  EXPECT_NEAR(d.before.mean, usual_held(fit).mean, 0.01 * usual_held(fit).mean);
+  EXPECT_EQ(d.finding, Finding::kMissing) << d.text;
+  EXPECT_TRUE(added(d, "reversal")) << d.text_after;
+  EXPECT_LT(d.after.mean, d.before.mean);
 }
 
 TEST(DiagnoseBadData, PosesOnAGridDoNotTurnARippleIntoSomethingElse) {
