@@ -56,6 +56,12 @@ int cannot_print(int reason) {
   return static_cast<int>(Exit::kEnvironment);
 }
 
+/// The verdict of the result, as it stands in the text.
+Verdict verdict_of(const Json& result) {
+  if (!result.is_object() || !result.contains("verdict_class")) return {};
+  return {printable_text(result.value("verdict", "")), result.value("verdict_class", "")};
+}
+
 }  // namespace
 
 std::string full_name(const Command& command) {
@@ -84,7 +90,8 @@ int report(const Command& command, const Globals& globals, const Outcome& outcom
   print_problems(outcome.remarks, messages);
   const bool printed =
       print_out(json ? to_text(envelope(command, outcome))
-                     : laid_out(printable_text(outcome.text), screen_of(STDOUT_FILENO)));
+                     : laid_out(printable_text(outcome.text), screen_of(STDOUT_FILENO),
+                                verdict_of(outcome.result)));
   const int reason = errno;
   print_problems(outcome.errors, messages);
   const int failed = printed ? 0 : cannot_print(reason);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -26,31 +28,21 @@ struct Judgement {
   std::string_view colour;
 };
 
-/// The first that a line begins with counts, so longer ones stand before shorter ones.
+/// Of answers without a class. The first that a line begins with counts, so longer ones stand
+/// before shorter ones.
 constexpr Judgement kJudgements[] = {
-    {"Good only while", kWarning},
-    {"Good, but", kWarning},
-    {"Good", kGood},
-    {"Not good enough", kError},
-    {"Not good everywhere", kWarning},
-    {"Limited by the arm", kWarning},
-    {"Limited by the measurement", kWarning},
-    {"Something moved", kWarning},
-    {"Complete", kGood},
-    {"Missing", kWarning},
-    {"Unknown", kWarning},
-    {"Undecidable", kWarning},
-    {"Not usable", kError},
-    {"Not representative", kWarning},
-    {"Usable, but", kWarning},
-    {"Usable", kGood},
-    {"Next:", kNote},
+    {"Good", kGood},           {"Not good enough", kError}, {"Something moved", kWarning},
+    {"Complete", kGood},       {"Missing", kWarning},       {"Unknown", kWarning},
+    {"Undecidable", kWarning}, {"Not usable", kError},      {"Not representative", kWarning},
+    {"Usable, but", kWarning}, {"Usable", kGood},           {"Next:", kNote},
 };
 
 constexpr Judgement kMessages[] = {{"error", kError}, {"warning", kWarning}, {"note", kNote}};
 
-template <std::size_t n>
-std::string coloured(const std::string& line, const Judgement (&table)[n]) {
+/// Of the classes in which the JSON gives a verdict.
+constexpr Judgement kClasses[] = {{"good", kGood}, {"partly", kWarning}, {"bad", kError}};
+
+std::string coloured(const std::string& line, std::span<const Judgement> table) {
   for (const auto& [words, colour] : table)
     if (line.starts_with(words))
       return std::string(colour) + std::string(words) + std::string(kPlainAgain) +
@@ -213,11 +205,16 @@ Screen screen_of(int descriptor) {
   return {columns_of(descriptor), ink_of(descriptor), ::isatty(descriptor) != 0};
 }
 
-std::string laid_out(const std::string& text, const Screen& screen) {
+std::string laid_out(const std::string& text, const Screen& screen, const Verdict& verdict) {
+  const std::string words = verdict.sentence.substr(0, verdict.sentence.find(':'));
+  std::vector<Judgement> judgements;
+  for (const auto& [name, colour] : kClasses)
+    if (!words.empty() && name == verdict.found) judgements.push_back({words, colour});
+  judgements.insert(judgements.end(), std::begin(kJudgements), std::end(kJudgements));
   std::string out;
   for (const std::string& whole : with_parted_tables(lines_of(text), screen.columns)) {
     const std::string line = fitted(whole, screen.columns);
-    out += (screen.ink == Screen::Ink::kColour ? coloured(line, kJudgements) : line) + "\n";
+    out += (screen.ink == Screen::Ink::kColour ? coloured(line, judgements) : line) + "\n";
   }
   if (!out.empty() && !text.ends_with('\n')) out.pop_back();
   return out;

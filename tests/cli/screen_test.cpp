@@ -185,12 +185,22 @@ TEST(Screen, HasColourOnATerminalOnlyAndNeverWithNoColorOrADumbOne) {
 TEST(Screen, ColoursTheJudgementAndNothingElse) {
   const Screen colour{.columns = 100, .ink = Screen::Ink::kColour};
   EXPECT_EQ(laid_out("Good: all well", colour), "\x1b[1;32mGood\x1b[0m: all well");
-  EXPECT_EQ(laid_out("Not good enough: far", colour), "\x1b[1;31mNot good enough\x1b[0m: far");
-  EXPECT_EQ(laid_out("Good, but repeats differ", colour),
-            "\x1b[1;33mGood, but\x1b[0m repeats differ");
+  EXPECT_EQ(laid_out("Complete: all well", colour), "\x1b[1;32mComplete\x1b[0m: all well");
+  EXPECT_EQ(laid_out("Not usable: far", colour), "\x1b[1;31mNot usable\x1b[0m: far");
   EXPECT_EQ(laid_out("Planned 5 poses", colour), "Planned 5 poses");
   EXPECT_EQ(painted("warning[W-X]: y", colour), "\x1b[1;33mwarning\x1b[0m[W-X]: y");
   EXPECT_EQ(painted("error[E-X]: y", {}), "error[E-X]: y");
+}
+
+TEST(Screen, AVerdictHasTheColourOfItsClassAndNotOfItsWords) {
+  const Screen colour{.columns = 100, .ink = Screen::Ink::kColour};
+  const std::string missing = "Good: 0.03 mm, but something physical is still missing.";
+  const auto seen = [&](const std::string& line, const char* found) {
+    return laid_out("Fitted.\n" + line, colour, {missing, found});
+  };
+  EXPECT_EQ(seen(missing, "partly"), "Fitted.\n\x1b[1;33mGood\x1b[0m" + missing.substr(4));
+  EXPECT_EQ(seen(missing, "good"), "Fitted.\n\x1b[1;32mGood\x1b[0m" + missing.substr(4));
+  EXPECT_EQ(seen(missing, "bad"), "Fitted.\n\x1b[1;31mGood\x1b[0m" + missing.substr(4));
 }
 
 }  // namespace
