@@ -7,6 +7,7 @@
 #include "cell/reading_digest.hpp"
 #include "fit/json_parts.hpp"
 #include "fit/model_json.hpp"
+#include "fit/orientation_words.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -14,6 +15,41 @@ namespace {
 
 constexpr const char* kSchema = "run/1";
 constexpr const char* kFloorSchema = "run.noise_floor/1";
+
+using OrientationKind = MeasuredOrientations::Kind;
+
+Json to_json(const MeasuredOrientations& o) {
+  Json out{{"kind", name_of(o.kind)},
+           {"labelled_rad", o.labelled_rad},
+           {"left_rad", o.left_rad},
+           {"stated", o.stated}};
+  if (o.times) out["times"] = *o.times;
+  return out;
+}
+
+OrientationKind orientation_kind(const std::string& name) {
+  for (int kind = 0; kind <= static_cast<int>(OrientationKind::kUnexplained); ++kind)
+    if (name == name_of(static_cast<OrientationKind>(kind)))
+      return static_cast<OrientationKind>(kind);
+  throw Failure(Exit::kInput,
+                {.code = "E-RUN-DAMAGED",
+                 .message = fmt::format("run.json says orientations are '{}', which is no kind of "
+                                        "them",
+                                        name),
+                 .help = "delete this run and fit again: plumb fit"});
+}
+
+MeasuredOrientations orientations_from(const Json& j) {
+  MeasuredOrientations out{.kind = orientation_kind(j.at("kind")),
+                           .readings = {},
+                           .labelled_rad = j.at("labelled_rad"),
+                           .left_rad = j.at("left_rad"),
+                           .stated = j.at("stated"),
+                           .times = {}};
+  if (out.kind == OrientationKind::kScattered || out.kind == OrientationKind::kMissed)
+    out.times = j.at("times").get<double>();
+  return out;
+}
 
 Json to_json(const NoiseFloor& f) {
   return {{"sigma_m", f.sigma_m},
@@ -226,6 +262,8 @@ Json run_to_json(const Run& run) {
               {"noise_floor", to_json(fit.floor)}};
   out["unavoidable_ratio"] = fit.unavoidable_ratio;
   out["still_joints"] = fit.still;
+  if (fit.orientations.kind != OrientationKind::kNone)
+    out["orientations"] = to_json(fit.orientations);
   if (fit.tree) out["tree"] = to_json(*fit.tree);
   if (run.from) out["from"] = to_json(*run.from);
   if (run.recheck) out["recheck"] = to_json(*run.recheck);
@@ -265,6 +303,7 @@ Run run_from_json(const Json& j) {
                                   : fit.held;
   fit.unavoidable_ratio = j.value("unavoidable_ratio", 1.0);
   fit.still = j.value("still_joints", std::vector<std::string>());
+  if (j.contains("orientations")) fit.orientations = orientations_from(j.at("orientations"));
   fit.floor = floor_from(j.at("noise_floor"));
   if (j.contains("from")) run.from = taken_over_from(j.at("from"));
   if (j.contains("recheck")) run.recheck = recheck_from(j.at("recheck"));

@@ -8,6 +8,7 @@
 #include "check/data_findings.hpp"
 #include "check/data_sense.hpp"
 #include "check/effect_rules.hpp"
+#include "fit/orientation_words.hpp"
 #include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
@@ -167,6 +168,8 @@ Html data_page(const ReportData& data, const ReportFigures& figures) {
   const auto used = rows_used(data.run.fit.split);
   html.paragraph(counts_words(data, used) + " " + split_words(data));
   html.paragraph(repeats_words(data.measured));
+  if (const auto said = orientation_remark(data.run.fit.orientations))
+    html.paragraph("Of the orientations: " + said->message + ".");
   std::vector<std::string> findings;
   for (const auto& found :
        {limit_findings(data.cell, data.measured), constant_findings(data.cell, data.measured)})

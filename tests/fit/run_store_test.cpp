@@ -11,6 +11,7 @@
 
 #include "cell/run_checksum.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/orientation_words.hpp"
 #include "program/file.hpp"
 #include "simulate/simulate.hpp"
 
@@ -58,6 +59,28 @@ TEST_F(RunStore, ARunReadsBackToTheSameBits) {
   EXPECT_EQ(saved.fit.split.held, loaded.fit.split.held);
   EXPECT_EQ(saved.fit.held.mean, loaded.fit.held.mean);
   EXPECT_EQ(saved.inputs, loaded.inputs);
+}
+
+TEST_F(RunStore, WhatTheOrientationsWereJudgedToBeIsKeptInTheSameWords) {
+  using Kind = MeasuredOrientations::Kind;
+  Fit fit = fit_cell(cell_, measured_);
+  for (const Kind kind : {Kind::kNone, Kind::kGood, Kind::kScattered, Kind::kMissed, Kind::kTurned,
+                          Kind::kConstant, Kind::kNominal, Kind::kContradict, Kind::kUnexplained}) {
+    fit.orientations = {.kind = kind,
+                        .readings = {},
+                        .labelled_rad = 2e-3,
+                        .left_rad = 1e-3,
+                        .stated = kind != Kind::kGood,
+                        .times = 3.5};
+    const offline::Run saved = save_run(cell_, measured_, fit);
+    const MeasuredOrientations loaded = load_run(cell_, saved.number).fit.orientations;
+    EXPECT_EQ(loaded.kind, kind);
+    const auto said = orientation_remark(fit.orientations), kept = orientation_remark(loaded);
+    ASSERT_EQ(said.has_value(), kept.has_value()) << name_of(kind);
+    if (said) {
+      EXPECT_EQ(said->message, kept->message);
+    }
+  }
 }
 
 TEST_F(RunStore, RunsAreNumberedInOrderAndNeverChanged) {
