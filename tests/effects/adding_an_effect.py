@@ -123,13 +123,13 @@ class Page(unittest.TestCase):
         for step in STEPS:
             self.assertEqual((SOURCE / step.file).exists(), not step.is_new, step.file)
 
-    def test_the_readme_states_how_many_effects_are_known(self):
+    def test_the_tour_states_how_many_effects_are_known(self):
         lists = {"runtime/include/plumb/runtime/detail/effect_library.hpp": "EffectLaws",
                  "offline/effects/fitted_laws.hpp": "MeasurementLaws"}
         laws = [law for file, name in lists.items()
                 for law in re.findall(r"effects::\w+", re.search(rf"using {name} =(.*?);", (SOURCE / file).read_text(),
                                                                  re.DOTALL)[1])]
-        self.assertEqual(re.search(r"(\d+) physical effects are known", (SOURCE / "README.md").read_text())[1],
+        self.assertEqual(re.search(r"(\d+) physical effects are known", (SOURCE / "docs/tour.md").read_text())[1],
                          str(len(laws)))
 
     def test_an_edit_whose_place_has_changed_is_refused(self):

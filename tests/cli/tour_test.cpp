@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The README's transcripts, replayed: every "$ ..." line of its blocks is run, and what follows it
+// The transcripts of docs/tour.md, replayed: every "$ ..." line of its blocks is run, and what follows it
 // must come out. "..." stands for left-out lines; numbers may differ in their last digits, because
 // compilers round differently.
 #include <gtest/gtest.h>
@@ -20,16 +20,16 @@ namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
 struct Shown {
-  int line = 0;  // of the README
+  int line = 0;  // of the page
   std::string command;
   Lines output;
 };
 using Block = std::vector<Shown>;
 
 /// Blocks between ``` that begin with a command.
-std::vector<Block> blocks_of(const fs::path& readme) {
+std::vector<Block> blocks_of(const fs::path& page) {
   std::vector<Block> out;
-  std::ifstream in(readme);
+  std::ifstream in(page);
   bool inside = false, shows = false;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -127,10 +127,10 @@ Lines without_blank(Lines lines) {
   return lines;
 }
 
-TEST(Readme, ShowsWhatHappens) {
+TEST(Tour, ShowsWhatHappens) {
   const Sandbox box;
   int commands = 0;
-  for (const auto& block : blocks_of(PLUMB_README)) {
+  for (const auto& block : blocks_of(PLUMB_TOUR)) {
     const fs::path raw = PLUMB_RAW_DATA;
     if (block.front().command.find("series_A_grid.csv") != std::string::npos) {
       if (!fs::exists(raw / "series_A_grid.csv")) continue;  // not beside this checkout
@@ -143,7 +143,7 @@ TEST(Readme, ShowsWhatHappens) {
       if (!reads_as(expected, 0, real, 0, far)) {
         std::ostringstream all;
         for (const auto& line : real) all << line << "\n";
-        ADD_FAILURE() << "README:" << shown.line << ": $ " << shown.command
+        ADD_FAILURE() << "docs/tour.md:" << shown.line << ": $ " << shown.command
                       << "\nnot found: " << (far < expected.size() ? expected[far] : "(more lines)")
                       << "\nin:\n"
                       << all.str();
@@ -154,7 +154,7 @@ TEST(Readme, ShowsWhatHappens) {
   EXPECT_GE(commands, 8);
 }
 
-TEST(Readme, ComparesLinesThatDiffer) {
+TEST(Tour, ComparesLinesThatDiffer) {
   EXPECT_TRUE(same_line("mean 0.164 mm", "mean  0.163 mm"));
   EXPECT_FALSE(same_line("mean 0.164 mm", "mean 0.264 mm"));
   EXPECT_FALSE(same_line("mean 0.164 mm", "mean 0.164 um"));
