@@ -375,10 +375,9 @@ constexpr Explanation kCodes[] = {
      "column of readings, of its own."},
     {"N-URDF-MIMIC",
      "A <mimic> joint of the file has no readings of its own. It moves about the axis of its "
-     "neighbour, so that both motions are one DH row: coupling = { \"J3,J2\" = -1 } of [robot] "
-     "says "
-     "what is added, in values of the URDF's joints. A controller may show the sum instead; plumb "
-     "check compares both with the data."},
+     "neighbour, so that both motions are one DH row: coupling of [robot] says what is added, in "
+     "values of the URDF's joints. A controller may show the sum instead; plumb check compares "
+     "both with the data."},
     {"E-URDF-SIZE",
      "The file has elements nested more than 100 deep, or more than 2000 links. No robot has: it "
      "is "

@@ -62,7 +62,7 @@ class CellWriter {
       line("  # without q = [min, max] wide limits are assumed: add those of the data sheet");
     line("]");
     if (!chain.coupling.empty())
-      line("coupling = {}   # angle of the first = its value + ratio times the value of the second",
+      line("coupling = {}   # value of `joint` = its own angle + share x value of `of`",
            toml_coupling(chain));
     line("gravity = {}   # m/s^2 in the base frame", toml_list(cell_.gravity, Unit{}));
     line("base = {}   # rpy: R = Rz(yaw) Ry(pitch) Rx(roll)", pose(chain.base));

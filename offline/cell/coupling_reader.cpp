@@ -10,22 +10,20 @@
 namespace plumb::offline {
 namespace {
 
-/// coupling = { "J3,J2" = -1 }: the angle of J3 is the controller's value of it plus -1 times that
-/// of J2.
+/// coupling = [{ joint = "J3", of = "J2", share = 1 }]: the controller shows as the value of J3 its
+/// own angle and 1 times the value of J2.
 class CouplingReader {
  public:
   CouplingReader(TomlTable& robot, CellDraft& draft) : t_(robot), draft_(draft) {}
 
   void read() {
-    auto table = t_.table("coupling");
-    if (!table) return;
-    if (!t_.node("coupling")->as_table()->is_inline())
-      return t_.out_of_range("coupling", "in one line: coupling = { \"J3,J2\" = -1 }");
-    for (const auto& pair : table->keys()) one(*table, pair);
+    for (auto& entry : t_.tables("coupling")) {
+      one(entry);
+      entry.done();
+    }
     auto ordered = couplings();
     if (!format::put_in_order(ordered))
       t_.out_of_range("coupling", "without a circle: these joints depend on each other");
-    table->done();
   }
 
  private:
@@ -34,35 +32,37 @@ class CouplingReader {
     return draft_.cell.nominal.joints[static_cast<std::size_t>(joint)];
   }
 
-  void one(TomlTable& table, const std::string& pair) {
-    const auto ratio = table.number(pair);
-    const auto comma = pair.find(',');
-    if (!ratio) return;
-    if (comma == std::string::npos)
-      return table.out_of_range(pair, "of two joints: \"J3,J2\" = -1");
-    const int joint = known(table, pair, pair.substr(0, comma));
-    const int by = known(table, pair, pair.substr(comma + 1));
-    if (joint < 0 || by < 0) return;
-    if (row(joint).type != row(by).type)
-      return table.out_of_range(pair, "of two joints that turn, or of two that slide");
-    if (*ratio == 0.0 || !(std::abs(*ratio) <= format::kMaxCouplingRatio))
-      return table.out_of_range(
-          pair, fmt::format("from {0:g} to {1:g}, and not 0", -format::kMaxCouplingRatio,
-                            format::kMaxCouplingRatio));
+  void one(TomlTable& entry) {
+    const int joint = known(entry, "joint");
+    const int of = known(entry, "of");
+    const auto share = entry.number("share");
+    for (const char* key : {"joint", "of", "share"})
+      if (entry.node(key) == nullptr) return entry.missing(key, kExample);
+    if (joint < 0 || of < 0 || !share) return;
+    if (row(joint).type != row(of).type)
+      return entry.out_of_range("of", "a joint that turns like the first, or slides like it");
+    if (*share == 0.0 || !(std::abs(*share) <= format::kMaxCouplingRatio))
+      return entry.out_of_range(
+          "share", fmt::format("from {0:g} to {1:g}, and not 0", -format::kMaxCouplingRatio,
+                               format::kMaxCouplingRatio));
     for (const auto& other : couplings())
-      if (other.joint == joint && other.by == by)
-        return table.out_of_range(pair, "another pair: these two are coupled already");
+      if (other.joint == joint && other.by == of)
+        return entry.out_of_range("of", "another joint: these two are coupled already");
     couplings().push_back(
-        {static_cast<std::uint8_t>(joint), static_cast<std::uint8_t>(by), *ratio});
+        {static_cast<std::uint8_t>(joint), static_cast<std::uint8_t>(of), -*share});
   }
 
-  int known(TomlTable& table, const std::string& pair, std::string name) {
-    name.erase(0, name.find_first_not_of(' '));
-    name.erase(name.find_last_not_of(' ') + 1);
-    const int joint = draft_.joint_index(name);
-    if (joint < 0) unknown_joint(table, name, *table.node(pair), draft_);
+  int known(TomlTable& entry, const std::string& key) {
+    const auto name = entry.text(key);
+    const int joint = name ? draft_.joint_index(*name) : -1;
+    if (name && joint < 0) unknown_joint(entry, *name, *entry.node(key), draft_);
     return joint;
   }
+
+  static constexpr const char* kExample =
+      "coupling = [{ joint = \"J3\", of = \"J2\", share = 1 }]: the value of J3 is its own angle "
+      "and "
+      "1 times the value of J2";
 
   TomlTable& t_;
   CellDraft& draft_;

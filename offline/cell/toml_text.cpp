@@ -74,12 +74,12 @@ std::string toml_value(const EffectEntry::Value& value) {
 }
 
 std::string toml_coupling(const format::Chain& arm) {
-  std::string out;
+  std::vector<std::string> entries;
   for (const auto& [joint, by, ratio] : arm.coupling)
-    out += fmt::format("{}{} = {}", out.empty() ? " " : ", ",
-                       toml_string(arm.joints[joint].name + "," + arm.joints[by].name),
-                       text_in(Unit{}, ratio));
-  return fmt::format("{{{}{}}}", out, out.empty() ? "" : " ");
+    entries.push_back(fmt::format("{{ joint = {}, of = {}, share = {} }}",
+                                  toml_string(arm.joints[joint].name),
+                                  toml_string(arm.joints[by].name), text_in(Unit{}, -ratio)));
+  return fmt::format("[{}]", fmt::join(entries, ", "));
 }
 
 std::string toml_pose(const format::Pose& pose, const Unit& length, const Unit& angle) {

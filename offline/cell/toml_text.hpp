@@ -19,7 +19,7 @@ std::string toml_list(const std::vector<std::string>& texts);
 
 std::string toml_value(const EffectEntry::Value& value);
 
-/// { "J3,J2" = -1 }
+/// [{ joint = "J3", of = "J2", share = 1 }]
 std::string toml_coupling(const format::Chain& arm);
 
 /// { xyz = […], rpy = […] }; the rotation is written with the fewest digits that read back to the

@@ -97,8 +97,8 @@ void coupling_words(std::vector<std::string>& out, const Cell& cell,
     return out.emplace_back("the joint values are not coupled, as [robot] coupling says"), void();
   std::vector<std::string> pairs;
   for (const auto& [joint, by, ratio] : coupling)
-    pairs.push_back(fmt::format("{},{} = {:g}", cell.nominal.joints[joint].name,
-                                cell.nominal.joints[by].name, ratio));
+    pairs.push_back(fmt::format("{} of {}, share {:g}", cell.nominal.joints[joint].name,
+                                cell.nominal.joints[by].name, -ratio));
   const auto n = static_cast<std::size_t>(cell.joints());
   std::vector<std::string> sums;
   for (std::size_t i = 0; i < n; ++i) {
@@ -114,8 +114,8 @@ void coupling_words(std::vector<std::string>& out, const Cell& cell,
     if (!sum.empty())
       sums.push_back(fmt::format("{} = q{}{}", cell.nominal.joints[i].name, i + 1, sum));
   }
-  out.push_back(fmt::format("the joint values are coupled: {} (coupling {})", fmt::join(sums, ", "),
-                            fmt::join(pairs, ", ")));
+  out.push_back(fmt::format("the joint values are coupled: {} (coupling: {})",
+                            fmt::join(sums, ", "), fmt::join(pairs, "; ")));
 }
 
 }  // namespace

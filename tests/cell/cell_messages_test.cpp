@@ -221,17 +221,27 @@ TEST(CellMessage, OfCouplingsThatNoControllerHas) {
                                "\njoints = [{ q = [-90, 90] }, { q = [-90, 90] },\n{ type = "
                                "\"prismatic\", q = [0, 9] }]\n"));
   };
-  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = -1 }"), Summary{});
-  EXPECT_EQ(coupled("coupling = { \"J2, J1\" = 0.5 }"), Summary{});
-  EXPECT_EQ(coupled("coupling = {}"), Summary{});
-  EXPECT_EQ(coupled("coupling = { \"J2,J7\" = -1 }"), Summary{"E-CELL-JOINT 4:24"});
-  EXPECT_EQ(coupled("coupling = { \"J2\" = -1 }"), Summary{"E-CELL-RANGE 4:21"});
-  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 0 }"), Summary{"E-CELL-RANGE 4:24"});
-  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 11 }"), Summary{"E-CELL-RANGE 4:24"});
-  EXPECT_EQ(coupled("coupling = { \"J3,J1\" = 1 }"), Summary{"E-CELL-RANGE 4:24"});
-  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 1, \"J1,J2\" = 1 }"), Summary{"E-CELL-RANGE 4:12"});
-  EXPECT_EQ(coupled("coupling = { \"J1,J1\" = 1 }"), Summary{"E-CELL-RANGE 4:12"});
-  EXPECT_EQ(coupled("coupling.\"J2,J1\" = 1"), Summary{"E-CELL-RANGE 4:1"});
+  const auto pair = [&](const std::string& joint, const std::string& of, const char* share) {
+    return "{joint=\"" + joint + "\", of=\"" + of + "\", share=" + share + "}";
+  };
+  const auto list = [&](const std::string& entries) {
+    return coupled("coupling=[" + entries + "]");
+  };
+  EXPECT_EQ(list(pair("J2", "J1", "1")), Summary{});
+  EXPECT_EQ(list(pair("J2", "J1", "-0.5")), Summary{});
+  EXPECT_EQ(list(""), Summary{});
+  EXPECT_EQ(list(pair("J2", "J7", "1")), Summary{"E-CELL-JOINT 4:28"});
+  EXPECT_EQ(list("{ joint = \"J2\", share = 1 }"), Summary{"E-CELL-MISSING 4:11"});
+  EXPECT_EQ(list("{ joint = \"J2\", of = \"J1\" }"), Summary{"E-CELL-MISSING 4:11"});
+  EXPECT_EQ(list(pair("J2", "J1", "0")), Summary{"E-CELL-RANGE 4:40"});
+  EXPECT_EQ(list(pair("J2", "J1", "11")), Summary{"E-CELL-RANGE 4:40"});
+  EXPECT_EQ(list(pair("J3", "J1", "1")), Summary{"E-CELL-RANGE 4:28"});
+  EXPECT_EQ(list(pair("J2", "J1", "1") + "," + pair("J2", "J1", "1")),
+            Summary{"E-CELL-RANGE 4:61"});
+  EXPECT_EQ(list(pair("J2", "J1", "1") + "," + pair("J1", "J2", "1")),
+            Summary{"E-CELL-RANGE 4:10"});
+  EXPECT_EQ(list(pair("J1", "J1", "1")), Summary{"E-CELL-RANGE 4:10"});
+  EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 1 }").size(), 1U);
 }
 
 TEST(CellMessage, OfConventionsByOtherNames) {

@@ -65,7 +65,9 @@ TEST(Cell, HoldsTheCouplingOfItsJoints) {
   const std::string robot =
       "schema = \"cell/1\"\n[robot]\ndh_convention = \"standard\"\n"
       "joints = [{ q = [-90, 90] }, { q = [-90, 90] }, { q = [-90, 90] }]\n";
-  const Cell c = read(robot + "coupling = { \"J3,J2\" = -1, \"J2,J1\" = 0.5 }\n");
+  const Cell c = read(robot +
+                      "coupling = [{ joint = \"J3\", of = \"J2\", share = 1.0 },\n"
+                      "{ joint = \"J2\", of = \"J1\", share = -0.5 }]\n");
   EXPECT_EQ(c.nominal.coupling, (std::vector<format::JointCoupling>{{2, 1, -1.0}, {1, 0, 0.5}}));
   EXPECT_EQ(read(write_cell(c)).nominal.coupling, c.nominal.coupling);
   EXPECT_NE(fit_hash(c), fit_hash(read(robot)));

@@ -123,7 +123,7 @@ TEST(CouplingSearch, IsSaidInWords) {
   const auto words =
       in_words(arm(14), out.detection.present.convention, out.detection.best.convention);
   EXPECT_EQ(words, std::vector<std::string>{
-                       "the joint values are coupled: J3 = q3 + q2 (coupling J3,J2 = -1)"});
+                       "the joint values are coupled: J3 = q3 + q2 (coupling: J3 of J2, share 1)"});
 }
 
 TEST(CouplingSearch, OfAHealthyArmIsNotFound) {

@@ -175,7 +175,7 @@ class CoupledArm : public testing::Test {
       ASSERT_NE(cell.find(old), std::string::npos) << old;
       cell.replace(cell.find(old), old.size(), now);
     };
-    put("gravity = [", "coupling = { \"J3,J2\" = -1 }\ngravity = [");
+    put("gravity = [", "coupling = [{ joint = \"J3\", of = \"J2\", share = 1 }]\ngravity = [");
     put("q = [-120, 156]", "q = [-310, 200]");
     put("frame = \"fit\"", "frame = { xyz = [0, 0, 0], rpy = [0, 0, 0] }");
     put("target = \"fit\"", "target = [60, 40, 30]");
