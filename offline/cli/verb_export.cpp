@@ -31,6 +31,9 @@ void warn_of_losses(const format::Model& arm, Outcome& outcome) {
     }
   for (const auto& row : arm.calibrated.joints)
     if (row.scale != 1.0) lost.push_back("encoder scale of " + row.name);
+  for (const auto& [joint, by, ratio] : arm.calibrated.coupling)
+    lost.push_back(fmt::format("coupling of {} with {}: its joints count their own angles",
+                               arm.calibrated.joints[joint].name, arm.calibrated.joints[by].name));
   if (lost.empty()) return;
   outcome.remarks.push_back({.severity = Severity::kWarning,
                              .code = "W-EXPORT-LOST",

@@ -216,6 +216,12 @@ TEST_F(CoupledArm, IsPredictedWhereItIs) {
   }
 }
 
+TEST_F(CoupledArm, LosesItsCouplingInAUrdfWhichIsSaid) {
+  const Ran ran = box.plumb({"-C", "cell", "export", "-o", "arm.urdf", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("coupling of J3 with J2"), std::string::npos) << ran.out;
+}
+
 TEST_F(CoupledArm, ReachesItsTargetsWithTheCommandsOfCorrect) {
   const auto poses = random_joints(20, 5);
   std::string rows = "x_mm,y_mm,z_mm,qw,qx,qy,qz,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
