@@ -27,6 +27,7 @@
 #include "fit/main_jump.hpp"
 #include "fit/orientation_words.hpp"
 #include "fit/thinned_rows.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -275,9 +276,11 @@ class Checker {
       const auto numbers = static_cast<std::size_t>(open_of(out_.parameters->rank));
       if (axes_of(measured) * readings > numbers) return;
       find(Severity::kError, "E-CHECK-FEW",
-           fmt::format("{} readings are too few to hold some of them out: {} of them are left to "
-                       "fit and give {} coordinates for {} numbers of arm, frame and target",
-                       measured.size(), readings, axes_of(measured) * readings, numbers),
+           fmt::format("{} too few to hold some of them out: {} left to fit and give {} "
+                       "coordinates for {} numbers of arm, frame and target",
+                       counted_words(measured.size(), "reading is", "readings are"),
+                       counted_words(static_cast<long long>(readings), "of them is", "of them are"),
+                       axes_of(measured) * readings, numbers),
            "measure at least 30 poses all over the joint limits");
     } catch (const Failure& failure) {
       for (const Problem& problem : failure.problems()) out_.findings.push_back(problem);
@@ -312,9 +315,10 @@ class Checker {
     if (coordinates > kEnough * needed) return;
     const bool too_few = coordinates <= needed;
     find(too_few ? Severity::kError : Severity::kWarning, too_few ? "E-CHECK-FEW" : "W-CHECK-FEW",
-         fmt::format("{} poses give {} coordinates for {} numbers of arm, frame and target{}",
-                     groups.size(), coordinates, needed,
-                     needed > out_.parameters->rank_anywhere ? " and effects" : ""),
+         fmt::format(
+             "{} {} coordinates for {} numbers of arm, frame and target{}",
+             counted_words(static_cast<long long>(groups.size()), "pose gives", "poses give"),
+             coordinates, needed, needed > out_.parameters->rank_anywhere ? " and effects" : ""),
          fmt::format("measure at least {} poses all over the joint limits",
                      std::max(30, 2 * needed / std::max(1, axes))));
     if (too_few) blame(Exit::kNumbersSayNo);
@@ -503,11 +507,10 @@ std::string verdict(const Check& check) {
           ? fmt::format("fit the labels to {:.3g} mm{} and", check.detection.best.fitted_m * 1e3,
                         has_effects ? " with geometry alone" : "")
           : "cannot show whether the labels are right, but";
-  const std::string numbers =
-      fmt::format("the {} poses {} tell {} numbers of arm, frame and target{}.", poses, fit, rank,
-                  warnings == 0   ? ""
-                  : warnings == 1 ? ", with one warning"
-                                  : fmt::format(", with {} warnings", warnings));
+  const std::string numbers = fmt::format(
+      "the {} {} tell {} of arm, frame and target{}.", counted_words(poses, "pose", "poses"), fit,
+      counted_words(rank, "number", "numbers"),
+      warnings == 0 ? "" : ", with " + counted_words(warnings, "warning", "warnings"));
   if (check.moved.empty() && !check.orientations.judged.fit_to_use())
     return fmt::format("Usable for positions alone: {}. Without the orientations {}",
                        in_words(check.orientations.judged, check.orientations.meant), numbers);

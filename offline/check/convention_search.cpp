@@ -21,6 +21,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -108,8 +109,9 @@ class ConventionSearch {
       return (columns.rowwise() - columns.colwise().mean().eval()).norm();
     };
     if (static_cast<int>(few_.size()) < kFewestPoses)
-      out_.why_not = fmt::format("{} poses are too few to tell conventions apart: {} are needed",
-                                 few_.size(), kFewestPoses);
+      out_.why_not = fmt::format(
+          "{} too few to tell conventions apart: {} are needed",
+          counted_words(static_cast<long long>(few_.size()), "pose is", "poses are"), kFewestPoses);
     else if (axes < 2)
       out_.why_not = "one measured axis is too little to tell conventions apart";
     else if (!(spread(measured_.q) > 0.0))

@@ -9,6 +9,7 @@
 
 #include "check/equal_repeats.hpp"
 #include "check/row_lines.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -123,8 +124,9 @@ std::vector<Problem> copy_findings(const MeasurementFiles& measured, const Noise
   const EqualPoint& first = copies.points.front();
   return {
       {Severity::kWarning, "W-CHECK-COPY",
-       fmt::format("{} of {} readings repeat another one to the last digit, {}{}{}", rows.size(),
-                   measured.size(), listed_lines(measured, rows),
+       fmt::format("{} of {} {} another one to the last digit, {}{}{}", rows.size(),
+                   counted_words(measured.size(), "reading", "readings"),
+                   rows.size() == 1 ? "repeats" : "repeat", listed_lines(measured, rows),
                    same_joints(measured, first) ? "" : ", at other joint positions",
                    why_perhaps(copies, chance.step_m)),
        cell_of_row(measured, first.row, measured.has_axis[0] ? "x" : "y",

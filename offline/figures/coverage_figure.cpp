@@ -9,6 +9,7 @@
 #include "draw/sheet.hpp"
 #include "figures/data_figures.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -100,9 +101,12 @@ std::vector<draw::LegendEntry> coverage_legend(const RunResults& results) {
 
 std::string coverage_counts(const RunResults& results) {
   if (in_folds(results))
-    return fmt::format("{} poses, each held out in one of {} folds", results.held.size(),
+    return fmt::format("{}, each held out in one of {} folds",
+                       counted_words(static_cast<long long>(results.held.size()), "pose", "poses"),
                        results.run.fit.split.folds);
-  return fmt::format("{} held-out and {} fitted poses", results.held.size(), results.fit.size());
+  return fmt::format(
+      "{} held-out and {}", results.held.size(),
+      counted_words(static_cast<long long>(results.fit.size()), "fitted pose", "fitted poses"));
 }
 
 }  // namespace

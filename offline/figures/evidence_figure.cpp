@@ -10,6 +10,7 @@
 #include "draw/sheet.hpp"
 #include "effects/registry.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -111,8 +112,10 @@ std::vector<draw::LegendEntry> evidence_legend(const Cell& cell, const Diagnosis
 
 std::string poses_text(const Diagnosis& d) {
   if (d.folds > 0)
-    return fmt::format("{} poses, each held out in one of {} folds", d.poses_held, d.folds);
-  return fmt::format("{} fitted and {} held-out poses", d.poses_fit, d.poses_held);
+    return fmt::format("{}, each held out in one of {} folds",
+                       counted_words(d.poses_held, "pose", "poses"), d.folds);
+  return fmt::format("{} fitted and {}", d.poses_fit,
+                     counted_words(d.poses_held, "held-out pose", "held-out poses"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "figures/error_axis.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -34,9 +35,10 @@ std::string history_sentence(const RunResults& results) {
   if (all.empty()) return fmt::format("Run {} was never rechecked.", results.run.number);
   const Run& last = all.back();
   const auto times = std::count_if(all.begin(), all.end(), changed);
-  std::string out = fmt::format("{} recheck{} since run {}, of which {} found a change", all.size(),
-                                all.size() == 1 ? "" : "s", results.run.number,
-                                times == 0 ? "none" : fmt::format("{}", times));
+  std::string out =
+      fmt::format("{} since run {}, of which {} found a change",
+                  counted_words(static_cast<long long>(all.size()), "recheck", "rechecks"),
+                  results.run.number, times == 0 ? "none" : fmt::format("{}", times));
   return out + fmt::format(
                    "; the last one, run {}, missed by {} on average, where up to {} is what "
                    "chance may do.",

@@ -11,6 +11,7 @@
 #include "figures/joint_law.hpp"
 #include "figures/joint_residual.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -60,8 +61,10 @@ double removed_share(const JointResidual& joint) {
 std::string joint_sentence(const JointResidual& joint) {
   const Extremes at = extremes_of(joint);
   if (at.low == nullptr)
-    return fmt::format("{} poses are too few to draw a mean of {}.", joint.poses.size(),
-                       joint.name);
+    return fmt::format(
+        "{} too few to draw a mean of {}.",
+        counted_words(static_cast<long long>(joint.poses.size()), "pose is", "poses are"),
+        joint.name);
   if (at.most_times < kStandOut)
     return fmt::format(
         "Nothing that depends on the angle of {} stands out: the local mean stays "

@@ -16,6 +16,7 @@
 #include "plan/information.hpp"
 #include "plan/plan_steps.hpp"
 #include "plan/pose_pool.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -162,13 +163,14 @@ InformationGrowth information_growth(const RunResults& results, int n) {
 
 std::string observability_figure(const InformationGrowth& growth, int run, double width) {
   std::vector<std::string> notes{fmt::format(
-      "Run {}: {} numbers, {} poses measured. 1 sigma of the reflector, all measured axes "
+      "Run {}: {}, {}. 1 sigma of the reflector, all measured axes "
       "together, "
       "is the mean over {} other random poses, if the model is right. Gain: rise of ln det of the "
       "information by one pose, given those before; 2 nats narrow one combination of the numbers "
       "to about a seventh in variance. Each pose is the most telling of {} random ones; plumb plan "
       "chooses from more, improves the choice and writes it.",
-      run, growth.numbers, growth.measured, kJudged, kPool)};
+      run, counted_words(growth.numbers, "number", "numbers"),
+      counted_words(growth.measured, "pose measured", "poses measured"), kJudged, kPool)};
   const draw::Mark mark{.shape = draw::Shape::kCircle, .paint = Tone::kBlue};
   draw::Sheet sheet(
       width,

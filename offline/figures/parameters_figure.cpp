@@ -8,6 +8,7 @@
 #include "draw/sheet.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -127,10 +128,12 @@ std::string parameters_figure(const RunResults& results, double width) {
   std::size_t fitted = 0, shown = 0;
   for (const Estimate& e : results.run.fit.calibration.estimates) fitted += e.of_robot;
   for (const Group& group : groups) shown += group.rows.size();
-  notes.push_back(
-      fmt::format("Run {}: {} numbers of the arm fitted, {} of them shown; {} were held "
-                  "at nominal because these poses cannot tell them.",
-                  results.run.number, fitted, shown, results.run.fit.calibration.held.size()));
+  notes.push_back(fmt::format(
+      "Run {}: {} of the arm fitted, {} of them shown; {} held "
+      "at nominal because these poses cannot tell them.",
+      results.run.number, counted_words(static_cast<long long>(fitted), "number", "numbers"), shown,
+      counted_words(static_cast<long long>(results.run.fit.calibration.held.size()), "was",
+                    "were")));
   draw::Sheet sheet(
       width, {.title = "What calibration changed",
               .sentence = parameters_sentence(groups),

@@ -10,6 +10,7 @@
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
 #include "fit/error_by_poses.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -38,9 +39,11 @@ std::string more_poses_words(const std::vector<PosesAndError>& curve) {
   const auto half = std::find_if(curve.rbegin(), curve.rend(), [&](const PosesAndError& p) {
     return p.alone_m && 2 * p.poses <= last->poses;
   });
-  std::string out = fmt::format("{} poses reach {}", last->poses, length_text(*last->alone_m));
+  std::string out = fmt::format("{} {}", counted_words(last->poses, "pose reaches", "poses reach"),
+                                length_text(*last->alone_m));
   if (half == curve.rend()) return out + ".";
-  out += fmt::format(", {} reach {}", half->poses, length_text(*half->alone_m));
+  out += fmt::format(", {} {}", counted_words(half->poses, "reaches", "reach"),
+                     length_text(*half->alone_m));
   return out + (*half->alone_m > kWorthMore * *last->alone_m ? ": more poses would still help."
                                                              : ": more poses would help little.");
 }
@@ -49,7 +52,8 @@ std::string saved_words(const std::vector<PosesAndError>& curve) {
   const auto first = std::find_if(curve.begin(), curve.end(),
                                   [](const PosesAndError& p) { return p.with_m.has_value(); });
   if (first == curve.end()) return more_poses_words(curve);
-  std::string out = fmt::format("With what is taken over, {} poses reach {}", first->poses,
+  std::string out = fmt::format("With what is taken over, {} {}",
+                                counted_words(first->poses, "pose reaches", "poses reach"),
                                 length_text(*first->with_m));
   if (const auto alone = poses_alone(curve, *first->with_m))
     return out + (*alone <= first->poses

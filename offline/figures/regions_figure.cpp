@@ -13,6 +13,7 @@
 #include "draw/text_width.hpp"
 #include "figures/data_figures.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -90,7 +91,8 @@ void draw_profile(const ErrorProfile& p, double y, double most_m, draw::Svg& svg
                                           border_text(p, bin.to), is_angle(p) ? "deg" : "mm");
     panel.bar(left, y + 0.36, left + step, y + 0.96, paint, {.paint = Tone::kMuted, .width = 0.5},
               bin.n > 0
-                  ? fmt::format("{}: {} poses, mean {}", range, bin.n, length_text(bin.mean_m))
+                  ? fmt::format("{}: {}, mean {}", range, counted_words(bin.n, "pose", "poses"),
+                                length_text(bin.mean_m))
                   : range + ": no pose");
     const double room = panel.x_at(left + step) - panel.x_at(left) - 6.0;
     const draw::Paint ink =

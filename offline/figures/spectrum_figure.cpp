@@ -10,6 +10,7 @@
 #include "figures/joint_law.hpp"
 #include "figures/law_figures.hpp"
 #include "figures/words.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -104,8 +105,10 @@ struct Drawn {
 
 std::string spectrum_sentence(const JointResidual& joint, const Drawn& drawn) {
   if (drawn.left.cycles.empty())
-    return fmt::format("{} poses are too few for a spectrum of {}, or it does not move.",
-                       joint.poses.size(), joint.name);
+    return fmt::format(
+        "{} too few for a spectrum of {}, or it does not move.",
+        counted_words(static_cast<long long>(joint.poses.size()), "pose is", "poses are"),
+        joint.name);
   const auto left = peaks_of(drawn.left, kNamed), before = peaks_of(drawn.before, kNamed);
   std::string out;
   if (!before.empty()) {

@@ -13,6 +13,7 @@
 #include "figures/workspace_views.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/geometry_derivative.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -191,12 +192,12 @@ std::string uncertainty_figure(const RunResults& results, double width) {
   const draw::Mark dot{.paint = Tone::kVermilion, .size = 1.8};
   if (!measured.empty()) legend.push_back({.words = "measured pose", .mark = dot});
   std::vector<std::string> notes{
-      fmt::format(
-          "Run {}: 1 sigma of the position, {}, by the covariance of {} numbers of the arm. "
-          "Where tracker and reflector stand is not part of it: fitted together with the "
-          "arm, the two make up for each other, so that a measured error can be smaller. "
-          "Neither is what the model does not describe.",
-          results.run.number, predict.axes_words(), predict.numbers()),
+      fmt::format("Run {}: 1 sigma of the position, {}, by the covariance of {} of the arm. "
+                  "Where tracker and reflector stand is not part of it: fitted together with the "
+                  "arm, the two make up for each other, so that a measured error can be smaller. "
+                  "Neither is what the model does not describe.",
+                  results.run.number, predict.axes_words(),
+                  counted_words(static_cast<long long>(predict.numbers()), "number", "numbers")),
       fmt::format("Colours: mean over the poses seen in a cell, {} random poses within the joint "
                   "limits in all; {} of {} measured poses are drawn.",
                   spread.size(), measured.size(), results.held.size() + results.fit.size())};

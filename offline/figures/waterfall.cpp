@@ -11,6 +11,7 @@
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
 #include "fit/arm_state.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {
 namespace {
@@ -69,8 +70,7 @@ std::string waterfall_sentence(const std::vector<WaterfallStep>& steps, const Ru
 /// The numbers first, then what was added.
 std::string step_words(const WaterfallStep& step, bool first) {
   std::string out = length_text(step.mean_m);
-  if (step.worse > 0)
-    out += fmt::format(", {} {} worse", step.worse, step.worse == 1 ? "pose" : "poses");
+  if (step.worse > 0) out += fmt::format(", {} worse", counted_words(step.worse, "pose", "poses"));
   return out + (first ? ": " : ": + ") + step.added;
 }
 

@@ -15,6 +15,7 @@
 #include "numbers/gaussian.hpp"
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
+#include "program/counted_words.hpp"
 #include "program/file.hpp"
 
 namespace plumb::offline {
@@ -419,7 +420,9 @@ void check_same_model(const Cell& cell, const EarlierArm& earlier) {
   if (earlier.modified != modified)
     refuse(earlier, "is of an arm whose rows stand in the other convention");
   if (earlier.rows.size() != joints.size())
-    refuse(earlier, fmt::format("is of an arm of {} joints, this one has {}", earlier.rows.size(),
+    refuse(earlier, fmt::format("is of an arm of {}, this one has {}",
+                                counted_words(static_cast<long long>(earlier.rows.size()), "joint",
+                                              "joints"),
                                 joints.size()));
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const auto& then = earlier.rows[i];

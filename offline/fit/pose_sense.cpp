@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/pose_sense.hpp"
+#include "program/counted_words.hpp"
 
 #include <fmt/format.h>
 
@@ -39,12 +40,14 @@ double spread_of_points(const Measurements& measured, const std::vector<int>& ro
 Problem one_pose(const Measurements& measured, const std::vector<int>& rows) {
   const double spread = spread_of_points(measured, rows);
   if (spread > kArmMoved)
-    return {.code = "E-FIT-ONE-POSE",
-            .message = fmt::format("no joint moves by more than {:.2g} rad or m over the {} poses "
-                                   "to fit, but their points are up to {:.3g} m apart: the joint "
-                                   "columns are in another unit, or not of these points",
-                                   kOnePose, rows.size(), spread),
-            .help = "correct the units in the headings of the joint columns, or export them again"};
+    return {
+        .code = "E-FIT-ONE-POSE",
+        .message = fmt::format(
+            "no joint moves by more than {:.2g} rad or m over the {} "
+            "to fit, but their points are up to {:.3g} m apart: the joint "
+            "columns are in another unit, or not of these points",
+            kOnePose, counted_words(static_cast<long long>(rows.size()), "pose", "poses"), spread),
+        .help = "correct the units in the headings of the joint columns, or export them again"};
   return {.code = "E-FIT-ONE-POSE",
           .message = fmt::format("the {} poses to fit are nearly all one pose: no joint moves by "
                                  "more than {:.2g} rad or m",

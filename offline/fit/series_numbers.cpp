@@ -10,6 +10,7 @@
 #include "effects/registry.hpp"
 #include "fit/effect_binding.hpp"
 #include "plumb/runtime/detail/effects/joint_series.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -57,8 +58,8 @@ std::string series_words(const Cell& cell, const format::Model& arm) {
   int joint = -1;
   for (const auto& peak : peaks) {
     if (out.empty())
-      out = fmt::format("largest {:.0f} µrad at {} cycle{} a turn", peak.size * 1e6, peak.k,
-                        peak.k == 1 ? "" : "s");
+      out = fmt::format("largest {:.0f} µrad at {} a turn", peak.size * 1e6,
+                        counted_words(peak.k, "cycle", "cycles"));
     else
       out += fmt::format(", {:.0f} at {}", peak.size * 1e6, peak.k);
     const auto index = static_cast<std::size_t>(peak.joint);

@@ -12,6 +12,7 @@
 #include "cell/group_rows.hpp"
 #include "cell/random.hpp"
 #include "cell/replicates.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -88,7 +89,8 @@ void hold_share(const Measurements& m, double share, Random& random, Split& spli
   const int n = static_cast<int>(order.size());
   const int wanted = std::max(1, static_cast<int>(std::lround(share * n)));
   if (wanted >= n)
-    fail(fmt::format("{} poses cannot give a held-out share of {:.0f}%", n, 100 * share),
+    fail(fmt::format("{} cannot give a held-out share of {:.0f}%",
+                     counted_words(n, "pose", "poses"), 100 * share),
          "set [measurement] held_out = \"kfold:5\"");
   std::vector<bool> held(count_groups(m.replicate_group), false);
   for (int k = 0; k < wanted; ++k) {

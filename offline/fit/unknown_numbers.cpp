@@ -7,6 +7,7 @@
 
 #include "cell/earlier_arm.hpp"
 #include "fit/imagined_poses.hpp"
+#include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -52,12 +53,13 @@ void check_placed_by_poses(const FitData& data, const UnknownNumbers& unknown,
   for (const auto& name : unknown.placing)
     if (std::find(held.begin(), held.end(), name) != held.end()) open.push_back(name);
   if (open.empty()) return;
-  throw Failure(
-      Exit::kNumbersSayNo,
-      {.code = "E-FIT-FEW",
-       .message = fmt::format("{} readings do not show where tracker and reflector are: {}",
-                              data.rows.size(), fmt::join(open, ", ")),
-       .help = "measure at least 8 different poses: plumb plan --n 12"});
+  throw Failure(Exit::kNumbersSayNo,
+                {.code = "E-FIT-FEW",
+                 .message = fmt::format("{} not show where tracker and reflector are: {}",
+                                        counted_words(static_cast<long long>(data.rows.size()),
+                                                      "reading does", "readings do"),
+                                        fmt::join(open, ", ")),
+                 .help = "measure at least 8 different poses: plumb plan --n 12"});
 }
 
 }  // namespace plumb::offline

@@ -98,6 +98,20 @@ TEST(Figures, AreSoundForNoPoseOnePoseAndErrorsThatAreAllZero) {
   expect_sound(exact);
 }
 
+TEST(Figures, SayOneOfAThingInTheSingular) {
+  const std::regex plural(
+      "[^0-9.]1 (poses|numbers|readings|rows|rechecks|held-out poses|fitted "
+      "poses)");
+  for (const auto held : {Held::kNone, Held::kEveryFifth}) {
+    const MadeRun one(1, 6, held);
+    for (const auto& name : run_figures(one.cell)) {
+      std::smatch found;
+      const std::string svg = drawn(name, one.results(), 4000.0).value();
+      EXPECT_FALSE(std::regex_search(svg, found, plural)) << name << ": " << found.str();
+    }
+  }
+}
+
 TEST(Figures, HostileNamesOfPosesStayWords) {
   MadeRun made(40, 6);
   for (auto& name : made.measured.pose) name = "\"><script>alert('" + name + "')</script>";
