@@ -42,6 +42,15 @@ ArmSweep::ArmSweep(const format::Chain& chain, const RowsN& q, int most_turned)
 
 void ArmSweep::run(const Visit& visit) { descend(0, 0, visit); }
 
+std::vector<Transformd> ArmSweep::poses(const std::vector<bool>& reversed) const {
+  std::vector<Transformd> out = before_[0];
+  for (std::size_t joint = 0; joint < options_.size(); ++joint)
+    for (const Option& option : options_[joint])
+      if (option.turns == 0 && option.reversed == reversed[joint])
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = out[i] * option.links[i];
+  return out;
+}
+
 void ArmSweep::descend(int joint, int turned, const Visit& visit) {
   if (joint == static_cast<int>(options_.size())) return visit(reversed_, turns_, before_.back());
   for (const Option& option : options_[joint]) {

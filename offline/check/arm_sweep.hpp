@@ -23,6 +23,9 @@ class ArmSweep {
                                    const std::vector<Transformd>& X_BT)>;
   void run(const Visit& visit);
 
+  /// The poses of one choice without turned zeros.
+  std::vector<Transformd> poses(const std::vector<bool>& reversed) const;
+
  private:
   /// One joint counted one way, at every row: the motion and the link behind it.
   struct Option {

@@ -32,6 +32,9 @@ constexpr int kFewestPoses = 10;       // the loose look has 15 unknowns
 constexpr int kFewestOfOrders = 20;    // the same, among tens of thousands of readings
 constexpr std::size_t kAllOrders = 6;  // joints: of more, only swaps and turns of neighbours
 constexpr std::size_t kShort = 24;     // readings looked at closely
+constexpr double kNoBetter = 1e-5;     // of the size: rounding of the quick misfit is far less
+constexpr int kGlancePoses = 16;       // for a glance at hundreds of thousands of readings
+constexpr double kHopeless = 0.25;     // of the size, at the glance: the arm's errors are far less
 constexpr std::size_t kFitted = 8;     // readings whose geometry is fitted
 constexpr double kClearly = 10.0;      // a reading must leave that much less than the labels
 constexpr double kAlike = 1.3;         // readings that leave no more than that are equally good
@@ -78,8 +81,7 @@ class ConventionSearch {
     if (!can_work()) return std::move(out_);
     judge_all_of([this] { sweep(0); });
     if (nothing_fits()) judge_all_of([this] { sweep(2); });
-    if (nothing_fits() && enough_poses())
-      judge_all_of([this] { sweep_orders({labels_.coupling}); });
+    if (nothing_fits() && enough_poses()) judge_all_of([this] { sweep_orders(); });
     seek_coupling();
     if (nothing_fits() && enough_poses()) judge_joint_maps();
     conclude();
@@ -159,11 +161,30 @@ class ConventionSearch {
           }
   }
 
-  /// The columns of the joints in another order: sorted by name, say, or two of them swapped.
-  /// Joints that turn stay among themselves.
-  void sweep_orders(const std::vector<Couplings>& couplings) {
+  void sweep_orders() {
     const Measurements few = pick(measured_, few_);
     LinearPlacer placer(few.p_M, few.has_axis);
+    for_each_order({labels_.coupling}, [&](const Convention& c, double slide) {
+      sweep_directions(c, slide, few, placer, 0);
+    });
+  }
+
+  void sweep_coupled_orders() {
+    const Measurements few = pick(measured_, few_);
+    LinearPlacer placer(few.p_M, few.has_axis);
+    std::vector<int> rows = few_;
+    rows.resize(std::min<std::size_t>(rows.size(), kGlancePoses));
+    const Measurements fewer = pick(measured_, rows);
+    const LinearPlacer glance(fewer.p_M, fewer.has_axis);
+    for_each_order(neighbour_couplings(cell_.nominal), [&](const Convention& c, double slide) {
+      sweep_directions_that_fit(c, slide, few, placer, fewer, glance);
+    });
+  }
+
+  /// The columns of the joints in another order: sorted by name, say, or two of them swapped.
+  /// Joints that turn stay among themselves.
+  template <class Sweep>
+  void for_each_order(const std::vector<Couplings>& couplings, const Sweep& sweep_all) {
     std::vector<int> turning;
     for (int j = 0; j < cell_.joints(); ++j)
       if (cell_.nominal.joints[j].type == format::JointType::kRevolute) turning.push_back(j);
@@ -176,7 +197,7 @@ class ConventionSearch {
           c.column[static_cast<std::size_t>(turning[k])] = order[k];
         for (const auto& coupling : couplings) {
           c.coupling = coupling;
-          sweep_directions(c, slide, few, placer, 0);
+          sweep_all(c, slide);
         }
       }
   }
@@ -189,8 +210,7 @@ class ConventionSearch {
     if (out_.best.fitted_m <= reasonable()) return;
     seek_coupling([this] { sweep_couplings(0); });
     if (nothing_fits()) seek_coupling([this] { sweep_couplings(1); });
-    if (nothing_fits() && enough_poses())
-      seek_coupling([this] { sweep_orders(neighbour_couplings(cell_.nominal)); });
+    if (nothing_fits() && enough_poses()) seek_coupling([this] { sweep_coupled_orders(); });
   }
 
   /// Keeps what was found before unless a coupling leaves much less.
@@ -248,21 +268,53 @@ class ConventionSearch {
     return out;
   }
 
-  void sweep_directions(Convention c, double slide, const Measurements& few, LinearPlacer& placer,
-                        int most_turned) {
-    const Couplings coupling = c.coupling;
-    RowsN q = read_as(few, cell_, labels_, c).q;
+  RowsN joints_of(const Measurements& rows, const Convention& c, double slide) {
+    RowsN q = read_as(rows, cell_, labels_, c).q;
     for (int j = 0; j < cell_.joints(); ++j)
       if (cell_.nominal.joints[j].type == format::JointType::kPrismatic) q.col(j) *= slide;
-    ArmSweep(cell_as(c).nominal, q, most_turned)
+    return q;
+  }
+
+  void sweep_directions(const Convention& c, double slide, const Measurements& few,
+                        LinearPlacer& placer, int most_turned) {
+    ArmSweep(cell_as(c).nominal, joints_of(few, c, slide), most_turned)
         .run([&](const std::vector<bool>& reversed, const std::vector<int>& turns,
                  const std::vector<Transformd>& X_BT) {
           ++out_.tried;
-          c.reversed = reversed;
-          c.coupling = reversed_couplings(coupling, reversed);
-          c.quarter_turns = turns;
-          offer({c, slide, placer.place(X_BT)}, placer);
+          offer(c, slide, reversed, turns, X_BT, placer);
         });
+  }
+
+  /// The same for readings that are of use only if they fit: those that miss even a few rows by
+  /// far are passed over.
+  void sweep_directions_that_fit(const Convention& c, double slide, const Measurements& few,
+                                 LinearPlacer& placer, const Measurements& fewer,
+                                 const LinearPlacer& glance) {
+    std::vector<std::vector<bool>> near;
+    std::vector<int> unturned;
+    ArmSweep(cell_as(c).nominal, joints_of(fewer, c, slide), 0)
+        .run([&](const std::vector<bool>& reversed, const std::vector<int>& turns,
+                 const std::vector<Transformd>& X_BT) {
+          ++out_.tried;
+          unturned = turns;
+          if (glance.quick_misfit(X_BT) < kHopeless) near.push_back(reversed);
+        });
+    if (near.empty()) return;
+    const ArmSweep sweep(cell_as(c).nominal, joints_of(few, c, slide), 0);
+    for (const auto& reversed : near)
+      offer(c, slide, reversed, unturned, sweep.poses(reversed), placer);
+  }
+
+  void offer(Convention c, double slide, const std::vector<bool>& reversed,
+             const std::vector<int>& turns, const std::vector<Transformd>& X_BT,
+             LinearPlacer& placer) {
+    if (leads_.size() == kShort &&
+        placer.quick_misfit(X_BT) > kNoBetter + leads_.front().loose.misfit)
+      return;
+    c.reversed = reversed;
+    c.coupling = reversed_couplings(c.coupling, reversed);
+    c.quarter_turns = turns;
+    offer({std::move(c), slide, placer.place(X_BT)}, placer);
   }
 
   /// Keeps the kShort leads with the least misfit.

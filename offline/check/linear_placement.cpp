@@ -41,6 +41,46 @@ LinearPlacer::LinearPlacer(const Rows3& p_M, const std::array<bool, 3>& has_axis
   R_inverse.topRows(rank) = upper_solved(qr.triangle(rank), Eigen::MatrixXd::Identity(rank, rank));
   to_map_ = qr.in_place(R_inverse);
   sides_.resize(n, 12);
+  rows_ = Columns4::Zero(4, n);
+  rows_.topRows(rank) = basis_.transpose();
+}
+
+double LinearPlacer::quick_misfit(const std::vector<Transformd>& X_BT) const {
+  const auto n = static_cast<double>(rows_.cols());
+  using Coefficients = Eigen::Matrix<double, 4, 12>;  // as coefficients_
+  Coefficients all = Coefficients::Zero();
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  double whole = 0.0;
+  for (Eigen::Index i = 0; i < rows_.cols(); ++i) {
+    const Transformd& X = X_BT[static_cast<std::size_t>(i)];
+    const Eigen::Vector4d row = rows_.col(i);
+    for (int k = 0; k < 3; ++k) {
+      all.col(k) += row * X.p(k);
+      for (int c = 0; c < 3; ++c) all.col(3 + 3 * k + c) += row * X.R(k, c);
+    }
+    g -= X.R.transpose() * X.p;
+    whole += X.p.squaredNorm();
+  }
+  Eigen::Matrix3d N = n * (1.0 + kPlacementRidge) * Eigen::Matrix3d::Identity();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Matrix<double, 4, 3> cR = all.middleCols<3>(3 + 3 * k);
+    N -= cR.transpose() * cR;
+    g += cR.transpose() * all.col(k);
+    whole -= all.col(k).squaredNorm();
+  }
+  const Eigen::Vector3d target_T = N.ldlt().solve(g);
+  const double left = std::max(0.0, whole - g.dot(target_T));
+  double squares = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector4d map = all.col(k) + all.middleCols<3>(3 + 3 * k) * target_T;
+    for (Eigen::Index c = 0; c < axes_; ++c) {
+      double one = 0.0;
+      for (Eigen::Index r = 0; r < to_map_.cols(); ++r) one += to_map_(c, r) * map(r);
+      squares += one * one;
+    }
+  }
+  const double unit = std::sqrt(squares / static_cast<double>(axes_)) * size_;
+  return unit > 0.0 ? std::sqrt(left / n) / unit : kHugeMisfit;
 }
 
 LinearPlacement LinearPlacer::place(const std::vector<Transformd>& X_BT) {

@@ -32,6 +32,9 @@ class LinearPlacer {
   /// first call.
   LinearPlacement place(const std::vector<Transformd>& X_BT);
 
+  /// The misfit of `place`, to 1e-6, in a quarter of the time: to pass over what fits no better.
+  double quick_misfit(const std::vector<Transformd>& X_BT) const;
+
   /// Adds to the misfit what M is away from the nearest s R: a loose map hides, for example, a
   /// sliding joint in the wrong unit. Cost: a 3 x 3 singular value decomposition.
   void tighten(LinearPlacement& placement) const;
@@ -41,6 +44,8 @@ class LinearPlacer {
   std::array<int, 3> axis_{};                         // measured axes
   Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();  // covariance of the measured cloud
   double size_ = 0.0;                                 // RMS distance from the mean
+  using Columns4 = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+  Columns4 rows_;                 // the rows of the basis, with zeros up to four
   Eigen::MatrixXd basis_;         // orthonormal, of (p_M, 1); shape (n, axes + 1)
   Eigen::MatrixXd to_map_;        // coefficients of (p_M, 1) from those of the basis
   Eigen::MatrixXd sides_;         // p_x p_y p_z, then the rows of R_BT; shape (n, 12)
