@@ -86,8 +86,8 @@ HtmlTable excluded_table(const ReportData& data) {
                        [&](const Outlier& other) { return other.row == held.row; });
   };
   for (const auto& o : fit.held_outliers)
-    add(o, is_left_out(o) ? "left out of the fit; where it is held out, it counts in the figures"
-                          : "held out; it counts in the figures");
+    add(o, is_left_out(o) ? "left out of the fit and of the verdict"
+                          : "held out, and left out of the verdict");
   for (const auto& o : left_out)
     if (std::none_of(fit.held_outliers.begin(), fit.held_outliers.end(),
                      [&](const Outlier& held) { return held.row == o.row; }))
