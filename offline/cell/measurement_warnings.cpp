@@ -84,6 +84,11 @@ constexpr double kHottest_degC = 150.0;         // nor hotter
 constexpr double kLongest_rad = 20.0 * M_PI;
 constexpr double kLongest_m = 30.0;
 
+bool may_be_odd(const Column& column) {
+  return column.quantity == Quantity::kMass || column.quantity == Quantity::kTemperature ||
+         column.name.starts_with("travel_j");
+}
+
 /// What the numbers of a column cannot be, and the unit they may be in; nothing if they are sound.
 std::optional<std::pair<std::string, std::string>> oddity_of(const Column& column) {
   const Sizes at = sizes_of(column.values);
@@ -140,7 +145,7 @@ void replace_zero_sigmas(MeasurementFiles& m) {
 void warn_of_values(Table& table) {
   std::vector<Problem> found;
   for (const auto& column : table.columns) {
-    if (column.values.empty()) continue;
+    if (column.values.empty() || !may_be_odd(column)) continue;
     const auto odd = oddity_of(column);
     if (!odd) continue;
     found.push_back({Severity::kWarning, "W-CSV-VALUE",

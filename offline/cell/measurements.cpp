@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "cell/arm_columns.hpp"
 #include "cell/arm_reach.hpp"
 #include "cell/last_moves.hpp"
@@ -28,16 +31,17 @@ class Assembler {
 
   void take(Table table) { tables_.push_back(std::move(table)); }
 
+  /// What takes much memory for a moment comes before what is kept.
   MeasurementFiles finish() {
     join();
-    m_.replicate_group = replicate_groups(names_, file_, m_.q);
-    m_.context = read_contexts(tables_, m_.q);
-    if (needs_ == Needs::kJoints) forget_order(tables_, m_.q, m_.context);
+    m_.replicate_group = replicate_groups(names(), file_, m_.q);
     for (auto& table : tables_) {
       warn_of_misspelt(table);
       warn_of_values(table);
       warn_of_doubles(table);
     }
+    m_.context = read_contexts(tables_, m_.q);
+    if (needs_ == Needs::kJoints) forget_order(tables_, m_.q, m_.context);
     m_.file = file_of_rows(tables_);
     m_.tables = std::move(tables_);
     warn_of_names(m_);
@@ -138,24 +142,41 @@ class Assembler {
     for (int k = 0; k < 3; ++k) m_.has_axis[k] = c.p[k] != nullptr;
     m_.pose.reserve(rows);
     m_.set.reserve(rows);
-    names_.reserve(rows);
     file_.reserve(rows);
   }
 
-  void fill(const Table& table, const ArmColumns& c, int first) {
+  void fill(Table& table, const ArmColumns& c, int first) {
     for (int row = 0; row < table.rows(); ++row)
       for (std::size_t k = 0; k < c.q.size(); ++k) m_.q(first + row, k) = c.q[k]->values[row];
     copy(table, c.p, first, m_.p_M);
     copy(table, c.sigma, first, m_.sigma_m);
     copy(table, c.nominal, first, m_.nominal_B);
+    name_rows(table, c.pose, first);
     for (int row = 0; row < table.rows(); ++row) {
-      m_.pose.push_back(c.pose ? c.pose->text[row] : std::to_string(first + row + 1));
-      names_.push_back(c.pose ? c.pose->text[row] : std::string());
       m_.set.push_back(mark(table, c.set, row));
       if (!c.has_orientation()) continue;
       const auto q = orientation(table, c, row, problems_);
       m_.quat_M.row(first + row) << q[0], q[1], q[2], q[3];
     }
+  }
+
+  /// Takes the texts of the column: no one reads them from the table.
+  void name_rows(Table& table, const Column* pose, int first) {
+    for (int row = 0; pose == nullptr && row < table.rows(); ++row)
+      m_.pose.push_back(std::to_string(first + row + 1));
+    for (auto& column : table.columns) {
+      if (&column != pose) continue;
+      std::move(column.text.begin(), column.text.end(), std::back_inserter(m_.pose));
+      column.text = {};
+    }
+  }
+
+  /// As written; empty where no column names the rows.
+  std::vector<std::string_view> names() const {
+    std::vector<std::string_view> out(m_.pose.begin(), m_.pose.end());
+    for (std::size_t row = 0; row < out.size(); ++row)
+      if (columns_[static_cast<std::size_t>(file_[row])].pose == nullptr) out[row] = {};
+    return out;
   }
 
   static void copy(const Table& table, const AxisColumns& from, int first, Rows3& to) {
@@ -180,8 +201,7 @@ class Assembler {
   std::vector<Table> tables_;
   std::vector<ArmColumns> columns_;
   ProblemList problems_;
-  std::vector<std::string> names_;  // as written, empty without a column
-  std::vector<int> file_;           // of each row
+  std::vector<int> file_;  // of each row
   MeasurementFiles m_;
 };
 

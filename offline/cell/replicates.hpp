@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cell/measurements.hpp"
@@ -16,7 +16,7 @@ namespace plumb::offline {
 /// @param file  Which file each row comes from, shape (n,), ascending.
 /// @return      Group of each row, 0 … groups - 1 in order of first appearance, shape (n,).
 /// Cost: O(n log n).
-std::vector<int> replicate_groups(const std::vector<std::string>& names,
+std::vector<int> replicate_groups(const std::vector<std::string_view>& names,
                                   const std::vector<int>& file, const RowsN& q);
 
 /// Groups of rows at one pose of the arm, in whatever set-up they were measured. Across set-ups

@@ -39,7 +39,11 @@ bool json_sum_holds(const std::string& text) {
 }
 
 bool predictions_sum_holds(const Json& run, const std::string& predictions_csv) {
-  return !run.contains(kOfPredictions) || run.at(kOfPredictions) == sha256(predictions_csv);
+  return is_predictions_sum(run, sha256(predictions_csv));
+}
+
+bool is_predictions_sum(const Json& run, const std::string& sha256_of_csv) {
+  return !run.contains(kOfPredictions) || run.at(kOfPredictions) == sha256_of_csv;
 }
 
 bool has_checksums(const std::filesystem::path& run_folder) {

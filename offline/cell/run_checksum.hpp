@@ -18,6 +18,9 @@ std::string with_checksums(Json run, const std::string& predictions_csv);
 bool json_sum_holds(const std::string& run_json_text);
 bool predictions_sum_holds(const Json& run, const std::string& predictions_csv);
 
+/// The same of a text of which the SHA-256 sum is known.
+bool is_predictions_sum(const Json& run, const std::string& sha256_of_csv);
+
 /// False of a run that was written before there were sums; throws Failure if it cannot be read.
 bool has_checksums(const std::filesystem::path& run_folder);
 

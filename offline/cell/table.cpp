@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cell/line_source.hpp"
+#include "cell/table_blocks.hpp"
 #include "cell/table_reader.hpp"
 #include "program/file.hpp"
 
@@ -72,6 +73,24 @@ Table read_table(const std::filesystem::path& file) {
   Table table = finished(reader);
   table.sha256 = source.sha256();
   return table;
+}
+
+std::string read_blocks(const std::filesystem::path& file,
+                        const std::function<void(const Table&)>& take) {
+  LineSource source(file);
+  TableReader first(display_name(file), TableOf::kMeasurements);
+  std::string block;
+  while (!first.has_header() && source.next(block)) first.read(block);
+  const TableReader header = first.below(1);
+  take(finished(first));
+  while (source.next(block)) {
+    TableReader reader = header.below(source.first_line());
+    reader.expect(lines_of(block), block.size());
+    reader.read(block);
+    reader.problems().stop_on_errors();
+    take(reader.take());
+  }
+  return source.sha256();
 }
 
 }  // namespace plumb::offline

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>
+
 #include <memory>
 
 #include "cli/cell_data.hpp"
@@ -6,6 +8,7 @@
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "compare/comparison.hpp"
+#include "fit/earlier_runs.hpp"
 #include "show/compare_view.hpp"
 #include "show/runs_view.hpp"
 
@@ -29,13 +32,27 @@ std::vector<show::ListedRun> wanted(const Runs& names, const Cell& cell,
   return out;
 }
 
+/// Most of what many readings take: nothing quotes the rows of files that are not fitted.
+void forget_rows(MeasurementFiles& measured) {
+  for (Table& table : measured.tables) {
+    table.raw_rows = {};
+    table.raw_rows.resize(table.lines.size());
+    table.columns.clear();
+  }
+}
+
+/// The allocator would keep blocks of up to 32 MB once one was freed, and a million rows need many.
+constexpr int kGivenBack = 4 << 20;  // bytes
+
 void compare_runs(const Runs& names, const Globals& globals, Outcome& outcome) {
+  ::mallopt(M_MMAP_THRESHOLD, kGivenBack);
   const Cell cell = open_cell(globals, outcome);
   MeasurementFiles measured = open_measurements(cell, outcome);
+  if (!names.empty() || seems_fitted(cell, measured)) forget_rows(measured);
   const auto runs = wanted(names, cell, measured, outcome);
   const Run& last = runs.back().run;
   stand_on_base_of(last, cell, measured);
-  measured.tables = {};  // half of what many readings take, and nothing below quotes the files
+  measured.tables = {};
   const auto comparison = compare::comparison(cell, measured, last.fit);
   outcome.result = show::compare_json(cell, measured, comparison, last);
   outcome.text = show::compare_text(cell, measured, comparison, last);

@@ -26,7 +26,6 @@ class Scanner {
     Changes out;
     if (motions_.size() < kFewestVisits || sources_.empty()) return out;
     out.visits = motions_.size();
-    without_steps_ = error_;
     look(VisitRun{0, motions_.size()}, out);
     for (int pass = 0; pass < 2 && found_.size() > 1; ++pass)
       for (auto& jumped : found_) refine(jumped);
@@ -68,11 +67,12 @@ class Scanner {
     const bool drifts = smooth && smooth->ln_p < best->ln_p;
     if (drifts) {
       smooth->take_from(error_);
-      smooth->take_from(without_steps_);
+      if (without_steps_.cols() > 0) smooth->take_from(without_steps_);
       if (out.drifts.size() >= kMostSteps) return;
       out.drifts.push_back(described(*smooth, s));
       return look(s, out);
     }
+    if (found_.empty()) without_steps_ = error_;
     found_.push_back(jumped(*best, s));
     best->take_from(error_);
     look({s.first, best->cut}, out);
@@ -157,7 +157,7 @@ class Scanner {
 
   const StepMotions& motions_;
   Eigen::Matrix3Xd error_;          // residuals minus steps and drifts found so far
-  Eigen::Matrix3Xd without_steps_;  // residuals minus drifts only
+  Eigen::Matrix3Xd without_steps_;  // residuals minus drifts only, once a step was found
   std::vector<MotionSums> sources_;
   std::vector<Jumped> found_;
 };

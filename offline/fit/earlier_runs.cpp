@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/earlier_runs.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fit/run_json.hpp"
+#include "program/file.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -10,6 +16,19 @@ bool is_of_data(const Run& run, const MeasurementFiles& measured) {
   for (std::size_t i = 0; i < run.inputs.size(); ++i)
     if (run.inputs[i].sha256 != measured.tables[i].sha256) return false;
   return true;
+}
+
+bool seems_fitted(const Cell& cell, const MeasurementFiles& measured) {
+  const auto numbers = list_runs(cell);
+  return std::any_of(numbers.rbegin(), numbers.rend(), [&](int number) {
+    try {
+      const Run run = run_from_json(nlohmann::ordered_json::parse(
+          read_file(cell.directory / "runs" / fmt::format("{:04}", number) / "run.json")));
+      return !run.recheck && is_of_data(run, measured) && is_of_cell(run, cell);
+    } catch (const std::exception&) {
+      return false;  // whoever loads it says what is wrong
+    }
+  });
 }
 
 std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured) {

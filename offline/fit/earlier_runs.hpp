@@ -10,6 +10,10 @@ namespace plumb::offline {
 /// Whether a run was made from exactly these files.
 bool is_of_data(const Run& run, const MeasurementFiles& measured);
 
+/// Whether a run is of the present cell and data, as run.json says, before the poses of any are
+/// read.
+bool seems_fitted(const Cell& cell, const MeasurementFiles& measured);
+
 /// Runs before this one that are of the same data and can be read, oldest first: the steps by which
 /// a model may have grown. Cost: every run before it is read.
 std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured);

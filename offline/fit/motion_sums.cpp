@@ -11,7 +11,7 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kSeen = 1e-6;   // share of the largest eigenvalue: smaller ones are unobservable
-constexpr int kBlock = 64;       // visits
+constexpr int kBlock = 256;      // visits
 constexpr double kRidge = 1e-9;  // keeps segments solvable in which a direction is unobservable
 
 }  // namespace

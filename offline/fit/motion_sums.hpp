@@ -12,7 +12,7 @@ namespace plumb::offline {
 
 /// Least-squares fit of the residual by the motions of one part, over any run of visits, from
 /// running sums. The columns are first combined into independent ones of unit mean square. Of the
-/// sums every 64th is kept, and those of one block of visits, so that a million visits need little
+/// sums every 256th is kept, and those of one block of visits, so that a million visits need little
 /// memory: ask for them in order.
 class MotionSums {
  public:
@@ -77,7 +77,7 @@ class MotionSums {
   int rank_ = 0;
   Square combine_;
   const Eigen::Matrix3Xd* error_ = nullptr;
-  std::vector<RunningSums> before_;         // the visits before each 64th
+  std::vector<RunningSums> before_;         // the visits before each 256th
   mutable std::vector<RunningSums> block_;  // before each of one block of visits
   mutable int block_number_ = -1;
 };

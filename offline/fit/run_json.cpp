@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "cell/packed_matrix.hpp"
 #include "cell/reading_digest.hpp"
+#include "cell/table_blocks.hpp"
 #include "fit/json_parts.hpp"
 #include "fit/model_json.hpp"
 #include "fit/orientation_words.hpp"
@@ -335,24 +338,25 @@ std::string predictions_to_csv(const Measurements& measured, const Fit& fit) {
   return out;
 }
 
-void predictions_from_csv(const std::filesystem::path& file, Fit& fit) {
-  const Table table = read_table(file);
-  const Column& set = column(table, "set");
-  const Column& fold = column(table, "fold");
-  const int n = table.rows();
-  fit.split.fold.resize(n);
-  fit.split.held.resize(n);
-  fit.split.used.resize(n);
-  fit.predicted_M.resize(n, 3);
-  for (int k = 0; k < 3; ++k) {
-    const Column& axis = column(table, k == 0 ? "px" : k == 1 ? "py" : "pz");
-    for (int i = 0; i < n; ++i) fit.predicted_M(i, k) = axis.values[i];
-  }
-  for (int i = 0; i < n; ++i) {
-    fit.split.fold[i] = static_cast<int>(fold.values[i]);
-    fit.split.used[i] = set.text[i] != "ignore";
-    fit.split.held[i] = set.text[i] == "held" && fit.split.fold[i] < 0;
-  }
+std::string predictions_from_csv(const std::filesystem::path& file, Fit& fit) {
+  Split& split = fit.split;
+  std::vector<double> predicted;
+  const auto take = [&](const Table& table) {
+    const Column& set = column(table, "set");
+    const Column& fold = column(table, "fold");
+    const std::array axes{&column(table, "px"), &column(table, "py"), &column(table, "pz")};
+    for (std::size_t i = 0; i < set.text.size(); ++i) {
+      split.fold.push_back(static_cast<int>(fold.values[i]));
+      split.used.push_back(set.text[i] != "ignore");
+      split.held.push_back(set.text[i] == "held" && split.fold.back() < 0);
+      for (const Column* axis : axes) predicted.push_back(axis->values[i]);
+    }
+  };
+  split.fold.clear(), split.used.clear(), split.held.clear();
+  std::string sum = read_blocks(file, take);
+  fit.predicted_M =
+      Eigen::Map<const Rows3>(predicted.data(), static_cast<Eigen::Index>(split.fold.size()), 3);
+  return sum;
 }
 
 }  // namespace plumb::offline

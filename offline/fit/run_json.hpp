@@ -23,8 +23,8 @@ NoiseFloor floor_from_json(const nlohmann::ordered_json& j);
 /// predictions.csv: pose, set, fold, predicted point, and in `note` the digest of the reading.
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit);
 
-/// Fills split and predictions of `fit` from predictions.csv.
+/// Fills split and predictions of `fit` from predictions.csv, and returns its SHA-256 sum.
 /// Throws Failure (kInput) if it is damaged.
-void predictions_from_csv(const std::filesystem::path& file, Fit& fit);
+std::string predictions_from_csv(const std::filesystem::path& file, Fit& fit);
 
 }  // namespace plumb::offline

@@ -232,6 +232,15 @@ std::vector<Parameter> parameters_by_name(const Cell& cell, const Calibration& c
   return out;
 }
 
+void read_predictions(const fs::path& file, const nlohmann::ordered_json& json, Fit& fit) {
+  try {
+    if (!is_predictions_sum(json, predictions_from_csv(file, fit))) damaged(file, kChanged);
+  } catch (const Failure&) {
+    if (!predictions_sum_holds(json, read_file(file))) damaged(file, kChanged);
+    throw;
+  }
+}
+
 }  // namespace
 
 std::vector<int> list_runs(const Cell& cell) {
@@ -262,8 +271,7 @@ Run load_run(const Cell& cell, int number) {
     Run run = run_from_json(json);
     run.directory = folder;
     file = folder / "predictions.csv";
-    if (!predictions_sum_holds(json, read_file(file))) damaged(file, kChanged);
-    predictions_from_csv(file, run.fit);
+    read_predictions(file, json, run.fit);
     run.fit.calibration.parameters = parameters_by_name(cell, run.fit.calibration);
     file = folder / kNoiseFloor;
     if (const auto floor = diagnosed_floor(run)) run.fit.floor.inferred_m = floor->inferred_m;

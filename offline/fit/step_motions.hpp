@@ -7,6 +7,7 @@
 #include "fit/arm_state.hpp"
 #include "fit/moving_part.hpp"
 #include "fit/series.hpp"
+#include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
 
@@ -14,8 +15,9 @@ namespace plumb::offline {
 /// in the measurement frame, and the residual there [m]. Missing axes are 0.
 class StepMotions {
  public:
-  /// Uses the frames of the chain alone; effects and trees change them too little to matter.
-  StepMotions(const ArmState& state, const Measurements& measured, const Series& series);
+  /// Uses the frames of the chain alone; effects and trees change them too little to matter. Keeps
+  /// references to `state` and `measured`.
+  StepMotions(const ArmState& state, const Measurements& measured, Series series);
 
   int size() const { return static_cast<int>(rows_.size()); }
   int joints() const { return static_cast<int>(turns_.size()); }
@@ -37,11 +39,16 @@ class StepMotions {
   Columns columns(int visit, MotionSource source, int j) const;
 
  private:
+  /// Frames of the chain at a visit; the set-up that it was measured in.
+  int frames(int visit, ChainFrames& out) const;
+
+  const Measurements& measured_;
+  Chain chain_;
+  std::vector<Transformd> X_MB_;  // by set-up
   std::vector<int> rows_, last_rows_;
   std::vector<bool> turns_;
   int axes_ = 3;
   Eigen::Matrix3Xd error_, from_middle_;
-  std::vector<Eigen::Matrix3d> R_MT_;
   std::vector<Eigen::Matrix3Xd> joint_;
   Eigen::Vector3d mask_;
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "cell/measurements.hpp"
+#include "cell/table_blocks.hpp"
 #include "support.hpp"
 #include "tests/yardstick.hpp"
 
@@ -51,6 +53,44 @@ TEST(MillionRows, AreReadInSecondsAndInLessThanAGigabyte) {
   EXPECT_EQ(m.size(), kRows);
   EXPECT_LT(taken, kMost_s * tests::times_slower());
   EXPECT_LT(peak_memory_MB(), kMostMemory_MB);
+}
+
+TEST(BlocksOfATable, AreItsRowsAndLeaveNoneOut) {
+  const Folder folder;
+  const std::string text = long_file().substr(0, 5 << 20);
+  const auto file = folder.put("long.csv", text.substr(0, text.rfind('\n') + 1));
+  const Table whole = read_table(file);
+  int rows = 0, blocks = 0;
+  const std::string sum = read_blocks(file, [&](const Table& block) {
+    ++blocks;
+    EXPECT_LT(block.rows(), whole.rows());
+    ASSERT_EQ(block.columns.size(), whole.columns.size());
+    const auto first = static_cast<std::size_t>(rows);
+    for (std::size_t i = 0; i < block.lines.size(); ++i) {
+      ASSERT_EQ(block.lines[i], whole.lines[first + i]);
+      ASSERT_EQ(block.columns[0].text[i], whole.columns[0].text[first + i]);
+      ASSERT_EQ(block.columns[7].values[i], whole.columns[7].values[first + i]);
+    }
+    rows += block.rows();
+  });
+  EXPECT_EQ(rows, whole.rows());
+  EXPECT_GT(blocks, 1);
+  EXPECT_EQ(sum, whole.sha256);
+}
+
+TEST(BlocksOfATable, OneWithABadCellIsRefusedWithItsLine) {
+  const Folder folder;
+  std::string text = long_file().substr(0, 3 << 20);
+  text.erase(text.rfind('\n') + 1);
+  const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  const auto file = folder.put("long.csv", text + "P1,1,2,3,4,5,six,7,8,9,20\n");
+  try {
+    read_blocks(file, [](const Table&) {});
+    FAIL() << "not refused";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.problems().front().code, "E-CSV-NUMBER");
+    EXPECT_EQ(failure.problems().front().place->line, lines + 1);
+  }
 }
 
 }  // namespace

@@ -21,5 +21,17 @@ TEST(MemoryOfAReading, TheSearchForJumpsKeepsNoSumsOfEveryVisit) {
   EXPECT_LT(more / 2000, 400);  // four thousand, if every part of the arm had sums of its own
 }
 
+long bytes_of_motions(int poses) {
+  const ResidualCase at(11, poses);
+  const Series series = at.in_order();
+  return tests::heap_bytes_of(
+      [&] { EXPECT_EQ(StepMotions(at.state, at.measured, series).size(), poses); });
+}
+
+TEST(MemoryOfAReading, TheMotionsOfAVisitTakeAVectorForEachJointAndFewMore) {
+  const long more = bytes_of_motions(4000) - bytes_of_motions(2000);
+  EXPECT_LT(more / 2000, (6 + 5) * 24);  // the frame of the tool stood there as well
+}
+
 }  // namespace
 }  // namespace plumb::offline::compare

@@ -11,6 +11,7 @@
 
 #include "cell/run_checksum.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/earlier_runs.hpp"
 #include "fit/orientation_words.hpp"
 #include "program/file.hpp"
 #include "simulate/simulate.hpp"
@@ -93,6 +94,7 @@ TEST_F(RunStore, RunsAreNumberedInOrderAndNeverChanged) {
 
 TEST_F(RunStore, TheCurrentRunIsTheLatestOfTheSameCellFileAndData) {
   EXPECT_FALSE(current_run(cell_, measured_).has_value());
+  EXPECT_FALSE(seems_fitted(cell_, measured_));
   const Fit fit = fit_cell(cell_, measured_);
   save_run(cell_, measured_, fit);
   save_run(cell_, measured_, fit);
@@ -105,7 +107,9 @@ TEST_F(RunStore, TheCurrentRunIsTheLatestOfTheSameCellFileAndData) {
     EXPECT_NE(at, std::string::npos) << old;
     Cell edited = cell_;
     edited.text = text.replace(at, old.size(), now);
-    return current_run(edited, measured_).has_value();
+    const bool found = current_run(edited, measured_).has_value();
+    EXPECT_EQ(seems_fitted(edited, measured_), found) << now;
+    return found;
   };
   cell_.text = write_cell(cell_);
   save_run(cell_, measured_, fit);
@@ -123,6 +127,7 @@ TEST_F(RunStore, ADamagedOrMissingRunIsAnInputErrorAndNeverTheCurrentOne) {
   EXPECT_THROW((void)load_run(cell_, run.number), Failure);
   EXPECT_THROW((void)load_run(cell_, 99), Failure);
   EXPECT_THROW((void)current_run(cell_, measured_), Failure);
+  EXPECT_FALSE(seems_fitted(cell_, measured_));
   // A later sound run is found before the damaged one is met.
   save_run(cell_, measured_, run.fit);
   EXPECT_EQ(current_run(cell_, measured_)->number, 2);
