@@ -10,6 +10,7 @@ namespace plumb::offline::cli {
 namespace {
 
 constexpr std::size_t kMostJointsWithoutCommand = 6;
+constexpr std::size_t kUsualRow = 400;  // bytes
 
 void check_seeds(const Targets& targets, const format::Chain& chain,
                  const std::vector<double>& start) {
@@ -66,6 +67,7 @@ std::function<void(std::string&)> TargetRows::solved(const Targets& targets,
   Found found(corrector_, chain_, inputs_);
   found.refusals.name_columns(targets.table);
   std::string text;
+  text.reserve(static_cast<std::size_t>(targets.table.rows()) * kUsualRow);
   const auto kind = targets.commanded ? SeedKind::kCommanded : SeedKind::kMeasured;
   for (int row = 0; row < targets.table.rows(); ++row) {
     const auto q = targets.seed.row(row);
