@@ -78,7 +78,7 @@ Table read_table(const std::filesystem::path& file) {
 std::string read_blocks(const std::filesystem::path& file,
                         const std::function<void(const Table&)>& take) {
   LineSource source(file);
-  TableReader first(display_name(file), TableOf::kMeasurements);
+  TableReader first(display_name(file));
   std::string block;
   while (!first.has_header() && source.next(block)) first.read(block);
   const TableReader header = first.below(1);
