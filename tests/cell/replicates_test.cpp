@@ -71,7 +71,7 @@ TEST(Replicates, AgreeWithComparingEveryPair) {
         q(i, k) = 0.5 * static_cast<int>(random() % 3) + 1e-10 * static_cast<int>(random() % 3);
       names.push_back(random() % 2 ? "" : "P" + std::to_string(random() % 40));
     }
-    const Ints fast = replicate_groups(names, Ints(names.size(), 0), q);
+    const Ints fast = replicate_groups({names.begin(), names.end()}, Ints(names.size(), 0), q);
     const Ints slow = slow_groups(names, q);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) EXPECT_EQ(fast[i] == fast[j], slow[i] == slow[j]);

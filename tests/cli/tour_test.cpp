@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transcripts of docs/tour.md, replayed: every "$ ..." line of its blocks is run, and what follows it
-// must come out. "..." stands for left-out lines; numbers may differ in their last digits, because
-// compilers round differently.
+// The transcripts of docs/tour.md, replayed: every "$ ..." line of its blocks is run, and what
+// follows it must come out. "..." stands for left-out lines; numbers may differ in their last
+// digits, because compilers round differently.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 

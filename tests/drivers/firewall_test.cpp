@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <functional>
 
@@ -138,7 +139,8 @@ class OwnNetwork {
     loopback.ifr_flags = IFF_UP;
     const int any = ::socket(AF_INET, SOCK_DGRAM, 0);
     if (::ioctl(any, SIOCSIFFLAGS, &loopback) != 0 || !read_firewall().listed) return false;
-    const std::string file = "/tmp/plumb-rules-" + std::to_string(::getpid());
+    const std::string file =
+        std::filesystem::temp_directory_path() / ("plumb-rules-" + std::to_string(::getpid()));
     std::ofstream(file) << rules;
     // Twice: what is loaded again replaces itself.
     const auto refused = load_firewall(file);
