@@ -230,14 +230,14 @@ TEST(CellMessage, OfCouplingsThatNoControllerHas) {
   EXPECT_EQ(list(pair("J2", "J1", "1")), Summary{});
   EXPECT_EQ(list(pair("J2", "J1", "-0.5")), Summary{});
   EXPECT_EQ(list(""), Summary{});
-  EXPECT_EQ(list(pair("J2", "J7", "1")), Summary{"E-CELL-JOINT 4:28"});
+  EXPECT_EQ(list(pair("J2", "J7", "1")), Summary{"E-CELL-JOINT 4:27"});
   EXPECT_EQ(list("{ joint = \"J2\", share = 1 }"), Summary{"E-CELL-MISSING 4:11"});
   EXPECT_EQ(list("{ joint = \"J2\", of = \"J1\" }"), Summary{"E-CELL-MISSING 4:11"});
-  EXPECT_EQ(list(pair("J2", "J1", "0")), Summary{"E-CELL-RANGE 4:40"});
-  EXPECT_EQ(list(pair("J2", "J1", "11")), Summary{"E-CELL-RANGE 4:40"});
-  EXPECT_EQ(list(pair("J3", "J1", "1")), Summary{"E-CELL-RANGE 4:28"});
+  EXPECT_EQ(list(pair("J2", "J1", "0")), Summary{"E-CELL-RANGE 4:39"});
+  EXPECT_EQ(list(pair("J2", "J1", "11")), Summary{"E-CELL-RANGE 4:39"});
+  EXPECT_EQ(list(pair("J3", "J1", "1")), Summary{"E-CELL-RANGE 4:27"});
   EXPECT_EQ(list(pair("J2", "J1", "1") + "," + pair("J2", "J1", "1")),
-            Summary{"E-CELL-RANGE 4:61"});
+            Summary{"E-CELL-RANGE 4:58"});
   EXPECT_EQ(list(pair("J2", "J1", "1") + "," + pair("J1", "J2", "1")),
             Summary{"E-CELL-RANGE 4:10"});
   EXPECT_EQ(list(pair("J1", "J1", "1")), Summary{"E-CELL-RANGE 4:10"});
