@@ -191,7 +191,7 @@ TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
   for (const auto& [packing, says] : packings) {
     const Deployed folder(
         "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-        "role = \"server\"\nport = " +
+        "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
         std::to_string(port) + "\n");
     const RawController controller(static_cast<std::uint16_t>(port), Deployed::arm().nominal,
                                    drivers::fingerprint(Deployed::arm().serial), packing);
