@@ -50,6 +50,17 @@ void deliver(const show::CsvColumns& columns, const CsvOutput& output, const std
   outcome.text = summary + wrote(output.file, output.write) + "\n";
 }
 
+void deliver(Spool& spool, const CsvOutput& output, Outcome& outcome) {
+  const bool named = !output.file.empty();
+  if (named) {
+    outcome.result["files"] = Json::array({output.file});
+    outcome.result["dry_run"] = output.write.dry_run;
+  }
+  const auto note = named ? folder_note(output.file, output.write) : std::nullopt;
+  if (!output.write.dry_run) spool.commit(output.write.force ? Overwrite::kForce : Overwrite::kNo);
+  if (note) outcome.remark({*note});
+}
+
 void StatusCounts::add(Status status, std::size_t rows) {
   const int number = static_cast<int>(status);
   auto& entry = counts_[refused(status) ? 100 - number : number];

@@ -8,6 +8,7 @@
 #include "plumb/runtime/status.hpp"
 #include "program/outcome.hpp"
 #include "program/output_files.hpp"
+#include "program/spool.hpp"
 #include "show/csv_columns.hpp"
 
 namespace plumb::offline::cli {
@@ -32,6 +33,9 @@ std::vector<Problem> replaced_notes(const std::vector<std::string>& columns);
 /// Writes the file, or makes it the text of the outcome. `summary`: for people, after writing.
 void deliver(const show::CsvColumns& columns, const CsvOutput& output, const std::string& summary,
              Outcome& outcome);
+
+/// Gives what was spooled its name, unless nothing is to be written; the result tells the file.
+void deliver(Spool& spool, const CsvOutput& output, Outcome& outcome);
 
 /// Rows of each status, in the order of the numbers: ok comes before what is wrong.
 class StatusCounts {

@@ -210,16 +210,8 @@ void RowStream::run(const Work& work, Outcome& outcome) {
 }
 
 void RowStream::deliver(const std::string& summary, Outcome& outcome) {
-  const bool named = !output_.file.empty();
-  if (named) {
-    outcome.result["files"] = Json::array({output_.file});
-    outcome.result["dry_run"] = output_.write.dry_run;
-    outcome.text = summary + wrote(output_.file, output_.write) + "\n";
-  }
-  const auto note = named ? folder_note(output_.file, output_.write) : std::nullopt;
-  if (!output_.write.dry_run)
-    spool_.commit(output_.write.force ? Overwrite::kForce : Overwrite::kNo);
-  if (note) outcome.remark({*note});
+  if (!output_.file.empty()) outcome.text = summary + wrote(output_.file, output_.write) + "\n";
+  cli::deliver(spool_, output_, outcome);
 }
 
 }  // namespace plumb::offline::cli

@@ -7,16 +7,21 @@
 
 #include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
+#include "cli/csv_output.hpp"
 #include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "import/completeness.hpp"
+#include "import/directions.hpp"
 #include "import/euler.hpp"
+
+#include "import/imported_csv.hpp"
 #include "import/importer.hpp"
 #include "import/joining.hpp"
 #include "program/counted_words.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
+#include "program/spool.hpp"
 #include "show/text_table.hpp"
 
 namespace plumb::offline::cli {
@@ -133,7 +138,7 @@ std::string column_table(const Imported& data) {
   show::TextTable table({"column", "becomes", "first", "last"});
   for (const auto& column : data.columns)
     table.add({column.from.empty() ? "(derived)" : column.from, column.heading(),
-               column.text.front(), column.text.back()});
+               std::string(column.text.front()), std::string(column.text.back())});
   return table.text();
 }
 
@@ -183,12 +188,19 @@ void say_after(const fs::path& target, const std::optional<Cell>& cell, const Gl
   say_next(globals, "check", outcome);
 }
 
+void write(const Imported& data, const CsvOutput& output, Outcome& outcome) {
+  refuse_existing(output, outcome);
+  Spool spool(output.file);
+  if (!output.write.dry_run)
+    write_imported(data, [&](std::string_view rows) { spool.write(rows); });
+  deliver(spool, output, outcome);
+}
+
 void import(const ImportArguments& options, const Globals& globals, Outcome& outcome) {
   const Progress progress("importing");
   const std::optional<Cell> cell = nearest_cell(globals);
   const Imported data = import_all(options, cell);
-  for (const auto& file : options.files)
-    outcome.inputs.push_back({display_name(file), sha256(read_file(file))});
+  outcome.inputs.insert(outcome.inputs.end(), data.inputs.begin(), data.inputs.end());
   outcome.remark(data.remarks);
   std::optional<Problem> missing = missing_for_calibration(data, cell ? cell->joints() : 0);
   if (missing && !options.preview) throw Failure(Exit::kInput, *missing);
@@ -213,12 +225,9 @@ void import(const ImportArguments& options, const Globals& globals, Outcome& out
     outcome.text += "\npreview: nothing was written\n";
     return;
   }
-  const std::string csv = imported_csv(data);
-  (void)parse_table(csv, "imported");  // our own reader must accept it
+  check_imported(data);
   keep_what_is_measured(options, cell, target);
-  OutputFiles files;
-  files.add(target, csv);
-  files.commit(options.write, outcome);
+  write(data, {.file = target.string(), .write = options.write}, outcome);
   outcome.text += "\n" + wrote(target, options.write) + "\n";
   say_after(target, cell, globals, outcome);
 }

@@ -82,13 +82,11 @@ void look_at_heading(const SourceText& text, const RawRows& rows, std::size_t co
 }
 
 void strip(RawRows& rows, std::size_t column) {
-  for (auto& row : rows.cells) {
-    const Stripped found = stripped(row[column]);
-    row[column] = found.number;
-    if (!found.degrees) continue;
-    std::string number = fmt::format("{:.12g}", *found.degrees);
+  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+    const Stripped found = stripped(rows.cells[i][column]);
+    std::string number = found.degrees ? fmt::format("{:.12g}", *found.degrees) : "";
     std::replace(number.begin(), number.end(), '.', rows.dialect.decimal);
-    row[column] = rows.made.emplace_back(std::move(number));
+    rows.cells.set(i, column, found.degrees ? std::string_view(number) : found.number);
   }
 }
 

@@ -194,7 +194,7 @@ const Language* language_of(const SourceText& text) {
 }
 
 RawRows rows_of(const SourceText& text, const Language& language, const Positions& positions) {
-  RawRows out;
+  RawRows out(text);
   auto& d = out.dialect;
   const std::size_t joints = positions.front().joints.size();
   d.separator = '=';
@@ -205,9 +205,9 @@ RawRows rows_of(const SourceText& text, const Language& language, const Position
     d.units.emplace_back(language.unit);
   }
   for (const auto& position : positions) {
-    Cells row{out.made.emplace_back(position.name)};
+    Cells row{position.name};
     row.insert(row.end(), position.joints.begin(), position.joints.end());
-    out.cells.push_back(std::move(row));
+    out.cells.add(row);
     out.lines.push_back(position.line);
   }
   out.remarks.push_back(

@@ -85,18 +85,20 @@ void drop_empty_ends(const SourceText& text, RawRows& out) {
   auto& header = out.dialect.header;
   std::size_t named = header.size(), dropped = 0;
   while (named > 0 && header[named - 1].empty()) --named;
-  const bool all_empty = std::all_of(out.cells.begin(), out.cells.end(), [&](const Cells& row) {
-    return std::all_of(row.begin() + static_cast<std::ptrdiff_t>(std::min(named, row.size())),
-                       row.end(), [](std::string_view cell) { return cell.empty(); });
-  });
-  if (!all_empty || named == 0) return;
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < out.cells.size(); ++i) {
+    const CellRow row = out.cells[i];
+    for (std::size_t k = named; k < row.size(); ++k)
+      if (!row[k].empty()) return;
+    longest = std::max(longest, row.size());
+  }
+  if (named == 0) return;
   dropped = header.size() - named;
   header.resize(named);
   if (out.dialect.units.size() > named) out.dialect.units.resize(named);
-  for (auto& row : out.cells) {
-    if (row.size() <= named) continue;
-    dropped = std::max(dropped, row.size() - named);
-    row.resize(named);
+  if (longest > named) {
+    dropped = std::max(dropped, longest - named);
+    out.cells.shorten_rows(named);
   }
   if (dropped == 0) return;
   out.remarks.push_back(
@@ -238,10 +240,10 @@ std::size_t find_header(const SourceText& text, const DialectWishes& wishes, Raw
   if (!search.has_data())
     fail(text, 1, "E-IMPORT-HEADER", "no row of numbers was found",
          "if the separator is unusual: --separator \"|\"");
-  std::vector<Cells> rows;
+  CellTable rows(text.texts);
   for (std::size_t i = search.data(); i < text.lines.size(); ++i)
-    if (Cells cells = row_cells(text.lines[i], d.separator); cells.size() == search.wanted())
-      rows.push_back(std::move(cells));
+    if (const Cells cells = row_cells(text.lines[i], d.separator); cells.size() == search.wanted())
+      rows.add(cells);
   d.header = names_without_header(text, static_cast<int>(search.data()) + 1, rows, out.remarks);
   return search.data();
 }
@@ -268,6 +270,9 @@ void look_above(const SourceText& text, std::size_t first, RawRows& out) {
 }
 
 void cut_rows(const SourceText& text, std::size_t first, RawRows& out) {
+  const std::size_t lines = text.lines.size() - first;
+  out.lines.reserve(lines);
+  out.cells.expect(lines, lines * out.dialect.header.size());
   for (std::size_t i = first; i < text.lines.size(); ++i) {
     const auto line = trimmed(text.lines[i]);
     if (line.empty()) continue;
@@ -275,7 +280,7 @@ void cut_rows(const SourceText& text, std::size_t first, RawRows& out) {
       add_comment(line, out);
       continue;
     }
-    out.cells.push_back(row_cells(text.lines[i], out.dialect.separator));
+    out.cells.add(row_cells(text.lines[i], out.dialect.separator));
     out.lines.push_back(static_cast<int>(i) + 1);
   }
 }
@@ -283,16 +288,11 @@ void cut_rows(const SourceText& text, std::size_t first, RawRows& out) {
 /// Takes the rows out that have too few cells or too many (E-IMPORT-RAGGED).
 void set_ragged_aside(const SourceText& text, RawRows& rows) {
   const std::size_t names = rows.dialect.header.size();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+  rows.keep_rows([&](std::size_t i) {
     const std::size_t cells = rows.cells[i].size();
     const int line = rows.lines[i];
-    if (cells == names) {
-      if (kept != i) rows.cells[kept] = std::move(rows.cells[i]);
-      rows.lines[kept++] = line;
-      continue;
-    }
-    if (rows.faults.size() >= kMostFaults) continue;
+    if (cells == names) return true;
+    if (rows.faults.size() >= kMostFaults) return false;
     rows.faults.push_back(
         {.code = "E-IMPORT-RAGGED",
          .message = fmt::format("this row has {} cell{}, the header {}", cells,
@@ -303,10 +303,9 @@ void set_ragged_aside(const SourceText& text, RawRows& rows) {
                         .source = std::string(text.lines[static_cast<std::size_t>(line) - 1]),
                         .label = "cells are missing or too many"},
          .help = "complete or delete the row; if the separator is wrong: --separator \";\""});
-  }
-  rows.cells.resize(kept);
-  rows.lines.resize(kept);
-  if (kept == 0 && !rows.faults.empty()) throw Failure(Exit::kInput, rows.faults);
+    return false;
+  });
+  if (rows.cells.empty() && !rows.faults.empty()) throw Failure(Exit::kInput, rows.faults);
 }
 
 void refuse_other_formats(const SourceText& text) {
@@ -325,7 +324,7 @@ RawRows cut(const SourceText& text, const DialectWishes& wishes) {
     set_ragged_aside(text, *program);
     return std::move(*program);
   }
-  RawRows out;
+  RawRows out(text);
   Dialect& d = out.dialect;
   const bool stated = wishes.separator || !wishes.header.empty();
   if (auto pairs = stated ? std::nullopt : key_values(text)) {

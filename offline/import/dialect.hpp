@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "import/cell_table.hpp"
 #include "import/source_text.hpp"
 #include "import/stated_units.hpp"
 
@@ -30,14 +30,27 @@ struct Dialect {
 
 /// Rows of texts as cut from the lines, with their line numbers.
 struct RawRows {
+  explicit RawRows(const SourceText& text) : cells(text.texts) {}
+
   Dialect dialect;
   std::vector<int> lines;
-  std::vector<std::vector<std::string_view>> cells;
+  CellTable cells;
   std::vector<std::pair<std::string, std::string>> comments;  // "# key: value"
   StatedUnits stated;
-  std::deque<std::string> made;  // texts of cells that are written in no line
   std::vector<Problem> remarks;
   std::vector<Problem> faults;  // rows with too few or too many cells, which `cells` lacks
+
+  /// Keeps the rows that `keep(row)` tells, asked from the first to the last.
+  template <class Keep>
+  void keep_rows(Keep keep) {
+    std::size_t kept = 0;
+    cells.keep_rows([&](std::size_t i) {
+      if (!keep(i)) return false;
+      lines[kept++] = lines[i];
+      return true;
+    });
+    lines.resize(kept);
+  }
 };
 
 /// Finds separator, decimal sign, header and units, and cuts every row. Throws Failure (kInput):

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "import/cells.hpp"
 #include "import/content.hpp"
 #include "import/joint_states.hpp"
 #include "import/number_text.hpp"
@@ -15,30 +16,32 @@ namespace {
 
 constexpr std::size_t kAxes = 3, kArmJoints = 4, kMostJoints = 7;
 
-bool holds_numbers(const std::vector<Cells>& rows, std::size_t column) {
-  return std::all_of(rows.begin(), rows.end(), [&](const Cells& row) {
-    return is_number(row[column]) && !is_time(row[column]);
-  });
+bool holds_numbers(const CellTable& rows, std::size_t column) {
+  const auto is_measured = [&](std::string_view cell) { return is_number(cell) && !is_time(cell); };
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!is_measured(rows[i][column])) return false;
+  return true;
 }
 
-double largest_of(const std::vector<Cells>& rows, std::size_t first, std::size_t end) {
+double largest_of(const CellTable& rows, std::size_t first, std::size_t end) {
   double out = 0.0;
-  for (const auto& row : rows)
+  for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = first; k < end; ++k)
-      if (const auto value = number_in(row[k], '.')) out = std::max(out, std::abs(*value));
+      if (const auto value = number_in(rows[i][k], '.')) out = std::max(out, std::abs(*value));
   return out;
 }
 
 /// "A::robot::p1" in every row.
-bool are_collection_names(const std::vector<Cells>& rows) {
-  return std::all_of(rows.begin(), rows.end(),
-                     [](const Cells& row) { return row[0].find("::") != row[0].npos; });
+bool are_collection_names(const CellTable& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i][0].find("::") == std::string_view::npos) return false;
+  return true;
 }
 
 /// A --header for the columns in their most usual order: a name, joints, a point. Columns that
 /// have no place in it are called c1, c2, ...
-std::string proposed(const std::vector<Cells>& rows) {
-  const std::size_t size = rows.front().size();
+std::string proposed(const CellTable& rows) {
+  const std::size_t size = rows[0].size();
   std::vector<std::string> names;
   std::size_t first = 0;
   while (first < size && !holds_numbers(rows, first)) ++first;
@@ -66,9 +69,9 @@ std::string proposed(const std::vector<Cells>& rows) {
 }  // namespace
 
 std::vector<std::string> names_without_header(const SourceText& text, int line,
-                                              const std::vector<Cells>& rows,
+                                              const CellTable& rows,
                                               std::vector<Problem>& remarks) {
-  const std::size_t size = rows.front().size();
+  const std::size_t size = rows[0].size();
   const bool point = size == 1 + kAxes && holds_numbers(rows, 1) && holds_numbers(rows, 2) &&
                      holds_numbers(rows, 3);
   if (point && are_collection_names(rows)) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/cells.hpp"
 #include "import/dialect.hpp"
 
 namespace plumb::offline {
@@ -10,7 +9,6 @@ namespace plumb::offline {
 /// SpatialAnalyzer, "A::robot::p1 x y z", and joint states of ROS (N-IMPORT-NAMED). Else throws
 /// Failure (kInput, E-IMPORT-HEADER) that proposes a --header.
 std::vector<std::string> names_without_header(const SourceText& text, int line,
-                                              const std::vector<Cells>& rows,
-                                              std::vector<Problem>& remarks);
+                                              const CellTable& rows, std::vector<Problem>& remarks);
 
 }  // namespace plumb::offline

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "program/problem.hpp"
+#include "import/cell_column.hpp"
+#include "program/outcome.hpp"
 
 namespace plumb::offline {
 
@@ -14,7 +15,7 @@ struct ImportedColumn {
   std::string from;  // what it was called; "" if derived
   std::string name;  // canonical, without unit
   std::string unit;
-  std::vector<std::string> text;  // decimal point; as it will be written
+  CellColumn text;  // decimal point; as it will be written
 
   std::string heading() const { return unit.empty() ? name : name + "_" + unit; }
 };
@@ -28,7 +29,7 @@ struct UnusedColumn {
 /// A foreign file as plumb understood it.
 struct Imported {
   std::string file;
-  std::string sha256;
+  std::vector<InputFile> inputs;   // what was read for it
   std::string separator, decimal;  // in words
   std::vector<ImportedColumn> columns;
   std::vector<std::string> left_out;

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "cell/column_names.hpp"
-#include "cell/csv_line.hpp"
 #include "cell/units.hpp"
 #include "import/cells.hpp"
 #include "import/column_guess.hpp"
@@ -17,10 +16,10 @@
 #include "import/euler.hpp"
 #include "import/heading.hpp"
 #include "import/map_option.hpp"
-#include "import/moves.hpp"
 #include "import/number_text.hpp"
 #include "import/pose_matrix.hpp"
 #include "import/timestamps.hpp"
+#include "import/transposed.hpp"
 #include "import/words.hpp"
 #include "program/file.hpp"
 #include "program/problem_list.hpp"
@@ -32,10 +31,7 @@ constexpr double kOneTurn = 6.3;      // [rad], rounded up
 constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
 constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
 constexpr int kRowsToJudge = 8;
-constexpr std::size_t kMostQuantities = 100;
-constexpr std::ptrdiff_t kFewestNames = 4;  // below one another: a transposed table
 constexpr std::size_t kShownLines = 10;
-constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
 
 std::string in_words(char sign) {
   switch (sign) {
@@ -71,7 +67,7 @@ class Importer {
         plan_columns(rows_.dialect.header, rows_.dialect.units, contents_,
                      wishes_of(wishes_.map, columns), wishes_.elsewhere, wishes_.joints, decisions);
     out_.file = text_.file;
-    out_.sha256 = text_.sha256;
+    out_.inputs = {{text_.file, text_.sha256}};
     out_.separator = in_words(rows_.dialect.separator);
     out_.decimal = in_words(rows_.dialect.decimal);
     out_.comments = rows_.comments;
@@ -79,7 +75,8 @@ class Importer {
     out_.remarks.insert(out_.remarks.end(), rows_.remarks.begin(), rows_.remarks.end());
     out_.remarks.insert(out_.remarks.end(), decisions.begin(), decisions.end());
     if (wishes_.skip_bad) skip_bad_rows(plans);
-    out_.lines = rows_.lines;
+    out_.lines = std::move(rows_.lines);
+    cells_ = std::make_shared<CellTable>(std::move(rows_.cells));
     leave_out_empty(plans);
     join_date_and_time(plans);
     join_seconds(plans);
@@ -88,6 +85,7 @@ class Importer {
     look_at_units(plans);
     say_of_uncertainties(plans);
     say_of_sliding(plans);
+    const auto orientation = matrix_ ? orientation_of(*matrix_) : std::vector<ImportedColumn>{};
     for (std::size_t k = 0; k < plans.size(); ++k) {
       if (plans[k].name.empty())
         leave_out(plans[k], k);
@@ -99,10 +97,12 @@ class Importer {
         add_numbers(plans[k], k);
     }
     problems_.stop_on_errors();
+    for (std::size_t k = 0; k < plans.size(); ++k)
+      if (holds_numbers(plans[k])) write_plainly(plans[k], k);
     say_of_thousands();
     say_of_radians(plans);
     turn_to_quaternions();
-    if (matrix_) add_orientation(*matrix_);
+    out_.columns.insert(out_.columns.end(), orientation.begin(), orientation.end());
     say_what_was_left_out();
     return std::move(out_);
   }
@@ -127,24 +127,15 @@ class Importer {
   /// there. Columns without any number are no reason.
   void skip_bad_rows(const std::vector<ColumnPlan>& plans) {
     std::vector<std::string> lines;
-    std::size_t kept = 0, skipped = 0;
-    for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
+    std::size_t skipped = 0;
+    rows_.keep_rows([&](std::size_t i) {
       bool bad = false;
       for (std::size_t k = 0; k < plans.size() && !bad; ++k)
         bad = holds_numbers(plans[k]) && !contents_[k].empty &&
               !number_in(rows_.cells[i][k], rows_.dialect.decimal);
-      if (bad) {
-        if (++skipped <= kShownLines) lines.push_back(fmt::format("{}", rows_.lines[i]));
-        continue;
-      }
-      if (kept != i) {
-        rows_.cells[kept] = std::move(rows_.cells[i]);
-        rows_.lines[kept] = rows_.lines[i];
-      }
-      ++kept;
-    }
-    rows_.cells.resize(kept);
-    rows_.lines.resize(kept);
+      if (bad && ++skipped <= kShownLines) lines.push_back(fmt::format("{}", rows_.lines[i]));
+      return !bad;
+    });
     if (skipped == 0) return;
     if (skipped > lines.size()) lines.push_back(fmt::format("{} more", skipped - lines.size()));
     out_.remarks.push_back(
@@ -154,7 +145,7 @@ class Importer {
                                 skipped == 1 ? "1 row" : fmt::format("{} rows", skipped),
                                 skipped == 1 ? "" : "s", fmt::join(lines, ", ")),
          .help = "measure there again"});
-    if (kept == 0)
+    if (rows_.cells.empty())
       throw Failure(Exit::kInput, {.code = "E-IMPORT-ROWS",
                                    .message = "no row has a number in every column",
                                    .place = Place{.file = text_.file},
@@ -198,7 +189,7 @@ class Importer {
     const double scale = plan.foreign == "ns" ? 1e-9 : unit ? unit->to_si(1.0) : 1.0;
     const double largest = contents_[k].largest;
     const bool counts = says_unit ? (contents_[k].numeric() ? !may_be_epoch(largest * scale)
-                                                            : is_number(rows_.cells[0][k]))
+                                                            : is_number((*cells_)[0][k]))
                                   : contents_[k].numeric() && !may_be_date(largest);
     if (counts) {
       plan.name = "t";
@@ -255,18 +246,18 @@ class Importer {
     if (is_taken("qw")) matrix_.reset();
   }
 
-  void add_orientation(const PoseMatrix& matrix) {
+  std::vector<ImportedColumn> orientation_of(const PoseMatrix& matrix) const {
     const char decimal = rows_.dialect.decimal;
     std::vector<ImportedColumn> quat;
     for (const char* name : {"qw", "qx", "qy", "qz"}) quat.push_back({"", name, "", {}});
-    for (const auto& row : rows_.cells) {
+    for (std::size_t row = 0; row < cells_->size(); ++row) {
       std::array<double, 9> r{};
       for (int i = 0; i < 9; ++i)
-        r[i] = number_in(row[matrix.at[i / 3][i % 3]], decimal).value_or(NAN);
+        r[i] = number_in((*cells_)[row][matrix.at[i / 3][i % 3]], decimal).value_or(NAN);
       const auto q = quaternion_of(r);
-      for (std::size_t k = 0; k < 4; ++k) quat[k].text.push_back(fmt::format("{:.9g}", q[k]));
+      for (std::size_t k = 0; k < 4; ++k) quat[k].text.add(fmt::format("{:.9g}", q[k]));
     }
-    for (auto& column : quat) out_.columns.push_back(std::move(column));
+    return quat;
   }
 
   /// "+" and what stands before one of the words, as `folded` returns it; empty if none ends it.
@@ -281,15 +272,15 @@ class Importer {
     const char decimal = rows_.dialect.decimal;
     ImportedColumn column{whole.from, "t", "s", {}};
     double first = 0.0, first_part = 0.0;
-    for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
-      const auto seconds = number_in(rows_.cells[i][k], decimal);
-      const auto nanoseconds = number_in(rows_.cells[i][n], decimal);
-      if (!seconds) bad_number(whole, i, rows_.cells[i][k]);
-      if (!nanoseconds) bad_number(parts, i, rows_.cells[i][n]);
+    for (std::size_t i = 0; i < cells_->size(); ++i) {
+      const CellRow row = (*cells_)[i];
+      const auto seconds = number_in(row[k], decimal);
+      const auto nanoseconds = number_in(row[n], decimal);
+      if (!seconds) bad_number(whole, i, row[k]);
+      if (!nanoseconds) bad_number(parts, i, row[n]);
       if (!seconds || !nanoseconds) continue;
       if (i == 0) first = *seconds, first_part = *nanoseconds;
-      column.text.push_back(
-          in_microseconds((*seconds - first) + (*nanoseconds - first_part) * 1e-9));
+      column.text.add(in_microseconds((*seconds - first) + (*nanoseconds - first_part) * 1e-9));
     }
     out_.remarks.push_back(
         {.severity = Severity::kNote,
@@ -570,34 +561,46 @@ class Importer {
   }
 
   void add_texts(const ColumnPlan& plan, std::size_t k) {
-    ImportedColumn column{plan.from, plan.name, "", {}};
-    for (const auto& row : rows_.cells) column.text.emplace_back(row[k]);
-    out_.columns.push_back(std::move(column));
+    out_.columns.push_back({plan.from, plan.name, "", {cells_, k}});
   }
 
   void add_numbers(const ColumnPlan& plan, std::size_t k) {
     const char decimal = rows_.dialect.decimal;
-    ImportedColumn column{plan.from, plan.name, plan.unit, {}};
-    column.text.reserve(rows_.cells.size());
-    for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
-      const auto cell = rows_.cells[i][k];
-      const auto number = number_in(cell, decimal);
+    for (std::size_t i = 0; i < cells_->size(); ++i) {
+      const auto cell = (*cells_)[i][k];
+      const bool number = number_in(cell, decimal).has_value();
       if (!number) bad_number(plan, i, cell);
-      column.text.push_back(plan.divisor != 1.0 && number
-                                ? fmt::format("{}", *number / plan.divisor)
-                                : plain_number(cell, decimal).value_or(""));
-      if (thousands_.empty() && number && column.text.back() != cell &&
-          divides_thousands(cell, decimal))
-        thousands_ = fmt::format("'{}' is {}", cell, column.text.back());
+      if (!number || !thousands_.empty() || !divides_thousands(cell, decimal)) continue;
+      if (const std::string text = as_written(plan, cell); text != cell)
+        thousands_ = fmt::format("'{}' is {}", cell, text);
     }
-    out_.columns.push_back(std::move(column));
+    out_.columns.push_back({plan.from, plan.name, plan.unit, {cells_, k}});
+  }
+
+  /// A number as measurements.csv holds it.
+  std::string as_written(const ColumnPlan& plan, std::string_view cell) const {
+    const char decimal = rows_.dialect.decimal;
+    if (plan.divisor != 1.0)
+      return fmt::format("{}", number_in(cell, decimal).value_or(0.0) / plan.divisor);
+    return plain_number(cell, decimal).value_or("");
+  }
+
+  /// Writes the cells of the column as measurements.csv holds them, most of which are so already.
+  /// To be called when no message shows a line of the file any more.
+  void write_plainly(const ColumnPlan& plan, std::size_t k) {
+    const bool kept = plan.divisor == 1.0 && rows_.dialect.decimal == '.';
+    for (std::size_t i = 0; i < cells_->size(); ++i) {
+      const auto cell = (*cells_)[i][k];
+      if (kept && is_plain_number(cell)) continue;
+      if (const std::string text = as_written(plan, cell); text != cell)
+        cells_->write_over(i, k, text);
+    }
   }
 
   /// True if the cell, a number, has more signs than a sign of its own, digits and a decimal sign.
   static bool divides_thousands(std::string_view cell, char decimal) {
-    const std::string_view other = decimal == ',' ? "." : ",";
-    return cell.find(other) != cell.npos || cell.find('\'') != cell.npos ||
-           cell.find(' ') != cell.npos || cell.find("\u2019") != cell.npos ||
+    const std::string_view other = decimal == ',' ? ".' " : ",' ";
+    return cell.find_first_of(other) != cell.npos || cell.find("\u2019") != cell.npos ||
            cell.find("\u00A0") != cell.npos || cell.find("\u202F") != cell.npos ||
            cell.find("\u2009") != cell.npos;
   }
@@ -611,7 +614,7 @@ class Importer {
   }
 
   void bad_number(const ColumnPlan& plan, std::size_t i, std::string_view cell) {
-    const int line = rows_.lines[i];
+    const int line = out_.lines[i];
     const auto source = text_.lines[line - 1];
     problems_.error(
         "E-IMPORT-NUMBER", fmt::format("column '{}' holds '{}', not a number", plan.from, cell),
@@ -627,10 +630,11 @@ class Importer {
   }
 
   /// The cells of a time stamp, preceded by the date if that is in another column.
-  std::vector<std::string> stamps(std::size_t k) const {
-    std::vector<std::string> out;
-    for (const auto& row : rows_.cells)
-      out.push_back(joined_date_ ? joined(row[date_column_], row[k]) : std::string(row[k]));
+  CellColumn stamps(std::size_t k) const {
+    if (!joined_date_) return {cells_, k};
+    CellColumn out;
+    for (std::size_t i = 0; i < cells_->size(); ++i)
+      out.add(joined((*cells_)[i][date_column_], (*cells_)[i][k]));
     return out;
   }
 
@@ -642,7 +646,7 @@ class Importer {
   }
 
   Place row_of_file(std::size_t row, std::string label) const {
-    const int line = rows_.lines[std::min(row, rows_.lines.size() - 1)];
+    const int line = out_.lines[std::min(row, out_.lines.size() - 1)];
     return {.file = text_.file,
             .line = line,
             .column = 1,
@@ -651,9 +655,9 @@ class Importer {
   }
 
   void add_times(const ColumnPlan& plan, std::size_t k) {
-    const std::vector<std::string> texts = stamps(k);
-    const std::vector<std::string_view> cells(texts.begin(), texts.end());
-    const Timestamps times = read_timestamps(cells, rows_.dialect.decimal, wishes_.date_order);
+    const CellColumn texts = stamps(k);
+    const Timestamps times =
+        read_timestamps({texts.begin(), texts.end()}, rows_.dialect.decimal, wishes_.date_order);
     if (times.undecided)
       complain({.severity = wishes_.preview ? Severity::kWarning : Severity::kError,
                 .code = wishes_.preview ? "W-IMPORT-TIME" : "E-IMPORT-DATE",
@@ -676,10 +680,9 @@ class Importer {
     ImportedColumn column{plan.from, "t", "s", {}};
     const bool epoch = times.format.ends_with("since 1970");
     for (double t : times.seconds)
-      column.text.push_back(epoch ? in_microseconds(t) : fmt::format("{:.6g}", t));
-    for (std::size_t i = 0; i < times.seconds.size(); ++i)
-      if (!epoch && times.seconds[i] > 1e5)
-        column.text[i] = fmt::format("{:.3f}", times.seconds[i]);
+      column.text.add(epoch     ? in_microseconds(t)
+                      : t > 1e5 ? fmt::format("{:.3f}", t)
+                                : fmt::format("{:.6g}", t));
     out_.columns.push_back(std::move(column));
     out_.start_s = times.first;
     out_.start = times.format == "clock" ? "clock" : "date";
@@ -703,7 +706,7 @@ class Importer {
 
   static double value_of(const ImportedColumn& column, std::size_t i) {
     double value = 0.0;
-    const auto& text = column.text[i];
+    const auto text = column.text[i];
     std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(),
                     value);
     return unit_of(column.unit)->to_si(value);
@@ -724,10 +727,10 @@ class Importer {
     } else {
       const EulerConvention convention = euler_convention(wishes_.rotation);
       for (const char* name : {"qw", "qx", "qy", "qz"}) quat.push_back({"", name, "", {}});
-      for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
+      for (std::size_t i = 0; i < cells_->size(); ++i) {
         const auto q = quaternion(
             convention, {value_of(*turns[0], i), value_of(*turns[1], i), value_of(*turns[2], i)});
-        for (std::size_t k = 0; k < 4; ++k) quat[k].text.push_back(fmt::format("{:.12g}", q[k]));
+        for (std::size_t k = 0; k < 4; ++k) quat[k].text.add(fmt::format("{:.12g}", q[k]));
       }
     }
     std::erase_if(out_.columns, [](const ImportedColumn& c) {
@@ -747,6 +750,7 @@ class Importer {
 
   const SourceText& text_;
   RawRows rows_;
+  std::shared_ptr<CellTable> cells_;  // those of `rows_`, and of the columns
   const ImportWishes& wishes_;
   std::vector<ColumnContent> contents_;
   std::size_t date_column_ = 0;
@@ -758,43 +762,6 @@ class Importer {
   ProblemList problems_;
   Imported out_;
 };
-
-int order_of(const std::string& name) {
-  static const std::vector<std::string> kFirst{"pose", "repeat", "set"};
-  if (const auto at = std::find(kFirst.begin(), kFirst.end(), name); at != kFirst.end())
-    return static_cast<int>(at - kFirst.begin());
-  if (const int j = joint_number(name, "q"); j > 0) return 10 + j;
-  if (const int j = joint_number(name, "qc"); j > 0) return 30 + j;
-  static const std::vector<std::string> kPoint{"x",  "y",  "z",  "qw", "qx", "qy", "qz",
-                                               "sx", "sy", "sz", "nx", "ny", "nz"};
-  const auto at = std::find(kPoint.begin(), kPoint.end(), name);
-  return at != kPoint.end() ? 50 + static_cast<int>(at - kPoint.begin()) : 100;
-}
-
-/// One row a pose is needed, not one column a pose.
-void refuse_transposed(const SourceText& text, const RawRows& rows) {
-  const auto known = [](std::string_view name) {
-    const ColumnPlan plan = guess_column(std::string(name), "");
-    return !plan.name.empty() && unitless_quantity(plan.name) != Quantity::kText;
-  };
-  if (rows.cells.size() > kMostQuantities) return;
-  const auto& header = rows.dialect.header;
-  const auto in_header = std::count_if(header.begin() + 1, header.end(), known);
-  const auto below = std::count_if(rows.cells.begin(), rows.cells.end(),
-                                   [&](const auto& row) { return known(row.front()); });
-  if (below < kFewestNames || below <= in_header ||
-      2 * below < static_cast<std::ptrdiff_t>(rows.cells.size()))
-    return;
-  throw Failure(
-      Exit::kInput,
-      {.code = "E-IMPORT-TRANSPOSED",
-       .message = fmt::format("the table is transposed: its rows are {}, {}, ..., and its "
-                              "columns are the poses",
-                              rows.cells[0].front(), rows.cells[1].front()),
-       .place = Place{.file = text.file, .line = rows.lines.front()},
-       .help = "write one row a pose: transpose the table in a spreadsheet (paste special) "
-               "and export it again"});
-}
 
 }  // namespace
 
@@ -811,58 +778,6 @@ std::vector<std::string> column_names(const std::filesystem::path& file,
   SourceText text;
   decode(read_file(file), display_name(file), text);
   return cut(text, wishes).dialect.header;
-}
-
-void add_directions(Imported& data) {
-  std::vector<ImportedColumn> more;
-  for (int j = 1; const ImportedColumn* q = data.find("q" + std::to_string(j)); ++j) {
-    std::vector<double> values;
-    for (const auto& text : q->text) {
-      double value = 0.0;
-      std::from_chars(text.data(), text.data() + text.size(), value);
-      values.push_back(value);
-    }
-    const auto unit = *unit_of(q->unit);
-    const Arrivals arrivals = arrivals_from_order(values, unit.from_si(kStill_rad));
-    ImportedColumn direction{"", fmt::format("dir_j{}", j), "", {}};
-    ImportedColumn travel{"", fmt::format("travel_j{}", j), q->unit, {}};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      direction.text.push_back(std::to_string(arrivals.direction[i]));
-      travel.text.push_back(fmt::format("{:.9g}", arrivals.travel[i]));
-    }
-    more.push_back(std::move(direction));
-    more.push_back(std::move(travel));
-  }
-  for (auto& column : more) data.columns.push_back(std::move(column));
-}
-
-std::string imported_csv(const Imported& data) {
-  std::vector<const ImportedColumn*> columns;
-  for (const auto& column : data.columns) columns.push_back(&column);
-  std::stable_sort(columns.begin(), columns.end(),
-                   [](const ImportedColumn* a, const ImportedColumn* b) {
-                     return order_of(a->name) < order_of(b->name);
-                   });
-  std::string out;
-  out.reserve(static_cast<std::size_t>(data.rows()) * columns.size() * 12);
-  for (const auto& [key, value] : data.comments)
-    if (key != "rot") out += fmt::format("# {}: {}\n", key, value);
-  out += fmt::format("# imported from: {}\n", std::filesystem::path(data.file).filename().string());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    out += (k > 0 ? "," : "") + columns[k]->heading();
-  out += '\n';
-  for (int i = 0; i < data.rows(); ++i) {
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      if (k > 0) out += ',';
-      const std::string& text = columns[k]->text[i];
-      if (unitless_quantity(columns[k]->name) == Quantity::kText)
-        out += quoted_if_needed(text);
-      else
-        out += text;
-    }
-    out += '\n';
-  }
-  return out;
 }
 
 }  // namespace plumb::offline

@@ -32,10 +32,4 @@ Imported import_file(const std::filesystem::path& file, const ImportWishes& wish
 std::vector<std::string> column_names(const std::filesystem::path& file,
                                       const DialectWishes& wishes);
 
-/// Adds dir_jN and travel_jN of consecutive moves.
-void add_directions(Imported& data);
-
-/// measurements.csv: comments, header with units, rows; read_table of it succeeds.
-std::string imported_csv(const Imported& data);
-
 }  // namespace plumb::offline

@@ -34,7 +34,7 @@ constexpr int kFewPairs = 8;
 std::vector<double> si_values(const ImportedColumn& column) {
   const auto unit = unit_of(column.unit);
   std::vector<double> out;
-  for (const auto& text : column.text) {
+  for (const auto text : column.text) {
     double value = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), value);
     out.push_back(unit ? unit->to_si(value) : value);
@@ -107,7 +107,8 @@ Pairs pairs_by_pose(const Imported& a, const Imported& b, std::vector<Problem>& 
   for (const auto* file : {&a, &b})
     if (file->find("pose") == nullptr)
       refuse(*file, "no column names the poses", "--join order, or: --map \"Point=pose\"");
-  Names in_a = a.find("pose")->text, in_b = b.find("pose")->text;
+  const CellColumn &of_a = a.find("pose")->text, &of_b = b.find("pose")->text;
+  Names in_a(of_a.begin(), of_a.end()), in_b(of_b.begin(), of_b.end());
   compare_plainly(b, in_a, in_b, remarks);
   std::map<std::string, std::vector<int>> rows;
   for (int i = 0; i < b.rows(); ++i) rows[in_b[i]].push_back(i);
@@ -234,6 +235,7 @@ std::string first_names(const Imported& a, const Imported& b, const JoinWishes& 
 Imported join(const Imported& first, const Imported& second, const JoinWishes& wishes) {
   Imported out;
   out.file = first.file;
+  out.inputs = {first.inputs.front(), second.inputs.front()};
   out.separator = first.separator;
   out.decimal = first.decimal;
   out.comments = first.comments;
@@ -259,18 +261,17 @@ Imported join(const Imported& first, const Imported& second, const JoinWishes& w
            fmt::format("no row belongs to a row of {}{}", first.file,
                        first_names(first, second, wishes)),
            "--join pose, --join time --max-gap 5, or --join order");
-  for (const auto& [i, k] : pairs) out.lines.push_back(first.lines[i]);
-  for (const auto& column : first.columns) {
-    ImportedColumn copy{column.from, column.name, column.unit, {}};
-    for (const auto& [i, k] : pairs) copy.text.push_back(column.text[i]);
-    out.columns.push_back(std::move(copy));
+  std::vector<int> in_first, in_second;
+  for (const auto& [i, k] : pairs) {
+    in_first.push_back(i);
+    in_second.push_back(k);
+    out.lines.push_back(first.lines[i]);
   }
-  for (const auto& column : second.columns) {
-    if (first.find(column.name) != nullptr) continue;
-    ImportedColumn copy{column.from, column.name, column.unit, {}};
-    for (const auto& [i, k] : pairs) copy.text.push_back(column.text[k]);
-    out.columns.push_back(std::move(copy));
-  }
+  for (const auto& [from, name, unit, text] : first.columns)
+    out.columns.push_back({from, name, unit, text.of_rows(in_first)});
+  for (const auto& [from, name, unit, text] : second.columns)
+    if (first.find(name) == nullptr)
+      out.columns.push_back({from, name, unit, text.of_rows(in_second)});
   const auto lost = static_cast<std::size_t>(std::max(first.rows(), second.rows())) - pairs.size();
   if (lost > 0)
     out.remarks.push_back(

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "import/cells.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -14,11 +16,12 @@ constexpr std::size_t kFewestNamed = 2;
 bool is_text(std::string_view cell) { return !cell.empty() && !is_number(cell) && !is_time(cell); }
 
 /// The text of a column that holds the same in every row; empty if it does not.
-std::string constant(const std::vector<Cells>& rows, std::size_t column) {
-  const auto first = rows.front()[column];
-  const bool same =
-      std::all_of(rows.begin(), rows.end(), [&](const Cells& row) { return row[column] == first; });
-  return same && is_text(first) ? std::string(first) : std::string();
+std::string constant(const CellTable& rows, std::size_t column) {
+  const auto first = rows[0][column];
+  if (!is_text(first)) return {};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i][column] != first) return {};
+  return std::string(first);
 }
 
 std::optional<std::size_t> column_of(const RawRows& rows, const std::string& name) {
@@ -42,8 +45,8 @@ std::string position_beside(const std::string& header) {
 
 }  // namespace
 
-std::optional<std::vector<std::string>> joint_state_header(const std::vector<Cells>& rows) {
-  const std::size_t size = rows.front().size();
+std::optional<std::vector<std::string>> joint_state_header(const CellTable& rows) {
+  const std::size_t size = rows[0].size();
   std::size_t first = 0;
   const auto run_from = [&](std::size_t at) {
     std::size_t end = at;
@@ -55,10 +58,10 @@ std::optional<std::vector<std::string>> joint_state_header(const std::vector<Cel
   const std::size_t joints = run_from(first), behind = size - first - joints;
   if (behind == 0 || behind % joints != 0 || behind / joints > 3) return std::nullopt;
   for (std::size_t k = first + joints; k < size; ++k)
-    if (!is_number(rows.front()[k])) return std::nullopt;
+    if (!is_number(rows[0][k])) return std::nullopt;
   std::vector<std::string> out;
   for (std::size_t k = 0; k < first; ++k) out.push_back(fmt::format("c{}", k + 1));
-  if (first >= 2 && is_number(rows.front()[0]) && is_number(rows.front()[1]))
+  if (first >= 2 && is_number(rows[0][0]) && is_number(rows[0][1]))
     out[0] = "stamp.sec", out[1] = "stamp.nanosec";
   for (const char* name : {"name", "position", "velocity", "effort"})
     for (std::size_t j = 0; j < joints && out.size() < size; ++j)

@@ -77,7 +77,7 @@ bool same_keys(const std::vector<Pair>& a, const std::vector<Pair>& b) {
 }  // namespace
 
 std::optional<RawRows> key_values(const SourceText& text) {
-  RawRows out;
+  RawRows out(text);
   std::vector<Pair> keys;
   std::vector<int> others;
   std::size_t alike = 0, lines = 0;
@@ -95,7 +95,7 @@ std::optional<RawRows> key_values(const SourceText& text) {
     Cells row;
     for (const auto& pair : pairs) row.push_back(pair.value);
     if (!same_keys(keys, pairs) && row.size() == keys.size()) row.pop_back();  // cells are missing
-    out.cells.push_back(std::move(row));
+    out.cells.add(row);
     out.lines.push_back(static_cast<int>(i) + 1);
   }
   if (alike < 2 || static_cast<double>(alike) < kMostLines * static_cast<double>(lines))

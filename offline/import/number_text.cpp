@@ -77,18 +77,6 @@ std::optional<std::string> whole_part(std::string_view& text, char decimal) {
   }
 }
 
-/// Digits with a plain minus and a point: what nearly every cell is.
-bool is_plain(std::string_view cell) {
-  if (cell.starts_with('-')) cell.remove_prefix(1);
-  if (cell.empty() || !is_digit(cell.front()) || !is_digit(cell.back())) return false;
-  int points = 0;
-  for (const char c : cell) {
-    points += c == '.' ? 1 : 0;
-    if (!is_digit(c) && c != '.') return false;
-  }
-  return points <= 1;
-}
-
 std::string_view value_before(std::string_view cell) {
   std::size_t end = cell.size();
   while (end > 0 && !is_digit(cell[end - 1]) && cell[end - 1] != '.') --end;
@@ -106,6 +94,17 @@ std::optional<double> part(std::string_view& text) {
 }
 
 }  // namespace
+
+bool is_plain_number(std::string_view cell) {
+  if (cell.starts_with('-')) cell.remove_prefix(1);
+  if (cell.empty() || !is_digit(cell.front()) || !is_digit(cell.back())) return false;
+  int points = 0;
+  for (const char c : cell) {
+    points += c == '.' ? 1 : 0;
+    if (!is_digit(c) && c != '.') return false;
+  }
+  return points <= 1;
+}
 
 std::optional<std::string> take_number(std::string_view& text, char decimal) {
   const auto whole = whole_part(text, decimal);
@@ -134,7 +133,7 @@ std::optional<std::string> take_number(std::string_view& text, char decimal) {
 }
 
 std::optional<std::string> plain_number(std::string_view cell, char decimal) {
-  if (decimal == '.' && is_plain(cell)) return std::string(cell);
+  if (decimal == '.' && is_plain_number(cell)) return std::string(cell);
   cell = without_blanks(cell);
   const bool minus = !take(cell, kMinus).empty();
   if (!minus) (void)take(cell, kPlus);
@@ -145,7 +144,7 @@ std::optional<std::string> plain_number(std::string_view cell, char decimal) {
 
 std::optional<double> number_in(std::string_view cell, char decimal) {
   std::optional<std::string> text;
-  if (decimal != '.' || !is_plain(cell)) {
+  if (decimal != '.' || !is_plain_number(cell)) {
     text = plain_number(cell, decimal);
     if (!text) return std::nullopt;
     cell = *text;

@@ -17,6 +17,9 @@ inline constexpr std::string_view kBlanks[] = {" ", "\u00A0", "\u202F", "\u2009"
 /// minus, and 1.5D+03 is 1.5E+03.
 std::optional<std::string> plain_number(std::string_view cell, char decimal);
 
+/// Digits with a plain minus and a point: what nearly every cell is.
+bool is_plain_number(std::string_view cell);
+
 /// Takes such a number, without a sign, from the front of the text; nothing if none stands there.
 std::optional<std::string> take_number(std::string_view& text, char decimal);
 

@@ -82,7 +82,7 @@ bool is_one_of(const Words& words, const std::string& word) {
 }
 
 /// A cell that names a statistic, as a word; empty if there is none.
-std::string label_of(const Cells& row) {
+std::string label_of(const CellRow& row) {
   for (const auto cell : row) {
     const std::string word = is_number(cell) ? "" : folded(cell.substr(0, cell.find(':')));
     if (is_one_of(kStatistics, word) || is_one_of(kExtremes, word)) return word;
@@ -95,19 +95,19 @@ bool without_letters(std::string_view line) {
                       [](unsigned char c) { return std::isalnum(c) != 0 || c >= 0x80; });
 }
 
-bool holds_no_number(const Cells& row) {
+bool holds_no_number(const CellRow& row) {
   return std::none_of(row.begin(), row.end(),
                       [](std::string_view cell) { return is_number(cell); });
 }
 
-bool equals(const Cells& row, const std::vector<std::string>& names) {
+bool equals(const CellRow& row, const std::vector<std::string>& names) {
   return row.size() == names.size() && std::equal(row.begin(), row.end(), names.begin());
 }
 
 /// The header or the row of units once more, or a line that holds no cell of a measurement.
 bool stands_between(const SourceText& text, const RawRows& rows, std::size_t i) {
   const auto& d = rows.dialect;
-  const Cells& row = rows.cells[i];
+  const CellRow row = rows.cells[i];
   if (std::all_of(row.begin(), row.end(), [](std::string_view c) { return c.empty(); }))
     return true;
   if (equals(row, d.header) || (!d.units.empty() && equals(row, d.units))) return true;
@@ -153,8 +153,9 @@ std::size_t begin_of_statistics(const RawRows& rows) {
 
 /// Lines at the end without the cells of a row, "24 points" or "Mean: 0.02": a sentence.
 bool is_footer(const RawRows& rows, std::size_t i) {
-  const Cells& row = rows.cells[i];
-  return row.size() < rows.dialect.header.size() && number_share(row) < 0.5 && !row.front().empty();
+  const CellRow row = rows.cells[i];
+  return row.size() < rows.dialect.header.size() && !row.front().empty() &&
+         number_share({row.begin(), row.end()}) < 0.5;
 }
 
 void note(const SourceText& text, const char* code, std::string message, int line, RawRows& rows) {
@@ -180,26 +181,19 @@ std::string lines_in_words(const std::vector<int>& lines) {
 
 void leave_out_other_lines(const SourceText& text, RawRows& rows) {
   std::vector<int> others, statistics;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    if (stands_between(text, rows, i)) {
-      others.push_back(rows.lines[i]);
-      continue;
-    }
-    if (kept != i) {
-      rows.cells[kept] = std::move(rows.cells[i]);
-      rows.lines[kept] = rows.lines[i];
-    }
-    ++kept;
-  }
-  rows.cells.resize(kept);
+  rows.keep_rows([&](std::size_t i) {
+    if (!stands_between(text, rows, i)) return true;
+    others.push_back(rows.lines[i]);
+    return false;
+  });
+  std::size_t kept = rows.cells.size();
   while (kept > 0 && is_footer(rows, kept - 1) && begin_of_statistics(rows) == rows.cells.size()) {
     others.push_back(rows.lines[--kept]);
-    rows.cells.resize(kept);
+    rows.cells.truncate(kept);
   }
   const std::size_t first = begin_of_statistics(rows);
   for (std::size_t i = first; i < kept; ++i) statistics.push_back(rows.lines[i]);
-  rows.cells.resize(first);
+  rows.cells.truncate(first);
   rows.lines.resize(first);
   std::sort(others.begin(), others.end());
   if (!others.empty())

@@ -112,6 +112,7 @@ Problem note(std::string message) {
 }
 
 void cut_lines(std::string_view text, std::vector<std::string_view>& out) {
+  out.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
   while (!text.empty()) {
     const auto end = std::min(text.find('\n'), text.size());
     auto line = text.substr(0, end);
@@ -163,8 +164,8 @@ void decode(std::string bytes, const std::string& file, SourceText& out) {
     bytes = from_latin1(bytes);
     out.remarks.push_back(note(fmt::format("{} is not UTF-8; it was read as Latin-1", file)));
   }
-  out.bytes = std::move(bytes);
-  cut_lines(out.bytes, out.lines);
+  out.texts = std::make_shared<TextStore>(std::move(bytes));
+  cut_lines(out.texts->file(), out.lines);
   for (std::size_t k = 0; k < out.lines.size(); ++k)
     if (out.lines[k].size() > kLongestLine)
       throw Failure(Exit::kInput,

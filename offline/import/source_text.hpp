@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "import/text_store.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
@@ -13,7 +15,7 @@ namespace plumb::offline {
 struct SourceText {
   std::string file;
   std::string sha256;
-  std::string bytes;                    // UTF-8; the lines point into it
+  std::shared_ptr<TextStore> texts;     // UTF-8; the lines point into it
   std::vector<std::string_view> lines;  // line n is lines[n - 1]
   std::vector<Problem> remarks;         // the encoding, if it was not UTF-8
 

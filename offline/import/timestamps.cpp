@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "import/number_text.hpp"
 #include "import/words.hpp"
@@ -275,15 +274,26 @@ std::string damage_of(std::string_view cell) {
   return fmt::format("'{}' is no time stamp plumb knows", cell);
 }
 
-std::vector<double> times_of(const std::vector<Reading>& readings, DateOrder order) {
-  std::vector<double> out;
-  for (const auto& r : readings) {
-    const auto& t = order == DateOrder::kMonthFirst ? r.month_first : r.day_first;
-    if (!t) return {};
-    out.push_back(*t);
+/// The times of a column in one order of day and month; none if one of them has none.
+struct Times {
+  std::vector<double> all;
+  bool fit = true;
+
+  void add(const std::optional<double>& t) {
+    fit = fit && t.has_value();
+    if (fit)
+      all.push_back(*t);
+    else
+      all.clear();
   }
-  return out;
-}
+};
+
+/// A column whose cells have one format.
+struct Readings {
+  std::string format;
+  bool either = false;
+  Times day_first, month_first;  // the latter only if `either`
+};
 
 bool same_steps(const std::vector<double>& a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -293,17 +303,15 @@ bool same_steps(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// The times, with day and month in the order that the whole column shows. If it shows none,
 /// `out.undecided` is set.
-std::vector<double> decided(const std::vector<Reading>& readings, DateOrder wished,
-                            Timestamps& out) {
-  auto day_first = times_of(readings, DateOrder::kDayFirst);
-  auto month_first = times_of(readings, DateOrder::kMonthFirst);
-  if (readings.empty() || !readings.front().either) return day_first;
-  const char separator = readings.front().format.front();
+std::vector<double> decided(Readings readings, DateOrder wished, Timestamps& out) {
+  auto &day_first = readings.day_first.all, &month_first = readings.month_first.all;
+  if (!readings.either) return std::move(day_first);
+  const char separator = readings.format.front();
   const auto named = [&](DateOrder order) {
     const bool day = order == DateOrder::kDayFirst;
     out.format = fmt::format("{1}{0}{2}{0}YYYY{3}", separator, day ? "DD" : "MM", day ? "MM" : "DD",
-                             readings.front().format.substr(1));
-    return order == DateOrder::kDayFirst ? day_first : month_first;
+                             readings.format.substr(1));
+    return std::move(day ? day_first : month_first);
   };
   if (wished != DateOrder::kUnknown) return named(wished);
   if (!day_first.empty() && (month_first.empty() || separator == '.'))
@@ -327,26 +335,29 @@ bool may_be_date(double number) {
 Timestamps read_timestamps(const std::vector<std::string_view>& cells, char decimal,
                            DateOrder order) {
   Timestamps out;
-  std::vector<Reading> readings;
+  Readings readings;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    auto reading = read(cells[i], decimal);
-    if (!reading || (i > 0 && readings.front().format != reading->format)) {
-      out.damage = reading ? fmt::format("the format changes from {} to {}",
-                                         readings.front().format, reading->format)
+    const auto reading = read(cells[i], decimal);
+    if (i == 0 && reading) readings.format = reading->format, readings.either = reading->either;
+    if (!reading || readings.format != reading->format) {
+      out.damage = reading ? fmt::format("the format changes from {} to {}", readings.format,
+                                         reading->format)
                            : damage_of(cells[i]);
       out.damaged_row = i;
       return out;
     }
-    readings.push_back(std::move(*reading));
+    readings.day_first.add(reading->day_first);
+    if (readings.either) readings.month_first.add(reading->month_first);
   }
-  if (readings.empty()) return out;
-  out.format = readings.front().format;
-  out.seconds = decided(readings, order, out);
+  if (cells.empty()) return out;
+  out.format = readings.format;
+  out.seconds = decided(std::move(readings), order, out);
   if (out.seconds.empty()) {
     if (!out.undecided) out.damage = "no order of day and month fits all of them";
     return out;
   }
   const auto [low, high] = std::minmax_element(out.seconds.begin(), out.seconds.end());
+  const bool all_the_same = *low == *high;
   if (out.format == "spreadsheet days" && *high - *low > kMostDays * kDay_s) {
     out.damage = "as days of a spreadsheet they would last years";
     out.seconds.clear();
@@ -360,8 +371,7 @@ Timestamps read_timestamps(const std::vector<std::string_view>& cells, char deci
     out.seconds[i] += kDay_s;
     out.wrapped = true;
   }
-  const std::set<double> distinct(out.seconds.begin(), out.seconds.end());
-  if (out.seconds.size() > 2 && distinct.size() == 1) {
+  if (out.seconds.size() > 2 && all_the_same) {
     out.damage = "all are the same";
     out.seconds.clear();
     return out;

@@ -34,8 +34,8 @@ Cells parts_of(std::string_view cell) {
 /// The number of parts that all vectors of a column have; 0 if it holds anything else.
 std::size_t size_of_vectors(const RawRows& rows, std::size_t column) {
   std::size_t size = 0;
-  for (const auto& row : rows.cells) {
-    const auto parts = parts_of(row[column]).size();
+  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+    const auto parts = parts_of(rows.cells[i][column]).size();
     if (parts == 0 || (size > 0 && parts != size)) return 0;
     size = parts;
   }
@@ -64,11 +64,16 @@ void expand(RawRows& rows, std::size_t column, std::size_t size) {
   d.header.erase(d.header.begin() + at);
   d.header.insert(d.header.begin() + at, names.begin(), names.end());
   if (column < d.units.size()) d.units.insert(d.units.begin() + at, size - 1, d.units[column]);
-  for (auto& row : rows.cells) {
+  CellTable longer(rows.cells.texts());
+  longer.expect(rows.cells.size(), rows.cells.size() * d.header.size());
+  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+    Cells row(rows.cells[i].begin(), rows.cells[i].end());
     const Cells parts = parts_of(row[column]);
     row.erase(row.begin() + at);
     row.insert(row.begin() + at, parts.begin(), parts.end());
+    longer.add(row);
   }
+  rows.cells = std::move(longer);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "import/importer.hpp"
 #include "import/moves.hpp"
 #include "import/timestamps.hpp"
+#include "tests/import/imported_text.hpp"
 #include "tests/import/temporary_file.hpp"
 #include "tests/random_numbers.hpp"
 
@@ -25,7 +26,7 @@ Imported imported(const std::string& bytes, const ImportWishes& wishes = {}) {
 }
 
 Table table_of(const std::string& bytes, const ImportWishes& wishes = {}) {
-  return parse_table(imported_csv(imported(bytes, wishes)), "imported");
+  return tests::table_of(imported(bytes, wishes));
 }
 
 /// Code and place of the first problem.

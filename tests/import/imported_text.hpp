@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
+#include "cell/table.hpp"
+#include "import/imported_csv.hpp"
 #include "import/importer.hpp"
 #include "tests/import/temporary_file.hpp"
 
@@ -25,12 +28,24 @@ inline Problem refusal_of(const std::string& bytes, const offline::ImportWishes&
   return {};
 }
 
+inline std::vector<std::string> texts_of(const offline::ImportedColumn& column) {
+  return {column.text.begin(), column.text.end()};
+}
+
+/// measurements.csv as plumb reads it.
+inline offline::Table table_of(const offline::Imported& data) {
+  std::string csv;
+  offline::write_imported(data, [&](std::string_view block) { csv += block; });
+  return offline::parse_table(csv, "imported");
+}
+
 /// "q1_deg=1|2 x_mm=3|4": the columns and their cells.
 inline std::string in_short(const offline::Imported& data) {
   std::string out;
   for (const auto& column : data.columns) {
     out += (out.empty() ? "" : " ") + column.heading() + "=";
-    for (std::size_t i = 0; i < column.text.size(); ++i) out += (i > 0 ? "|" : "") + column.text[i];
+    for (std::size_t i = 0; i < column.text.size(); ++i)
+      out += (i > 0 ? "|" : "") + std::string(column.text[i]);
   }
   return out;
 }

@@ -41,8 +41,9 @@ struct TwoFiles {
 
   void expect_partners(const Imported& data, int first) const {
     for (int i = 0; i < data.rows(); ++i) {
-      EXPECT_EQ(std::stod(data.find("q1")->text[i]), s.measured.q(first + i, 0));
-      EXPECT_NEAR(std::stod(data.find("x")->text[i]), s.measured.p_M(first + i, 0) * 1e3, 1e-9);
+      EXPECT_EQ(std::stod(std::string(data.find("q1")->text[i])), s.measured.q(first + i, 0));
+      EXPECT_NEAR(std::stod(std::string(data.find("x")->text[i])),
+                  s.measured.p_M(first + i, 0) * 1e3, 1e-9);
     }
   }
 };

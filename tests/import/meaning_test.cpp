@@ -10,6 +10,7 @@
 #include "import/importer.hpp"
 #include "import/timestamps.hpp"
 #include "import/words.hpp"
+#include "tests/import/imported_text.hpp"
 #include "tests/import/temporary_file.hpp"
 
 namespace plumb::offline {
@@ -161,11 +162,11 @@ TEST(Import, SeparatorsAtTheEndOfLinesAndEmptyLastCellsAreNoRaggedRows) {
   for (const char* bytes : {"q1_deg;x_mm\n1;2;\n3;4;\n", "q1_deg;x_mm;\n1;2\n3;4\n",
                             "q1_deg;x_mm;;\n1;2;;\n3;4;;\n", "q1_deg;x_mm;\n1;2;\n3;4\n"}) {
     const Imported data = imported(bytes);
-    EXPECT_EQ(data.find("x")->text, (std::vector<std::string>{"2", "4"})) << bytes;
+    EXPECT_EQ(tests::texts_of(*data.find("x")), (std::vector<std::string>{"2", "4"})) << bytes;
     EXPECT_NE(remark(data, "N-IMPORT-EMPTY"), nullptr) << bytes;
   }
   const Imported notes = imported("q1_deg;x_mm;note\n1;2;\n3;4;good\n");
-  EXPECT_EQ(notes.find("note")->text, (std::vector<std::string>{"", "good"}));
+  EXPECT_EQ(tests::texts_of(*notes.find("note")), (std::vector<std::string>{"", "good"}));
   EXPECT_EQ(refused("q1_deg;x_mm\n1;2;\n3;4;5\n").code, "E-IMPORT-RAGGED");
 }
 
@@ -325,7 +326,7 @@ TEST(Import, ADateAndATimeOfDayAreOneTimeStamp) {
   const Imported data = imported(
       "Punkt;Datum;Uhrzeit;q1_deg;x_mm\nA;20.10.2022;16:57;1,5;2,5\n"
       "B;21.10.2022;16:58;2,5;3,5\n");
-  EXPECT_EQ(data.find("t")->text, (std::vector<std::string>{"0", "86460"}));
+  EXPECT_EQ(tests::texts_of(*data.find("t")), (std::vector<std::string>{"0", "86460"}));
 }
 
 TEST(Import, ATimeOfPlainNumbersIsAskedForItsUnitAndOneWithAUnitKeepsIt) {

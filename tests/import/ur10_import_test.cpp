@@ -5,6 +5,7 @@
 
 #include "cell/measurements.hpp"
 #include "import/importer.hpp"
+#include "tests/import/imported_text.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -39,8 +40,7 @@ void expect_equal(const Table& got, const Table& canonical, const std::string& n
 
 TEST(Ur10Import, TheNightOnTheGridEqualsItsCanonicalFile) {
   if (!std::filesystem::exists(kData)) GTEST_SKIP() << "no " << kData;
-  const Table got =
-      parse_table(imported_csv(import_file(kData / "raw/series_A_grid.csv", wishes())), "imported");
+  const Table got = tests::table_of(import_file(kData / "raw/series_A_grid.csv", wishes()));
   const Table canonical = read_table(kData / "series_A.csv");
   ASSERT_EQ(got.rows(), 11911);
   for (const char* name :
@@ -55,7 +55,7 @@ TEST(Ur10Import, TheJointConfigurationsToo_AndTheirRuinedTimeStampsAreReported) 
   for (const char* axis : {"x", "y", "z"})
     with_sigma.map.push_back("measurement_std_" + std::string(axis) + "=s" + axis + "_mm");
   const Imported data = import_file(kData / "raw/series_B_joint_configurations.csv", with_sigma);
-  const Table got = parse_table(imported_csv(data), "imported");
+  const Table got = tests::table_of(data);
   const Table canonical = read_table(kData / "series_B.csv");
   for (const char* name : {"q1", "q6", "x", "y", "z", "qw", "qx", "qy", "qz", "sx", "sy", "sz"})
     expect_equal(got, canonical, name);
