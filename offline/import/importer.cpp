@@ -99,6 +99,7 @@ class Importer {
     problems_.stop_on_errors();
     for (std::size_t k = 0; k < plans.size(); ++k)
       if (holds_numbers(plans[k])) write_plainly(plans[k], k);
+    write_times();
     say_of_thousands();
     say_of_radians(plans);
     turn_to_quaternions();
@@ -656,8 +657,7 @@ class Importer {
 
   void add_times(const ColumnPlan& plan, std::size_t k) {
     const CellColumn texts = stamps(k);
-    const Timestamps times =
-        read_timestamps({texts.begin(), texts.end()}, rows_.dialect.decimal, wishes_.date_order);
+    Timestamps times = read_timestamps(texts, rows_.dialect.decimal, wishes_.date_order);
     if (times.undecided)
       complain({.severity = wishes_.preview ? Severity::kWarning : Severity::kError,
                 .code = wishes_.preview ? "W-IMPORT-TIME" : "E-IMPORT-DATE",
@@ -677,13 +677,7 @@ class Importer {
       out_.left_out.push_back(plan.from);
       return;
     }
-    ImportedColumn column{plan.from, "t", "s", {}};
-    const bool epoch = times.format.ends_with("since 1970");
-    for (double t : times.seconds)
-      column.text.add(epoch     ? in_microseconds(t)
-                      : t > 1e5 ? fmt::format("{:.3f}", t)
-                                : fmt::format("{:.6g}", t));
-    out_.columns.push_back(std::move(column));
+    out_.columns.push_back({plan.from, "t", "s", {cells_, k}});
     out_.start_s = times.first;
     out_.start = times.format == "clock" ? "clock" : "date";
     if (times.format != "ISO 8601" && times.format != "clock" && times.format != "YYYYMMDDhhmmss")
@@ -702,6 +696,19 @@ class Importer {
            .code = "N-IMPORT-MIDNIGHT",
            .message = fmt::format("the clock in '{}' passed midnight", plan.from),
            .help = "a day was added"});
+    time_column_ = k;
+    times_ = std::move(times);
+  }
+
+  void write_times() {
+    const bool epoch = times_.format.ends_with("since 1970");
+    for (std::size_t i = 0; i < times_.seconds.size(); ++i) {
+      const double t = times_.seconds[i];
+      cells_->write_over(i, time_column_,
+                         epoch     ? in_microseconds(t)
+                         : t > 1e5 ? fmt::format("{:.3f}", t)
+                                   : fmt::format("{:.6g}", t));
+    }
   }
 
   static double value_of(const ImportedColumn& column, std::size_t i) {
@@ -753,7 +760,8 @@ class Importer {
   std::shared_ptr<CellTable> cells_;  // those of `rows_`, and of the columns
   const ImportWishes& wishes_;
   std::vector<ColumnContent> contents_;
-  std::size_t date_column_ = 0;
+  std::size_t date_column_ = 0, time_column_ = 0;
+  Timestamps times_;
   bool joined_date_ = false;
   std::vector<std::size_t> used_;  // columns that became part of another
   std::optional<PoseMatrix> matrix_;

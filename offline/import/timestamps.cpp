@@ -332,8 +332,7 @@ bool may_be_date(double number) {
   return (number > kFirstDay && number < kLastDay) || number > kFirstEpoch_s;
 }
 
-Timestamps read_timestamps(const std::vector<std::string_view>& cells, char decimal,
-                           DateOrder order) {
+Timestamps read_timestamps(const CellColumn& cells, char decimal, DateOrder order) {
   Timestamps out;
   Readings readings;
   for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "import/cell_column.hpp"
 
 namespace plumb::offline {
 
@@ -26,7 +27,7 @@ struct Timestamps {
 /// thousandths, millionths and billionths of them, and clocks without a date. One column, one
 /// format. Whether day or month comes first is what `order` says, else the numbers beyond 12 of the
 /// whole column tell; with points the day comes first.
-Timestamps read_timestamps(const std::vector<std::string_view>& cells, char decimal,
+Timestamps read_timestamps(const CellColumn& cells, char decimal,
                            DateOrder order = DateOrder::kUnknown);
 
 /// True if plain numbers up to this one may be such a stamp; else they count seconds or

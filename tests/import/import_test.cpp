@@ -280,7 +280,7 @@ TEST(Euler, EveryOrderIsTheProductOfItsTurns) {
 
 TEST(Timestamps, EveryFormatCountsTheSameSeconds) {
   const auto seconds = [](std::vector<std::string_view> cells) {
-    return read_timestamps(cells, ',').seconds;
+    return tests::timestamps_in(cells, ',').seconds;
   };
   const std::vector<double> expected{0.0, 20.0, 86420.0};
   EXPECT_EQ(seconds({"20200228163904", "20200228163924", "20200229163924"}), expected);
@@ -290,16 +290,17 @@ TEST(Timestamps, EveryFormatCountsTheSameSeconds) {
             expected);
   const auto days = seconds({"43889,5", "43889,75", "43890,5"});
   EXPECT_NEAR(days[1], 21600.0, 1e-3);
-  const Timestamps clock = read_timestamps({"23:59:50", "00:00:10,5"}, ',');
+  const Timestamps clock = tests::timestamps_in({"23:59:50", "00:00:10,5"}, ',');
   EXPECT_TRUE(clock.wrapped);
   EXPECT_NEAR(clock.seconds[1], 20.5, 1e-9);
 }
 
 TEST(Timestamps, WhatASpreadsheetDestroyedIsNamed) {
-  EXPECT_NE(read_timestamps({"2,02011E+13", "2,02011E+13"}, ',').damage.find("rounded"),
+  EXPECT_NE(tests::timestamps_in({"2,02011E+13", "2,02011E+13"}, ',').damage.find("rounded"),
             std::string::npos);
-  EXPECT_NE(read_timestamps({"12:34,5", "12:40,1"}, ',').damage.find("hours"), std::string::npos);
-  EXPECT_NE(read_timestamps({"2020-02-28 16:39:04", "43889,5"}, ',').damage.find("changes"),
+  EXPECT_NE(tests::timestamps_in({"12:34,5", "12:40,1"}, ',').damage.find("hours"),
+            std::string::npos);
+  EXPECT_NE(tests::timestamps_in({"2020-02-28 16:39:04", "43889,5"}, ',').damage.find("changes"),
             std::string::npos);
 }
 

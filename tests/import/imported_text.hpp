@@ -8,6 +8,7 @@
 #include "cell/table.hpp"
 #include "import/imported_csv.hpp"
 #include "import/importer.hpp"
+#include "import/timestamps.hpp"
 #include "tests/import/temporary_file.hpp"
 
 namespace plumb::tests {
@@ -30,6 +31,13 @@ inline Problem refusal_of(const std::string& bytes, const offline::ImportWishes&
 
 inline std::vector<std::string> texts_of(const offline::ImportedColumn& column) {
   return {column.text.begin(), column.text.end()};
+}
+
+inline offline::Timestamps timestamps_in(const std::vector<std::string_view>& cells, char decimal,
+                                         offline::DateOrder order = offline::DateOrder::kUnknown) {
+  offline::CellColumn column;
+  for (const auto cell : cells) column.add(cell);
+  return offline::read_timestamps(column, decimal, order);
 }
 
 /// measurements.csv as plumb reads it.

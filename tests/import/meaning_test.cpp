@@ -371,7 +371,7 @@ TEST(Timestamps, DatesOfManyCountriesCountTheSameSeconds) {
       {"20. Okt. 2022 16:57", "20. Okt. 2022 16:58", "21. Okt. 2022 16:58"},
       {"Oct 20, 2022 16:57", "Oct 20, 2022 16:58", "Oct 21, 2022 16:58"}};
   for (const auto& cells : kSame) {
-    const Timestamps times = read_timestamps(cells, ',');
+    const Timestamps times = tests::timestamps_in(cells, ',');
     ASSERT_EQ(times.seconds.size(), 3U) << cells[0] << ": " << times.damage;
     for (std::size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(times.seconds[i], expected[i], 1e-6) << cells[0];
@@ -379,22 +379,23 @@ TEST(Timestamps, DatesOfManyCountriesCountTheSameSeconds) {
 }
 
 TEST(Timestamps, DayAndMonthAreToldByTheWholeColumnOrAskedFor) {
-  const Timestamps told = read_timestamps({"03/04/2022 16:57", "03/13/2022 16:57"}, '.');
+  const Timestamps told = tests::timestamps_in({"03/04/2022 16:57", "03/13/2022 16:57"}, '.');
   EXPECT_EQ(told.format, "MM/DD/YYYY hh:mm");
   EXPECT_NEAR(told.seconds[1], 9 * 86400.0, 1e-6);
   const std::vector<std::string_view> open{"03/04/2022 16:57", "04/04/2022 16:57"};
-  EXPECT_TRUE(read_timestamps(open, '.').undecided);
-  EXPECT_NEAR(read_timestamps(open, '.', DateOrder::kDayFirst).seconds[1], 86400.0, 1e-6);
-  EXPECT_NEAR(read_timestamps(open, '.', DateOrder::kMonthFirst).seconds[1], 31 * 86400.0, 1e-6);
-  EXPECT_FALSE(read_timestamps({"03/04/2022 16:57", "03/04/2022 16:58"}, '.').undecided);
-  EXPECT_FALSE(read_timestamps({"13/01/2022 16:57", "01/13/2022 16:58"}, '.').damage.empty());
+  EXPECT_TRUE(tests::timestamps_in(open, '.').undecided);
+  EXPECT_NEAR(tests::timestamps_in(open, '.', DateOrder::kDayFirst).seconds[1], 86400.0, 1e-6);
+  EXPECT_NEAR(tests::timestamps_in(open, '.', DateOrder::kMonthFirst).seconds[1], 31 * 86400.0,
+              1e-6);
+  EXPECT_FALSE(tests::timestamps_in({"03/04/2022 16:57", "03/04/2022 16:58"}, '.').undecided);
+  EXPECT_FALSE(tests::timestamps_in({"13/01/2022 16:57", "01/13/2022 16:58"}, '.').damage.empty());
 }
 
 TEST(Timestamps, NonsenseIsNeverATime) {
   for (const char* cell : {"32.10.2022 16:57", "20.13.2022 16:57", "20.10.2022 25:57",
                            "20.10.2022 16:61", "20.10.2022", "10/20/2022 13:57 PM", "20 10 2022",
                            "2022-02-30 16:57", "20.10.2022 16:57 x", ""})
-    EXPECT_TRUE(read_timestamps({cell, cell}, '.').seconds.empty()) << cell;
+    EXPECT_TRUE(tests::timestamps_in({cell, cell}, '.').seconds.empty()) << cell;
 }
 
 }  // namespace
