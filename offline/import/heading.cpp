@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/heading.hpp"
 
+#include <fmt/format.h>
+
 #include <regex>
 
 #include "import/unit_words.hpp"
@@ -31,6 +33,11 @@ WrittenHeading read_heading(const std::string& text) {
   if (!known.unit.empty()) return {known.name, known.unit, ""};
   const Split other = split_unit(text, unit_of_others);
   return {other.name, "", other.unit};
+}
+
+std::string in_short(const std::vector<std::string>& names) {
+  if (names.size() <= 4) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}, {}, ... {}", names[0], names[1], names.back());
 }
 
 }  // namespace plumb::offline

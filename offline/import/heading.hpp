@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace plumb::offline {
 
@@ -17,5 +18,8 @@ struct WrittenHeading {
 
 /// The one reader of headings, of measurements and of tables of an arm.
 WrittenHeading read_heading(const std::string& text);
+
+/// "X, Y, Z"; of more than four the first two and the last.
+std::string in_short(const std::vector<std::string>& names);
 
 }  // namespace plumb::offline

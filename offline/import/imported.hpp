@@ -20,6 +20,9 @@ struct ImportedColumn {
   std::string heading() const { return unit.empty() ? name : name + "_" + unit; }
 };
 
+/// Its numbers in SI; as they are if they have no unit.
+std::vector<double> si_values(const ImportedColumn& column);
+
 /// A column of numbers that is not used.
 struct UnusedColumn {
   std::string from;

@@ -17,9 +17,13 @@
 #include "import/heading.hpp"
 #include "import/map_option.hpp"
 #include "import/number_text.hpp"
+#include "import/plan_remarks.hpp"
+#include "import/planned_units.hpp"
 #include "import/pose_matrix.hpp"
+#include "import/radians.hpp"
 #include "import/timestamps.hpp"
 #include "import/transposed.hpp"
+#include "import/unit_questions.hpp"
 #include "import/words.hpp"
 #include "program/file.hpp"
 #include "program/problem_list.hpp"
@@ -27,10 +31,6 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kOneTurn = 6.3;      // [rad], rounded up
-constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
-constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
-constexpr int kRowsToJudge = 8;
 constexpr std::size_t kShownLines = 10;
 
 std::string in_words(char sign) {
@@ -80,12 +80,18 @@ class Importer {
     leave_out_empty(plans);
     join_date_and_time(plans);
     join_seconds(plans);
-    take_matrix(plans);
-    take_stated_units(plans);
+    matrix_ = take_matrix(plans, contents_, out_.remarks);
+    if (matrix_) {
+      for (const auto& row : matrix_->at) used_.insert(used_.end(), row.begin(), row.end() - 1);
+      used_.insert(used_.end(), matrix_->last_row.begin(), matrix_->last_row.end());
+    }
+    take_stated_units(rows_.stated, text_.file, plans, out_.remarks);
     look_at_units(plans);
-    say_of_uncertainties(plans);
-    say_of_sliding(plans);
-    const auto orientation = matrix_ ? orientation_of(*matrix_) : std::vector<ImportedColumn>{};
+    say_of_uncertainties(plans, out_.remarks);
+    say_of_sliding(plans, out_.remarks);
+    const auto orientation = matrix_ && matrix_->turns
+                                 ? orientation_of(*matrix_, *cells_, rows_.dialect.decimal)
+                                 : std::vector<ImportedColumn>{};
     for (std::size_t k = 0; k < plans.size(); ++k) {
       if (plans[k].name.empty())
         leave_out(plans[k], k);
@@ -101,8 +107,8 @@ class Importer {
       if (holds_numbers(plans[k])) write_plainly(plans[k], k);
     write_times();
     say_of_thousands();
-    say_of_radians(plans);
-    turn_to_quaternions();
+    say_of_radians(plans, contents_, out_);
+    turn_to_quaternions(wishes_.rotation, out_);
     out_.columns.insert(out_.columns.end(), orientation.begin(), orientation.end());
     say_what_was_left_out();
     return std::move(out_);
@@ -218,49 +224,6 @@ class Importer {
     }
   }
 
-  /// A homogeneous matrix in every row is a position and an orientation.
-  void take_matrix(std::vector<ColumnPlan>& plans) {
-    const auto is_taken = [&](const char* name) {
-      return std::any_of(plans.begin(), plans.end(),
-                         [&](const ColumnPlan& plan) { return plan.name == name; });
-    };
-    if (is_taken("x") || is_taken("y") || is_taken("z")) return;
-    matrix_ = matrix_in(plans, contents_);
-    if (!matrix_) return;
-    for (int i = 0; i < 3; ++i) {
-      ColumnPlan& plan = plans[matrix_->at[i][3]];
-      const WrittenHeading heading = read_heading(plan.from);
-      plan.name = std::string(1, "xyz"[i]);
-      plan.unit = heading.unit;
-      plan.foreign = heading.foreign;
-      plan.lacks_unit = plan.unit.empty() && plan.foreign.empty();
-      for (int k = 0; k < 3; ++k) used_.push_back(matrix_->at[i][k]);
-    }
-    used_.insert(used_.end(), matrix_->last_row.begin(), matrix_->last_row.end());
-    out_.remarks.push_back(
-        {.severity = Severity::kNote,
-         .code = "N-IMPORT-MATRIX",
-         .message = fmt::format("{} to {} are a position and an orientation, as a matrix: taken as "
-                                "those measured",
-                                plans[matrix_->at[0][0]].from, plans[matrix_->at[2][3]].from),
-         .help = "if the controller computed them, name the position nx, ny, nz with --map"});
-    if (is_taken("qw")) matrix_.reset();
-  }
-
-  std::vector<ImportedColumn> orientation_of(const PoseMatrix& matrix) const {
-    const char decimal = rows_.dialect.decimal;
-    std::vector<ImportedColumn> quat;
-    for (const char* name : {"qw", "qx", "qy", "qz"}) quat.push_back({"", name, "", {}});
-    for (std::size_t row = 0; row < cells_->size(); ++row) {
-      std::array<double, 9> r{};
-      for (int i = 0; i < 9; ++i)
-        r[i] = number_in((*cells_)[row][matrix.at[i / 3][i % 3]], decimal).value_or(NAN);
-      const auto q = quaternion_of(r);
-      for (std::size_t k = 0; k < 4; ++k) quat[k].text.add(fmt::format("{:.9g}", q[k]));
-    }
-    return quat;
-  }
-
   /// "+" and what stands before one of the words, as `folded` returns it; empty if none ends it.
   static std::string stem_of(const std::string& from, std::initializer_list<const char*> words) {
     const std::string text = folded(from);
@@ -307,45 +270,17 @@ class Importer {
     return out;
   }
 
-  /// Columns that say no unit have the one that a line above the table states.
-  void take_stated_units(std::vector<ColumnPlan>& plans) {
-    std::vector<std::string> lengths, angles;
-    for (auto& plan : plans) {
-      if (!plan.lacks_unit) continue;
-      const auto allowed = allowed_quantities(plan.name);
-      const StatedUnits& stated = rows_.stated;
-      const bool angle = allowed.front() == Quantity::kAngle;
-      const bool length = allowed.front() == Quantity::kLength;
-      const std::string unit = angle ? stated.angle : length ? stated.length : "";
-      if (unit.empty()) continue;
-      plan.unit = unit;
-      plan.lacks_unit = false;
-      (angle ? angles : lengths).push_back(plan.from);
-    }
-    const auto say = [&](const std::vector<std::string>& columns, const std::string& unit,
-                         int line) {
-      if (columns.empty()) return;
-      out_.remarks.push_back(
-          {.severity = Severity::kNote,
-           .code = "N-IMPORT-STATED",
-           .message = fmt::format("{}: in {}, as line {} says", in_short(columns), unit, line),
-           .place = Place{.file = text_.file, .line = line},
-           .help = "--map says otherwise"});
-    };
-    say(angles, rows_.stated.angle, rows_.stated.angle_line);
-    say(lengths, rows_.stated.length, rows_.stated.length_line);
-  }
-
   /// A recognised column must state a unit that plumb knows; a preview only warns.
   void look_at_units(std::vector<ColumnPlan>& plans) {
     for (std::size_t k = 0; k < plans.size(); ++k)
       if (plans[k].name == "time" && !joined_date_) look_at_time(plans[k], k);
+    const UnitQuestions questions(text_, rows_.dialect, contents_, wishes_.preview);
     std::vector<std::size_t> unitless;
     for (std::size_t k = 0; k < plans.size(); ++k) {
       if (plans[k].lacks_unit) unitless.push_back(k);
-      if (!plans[k].foreign.empty()) complain(of_another_unit(plans[k]));
+      if (!plans[k].foreign.empty()) complain(questions.of_another_unit(plans[k]));
     }
-    if (!unitless.empty()) complain(without_unit(plans, unitless));
+    if (!unitless.empty()) complain(questions.without_unit(plans, unitless));
     for (auto& plan : plans)
       if (plan.lacks_unit || !plan.foreign.empty()) plan.unit = "?";
   }
@@ -355,210 +290,6 @@ class Importer {
       out_.remarks.push_back(problem);
     else
       problems_.add(problem);
-  }
-
-  /// Columns of one kind have one unit: q1 to q6, x to z.
-  static std::string kind_of(const std::string& name) {
-    if (joint_number(name, "q") > 0) return "q";
-    if (joint_number(name, "qc") > 0) return "qc";
-    if (joint_number(name, "travel_j") > 0) return "travel";
-    const bool axis = !name.empty() && name.back() >= 'x' && name.back() <= 'z';
-    return axis ? name.substr(0, name.size() - 1) + "x" : name;
-  }
-
-  /// What to offer for the columns of one kind, and why.
-  UnitChoice choice_for(const std::vector<ColumnPlan>& plans, std::size_t k) const {
-    const std::string kind = kind_of(plans[k].name);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < plans.size(); ++i) {
-      if (plans[i].name.empty() || kind_of(plans[i].name) != kind) continue;
-      if (plans[i].lacks_unit)
-        largest = std::max(largest, contents_[i].largest);
-      else if (plans[i].foreign.empty() && kind != plans[i].name)
-        return {{plans[i].unit}, fmt::format("{}, like '{}'", plans[i].unit, plans[i].from)};
-    }
-    return unit_choice(plans[k].name, largest);
-  }
-
-  /// One sentence and one line to paste for all columns that do not say their unit.
-  Problem without_unit(const std::vector<ColumnPlan>& plans,
-                       const std::vector<std::size_t>& unitless) const {
-    std::vector<std::pair<std::string, std::vector<std::string>>> kinds;  // reason -> columns
-    std::vector<std::string> names, wishes;
-    bool choose = false;
-    for (const std::size_t k : unitless) {
-      const UnitChoice choice = choice_for(plans, k);
-      choose = choose || choice.units.size() > 1;
-      names.push_back(plans[k].from);
-      wishes.push_back(fmt::format("{}={}_{}", plans[k].from, map_name(plans[k]), choice.text()));
-      if (kinds.empty() || kinds.back().first != choice.reason)
-        kinds.push_back({choice.reason, {}});
-      kinds.back().second.push_back(plans[k].from);
-    }
-    std::vector<std::string> reasons;
-    for (const auto& [reason, columns] : kinds)
-      reasons.push_back(fmt::format("{} ({})", in_short(columns), reason));
-    const ColumnPlan& first = plans[unitless.front()];
-    Problem out =
-        of_unit(first,
-                unitless.size() == 1
-                    ? fmt::format("column '{}' has no unit", first.from)
-                    : fmt::format("{} columns have no unit: {}", unitless.size(), in_short(names)),
-                unitless.size() == 1 ? fmt::format("taken as '{}'; {}", first.name,
-                                                   choice_for(plans, unitless.front()).reason)
-                                     : fmt::format("{}", fmt::join(reasons, "; ")),
-                map_option(wishes));
-    if (choose) out.help += "  (keep one of the units that | divides)";
-    return out;
-  }
-
-  /// The name of the column in a proposed --map. An expanded uncertainty is named as one, so that
-  /// pasting the proposal changes no number.
-  static std::string map_name(const ColumnPlan& plan) {
-    return plan.divisor != 1.0 ? "u95" + plan.name.substr(1) : plan.name;
-  }
-
-  static std::string in_short(const std::vector<std::string>& names) {
-    if (names.size() <= 4) return fmt::format("{}", fmt::join(names, ", "));
-    return fmt::format("{}, {}, ... {}", names[0], names[1], names.back());
-  }
-
-  Problem of_another_unit(const ColumnPlan& plan) const {
-    const ForeignUnit& unit = *foreign_unit(plan.foreign);
-    return of_unit(plan,
-                   fmt::format("column '{}' is in {}, which is none of plumb's units", plan.from,
-                               plan.foreign),
-                   std::string(unit.equals),
-                   fmt::format("convert the numbers and name the column {}_{}, or leave it out: {}",
-                               plan.name, unit.use, map_option({plan.from + "=-"})));
-  }
-
-  /// Reports the uncertainties that were divided to make them one standard deviation, and those
-  /// that were left out because the divisor or the axis is not known.
-  void say_of_uncertainties(const std::vector<ColumnPlan>& plans) {
-    std::vector<std::string> divided, as_they_are, unclear, wishes;
-    bool unit_known = false;
-    std::string said;
-    double divisor = 1.0;
-    for (const auto& plan : plans) {
-      if (plan.divisor != 1.0) {
-        divided.push_back(plan.from), said = plan.said, divisor = plan.divisor;
-        as_they_are.push_back(fmt::format("{}={}_{}", plan.from, plan.name, unit_in_wish(plan)));
-      }
-      if (!plan.named.uncertain || plan.wished) continue;
-      unclear.push_back(plan.from);
-      if (wishes.empty()) unit_known = !plan.uncertain_unit.empty();
-      wishes.push_back(plan.uncertain_unit.empty() ? "um" : plan.uncertain_unit);
-    }
-    if (!divided.empty())
-      out_.remarks.push_back(
-          {.severity = Severity::kNote,
-           .code = "N-IMPORT-EXPANDED",
-           .message = fmt::format("{} hold expanded uncertainties ({}): divided by {:g} they are "
-                                  "one standard deviation",
-                                  in_short(divided), said, divisor),
-           .help = "if they already are one: " + map_option(as_they_are)});
-    if (!unclear.empty())
-      out_.remarks.push_back(
-          {.severity = Severity::kWarning,
-           .code = "W-IMPORT-UNCERTAINTY",
-           .message =
-               fmt::format("{} left out: nothing says of which axis, or of how many standard "
-                           "deviations, these uncertainties are",
-                           in_short(unclear)),
-           .help =
-               fmt::format("{} if one, or u95x_{} if two (k = 2, 95 %){}",
-                           map_option({unclear.front() + "=sx_" + wishes.front()}), wishes.front(),
-                           unit_known ? "" : "; mm in place of um if that is the unit")});
-  }
-
-  /// Millimetres are right for a sliding joint only. Whether the joint slides is known to the cell
-  /// file alone, so this is a note.
-  void say_of_sliding(const std::vector<ColumnPlan>& plans) {
-    for (const auto& plan : plans) {
-      const auto unit = unit_of(plan.unit);
-      if (!plan.wished || joint_number(plan.name, "q") == 0 || !unit ||
-          unit->quantity != Quantity::kLength)
-        continue;
-      out_.remarks.push_back(
-          {.severity = Severity::kNote,
-           .code = "N-IMPORT-SLIDE",
-           .message = fmt::format("{} is taken in {}: that is right for a sliding joint only",
-                                  plan.name, plan.unit),
-           .help = "if it turns: " + map_option({fmt::format("{}={}_deg", plan.from, plan.name)})});
-    }
-  }
-
-  /// Largest minus smallest number of a column, in SI; 0 if it is not there.
-  double span_of(const std::string& name) const {
-    const ImportedColumn* column = out_.find(name);
-    if (column == nullptr || column->text.empty() || !unit_of(column->unit)) return 0.0;
-    double low = value_of(*column, 0), high = low;
-    for (std::size_t i = 1; i < column->text.size(); ++i) {
-      low = std::min(low, value_of(*column, i));
-      high = std::max(high, value_of(*column, i));
-    }
-    return high - low;
-  }
-
-  /// Warns of joint columns in degrees that probably hold radians: no number is larger than one
-  /// turn in radians, and the points moved much farther than such small angles could move them.
-  /// Nothing is converted.
-  void say_of_radians(const std::vector<ColumnPlan>& plans) {
-    std::vector<std::string> names, wishes;
-    double largest = 0.0, turned = 0.0;
-    for (std::size_t k = 0; k < plans.size(); ++k) {
-      if (joint_number(plans[k].name, "q") == 0 || plans[k].unit != "deg" || plans[k].wished)
-        continue;
-      names.push_back(plans[k].from);
-      wishes.push_back(fmt::format("{}={}_rad", plans[k].from, plans[k].name));
-      largest = std::max(largest, contents_[k].largest);
-      turned += span_of(plans[k].name);
-    }
-    const double moved = std::hypot(span_of("x"), span_of("y"), span_of("z"));
-    if (names.empty() || out_.rows() < kRowsToJudge || largest > kOneTurn || moved < kLeastMove_m ||
-        moved < turned * kLongLever_m)
-      return;
-    out_.remarks.push_back(
-        {.severity = Severity::kWarning,
-         .code = "W-IMPORT-RADIANS",
-         .message = fmt::format("{} say deg, but no number is beyond {:.3g}: all joints together "
-                                "turn by {:.2g} deg and the points move by {:.2g} m, which fits "
-                                "radians",
-                                in_short(names), largest, turned * 180.0 / M_PI, moved),
-         .help = "if they are radians: " + map_option(wishes)});
-  }
-
-  /// The unit of the column, or the usual one of uncertainties.
-  static std::string unit_in_wish(const ColumnPlan& plan) {
-    return plan.unit.empty() || plan.unit == "?" ? "um" : plan.unit;
-  }
-
-  /// The position of a name as a whole word: 'x' is not found at the end of "index".
-  static std::size_t place_of(const std::string& line, const std::string& name) {
-    const auto part_of_word = [&](std::size_t at) {
-      return at < line.size() && std::isalnum(static_cast<unsigned char>(line[at])) != 0;
-    };
-    for (auto at = line.find(name); at != line.npos; at = line.find(name, at + 1))
-      if ((at == 0 || !part_of_word(at - 1)) && !part_of_word(at + name.size())) return at;
-    return line.find(name);
-  }
-
-  Problem of_unit(const ColumnPlan& plan, std::string message, std::string label,
-                  std::string help) const {
-    const int line = std::max(rows_.dialect.header_line, 1);
-    const std::string source(text_.lines[line - 1]);
-    const auto column = std::min(place_of(source, plan.from), source.size());
-    return {.severity = wishes_.preview ? Severity::kWarning : Severity::kError,
-            .code = wishes_.preview ? "W-IMPORT-UNIT" : "E-IMPORT-UNIT",
-            .message = std::move(message),
-            .place = Place{.file = text_.file,
-                           .line = line,
-                           .column = static_cast<int>(column) + 1,
-                           .length = static_cast<int>(plan.from.size()),
-                           .source = source,
-                           .label = std::move(label)},
-            .help = std::move(help)};
   }
 
   void add_texts(const ColumnPlan& plan, std::size_t k) {
@@ -709,41 +440,6 @@ class Importer {
                          : t > 1e5 ? fmt::format("{:.3f}", t)
                                    : fmt::format("{:.6g}", t));
     }
-  }
-
-  static double value_of(const ImportedColumn& column, std::size_t i) {
-    double value = 0.0;
-    const auto text = column.text[i];
-    std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), text.data() + text.size(),
-                    value);
-    return unit_of(column.unit)->to_si(value);
-  }
-
-  /// rx, ry, rz mean nothing without the order of the turns.
-  void turn_to_quaternions() {
-    std::array<const ImportedColumn*, 3> turns{out_.find("rx"), out_.find("ry"), out_.find("rz")};
-    if (turns[0] == nullptr || turns[1] == nullptr || turns[2] == nullptr) return;
-    if (turns[0]->unit == "?") return;
-    std::vector<ImportedColumn> quat;
-    if (wishes_.rotation.empty()) {
-      out_.remarks.push_back(
-          {.severity = Severity::kNote,
-           .code = "N-IMPORT-ROT",
-           .message = "rx, ry, rz were left out: the order of the turns is not known",
-           .help = "--rot xyz-fixed if R = Rz Ry Rx, --rot xyz-moving if R = Rx Ry Rz"});
-    } else {
-      const EulerConvention convention = euler_convention(wishes_.rotation);
-      for (const char* name : {"qw", "qx", "qy", "qz"}) quat.push_back({"", name, "", {}});
-      for (std::size_t i = 0; i < cells_->size(); ++i) {
-        const auto q = quaternion(
-            convention, {value_of(*turns[0], i), value_of(*turns[1], i), value_of(*turns[2], i)});
-        for (std::size_t k = 0; k < 4; ++k) quat[k].text.add(fmt::format("{:.12g}", q[k]));
-      }
-    }
-    std::erase_if(out_.columns, [](const ImportedColumn& c) {
-      return c.name == "rx" || c.name == "ry" || c.name == "rz";
-    });
-    for (auto& column : quat) out_.columns.push_back(std::move(column));
   }
 
   void say_what_was_left_out() {

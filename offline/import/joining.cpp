@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -29,17 +28,6 @@ constexpr int kFewPairs = 8;
                                .message = std::move(message),
                                .place = Place{.file = file.file, .line = 1},
                                .help = std::move(help)});
-}
-
-std::vector<double> si_values(const ImportedColumn& column) {
-  const auto unit = unit_of(column.unit);
-  std::vector<double> out;
-  for (const auto text : column.text) {
-    double value = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    out.push_back(unit ? unit->to_si(value) : value);
-  }
-  return out;
 }
 
 using Names = std::vector<std::string>;

@@ -28,7 +28,7 @@ bool is_key(char c) {
 
 std::string_view without(std::string_view text, std::string_view signs) {
   const auto first = text.find_first_not_of(signs);
-  if (first == text.npos) return {};
+  if (first == text.npos) return text.substr(text.size());
   return text.substr(first, text.find_last_not_of(signs) - first + 1);
 }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/pose_matrix.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cctype>
 #include <map>
 
 #include "import/heading.hpp"
+#include "import/number_text.hpp"
 #include "import/words.hpp"
 
 namespace plumb::offline {
@@ -63,8 +67,17 @@ bool holds_rotations(const PoseMatrix& matrix, const std::vector<ColumnContent>&
   return true;
 }
 
-}  // namespace
+/// Unit quaternion (w, x, y, z), w >= 0, of a rotation matrix, row by row.
+std::array<double, 4> quaternion_of(const std::array<double, 9>& rotation) {
+  const Eigen::Map<const Matrix3> R(rotation.data());
+  Eigen::Quaterniond q{Eigen::Matrix3d(R)};
+  q.normalize();
+  const double sign = q.w() < 0 ? -1.0 : 1.0;
+  return {sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()};
+}
 
+/// Columns T00 to T33, or T11 to T44, "m_0_3", "R[1][4]", whose numbers are a rotation and a
+/// position in every row; nothing if there are none, or several.
 std::optional<PoseMatrix> matrix_in(const std::vector<ColumnPlan>& plans,
                                     const std::vector<ColumnContent>& contents) {
   std::optional<PoseMatrix> out;
@@ -77,12 +90,49 @@ std::optional<PoseMatrix> matrix_in(const std::vector<ColumnPlan>& plans,
   return out;
 }
 
-std::array<double, 4> quaternion_of(const std::array<double, 9>& rotation) {
-  const Eigen::Map<const Matrix3> R(rotation.data());
-  Eigen::Quaterniond q{Eigen::Matrix3d(R)};
-  q.normalize();
-  const double sign = q.w() < 0 ? -1.0 : 1.0;
-  return {sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()};
+}  // namespace
+
+std::optional<PoseMatrix> take_matrix(std::vector<ColumnPlan>& plans,
+                                      const std::vector<ColumnContent>& contents,
+                                      std::vector<Problem>& remarks) {
+  const auto is_taken = [&](const char* name) {
+    return std::any_of(plans.begin(), plans.end(),
+                       [&](const ColumnPlan& plan) { return plan.name == name; });
+  };
+  if (is_taken("x") || is_taken("y") || is_taken("z")) return std::nullopt;
+  auto matrix = matrix_in(plans, contents);
+  if (!matrix) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    ColumnPlan& plan = plans[matrix->at[i][3]];
+    const WrittenHeading heading = read_heading(plan.from);
+    plan.name = std::string(1, "xyz"[i]);
+    plan.unit = heading.unit;
+    plan.foreign = heading.foreign;
+    plan.lacks_unit = plan.unit.empty() && plan.foreign.empty();
+  }
+  remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-IMPORT-MATRIX",
+       .message = fmt::format("{} to {} are a position and an orientation, as a matrix: taken as "
+                              "those measured",
+                              plans[matrix->at[0][0]].from, plans[matrix->at[2][3]].from),
+       .help = "if the controller computed them, name the position nx, ny, nz with --map"});
+  matrix->turns = !is_taken("qw");
+  return matrix;
+}
+
+std::vector<ImportedColumn> orientation_of(const PoseMatrix& matrix, const CellTable& cells,
+                                           char decimal) {
+  std::vector<ImportedColumn> quat;
+  for (const char* name : {"qw", "qx", "qy", "qz"}) quat.push_back({"", name, "", {}});
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    std::array<double, 9> r{};
+    for (int i = 0; i < 9; ++i)
+      r[i] = number_in(cells[row][matrix.at[i / 3][i % 3]], decimal).value_or(NAN);
+    const auto q = quaternion_of(r);
+    for (std::size_t k = 0; k < 4; ++k) quat[k].text.add(fmt::format("{:.9g}", q[k]));
+  }
+  return quat;
 }
 
 }  // namespace plumb::offline

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "import/column_guess.hpp"
+#include "import/imported.hpp"
 
 namespace plumb::offline {
 
@@ -13,14 +14,17 @@ namespace plumb::offline {
 struct PoseMatrix {
   std::array<std::array<std::size_t, 4>, 3> at{};
   std::vector<std::size_t> last_row;
+  bool turns = true;  // no other column tells the orientation
 };
 
 /// Columns T00 to T33, or T11 to T44, "m_0_3", "R[1][4]", whose numbers are a rotation and a
-/// position in every row; nothing if there are none, or several.
-std::optional<PoseMatrix> matrix_in(const std::vector<ColumnPlan>& plans,
-                                    const std::vector<ColumnContent>& contents);
+/// position in every row: if nothing else is x, y or z, the position is (N-IMPORT-MATRIX).
+std::optional<PoseMatrix> take_matrix(std::vector<ColumnPlan>& plans,
+                                      const std::vector<ColumnContent>& contents,
+                                      std::vector<Problem>& remarks);
 
-/// Unit quaternion (w, x, y, z), w >= 0, of a rotation matrix, row by row.
-std::array<double, 4> quaternion_of(const std::array<double, 9>& rotation);
+/// Columns qw, qx, qy, qz of the rotations.
+std::vector<ImportedColumn> orientation_of(const PoseMatrix& matrix, const CellTable& cells,
+                                           char decimal);
 
 }  // namespace plumb::offline
