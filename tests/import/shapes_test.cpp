@@ -80,6 +80,12 @@ TEST(KeyValues, TheNamesBecomeColumns) {
             "E-IMPORT-RAGGED");
 }
 
+TEST(KeyValues, AMissingNumberIsShownInItsPlace) {
+  const Problem refused = refusal_of("x_mm=1 y_mm=2 z_mm=3\nx_mm=1 y_mm= z_mm=3\n");
+  EXPECT_EQ(refused.code, "E-IMPORT-NUMBER");
+  EXPECT_EQ(refused.place->column, 14);
+}
+
 std::string states(bool header) {
   std::string out = header ? "%time,field.header.seq,field.header.stamp,field.header.frame_id" : "";
   const char* names[] = {"elbow_joint",   "shoulder_lift_joint", "shoulder_pan_joint",
