@@ -142,9 +142,8 @@ constexpr auto kCodes = std::to_array<CodeHelp>({
      "and set sigma_um in cell.toml."},
     {"E-CSV-TEXT",
      "The column holds texts, and plumb reads texts only of pose, set, note, time and setup. "
-     "Remove "
-     "it, or give it the name 'note': such a column is passed through and not read. plumb import "
-     "leaves such columns out."},
+     "Remove it, or give it the name 'note': such a column is passed through and not read. plumb "
+     "import leaves such columns out."},
     {"E-CSV-TIME",
      "The column 'time' holds dates and times of ISO 8601, 2026-03-01T12:30:00 for example, with a "
      "zone or without. Give seconds in a column t_s instead if there is no date."},

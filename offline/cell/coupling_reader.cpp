@@ -17,6 +17,8 @@ class CouplingReader {
   CouplingReader(TomlTable& robot, CellDraft& draft) : t_(robot), draft_(draft) {}
 
   void read() {
+    if (has_sections())
+      return t_.out_of_range("coupling", "one list, which check --fix can edit: " + kExample);
     for (auto& entry : t_.tables("coupling")) {
       one(entry);
       entry.done();
@@ -30,6 +32,15 @@ class CouplingReader {
   std::vector<format::JointCoupling>& couplings() { return draft_.cell.nominal.coupling; }
   const format::JointRow& row(int joint) const {
     return draft_.cell.nominal.joints[static_cast<std::size_t>(joint)];
+  }
+
+  /// [[robot.coupling]]
+  bool has_sections() {
+    const toml::node* list = t_.node("coupling");
+    const toml::array* entries = list == nullptr ? nullptr : list->as_array();
+    const toml::table* first =
+        entries == nullptr || entries->empty() ? nullptr : entries->front().as_table();
+    return first != nullptr && !first->is_inline();
   }
 
   void one(TomlTable& entry) {
@@ -59,10 +70,9 @@ class CouplingReader {
     return joint;
   }
 
-  static constexpr const char* kExample =
-      "coupling = [{ joint = \"J3\", of = \"J2\", share = 1 }]: the value of J3 is its own angle "
-      "and "
-      "1 times the value of J2";
+  inline static const std::string kExample =
+      "coupling = [{ joint = \"J3\", of = \"J2\", share = 1 }], where the value of J3 is its own "
+      "angle and 1 times the value of J2";
 
   TomlTable& t_;
   CellDraft& draft_;

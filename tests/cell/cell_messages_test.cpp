@@ -242,6 +242,10 @@ TEST(CellMessage, OfCouplingsThatNoControllerHas) {
             Summary{"E-CELL-RANGE 4:10"});
   EXPECT_EQ(list(pair("J1", "J1", "1")), Summary{"E-CELL-RANGE 4:10"});
   EXPECT_EQ(coupled("coupling = { \"J2,J1\" = 1 }").size(), 1U);
+  EXPECT_EQ(summary(problems_in("schema = \"cell/1\"\n[robot]\ndh_convention = \"standard\"\n"
+                                "joints = [{ q = [-90, 90] }, { q = [-90, 90] }]\n"
+                                "[[robot.coupling]]\njoint = \"J2\"\nof = \"J1\"\nshare = 1\n")),
+            Summary{"E-CELL-RANGE 5:1"});
 }
 
 TEST(CellMessage, OfConventionsByOtherNames) {

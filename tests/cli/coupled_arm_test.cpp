@@ -164,6 +164,17 @@ std::string number(double value) {
   return out;
 }
 
+/// One row of a table.
+template <class... Lists>
+std::string row_of(const Lists&... lists) {
+  std::string out;
+  const auto add = [&](const auto& list) {
+    for (const double value : list) out += number(value);
+  };
+  (add(lists), ...);
+  return out.substr(1) + "\n";
+}
+
 class CoupledArm : public testing::Test {
  protected:
   static constexpr Point kTarget_mm{60, 40, 130};
@@ -183,10 +194,7 @@ class CoupledArm : public testing::Test {
     box.write("cell/cell.toml", cell);
     std::string readings = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n";
     for (const Joints& q : random_joints(120, 3)) {
-      std::string row;
-      for (const double angle : q) row += number(angle);
-      for (const double x : seen_at(forward(true_arm(), q), kTarget_mm)) row += number(x);
-      readings += row.substr(1) + "\n";
+      readings += row_of(q, seen_at(forward(true_arm(), q), kTarget_mm));
     }
     box.write("cell/measurements.csv", readings);
     const Ran compiled = box.plumb({"-C", "cell", "compile", "-o", "m.plumb"});
@@ -199,11 +207,7 @@ class CoupledArm : public testing::Test {
 TEST_F(CoupledArm, IsPredictedWhereItIs) {
   const auto poses = random_joints(20, 4);
   std::string rows = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
-  for (const Joints& q : poses) {
-    std::string row;
-    for (const double angle : q) row += number(angle);
-    rows += row.substr(1) + "\n";
-  }
+  for (const Joints& q : poses) rows += row_of(q);
   box.write("poses.csv", rows);
   const Ran ran = box.plumb({"predict", "m.plumb", "--data", "poses.csv", "-o", "out.csv"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
@@ -229,11 +233,7 @@ TEST_F(CoupledArm, ReachesItsTargetsWithTheCommandsOfCorrect) {
   for (const Joints& q : poses) {
     const Pose flange = forward(kNominal, q);
     targets.push_back(seen_at(flange, {0, 0, kTool_mm}));
-    std::string row;
-    for (const double v : targets.back()) row += number(v);
-    for (const double v : quaternion(flange.R)) row += number(v);
-    for (const double v : q) row += number(v);
-    rows += row.substr(1) + "\n";
+    rows += row_of(targets.back(), quaternion(flange.R), q);
   }
   box.write("targets.csv", rows);
   const Ran ran = box.plumb({"correct", "m.plumb", "--data", "targets.csv", "-o", "out.csv"});
