@@ -4,6 +4,7 @@
 passed=0
 failed=0
 failures=()  # names of stages that failed, and of tests: said once more at the end
+skipped=()   # for each test that was skipped, why
 
 # stage NAME COMMAND...: runs the command and says how long it took.
 stage() {
@@ -37,6 +38,7 @@ test_preset() {
   ctest --preset "$@" 2>&1 | tee "$log" || true
   line=$(grep -E '% tests passed, [0-9]+ tests? failed out of [0-9]+' "$log" | tail -n 1)
   mapfile -t -O "${#failures[@]}" failures < <(sed -nE 's/^\s*[0-9]+ - (\S+) \(.*/\1/p' "$log")
+  mapfile -t -O "${#skipped[@]}" skipped < <(reasons_of_skips "build/$1/Testing/Temporary/LastTest.log")
   rm -f "$log"
   if [[ -z $line ]]; then
     failed=$((failed + 1))
@@ -47,6 +49,11 @@ test_preset() {
   passed=$((passed + total - bad))
   failed=$((failed + bad))
   [[ $bad == 0 ]]
+}
+
+# reasons_of_skips LOG: for each test that GoogleTest skipped, the words after "FILE:LINE: Skipped".
+reasons_of_skips() {
+  [[ -r $1 ]] && awk 'why { print; why = 0 } /^[^ ]+:[0-9]+: Skipped$/ { why = 1 }' "$1"
 }
 
 # built_and_tested PRESET TARGETS [CTest arguments]: TARGETS, separated by blanks; all if there are none.
@@ -70,6 +77,8 @@ close() {
   local status=$?
   ((status == 0)) || failed=$((failed + 1))
   ((${#failures[@]} == 0)) || printf 'FAILED: %s\n' "${failures[@]}"
+  ((${#skipped[@]} == 0)) || echo "${#skipped[@]} tests skipped:" \
+    "$(printf '%s\n' "${skipped[@]}" | sort | uniq -c | awk '{ n = $1; sub(/^ *[0-9]+ /, ""); printf "%s%d because \"%s\"", sep, n, $0; sep = ", " }')"
   echo "$passed passed, $failed failed"
   ((status == 0)) || exit "$status"
   ((failed == 0 && passed > 0)) || exit 1

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Byte of a place, whose column counts characters.
+/// The byte offset of a position in the text; its column counts characters, not bytes.
 std::size_t offset_of(std::string_view text, const Place& place) {
   std::size_t at = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   for (int line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
@@ -28,7 +28,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// Behind a list or an inline table that begins at `at`.
+/// The byte after the end of the list or inline table that begins at `at`.
 std::size_t end_of_brackets(std::string_view text, std::size_t at) {
   int open = 0;
   while (at < text.size()) {

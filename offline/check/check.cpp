@@ -81,7 +81,7 @@ class Checker {
     out_.findings.push_back({severity, code, std::move(message), std::nullopt, std::move(help)});
   }
 
-  /// Everything else is judged with the orientations that deserve it.
+  /// Judges the orientations first: whatever follows uses only those that were found sound.
   void judge_orientations_of(const Cell& cell, const MeasurementFiles& measured) {
     out_.orientations = check_orientations(cell, measured);
     cell_ = with_orientations_as_judged(cell, out_.orientations.judged);
@@ -91,7 +91,7 @@ class Checker {
     if (auto finding = orientation_finding(out_.orientations)) add({*std::move(finding)});
   }
 
-  /// Problems of cell or data.
+  /// Adds problems of the cell file or the data to the findings; an error decides the exit code.
   void add(std::vector<Problem> more) {
     for (auto& problem : more) {
       if (problem.severity == Severity::kError) blame(Exit::kInput);
@@ -99,7 +99,7 @@ class Checker {
     }
   }
 
-  /// Wrong files weigh more than numbers that say no.
+  /// An exit code for wrong input is never replaced by one for poor results.
   void blame(Exit exit) {
     if (out_.exit != Exit::kInput) out_.exit = exit;
   }
@@ -124,17 +124,17 @@ class Checker {
              "mount the reflector further from the axis, or trust the label");
   }
 
-  /// The convention search holds the arm near nominal, and fit lets it go farther: what fit fits,
-  /// in lengths as they are, is no wrong reading. W-FIT-FAR then says how far from nominal it
-  /// ended.
+  /// Reports an error if no interpretation of the files fits. The convention search keeps the arm
+  /// near nominal and the full fit does not: if the full fit succeeds with the lengths as labelled,
+  /// the interpretation is right, and W-FIT-FAR says how far from nominal the arm is.
   void reading_fits(const Cell& cell, const MeasurementFiles& measured,
                     const std::vector<int>& rows) {
     Detection& d = out_.detection;
     const double most = kFits * d.best.size_m;
     if (!d.why_not.empty() || d.changed || d.best.fitted_m <= most) return;
     gross_scale_ = gross_scale(cell, measured, rows, d);
-    // A wrong unit is a wrong reading although a fit of all lengths absorbs it; any other factor
-    // explains less than lengths that may each differ.
+    // A full fit of all lengths can absorb a wrong unit, which must still be reported. Any other
+    // common factor explains less than lengths that change one by one.
     if (out_.parameters && !(gross_scale_ && gross_scale_->is_unit)) {
       const double left = left_by_fit(measured, rows, out_.parameters->calibration.state);
       if (left <= most) {
@@ -160,7 +160,8 @@ class Checker {
     d.best.fitted_m = d.present.fitted_m = left_m;
   }
 
-  /// The detection looked at one set-up; the files of the others may be meant otherwise.
+  /// The convention was searched for in one set-up only; checks whether the files of the other
+  /// set-ups need the same one.
   void other_setups() {
     if (measured_.setup.empty() || out_.detection.changed) return;
     const int seen = largest_setup(cell_, measured_);
@@ -179,7 +180,7 @@ class Checker {
     }
   }
 
-  /// Everything else, on the files as they are meant.
+  /// All further checks, on the files in the convention that was found.
   void look(const Cell& given, const MeasurementFiles& measured) {
     const std::vector<int> rows = used_rows(measured);
     Cell cell = given;
@@ -224,7 +225,7 @@ class Checker {
     } catch (const Failure& failure) {
       out_.why_no_parameters = failure.problems().front().message;
       for (Problem problem : failure.problems()) {
-        // Whoever reads this has just run it.
+        // The user has just run `plumb check`: advice to run it would not help.
         if (problem.help.find("plumb check") != std::string::npos)
           problem.help =
               out_.detection.changed || problem.code != "E-FIT-CONVERGE"
@@ -267,7 +268,7 @@ class Checker {
            "plumb explain W-CHECK-SEPARATE");
   }
 
-  /// What fit will refuse: poses held out are missing in the fit.
+  /// Finds what `fit` would refuse: without the held-out poses too few may remain to be fitted.
   void split_enough(const MeasurementFiles& measured) {
     if (out_.exit != Exit::kDone) return;
     try {
@@ -289,14 +290,16 @@ class Checker {
     blame(Exit::kNumbersSayNo);
   }
 
-  /// Numbers that one reading gives.
+  /// How many numbers one measurement gives: its measured coordinates, and three for an
+  /// orientation.
   std::size_t axes_of(const MeasurementFiles& measured) const {
     std::size_t out = measured.has_orientation() && cell_.measurement.sigma_rad ? 3 : 0;
     for (const bool has : measured.has_axis) out += has ? 1 : 0;
     return out;
   }
 
-  /// How many of so many numbers no earlier run knows; where the arm stands it never does.
+  /// How many of `numbers` unknowns are not known from an earlier run. The six of the frame never
+  /// are.
   int open_of(int numbers) const {
     constexpr int kPlacing = 6;
     if (!cell_.fit.earlier) return numbers;
@@ -368,7 +371,7 @@ class Checker {
                      static_cast<double>(some.size()));
   }
 
-  /// Doubts about the readings themselves, and about gravity.
+  /// Checks of the readings themselves, and of the direction of gravity.
   void reading_findings(const Cell& cell, const MeasurementFiles& measured,
                         const std::vector<int>& rows, const ArmState& placed) {
     add(sharing_findings(cell, measured, rows));
@@ -379,7 +382,8 @@ class Checker {
     if (cause.empty()) cause = moved_findings(cell, measured, rows, placed);
     auto pattern = out_.parameters && cause.empty() ? pattern_findings(measured, rows, placed)
                                                     : std::vector<Problem>{};
-    // Every third reading off is a third of them wrong too; the pattern says more.
+    // A repeating pattern of wrong rows also is a part that contradicts the rest; the pattern says
+    // more about its cause.
     if (cause.empty() && pattern.empty())
       cause = contradiction_findings(cell, measured, rows, placed);
     add(std::move(pattern));
@@ -391,7 +395,7 @@ class Checker {
     add(effect_size_findings(cell, measured, rows, placed));
   }
 
-  /// Repeats that scatter by far more or far less than one reading is said to.
+  /// Reports repeats that scatter by far more or far less than the stated noise.
   void repeat_findings(const Cell& cell) {
     const auto& stated = cell.measurement.sigma_m;
     if (out_.floor.source != NoiseFloor::Source::kRepeats || !stated) return;
@@ -406,7 +410,8 @@ class Checker {
               : "correct sigma_um: with one that is too large effects go unseen");
   }
 
-  /// Rows that one and the same slip explains; a part of the outliers or all of them are these.
+  /// Finds rows with one common fault, such as another unit. They replace the outliers, of which
+  /// they are a part or all. Returns the cause in words; empty if there is none.
   std::string row_findings(const Cell& cell, const MeasurementFiles& measured,
                            const std::vector<int>& rows, const ArmState& placed) {
     if (out_.detection.changed) return "";
@@ -417,7 +422,8 @@ class Checker {
     return "some rows were written otherwise than the rest, see W-CHECK-ROWS";
   }
 
-  /// Something moved half-way, and W-CHECK-SAME does not say so already.
+  /// Finds the moment at which tracker, base or tool moved, unless W-CHECK-SAME has said that they
+  /// did. Returns the cause in words; empty if nothing moved.
   std::string moved_findings(const Cell& cell, const MeasurementFiles& measured,
                              const std::vector<int>& rows, const ArmState& placed) {
     if (out_.detection.changed ||
@@ -432,7 +438,7 @@ class Checker {
     return out_.moved + ", see W-CHECK-MOVED";
   }
 
-  /// What explains why no reading fits; empty if nothing does.
+  /// Returns in words what explains that no interpretation fits; empty if nothing does.
   std::string gross_findings() {
     if (!gross_scale_) return "";
     add({gross_scale_->finding});
@@ -448,7 +454,7 @@ class Checker {
     return "a part of the readings contradicts the rest, see W-CHECK-CONTRADICT";
   }
 
-  /// What the errors of the fit come from.
+  /// Adds the cause that was found to the messages about large errors of the fit.
   void name_cause(Problem& problem, const std::string& cause) const {
     if (problem.code == "E-CHECK-NOFIT")
       problem.message =

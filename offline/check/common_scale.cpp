@@ -31,9 +31,9 @@ constexpr double kLeastGross = 0.01;  // less is found from the fitted lengths
 /// Student's t distribution then has long tails.
 double sure(std::size_t freedom) { return 5.0 * (1.0 + 6.0 / static_cast<double>(freedom)); }
 
-/// A fitted length. `whole`: its change if the distances between all points doubled, which is its
-/// nominal value unless it also stands for a length that the fit holds. `change`: fitted less
-/// nominal. [m]
+/// A fitted length [m]. `change`: fitted less nominal. `whole`: by how much it would change if all
+/// measured distances doubled. That is its nominal value, unless a length that the fit holds fixed
+/// is coupled to it.
 struct Length {
   double whole, change, std;
 };
@@ -55,7 +55,7 @@ Eigen::VectorXd of_scale(const Measurements& measured, const std::vector<int>& r
   return PivotedQr(here.jacobian).solve(points);
 }
 
-/// Longest first.
+/// The fitted lengths of the arm, those that a common factor changes most first.
 std::vector<Length> fitted_lengths(const Eigen::VectorXd& whole, const Calibration& fitted) {
   std::vector<Length> out;
   for (std::size_t i = 0; i < fitted.estimates.size(); ++i) {
@@ -73,7 +73,7 @@ struct Scale {
   double sigma = 0.0;
 };
 
-/// change_i = beyond whole_i by least squares.
+/// Least-squares estimate of the factor `beyond` in change_i = beyond * whole_i.
 Scale scale_of(const std::vector<Length>& lengths) {
   double nn = 0.0, nc = 0.0, squares = 0.0;
   for (const auto& l : lengths) {
@@ -89,7 +89,8 @@ Scale scale_of(const std::vector<Length>& lengths) {
   return out;
 }
 
-/// Two long links alone may both be off by chance: they must agree, and no other one object.
+/// Whether all lengths ask for the same factor: each of the two longest by itself, since both might
+/// be wrong by chance, and no other contradicts it.
 bool all_agree(const std::vector<Length>& lengths, const Scale& scale) {
   double squares = 0.0;
   for (const auto& l : lengths) squares += std::pow(l.change - scale.beyond * l.whole, 2);

@@ -52,7 +52,7 @@ class Majority {
   Majority(const Cell& cell, const MeasurementFiles& measured, const std::vector<int>& rows)
       : cell_(cell), measured_(measured), rows_(rows), some_(pick(measured, rows)) {}
 
-  /// From where the common fit stands, and where that is far off from random rows too.
+  /// Starts at the common fit and, if that leaves gross errors, at fits of random rows as well.
   void find(const ArmState& placed) {
     state_ = placed;
     const bool gross = middle_error(placed) > kGrossMisfit_m;
@@ -129,7 +129,7 @@ class Majority {
     concentrate(best);
   }
 
-  /// All rows that agree are fitted, and tell the scatter.
+  /// Fits all rows that agree, and estimates the scatter from them.
   void polish() {
     for (int round = 0; round < 3; ++round) {
       const auto e = errors();
@@ -157,7 +157,7 @@ class Majority {
   double scatter_ = 0.0;
 };
 
-/// The rows that contradict.
+/// The rows that contradict the majority.
 struct Part {
   std::vector<bool> is_outside;  // of every row
   std::vector<int> rows;
@@ -185,7 +185,7 @@ bool is_point(const std::string& name) {
   return name == "x" || name == "y" || name == "z" || name == "repeat";
 }
 
-/// True if a column tells these rows from the others: then it may be their cause.
+/// True if a column of the file separates these rows from the others, and so may name their cause.
 bool follows_a_column(const MeasurementFiles& measured, const std::vector<int>& rows,
                       const Part& part) {
   if (measured.tables.empty()) return false;

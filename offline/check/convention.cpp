@@ -72,7 +72,8 @@ void mirror_points(Measurements& m, Mirror mirror) {
   const Rows3 before = m.p_M;
   for (int k = 0; k < 3; ++k) m.p_M.col(k) = change.sign[k] * before.col(change.from[k]);
   if (!m.has_orientation()) return;
-  // S R S: the vector part of a quaternion is a pseudovector, det S = -1.
+  // The rotation becomes S R S. The vector part of a quaternion is a pseudovector, so its sign
+  // changes with det S = -1.
   const Rows4 quat = m.quat_M;
   for (int k = 0; k < 3; ++k) m.quat_M.col(k + 1) = -change.sign[k] * quat.col(change.from[k] + 1);
 }
@@ -91,11 +92,12 @@ Cell reread(const Cell& cell, const CellEdit& edit) {
   const std::string text = cell.text.empty() ? write_cell(cell) : cell.text;
   const auto file = cell.file.empty() ? std::filesystem::path("cell.toml") : cell.file;
   CellEdit alone = edit;
-  // Read in another convention it is no arm that the fleet knows.
+  // In another convention the arm differs from what its fleet has learned, so that prior is
+  // dropped.
   if (!cell.fit.prior_from.empty()) alone.prior_from = "";
   Cell out = parse_cell(edited(text, file.string(), alone), file);
   out.measurement.files = cell.measurement.files;
-  // `cell` may be about one of the set-ups in the text.
+  // The text may have several set-ups of which `cell` has one.
   const auto& of_cell = cell.measurement.setups;
   const auto& of_text = out.measurement.setups;
   if (of_cell.size() == 1 && of_text.size() > 1)

@@ -92,10 +92,11 @@ class ConventionSearch {
   static double relative(double rms, double size) { return size > 0.0 ? rms / size : 1e300; }
   static double left(const Reading& reading) { return relative(reading.fitted_m, reading.size_m); }
   bool nothing_fits() const { return left(out_.best) > kReadingFits; }
-  /// For what may be meant in hundreds of ways: joints in another order, a number for each joint.
+  /// Whether there are enough poses for searches with hundreds of alternatives, such as joints in
+  /// another order or a factor for each joint.
   bool enough_poses() const { return static_cast<int>(few_.size()) >= kFewestOfOrders; }
 
-  /// Looks closely at the best that a sweep finds.
+  /// Fits the best candidates that a sweep finds.
   template <class Sweep>
   void judge_all_of(const Sweep& sweep_all) {
     leads_.clear();
@@ -202,10 +203,11 @@ class ConventionSearch {
       }
   }
 
-  /// The couplings of joints that controllers have. Where nothing else fits, together with a zero
-  /// turned by a quarter, and those of neighbours with columns in another order. A wrist whose
-  /// reflector is near its axis fits within a hundredth of the cloud without: so this is looked for
-  /// wherever more is left than a fitted arm leaves.
+  /// Tries the couplings of joints that controllers have. If nothing fits, also together with one
+  /// zero changed by a quarter turn, and the couplings of neighbours with the columns in another
+  /// order. A wrist whose reflector is near its axis fits within a hundredth of the cloud even
+  /// without its coupling; therefore couplings are tried whenever more is left than a fitted arm
+  /// leaves.
   void seek_coupling() {
     if (out_.best.fitted_m <= reasonable()) return;
     seek_coupling([this] { sweep_couplings(0); });
@@ -285,8 +287,8 @@ class ConventionSearch {
         });
   }
 
-  /// The same for readings that are of use only if they fit: those that miss even a few rows by
-  /// far are passed over.
+  /// The same for candidates that are of use only if they fit: those with a large misfit in a few
+  /// rows are dropped early.
   void sweep_directions_that_fit(const Convention& c, double slide, const Measurements& few,
                                  LinearPlacer& placer, const Measurements& fewer,
                                  const LinearPlacer& glance) {
@@ -404,8 +406,9 @@ class ConventionSearch {
     return out;
   }
 
-  /// Points on one circle or in one plane leave the loose map undetermined, and with it the start
-  /// of frame and target: fit's own start decides for the labels, if it is better.
+  /// Points on one circle or in one plane leave the linear placement undetermined, and so the start
+  /// of frame and target. For the files as labelled, the start that `fit` itself would use is taken
+  /// if it is better.
   void place_as_fit_does(Candidate& candidate) {
     const Measurements some = pick(measured_, some_);
     std::vector<int> rows(static_cast<std::size_t>(some.size()));
@@ -439,7 +442,7 @@ class ConventionSearch {
     choose();
   }
 
-  /// What may be left [m] of an arm that is read right and fitted.
+  /// The largest RMS error [m] that a correctly interpreted and fitted arm may leave.
   double reasonable() const { return kReasonable_m + kReasonableShare * out_.present.size_m; }
 
   static void sort_by_left(std::vector<Reading>& readings) {
@@ -447,7 +450,7 @@ class ConventionSearch {
                      [](const Reading& a, const Reading& b) { return left(a) < left(b); });
   }
 
-  /// Of those that leave no more than the first, the one nearest to the labels.
+  /// The candidate nearest to the labels among those that fit about as well as the best.
   static const Reading& simplest_of_best(const std::vector<Reading>& sorted) {
     const Reading* out = &sorted.front();
     for (const Reading& r : sorted)
@@ -470,7 +473,7 @@ class ConventionSearch {
 
   // ---- zeros that are no quarter turns, and a joint that counts otherwise
 
-  /// The unit, the factor and the zeros of a map as a person would write them.
+  /// Rounds the factors and zeros of a joint map to what a person would write.
   Convention convention_of(const JointMap& map) const {
     Convention c = labels_;
     const double within = std::max(kSameFactor, kSureOfFactor * map.factor_std);
@@ -488,7 +491,7 @@ class ConventionSearch {
     return std::abs(factor / expected - 1.0) < within;
   }
 
-  /// To 5, 1, 0.5 deg if that is nearer than the errors of an arm; else to 0.1 deg.
+  /// Rounds to a multiple of 5, 1 or 0.5 deg within an arm's usual errors, else to 0.1 deg.
   static double round_angle(double angle) {
     const double degrees = angle * 180.0 / M_PI;
     for (const double step : {5.0, 1.0, 0.5})
@@ -497,7 +500,7 @@ class ConventionSearch {
     return 0.1 * std::round(degrees / 0.1) * M_PI / 180.0;
   }
 
-  /// A whole number, or one divided by it, if that is near and no other is; with its direction.
+  /// Rounds to a whole number or its reciprocal if that is near and unambiguous; keeps the sign.
   static double round_factor(double factor, double within) {
     const double size = std::abs(factor), sign = factor < 0.0 ? -1.0 : 1.0;
     const double whole = std::round(std::max(size, 1.0 / size));
@@ -506,8 +509,8 @@ class ConventionSearch {
     return near(size, snapped, within) ? sign * snapped : factor;
   }
 
-  /// Taken only if it explains nearly everything, fit could not find it, and no other map of as few
-  /// changes does as well: else nothing is said.
+  /// Accepts a joint map only if it explains nearly everything, `fit` could not find it by itself,
+  /// and no other map with as few changes fits as well.
   void judge_joint_maps() {
     const Measurements few = pick(measured_, few_);
     std::vector<Reading> found;
@@ -533,7 +536,7 @@ class ConventionSearch {
     out_.same.clear();
   }
 
-  /// Smaller zeros are found by the fit itself.
+  /// Whether it changes more than `fit` can find by itself, such as a large joint zero or a factor.
   bool is_large(const Convention& c) const {
     for (std::size_t j = 0; j < c.zero.size(); ++j)
       if (std::abs(c.zero[j]) > kFitFindsZero || c.factor[j] != 1.0 || !c.own_unit[j].empty())
@@ -541,7 +544,8 @@ class ConventionSearch {
     return false;
   }
 
-  /// A frame given in the cell can tell which axes are wrong, and may itself be the inverse.
+  /// A frame given in the cell file shows which axes of the tracker are swapped; it may itself have
+  /// been written as its inverse.
   void conclude() {
     if (!cell_.measurement.fit_frame)
       out_.best.convention = with_given_frame(cell_, measured_, some_, labels_, out_.best);

@@ -18,8 +18,8 @@ constexpr double kOnePlace = 5e-3;             // [m]: readings of one pose hard
 constexpr std::ptrdiff_t kMostCompared = 100;  // rows with the same point
 constexpr double kWorthSaying = 0.5;           // expected number of readings equal by rounding
 
-/// A row, and an earlier one with exactly the same point: one with the same joint positions too if
-/// there is any, else the first.
+/// A row and an earlier one with exactly the same point, preferably one with the same joint
+/// positions.
 struct EqualPoint {
   int row = 0;
   int original = 0;
@@ -51,15 +51,15 @@ bool same_joints(const Measurements& m, const EqualPoint& equal) {
   return m.q.row(equal.row) == m.q.row(equal.original);
 }
 
-/// The points that are copies, or may be.
+/// Points that are copies of others, or may be.
 struct Copies {
   std::vector<EqualPoint> points;
   double by_rounding = 0.0;  // expected number of them that are true repeats
   bool perhaps = false;      // the noise is unknown: copies or true repeats
 };
 
-/// Equal points at different poses are copies. Equal repeats of a pose are copies if they are more
-/// than rounding explains: all of them, or else those that agree in the joint positions too.
+/// Equal points at different poses are copies. Equal points at one pose are copies if there are
+/// more of them than rounding explains: then all, or only those with equal joint positions too.
 Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
   Copies out;
   std::vector<EqualPoint> repeats, rows;
@@ -87,7 +87,8 @@ Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
   return out;
 }
 
-/// Every row is at the same pose, or the joint columns stayed constant while the arm moved.
+/// The error for files whose poses are all the same. It says whether the arm moved while the joint
+/// columns stayed constant.
 Problem equal_poses(const MeasurementFiles& measured) {
   const double spread =
       (measured.p_M.colwise().maxCoeff() - measured.p_M.colwise().minCoeff()).norm();

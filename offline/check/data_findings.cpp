@@ -50,7 +50,7 @@ bool assumed(const Cell& cell, int joint) {
   return at < cell.assumed_limits.size() && cell.assumed_limits[at];
 }
 
-/// Nobody stated these limits: what goes beyond them is no error.
+/// A note, not an error: the exceeded limits were assumed, because the cell file states none.
 Problem beyond_assumed(const Cell& cell, const MeasurementFiles& measured, int joint) {
   const auto& row = cell.nominal.joints[static_cast<std::size_t>(joint)];
   const auto q = measured.q.col(joint);

@@ -81,7 +81,8 @@ int revisits(const Measurements& measured, const std::vector<int>& rows) {
   return out;
 }
 
-/// z_j . ((c - o_j) x g) / |g| of a mass at the tool: span over the poses [m].
+/// Finds for each joint the range over the poses of the lever arm of gravity for a mass at the
+/// tool, z_j . ((c - o_j) x g) / |g| [m].
 void sense_levers(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                   DataSense& out) {
   const Vector3 g(cell.gravity[0], cell.gravity[1], cell.gravity[2]);

@@ -17,7 +17,8 @@ constexpr std::size_t kFewestOfARun = 3;
 constexpr int kNextRow = 2;         // one row in between may be no outlier
 constexpr double kOneVector = 0.2;  // scatter about the mean, as a share of the mean
 
-/// Rows of the outliers, ascending, in runs of neighbours; shorter runs are left out.
+/// Groups the rows of the outliers into runs of neighbours, in ascending order, and drops short
+/// runs.
 std::vector<std::vector<int>> neighbours(const std::vector<Outlier>& outliers) {
   std::vector<int> rows;
   for (const Outlier& outlier : outliers) rows.push_back(outlier.row);

@@ -11,7 +11,7 @@
 namespace plumb::offline {
 namespace {
 
-/// Headings of the columns with these names, those of them that the file has.
+/// Headings of those of the named columns that the file has.
 std::string headings(const Table& table, const std::vector<std::string>& names) {
   std::vector<std::string> out;
   for (const auto& name : names)
@@ -26,7 +26,7 @@ std::string unit_of_column(const Table& table, const std::vector<std::string>& n
   return usual;
 }
 
-/// All that one reading of the instrument gives.
+/// Names of all columns that one reading of the instrument may fill.
 const std::vector<std::string>& reading_names() {
   static const std::vector<std::string> names{"x",  "y",  "z",  "qw", "qx", "qy", "qz",
                                               "rx", "ry", "rz", "sx", "sy", "sz"};

@@ -29,7 +29,7 @@ struct InFrame {
   double rms_m;
 };
 
-/// A length that was written in another unit than the file's; empty if none explains it.
+/// Which wrong unit explains the difference of the two frames, in words; empty if none does.
 std::string unit_words(const Transformd& given, const Transformd& meant) {
   for (const auto& [factor, words] : {std::pair{1e3, "its xyz is in m instead of mm"},
                                       std::pair{1e-3, "its xyz is in mm instead of m"},
@@ -66,7 +66,8 @@ std::string difference_words(const Transformd& given, const Transformd& meant) {
   return fmt::format("{}", fmt::join(out, " and "));
 }
 
-/// A turn about the first joint's axis: the zero of that joint explains it as well.
+/// Whether the frames differ by a rotation about the first joint's axis, which a wrong zero of that
+/// joint would explain as well.
 bool may_be_first_zero(const Cell& cell, const Transformd& given, const Transformd& meant) {
   const auto& row = cell.nominal.joints.front();
   const bool about_z = cell.nominal.convention == format::Convention::kStandard ||
@@ -78,7 +79,7 @@ bool may_be_first_zero(const Cell& cell, const Transformd& given, const Transfor
          (D * base.p - base.p).norm() < kMoved_m;
 }
 
-/// As the cell file would say it, to 0.1 mm and 0.01 deg.
+/// The frame as the cell file would state it, to 0.1 mm and 0.01 deg.
 std::string frame_text(const Cell& cell, const format::Pose& X_MB) {
   const auto list = [](const std::array<double, 3>& si, double step, const std::string& unit) {
     std::array<double, 3> shown{};
@@ -161,7 +162,8 @@ Convention with_given_frame(const Cell& cell, const Measurements& measured,
   for (int mirror = 0; mirror <= static_cast<int>(Mirror::kSwapXZ); ++mirror)
     for (const bool inverted : {false, true}) {
       Convention c = best.convention;
-      // A free frame shows whether the file is left-handed; only which axis is open.
+      // A fit with a free frame has shown whether the file is left-handed, but not which axis is
+      // mirrored.
       if ((mirror == 0) != (c.mirror == Mirror::kNone)) continue;
       c.mirror = static_cast<Mirror>(mirror);
       c.frame_inverted = inverted;

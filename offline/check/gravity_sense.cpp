@@ -30,7 +30,7 @@ constexpr double kOpposes = 0.2;       // of the surest joint
 constexpr double kGravityDegree = M_PI / 180.0;
 constexpr double kUpright = 2.0 * kGravityDegree;
 
-/// Fit of the residuals by the moments of one direction.
+/// Result of fitting the residuals by the moments of gravity along one direction.
 struct Yielding {
   double left = 1e300;    // sum of squares
   Eigen::VectorXd times;  // coefficient of each joint over its standard deviation; 0: none
@@ -80,8 +80,8 @@ class GravityTest {
     return out;
   }
 
-  /// Sum of squares that errors of once a turn leave, which eccentric gears have: they look like
-  /// gravity in some direction.
+  /// Sum of squares that is left after fitting errors with a period of one turn. Eccentric gears
+  /// have such errors, and they resemble gravity in some direction.
   double left_by_gears() const {
     Eigen::MatrixXd B(residual_.size(), 2 * joints_);
     const auto angle = [&](int i, int j) { return some_.q(i, j); };
@@ -98,8 +98,8 @@ class GravityTest {
     return v - basis_ * (basis_.transpose() * v);
   }
 
-  /// What it does to the points if joint j turns by size(row, j, its axis, the point seen from it):
-  /// column j.
+  /// Column j: displacement of the points if joint j turns by size(row, j, its axis, the point
+  /// relative to it).
   template <class Size>
   Eigen::MatrixXd turns(const Size& size) const {
     const Chain chain(state_.arm.calibrated);
@@ -133,7 +133,8 @@ class GravityTest {
   Eigen::VectorXd residual_;
 };
 
-/// True if two or more joints say so for sure, and none clearly the opposite.
+/// True if two or more joints clearly yield along the direction (against it for sign -1), and no
+/// joint clearly the other way.
 bool all_yield(const Yielding& y, double sign) {
   const double against = std::max(kHint, kOpposes * y.times.cwiseAbs().maxCoeff());
   int sure = 0;
@@ -144,7 +145,7 @@ bool all_yield(const Yielding& y, double sign) {
   return sure >= 2;
 }
 
-/// The direction under which the joints yield, if it is another one than g; else 0.
+/// The direction along which the joints really yield if it is not g, else zero.
 Vector3 contradicted_by(const GravityTest& test, const Vector3& g) {
   const double enough = std::min(kExplains * test.all(), kBeatsGears * test.left_by_gears());
   const Yielding given = test.along(g);

@@ -25,7 +25,7 @@ FitData data_of(const Cell& cell, const Measurements& measured, const std::vecto
   return data;
 }
 
-/// Those of `all` that are not in `some`.
+/// The parameters of `all` that are not in `some`.
 std::vector<Parameter> others(const std::vector<Parameter>& all,
                               const std::vector<Parameter>& some) {
   std::vector<Parameter> out;

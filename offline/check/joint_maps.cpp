@@ -29,7 +29,7 @@ constexpr double kMapFall = 1e-6;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
-/// A start of the close look: zeros, and the joint whose factor is open.
+/// A start for the nonlinear fit: joint zeros, and the joint whose factor is free.
 struct MapLead {
   std::vector<double> zero, factor;
   int scaled = -1;
@@ -178,7 +178,7 @@ class JointMapSearch {
     return out;
   }
 
-  /// Central differences: of the residual, so its sign is turned.
+  /// Central differences of the residual; the sign is that of the residual.
   Eigen::MatrixXd jacobian(const State& s, const Open& open) {
     Eigen::MatrixXd out(3 * few_.size(), open.size());
     for (Eigen::Index k = 0; k < open.size(); ++k) {
@@ -191,7 +191,7 @@ class JointMapSearch {
     return out;
   }
 
-  /// Levenberg-Marquardt. Gives the state back, its normal matrix and the RMS error.
+  /// Result of a Levenberg-Marquardt fit: state, normal matrix and RMS error.
   struct Solved {
     State state;
     Eigen::MatrixXd normal;
@@ -227,8 +227,8 @@ class JointMapSearch {
     return {state, N, std::sqrt(cost / static_cast<double>(few_.size()))};
   }
 
-  /// 1 sigma of every zero, and then of the factor, relative to it; huge if the poses do not tell
-  /// them. The nominal arm's own errors count as noise.
+  /// Standard deviation of every zero, then of the factor (relative); huge if the poses do not
+  /// determine it. The nominal arm's own errors count as noise.
   static std::vector<double> deviations(const Solved& solved, const Open& open) {
     const std::size_t count = open.zeros.size() + (open.scaled >= 0 ? 1 : 0);
     std::vector<double> out(count, kUnknown);
@@ -278,7 +278,7 @@ class JointMapSearch {
     leads_.clear();
   }
 
-  /// Of the zeros first all are open, then those that are not nearly 0.
+  /// Fits with all zeros free first, then only with those that differ clearly from 0.
   void keep(const MapLead& lead) {
     Open open;
     open.scaled = lead.scaled;

@@ -14,12 +14,12 @@ namespace {
 
 using Kind = Parameter::Kind;
 
-// How far something moves when it moves: a millimetre and a milliradian, times one of the scales.
+// Typical size of a displacement: a millimetre and a milliradian, multiplied by one of the scales.
 constexpr double kShift_m = 1e-3, kTurn_rad = 1e-3;
 const std::vector<double> kScales{0.1, 1.0, 10.0, 100.0};
 const std::vector<double> kScalesOfPlacing{0.1, 1.0, 10.0, 100.0, 1000.0};
 
-// Chances of the parts; within the joints, of what may happen to one.
+// Prior probability that each part has changed; for the joints, shared among the kinds of change.
 constexpr double kTool = 0.25, kBase = 0.25, kJoints = 0.4, kReadings = 0.1;
 constexpr double kEffect_m = 1e-4;  // RMS motion of the point by a usual change of an effect
 constexpr double kNoMotion = 1e-9;  // [m/SI]: no pose shows it
@@ -107,7 +107,8 @@ Change effect_change(const ArmState& state, const Measurements& poses, int joint
     out.parameters.push_back(
         {Kind::kEffect, place, component, effect_parameter_name(state.arm, place, component)});
   }
-  // A tenth of a millimetre, or half of what the arm has, is a usual change of it.
+  // A usual change of an effect moves the point by a tenth of a millimetre, or by half of the
+  // effect if that is more.
   const Eigen::MatrixXd motion = derivatives(poses, state, out.parameters);
   out.typical = kEffect_m * std::sqrt(static_cast<double>(poses.size())) *
                 motion.colwise().norm().transpose().cwiseMax(1e-12).cwiseInverse();
@@ -177,7 +178,7 @@ std::vector<Change> possible_changes(const Cell& cell, const ArmState& extended,
   std::vector<Change> joints;
   for (int j = 0; j < cell.joints(); ++j) {
     joints.push_back(offset_change(cell, j));
-    // Behind the last joint stands the tool.
+    // A change of the last joint's link is a change of the tool.
     if (j + 1 < cell.joints()) joints.push_back(bent_link(cell, j));
     joints.push_back(effect_change(extended, poses, j, "joint_compliance", kSpring));
     joints.push_back(effect_change(extended, poses, j, "reversal", kBacklash));

@@ -26,7 +26,7 @@ std::vector<Parameter> parameters_of(const std::vector<Change>& changes) {
 
 Eigen::Index count_of(const Change& change) { return change.typical.size(); }
 
-/// 1 sigma of each number, for one choice of scales.
+/// Prior standard deviation of each number for one combination of scales.
 Eigen::VectorXd spread_of(const std::vector<Change>& changes, const std::vector<std::size_t>& at) {
   Eigen::Index count = 0;
   for (const auto& change : changes) count += count_of(change);
@@ -39,7 +39,7 @@ Eigen::VectorXd spread_of(const std::vector<Change>& changes, const std::vector<
   return out;
 }
 
-/// The next choice of scales, one of each change; false behind the last.
+/// Advances to the next combination of scales, one for each change; false after the last one.
 bool advance(const std::vector<Change>& changes, std::vector<std::size_t>& at) {
   for (std::size_t k = 0; k < at.size(); ++k) {
     if (++at[k] < changes[k].scales.size()) return true;
@@ -71,7 +71,7 @@ double ln_evidence(const Cholesky& S, const Eigen::VectorXd& r, const Eigen::Mat
   return ln_sum(ln) - std::log(static_cast<double>(ln.size()));
 }
 
-/// What of a vector in the base frame is measured, shape (axes, 3).
+/// The measured components of a vector in the base frame, shape (axes, 3).
 Eigen::MatrixXd lines_of_base(const ArmState& state, const Measurements& rows) {
   std::vector<int> measured;
   for (int k = 0; k < 3; ++k)
@@ -82,14 +82,14 @@ Eigen::MatrixXd lines_of_base(const ArmState& state, const Measurements& rows) {
 
 }  // namespace
 
-/// Where the Gauss-Newton steps begin, and the changes with their scales from there.
+/// The start of the Gauss-Newton steps, and the changes with their scales seen from there.
 struct Judge::Start {
   ArmState state;
   std::vector<Change> changes;
 };
 
-/// What the error of the run's numbers has taught of what it lacks, W J of the old readings: shape
-/// (3 readings, numbers), base frame.
+/// How the errors of the run's own parameters propagate to its old readings, W J: shape (3
+/// readings, numbers), base frame.
 Eigen::MatrixXd Judge::learnt_derivatives(const ExpectedError& view) const {
   if (view.weights.size() == 0) return {};
   const Eigen::MatrixXd J = derivatives(view.near, extended_, known_.parameters);
@@ -131,8 +131,7 @@ Eigen::MatrixXd Judge::columns_at(const ArmState& state, const std::vector<Chang
   return out;
 }
 
-/// A tracker that was put somewhere else is metres and half a turn away: no linear step leads
-/// there.
+/// A tracker on a new station may be metres and half a turn away, too far for a linear step.
 Judge::Start Judge::start_of(const std::vector<Change>& changes) const {
   Start out{extended_, changes};
   for (auto& change : out.changes)
@@ -189,7 +188,7 @@ Judged Judge::judge(const std::vector<Change>& given) const {
   return out;
 }
 
-/// What is missed at a state, its derivatives, and the evidence for these changes.
+/// Residuals at a state, their derivatives, and the evidence for these changes.
 void Judge::linearise(const ArmState& state, const std::vector<Change>& changes,
                       const Eigen::VectorXd& in_state, Judged& out) const {
   out.B = columns_at(state, changes);

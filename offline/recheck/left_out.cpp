@@ -8,7 +8,7 @@
 namespace plumb::offline::recheck {
 namespace {
 
-/// The numbers of the changes by all lines but those of one reading.
+/// Estimates the numbers of the changes from all readings but one.
 Eigen::VectorXd refitted_without(const Judged& judged, int reading, int axes) {
   if (judged.change.size() == 0) return judged.change;
   std::vector<Eigen::Index> kept;

@@ -11,7 +11,8 @@
 namespace plumb::offline::recheck {
 namespace {
 
-// Of the length [rad], or metres of a sliding joint; the first only joins repeats of a pose.
+// Correlation lengths [rad], or [m] of a sliding joint; the first one only joins repeats of one
+// pose.
 constexpr double kLengths[] = {1e-3, 0.1, 0.2, 0.4, 0.8, 1.6};
 constexpr double kEncoder = 2e-3;  // a pose that is driven to again differs by no more
 constexpr std::size_t kMostNear = 500;
@@ -21,7 +22,7 @@ double distance(const Measurements& a, int i, const Measurements& b, int j) {
   return d < kEncoder ? 0.0 : d;
 }
 
-/// Fitted rows, or of many those nearest to each of the new ones.
+/// The fitted rows; if there are very many, only those nearest to each of the new ones.
 std::vector<int> nearest(const Measurements& own, const std::vector<int>& known,
                          const Measurements& rows) {
   if (known.size() <= kMostNear) return known;
@@ -56,7 +57,7 @@ Eigen::MatrixXd correlation(const Eigen::MatrixXd& distance, double length) {
   return (-distance / length).array().exp().matrix();
 }
 
-/// Of the readings' residuals, without what is common to all lengths.
+/// The likelihood of the residuals, without the terms that all correlation lengths share.
 double ln_likelihood(const Cholesky& llt, const Eigen::MatrixXd& error, double lacks, int axes) {
   const Eigen::MatrixXd white = llt.whitened(error);
   return -0.5 * axes * llt.ln_det() - 0.5 * white.squaredNorm() / lacks;

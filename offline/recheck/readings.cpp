@@ -25,11 +25,12 @@ std::vector<int> fitted_rows(const Run& run, const Measurements& own) {
   return without_outliers(std::move(out), run.fit.calibration.outliers);
 }
 
-/// 1 sigma of a coordinate of what the run leaves of its own readings.
+/// Standard deviation of a coordinate of the run's residuals on its own readings.
 double scatter_of(const Run& run, const Measurements& own, const Rows3& error,
                   const std::vector<int>& rows) {
   const int axes = axes_of(own);
-  // A tree, or a series of waves, fits its own readings better than others.
+  // A tree or a series of waves fits its own readings better than others: their scatter is that of
+  // the poses held out.
   if ((run.fit.tree || has_series(run.fit.calibration.state)) && run.fit.held.n > 0)
     return usual_held(run.fit).rms / std::sqrt(static_cast<double>(axes));
   double squares = 0.0;
@@ -78,7 +79,7 @@ Eigen::MatrixXd covariance_of(const Readings& r, const Rows3& noise_m,
   return out;
 }
 
-/// The same thing at every reading of a pose, another one at every pose.
+/// Covariance of an error that is equal in all readings of one pose and independent between poses.
 Eigen::MatrixXd anew_at_each_pose(const std::vector<int>& pose, double lacks) {
   const auto n = static_cast<Eigen::Index>(pose.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
@@ -88,7 +89,7 @@ Eigen::MatrixXd anew_at_each_pose(const std::vector<int>& pose, double lacks) {
   return out;
 }
 
-/// What the calibration leaves of its own readings.
+/// Residuals of the calibration on its own readings.
 struct OldErrors {
   Rows3 error_M;          // of all rows [m]
   std::vector<int> rows;  // that were fitted or held out, without outliers

@@ -20,8 +20,8 @@ constexpr double kTooMuch = 1e-4;    // probability of so large a remainder by c
 constexpr double kSamePoints = 0.5;  // of the tolerance: two explanations whose points differ by
                                      // less are one motion
 
-/// Readings are taken right after the last one of the calibration: what has moved stays moved, and
-/// a drift has come to its end.
+/// Gives the rows the order and the time of the calibration's last reading: parts that moved stay
+/// where they are, and a drift has ended.
 void place_at_the_end(const Measurements& own, Measurements& rows) {
   rows.context.order = Eigen::VectorXd::Constant(rows.size(), static_cast<double>(own.size()));
   rows.context.time_s.resize(0);
@@ -137,8 +137,8 @@ Found described(const Judge& judge, const Search& search, std::size_t k, const A
   return out;
 }
 
-/// What these readings could not have shown, though it would matter. What is fitted anew on
-/// purpose hides the joints next to it.
+/// Changes that matter but that these readings could not have shown. Those that were refitted on
+/// purpose hide the joints next to them.
 std::vector<Visibility> blind_spots(const Search& search, const Readings& readings,
                                     const ArmState& extended, const Measurements& own,
                                     const Assumed& assumed, int joints, double limit_m) {
@@ -160,9 +160,9 @@ std::vector<Visibility> blind_spots(const Search& search, const Readings& readin
   return out;
 }
 
-/// Where a joint, and the tool or the base, are one motion of the measured point, the arm is left
-/// as it is known: the numbers of the measurement are refitted, and the joint is told as not ruled
-/// out.
+/// If a change of a joint and one of tool or base move the measured point alike, the numbers of the
+/// measurement are refitted and the arm stays as it is known; the joint is reported as not
+/// excluded.
 void prefer_placing(const Judge& judge, const Measurements& own, double tolerance_m,
                     Search& search) {
   for (std::size_t k = search.assumed(); k < search.found().size(); ++k) {
@@ -176,7 +176,7 @@ void prefer_placing(const Judge& judge, const Measurements& own, double toleranc
   }
 }
 
-/// The changes that a run can keep: assumed ones, single readings, and those that are decided.
+/// The changes that a new run can keep: assumed ones, single readings, and those that were decided.
 std::vector<Change> kept_changes(const Search& search, const std::vector<Found>& found) {
   std::vector<Change> out = search.found();
   for (const auto& one : found)
@@ -219,7 +219,8 @@ Recheck recheck_run(const Cell& cell, const Run& calibrated, const Run& run,
   const double axes = static_cast<double>(readings.axes);
   out.limit_m = std::max(cell.tolerance_m, 2.0 * std::sqrt(axes) * readings.sigma_m());
   out.blind = blind_spots(search, readings, extended, poses, assumed, cell.joints(), out.limit_m);
-  // The mean length of a vector of `axes` normal numbers, of the covariance that is expected.
+  // Mean length of a normally distributed vector with `axes` components and the expected
+  // covariance.
   const double mean_of_unit =
       std::sqrt(2.0) * std::exp(std::lgamma(0.5 * (axes + 1.0)) - std::lgamma(0.5 * axes));
   const Judged& nothing = search.nothing();

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kMostPoses = 2000;  // to choose from; more would add next to nothing
 
-/// One row of every pose that the calibration was made or judged with; some of very many.
+/// One row for every pose that the calibration was fitted to or tested with; a sample if there are
+/// very many.
 std::vector<int> different_poses(const Run& calibrated, const Measurements& own) {
   std::vector<int> out;
   std::vector<bool> seen(static_cast<std::size_t>(own.size()), false);
@@ -29,7 +30,7 @@ std::vector<int> different_poses(const Run& calibrated, const Measurements& own)
   return thinned(own, out, kMostPoses);
 }
 
-/// Derivatives by the numbers of all changes, per typical size and noise, row by row.
+/// Derivatives of each row by the numbers of all changes, in units of typical size and noise.
 Eigen::MatrixXd all_columns(const std::vector<Change>& changes, const Measurements& rows,
                             const ArmState& state, double sigma_m) {
   std::vector<Parameter> parameters;
@@ -44,7 +45,7 @@ Eigen::MatrixXd all_columns(const std::vector<Change>& changes, const Measuremen
              .asDiagonal();
 }
 
-/// The rows that add most to ln det(information), one after the other.
+/// Greedy choice: the rows that add most to ln det(information), one after the other.
 std::vector<int> best_rows(const Eigen::MatrixXd& columns, int axes, int n) {
   const int rows = static_cast<int>(columns.rows()) / axes;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());

@@ -21,7 +21,7 @@ Eigen::Index place_of(const std::vector<Parameter>& all, const std::string& name
   return at == all.end() ? kNone : at - all.begin();
 }
 
-/// Effects that were added for a change that was not found are taken out again.
+/// Removes effects that were added for a change that was not found.
 void drop_unused_effects(std::size_t of_run, const std::vector<Parameter>& used, ArmState& state,
                          std::vector<Parameter>& all) {
   auto& effects = state.arm.effects;
@@ -81,7 +81,8 @@ Calibration refitted(const Cell& cell, const Calibration& parent, const LastSetu
   const auto old = static_cast<Eigen::Index>(before.known.parameters.size());
   const auto count = static_cast<Eigen::Index>(all.size());
 
-  // The error of the old numbers goes on as (I - G J), with G the gain of those that changed.
+  // The errors of the old numbers propagate as (I - G J), with G the gain of the numbers that were
+  // refitted.
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(count, judged.r.size());
   for (std::size_t c = 0; c < changes.size(); ++c)
     for (std::size_t k = 0; k < changes[c].parameters.size(); ++k)

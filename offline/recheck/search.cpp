@@ -34,7 +34,7 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
       possible_(std::move(possible)),
       found_(std::move(assumed)),
       assumed_(found_.size()) {
-  // Of three readings none can be said to be the wrong one.
+  // With three readings no single one can be identified as wrong.
   if (readings.poses < 4) return;
   for (int i = 0; i < readings.rows.size(); ++i)
     possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
@@ -91,7 +91,8 @@ bool Search::add_best() {
   return true;
 }
 
-/// A change that was found first may be the shadow of another one, once more is known.
+/// Tries another change in place of each one found: the first to be found may only have imitated
+/// one that matters.
 void Search::exchange() {
   for (std::size_t k = assumed_; k < found_.size(); ++k)
     for (const auto& change : possible_) {
