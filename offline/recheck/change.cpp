@@ -8,22 +8,19 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
+#include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
 
 using Kind = Parameter::Kind;
 
-// Typical size of a displacement: a millimetre and a milliradian, multiplied by one of the scales.
-constexpr double kShift_m = 1e-3, kTurn_rad = 1e-3;
-const std::vector<double> kScales{0.1, 1.0, 10.0, 100.0};
-const std::vector<double> kScalesOfPlacing{0.1, 1.0, 10.0, 100.0, 1000.0};
-
-// Prior probability that each part has changed; for the joints, shared among the kinds of change.
-constexpr double kTool = 0.25, kBase = 0.25, kJoints = 0.4, kReadings = 0.1;
-constexpr double kEffect_m = 1e-4;  // RMS motion of the point by a usual change of an effect
 constexpr double kNoMotion = 1e-9;  // [m/SI]: no pose shows it
-constexpr double kOffset = 0.4, kSpring = 0.2, kBacklash = 0.2, kBent = 0.2;
+
+template <std::size_t N>
+std::vector<double> scales(const std::array<double, N>& some) {
+  return {some.begin(), some.end()};
+}
 
 Eigen::VectorXd filled(std::size_t lengths, std::size_t angles) {
   Eigen::VectorXd out(static_cast<Eigen::Index>(lengths + angles));
@@ -41,7 +38,7 @@ Change tool_change() {
   for (const char* name : {"target.x", "target.y", "target.z"})
     out.parameters.push_back(*placing_parameter(name));
   out.typical = filled(3, 0);
-  out.scales = kScalesOfPlacing;
+  out.scales = scales(kScalesOfPlacing);
   out.chance = kTool;
   return out;
 }
@@ -51,14 +48,14 @@ Change base_change() {
   for (const char* name : {"frame.x", "frame.y", "frame.z", "frame.rx", "frame.ry", "frame.rz"})
     out.parameters.push_back(*placing_parameter(name));
   out.typical = filled(3, 3);
-  out.scales = kScalesOfPlacing;
+  out.scales = scales(kScalesOfPlacing);
   out.chance = kBase;
   return out;
 }
 
 Change joint_change(int joint, const char* effect) {
   Change out{.part = Part::kJoint, .joint = joint, .effect = effect};
-  out.scales = kScales;
+  out.scales = scales(kScales);
   return out;
 }
 
@@ -114,10 +111,10 @@ Change effect_change(const ArmState& state, const Measurements& poses, int joint
                 motion.colwise().norm().transpose().cwiseMax(1e-12).cwiseInverse();
   for (std::size_t k = 0; k < each; ++k) {
     double& typical = out.typical(static_cast<Eigen::Index>(k));
-    typical = std::max(typical, 0.5 * std::abs(value_of(state, out.parameters[k])));
+    typical = std::max(typical, kEffectShare * std::abs(value_of(state, out.parameters[k])));
   }
   if (motion.cwiseAbs().maxCoeff() < kNoMotion) out.parameters.clear();
-  out.scales = {0.1, 1.0, 10.0};
+  out.scales = scales(kScalesOfEffect);
   out.chance = chance;
   return out;
 }
@@ -211,7 +208,7 @@ Eigen::MatrixXd derivatives(const Measurements& rows, const ArmState& state,
 Change odd_reading(int row, int readings, double sigma_m) {
   Change out{.part = Part::kReading, .row = row};
   out.typical = Eigen::VectorXd::Constant(3, sigma_m);
-  out.scales = {10.0, 100.0, 1000.0};
+  out.scales = scales(kScalesOfReading);
   out.chance = kReadings / readings;
   return out;
 }

@@ -8,14 +8,10 @@
 #include "fit/frame_start.hpp"
 #include "numbers/gaussian.hpp"
 #include "plumb/runtime/transform.hpp"
+#include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
-
-constexpr int kSteps = 6;             // of Gauss and Newton
-constexpr double kSettled = 1e-3;     // of a standard deviation: a smaller step is the last one
-constexpr double kFarAway = 2e-3;     // [m]: a base that moved farther is placed anew first
-constexpr double kAnyPlace = 1000.0;  // times a millimetre: a tracker put somewhere else
 
 std::vector<Parameter> parameters_of(const std::vector<Change>& changes) {
   std::vector<Parameter> out;
@@ -66,7 +62,7 @@ double ln_evidence(const Cholesky& S, const Eigen::VectorXd& r, const Eigen::Mat
     const Eigen::VectorXd tv = t.cwiseProduct(Vw);
     const double Q = square - (t.size() > 0 ? tv.dot(llt.solve(tv)) : 0.0);
     ln.push_back(base - (t.size() > 0 ? 0.5 * llt.ln_det() : 0.0) -
-                 0.5 * (Judge::kTrusted + n) * std::log1p(std::max(0.0, Q) / Judge::kTrusted));
+                 0.5 * (kTrusted + n) * std::log1p(std::max(0.0, Q) / kTrusted));
   } while (advance(changes, at));
   return ln_sum(ln) - std::log(static_cast<double>(ln.size()));
 }

@@ -50,9 +50,6 @@ class Judge {
   /// Cost: lines^3 + lines * numbers^2, a millisecond for 12 poses.
   Judged judge(const std::vector<Change>& changes) const;
 
-  /// Degrees of freedom with which the size of all variances is known beforehand.
-  static constexpr double kTrusted = 30.0;
-
  private:
   struct Start;
   Start start_of(const std::vector<Change>& changes) const;

@@ -7,19 +7,14 @@
 #include <numeric>
 
 #include "numbers/cholesky.hpp"
+#include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
 
-// Correlation lengths [rad], or [m] of a sliding joint; the first one only joins repeats of one
-// pose.
-constexpr double kLengths[] = {1e-3, 0.1, 0.2, 0.4, 0.8, 1.6};
-constexpr double kEncoder = 2e-3;  // a pose that is driven to again differs by no more
-constexpr std::size_t kMostNear = 500;
-
 double distance(const Measurements& a, int i, const Measurements& b, int j) {
   const double d = (a.q.row(i) - b.q.row(j)).norm();
-  return d < kEncoder ? 0.0 : d;
+  return d < kSamePose ? 0.0 : d;
 }
 
 /// The fitted rows; if there are very many, only those nearest to each of the new ones.

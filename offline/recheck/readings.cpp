@@ -8,14 +8,11 @@
 #include "fit/series_solver.hpp"
 #include "fit/verdict.hpp"
 #include "fit/weights.hpp"
+#include "recheck/constants.hpp"
 #include "recheck/misfit.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
-
-constexpr double kSamePose = 2e-3;      // [rad] or [m]
-constexpr double kLeastNoise_m = 1e-7;  // of any instrument
-constexpr double kSmallShare = 0.1;     // of the noise: what the model lacks does not matter
 
 /// Rows of the cell's own measurements that the run was fitted to.
 std::vector<int> fitted_rows(const Run& run, const Measurements& own) {

@@ -38,9 +38,6 @@ struct Readings {
   double sigma_m() const;  // both together
 };
 
-/// At most this many readings are judged.
-inline constexpr int kMostReadings = 100;
-
 /// @param calibrated  The calibration, made from `own`, the cell's measurements.
 /// @param rows        The new readings.
 Readings expect_readings(const Cell& cell, const Run& calibrated, const Measurements& own,

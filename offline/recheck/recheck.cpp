@@ -8,17 +8,13 @@
 #include "fit/arm_change.hpp"
 #include "fit/verdict.hpp"
 #include "numbers/tails.hpp"
+#include "recheck/constants.hpp"
 #include "recheck/left_out.hpp"
 #include "recheck/refit.hpp"
 #include "recheck/search.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
-
-constexpr double kListed = 10.0;     // nats behind the found one; farther ones are not mentioned
-constexpr double kTooMuch = 1e-4;    // probability of so large a remainder by chance
-constexpr double kSamePoints = 0.5;  // of the tolerance: two explanations whose points differ by
-                                     // less are one motion
 
 /// Gives the rows the order and the time of the calibration's last reading: parts that moved stay
 /// where they are, and a drift has ended.
@@ -32,7 +28,7 @@ void place_at_the_end(const Measurements& own, Measurements& rows) {
 }
 
 /// ln of the probability that F(n, trusted) exceeds chi2 / n.
-double ln_chance_of(double chi2, double n) { return ln_f_tail(chi2 / n, n, Judge::kTrusted); }
+double ln_chance_of(double chi2, double n) { return ln_f_tail(chi2 / n, n, kTrusted); }
 
 /// RMS distance of the measured points that two states predict, over some poses.
 double motion_of(const Measurements& own, const ArmState& a, const ArmState& b) {

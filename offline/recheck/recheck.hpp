@@ -31,9 +31,6 @@ struct Found {
   std::vector<Alternative> alternatives = {};  // at most 10 nats behind it
 };
 
-/// Behind by less than this, an explanation is not ruled out [nats].
-inline constexpr double kUndecided = 3.0;
-
 /// Whether another explanation is not ruled out and differs from this one.
 bool undecided(const Found& found);
 

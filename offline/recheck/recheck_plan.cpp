@@ -8,12 +8,11 @@
 #include "fit/thinned_rows.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/lu.hpp"
+#include "recheck/constants.hpp"
 #include "recheck/refit.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
-
-constexpr int kMostPoses = 2000;  // to choose from; more would add next to nothing
 
 /// One row for every pose that the calibration was fitted to or tested with; a sample if there are
 /// very many.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/search.hpp"
 
+#include "recheck/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,9 +12,6 @@ namespace plumb::offline::recheck {
 namespace {
 
 const double kFound = -std::log(kFalseAlarm);
-constexpr int kMostChanges = 3;
-constexpr double kOddShare = 0.2;  // of the readings; more are no accident
-constexpr int kMostOdd = 3;        // each triples the scales that are judged together
 
 bool is_reading(const Change& change) { return change.part == Part::kReading; }
 
@@ -35,7 +34,7 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
       found_(std::move(assumed)),
       assumed_(found_.size()) {
   // With three readings no single one can be identified as wrong.
-  if (readings.poses < 4) return;
+  if (readings.poses < kFewestForOddOnes) return;
   for (int i = 0; i < readings.rows.size(); ++i)
     possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
   most_odd_ = std::min(kMostOdd, static_cast<int>(kOddShare * readings.rows.size()));

@@ -7,11 +7,6 @@
 
 namespace plumb::offline::recheck {
 
-/// How often at most a check finds something although nothing has changed, for as long as the noise
-/// is what the run says. By Markov's inequality a Bayes factor exceeds 50 in at most one of 50 such
-/// checks.
-inline constexpr double kFalseAlarm = 0.02;
-
 /// The changes that explain some readings best, found one by one: a change is added if all possible
 /// ones together are 50 times as likely as nothing more; then each that was found is exchanged for
 /// a better one, and dropped if the others do without it.

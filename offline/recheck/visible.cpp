@@ -5,14 +5,10 @@
 
 #include "numbers/cholesky.hpp"
 #include "numbers/spectrum.hpp"
+#include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {
-namespace {
-
-constexpr double kNoticed = 20.0;  // chi^2 of a change that is found nearly always
-constexpr double kWidest = 10.0;   // typical sizes: a change is hardly ever larger
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<Visibility> visibility(const std::vector<Change>& changes, const Measurements& rows,
                                    const Measurements& own, const ArmState& state,

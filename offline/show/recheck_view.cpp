@@ -9,6 +9,7 @@
 
 #include "fit/verdict.hpp"
 #include "program/counted_words.hpp"
+#include "recheck/constants.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
 #include "show/text_table.hpp"
