@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "diagnose/candidates.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
+#include "diagnose/effect_domain.hpp"
 #include "diagnose/excluded_laws.hpp"
 #include "diagnose/gradual_motion.hpp"
 #include "diagnose/unknown_weights.hpp"
@@ -146,11 +146,6 @@ std::optional<Found> slow_motion_instead_of(const WhitenedFit& whitened, const S
 bool names_what_is_not_shown(const std::vector<Alternative>& all) {
   return std::any_of(all.begin(), all.end(),
                      [](const Alternative& other) { return !other.not_shown.empty(); });
-}
-
-bool is_compiled(const EffectEntry& entry) {
-  const EffectDomain domain = descriptor_of(entry.name).law->domain;
-  return domain == EffectDomain::kRobot || domain == EffectDomain::kEnvironment;
 }
 
 bool of_different_fate(const EffectEntry& first, const std::vector<Alternative>& all) {

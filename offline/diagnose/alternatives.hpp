@@ -43,10 +43,6 @@ std::optional<Found> slow_motion_instead_of(const WhitenedFit& whitened, const S
 /// Whether one of them is a law that the data cannot show.
 bool names_what_is_not_shown(const std::vector<Alternative>& alternatives);
 
-/// Whether effects of that law become part of the model file: those of the robot and, as far as
-/// their input is known online, of the environment.
-bool is_compiled(const EffectEntry& entry);
-
 /// Whether some of these would be compiled and others would not.
 bool of_different_fate(const EffectEntry& first, const std::vector<Alternative>& alternatives);
 

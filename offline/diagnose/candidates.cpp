@@ -9,6 +9,7 @@
 
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
+#include "diagnose/effect_domain.hpp"
 #include "diagnose/extension.hpp"
 #include "diagnose/fitted_size.hpp"
 #include "diagnose/held_out.hpp"
@@ -237,19 +238,6 @@ std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const Whitened
   name_confounded(whitened, found, out);
   add_after(plain, plain_scorer, found, scan.regressors, out);
   return out;
-}
-
-std::string domain_word(const EffectEntry& entry) {
-  switch (descriptor_of(entry.name).law->domain) {
-    case EffectDomain::kRobot:
-      return "robot";
-    case EffectDomain::kEnvironment:
-      return "environment";
-    case EffectDomain::kProcedure:
-      return "procedure";
-    default:
-      return "measurement";
-  }
 }
 
 UnknownStructure unknown_structure(const WhitenedFit& s, const Found& found) {

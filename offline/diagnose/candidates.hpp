@@ -17,9 +17,6 @@ namespace plumb::offline {
 std::vector<Candidate> candidates_of(const WhitenedFit& whitened, const WhitenedFit& plain,
                                      const Scan& scan);
 
-/// What an effect belongs to: "robot", "environment", "procedure" or "measurement".
-std::string domain_word(const EffectEntry& entry);
-
 /// Size and share of the best pattern of a scan at that whitened fit.
 UnknownStructure unknown_structure(const WhitenedFit& whitened, const Found& pattern);
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
+#include "diagnose/effect_words.hpp"
 #include "effects/registry.hpp"
 #include "fit/moving_part.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/scan.hpp"
+#include "diagnose/found.hpp"
 
 namespace plumb::offline {
 

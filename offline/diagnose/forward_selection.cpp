@@ -10,6 +10,7 @@
 #include "diagnose/candidates.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/doubt_strongest.hpp"
+#include "diagnose/effect_domain.hpp"
 #include "diagnose/exchange.hpp"
 #include "diagnose/found_list.hpp"
 #include "diagnose/fresh_waves.hpp"

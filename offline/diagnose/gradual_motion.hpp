@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "diagnose/scan.hpp"
+#include "diagnose/found.hpp"
 
 namespace plumb::offline {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/scan.hpp"
+#include "diagnose/found.hpp"
 #include "fit/calibrate.hpp"
 
 namespace plumb::offline {

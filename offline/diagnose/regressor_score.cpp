@@ -6,7 +6,6 @@
 
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
-#include "diagnose/series_scan.hpp"
 #include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
@@ -49,15 +48,6 @@ Products sum_of(const std::vector<Products>& all) {
     out.UX += all[f].UX;
     out.Xy += all[f].Xy;
   }
-  return out;
-}
-
-Eigen::MatrixXd motions(const WhitenedFit& s, const Regressor& regressor) {
-  if (!regressor.joints.empty()) return series_motions(s, regressor);
-  if (regressor.joint < 0) return regressor.columns;
-  Eigen::MatrixXd out(s.poses() * s.axes, regressor.columns.cols());
-  for (Eigen::Index i = 0; i < out.rows(); ++i)
-    out.row(i) = regressor.columns.row(i / s.axes) * s.joint[regressor.joint](i);
   return out;
 }
 

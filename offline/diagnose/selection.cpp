@@ -2,8 +2,8 @@
 #include "diagnose/selection.hpp"
 
 #include "diagnose/alternatives.hpp"
-#include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"
+#include "diagnose/effect_words.hpp"
 #include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/unless_refused.hpp"

@@ -214,34 +214,6 @@ Regressor series_regressor(const WhitenedFit& s, const EffectEntry& entry) {
   return out;
 }
 
-Eigen::MatrixXd series_motions(const WhitenedFit& s, const Regressor& series) {
-  const Eigen::Index each = series.columns.cols() / static_cast<Eigen::Index>(series.joints.size());
-  Eigen::MatrixXd out(s.poses() * s.axes, series.columns.cols());
-  for (Eigen::Index c = 0; c < out.cols(); ++c) {
-    const Eigen::VectorXd& joint = s.joint[series.joints[static_cast<std::size_t>(c / each)]];
-    for (Eigen::Index i = 0; i < out.rows(); ++i)
-      out(i, c) = series.columns(i / s.axes, c) * joint(i);
-  }
-  return out;
-}
-
-Eigen::VectorXd motion(const WhitenedFit& s, const Regressor& regressor,
-                       const Eigen::VectorXd& theta) {
-  if (regressor.joints.empty() && regressor.joint < 0) return regressor.columns * theta;
-  const std::vector<int> joints =
-      regressor.joints.empty() ? std::vector<int>{regressor.joint} : regressor.joints;
-  const Eigen::Index each = theta.size() / static_cast<Eigen::Index>(joints.size());
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(s.poses() * s.axes);
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto first = static_cast<Eigen::Index>(j) * each;
-    const Eigen::VectorXd turn =
-        regressor.columns.middleCols(first, each) * theta.segment(first, each);
-    for (Eigen::Index i = 0; i < out.size(); ++i)
-      out(i) += turn(i / s.axes) * s.joint[joints[j]](i);
-  }
-  return out;
-}
-
 Regressor smooth_part(const WhitenedFit& s, const Regressor& series) {
   const auto joints = static_cast<Eigen::Index>(series.joints.size());
   const Eigen::Index each = series.columns.cols() / joints;

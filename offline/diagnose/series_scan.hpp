@@ -28,9 +28,6 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry);
 /// Its columns: 1 is one standard deviation of the prior.
 Regressor series_regressor(const WhitenedFit& whitened, const EffectEntry& entry);
 
-/// Its motions, whitened, shape (lines, b).
-Eigen::MatrixXd series_motions(const WhitenedFit& whitened, const Regressor& series);
-
 /// The first waves of a series alone: what a smooth law could be mistaken for.
 Regressor smooth_part(const WhitenedFit& whitened, const Regressor& series);
 

@@ -7,7 +7,6 @@
 
 #include "cell/replicates.hpp"
 #include "diagnose/constants.hpp"
-#include "diagnose/thinned_fit.hpp"
 #include "fit/noise_floor.hpp"
 #include "fit/series_numbers.hpp"
 #include "fit/solver.hpp"
@@ -184,52 +183,6 @@ void fold_joints(WhitenedFit& s) {
     const Eigen::MatrixXd product = s.joint[j].asDiagonal() * s.U;
     s.joint_U.push_back(by_pose(product, s.axes));
   }
-}
-
-WhitenedFit thinned(const WhitenedFit& whitened, Eigen::Index most) {
-  std::vector<Eigen::Index> pose, line;
-  WhitenedFit out;
-  for (const auto& fold : whitened.folds) {
-    const auto begin = static_cast<Eigen::Index>(pose.size());
-    for (Eigen::Index i = fold.begin; i < fold.end; ++i)
-      if (i * most / whitened.fit_poses() != (i + 1) * most / whitened.fit_poses())
-        pose.push_back(i);
-    out.folds.push_back({begin, static_cast<Eigen::Index>(pose.size())});
-  }
-  for (const auto i : pose)
-    for (int k = 0; k < whitened.axes; ++k) line.push_back(i * whitened.axes + k);
-  out.cell = whitened.cell;
-  out.measured = whitened.measured;
-  for (const auto i : pose) {
-    const auto at = static_cast<std::size_t>(i);
-    out.row.push_back(whitened.row[at]);
-    out.frames.push_back(whitened.frames[at]);
-    out.R_MB.push_back(whitened.R_MB[at]);
-    out.loads.push_back(whitened.loads[at]);
-    out.context.push_back(whitened.context[at]);
-    out.arm_B.push_back(whitened.arm_B[at]);
-    if (!whitened.root.empty()) out.root.push_back(whitened.root[at]);
-  }
-  for (const auto l : line) out.sigma.push_back(whitened.sigma[static_cast<std::size_t>(l)]);
-  out.held = {static_cast<Eigen::Index>(pose.size()), static_cast<Eigen::Index>(pose.size())};
-  out.axes = whitened.axes;
-  out.fit_lines = static_cast<Eigen::Index>(line.size());
-  out.noise = whitened.noise;
-  out.sigma_m = whitened.sigma_m;
-  out.half_information = whitened.half_information;
-  out.correction = whitened.correction;
-  out.scatter_nats = whitened.scatter_nats;
-  for (const auto& carrier : whitened.joint) out.joint.push_back(carrier(line));
-  out.base = whitened.base(line, Eigen::all);
-  out.tool = whitened.tool(line, Eigen::all);
-  out.chain = whitened.chain;
-  out.sensors = whitened.sensors;
-  out.y = whitened.y(line);
-  out.U = orthonormal(whitened.U(line, Eigen::all), out.fit_lines).U;
-  out.rank = out.U.cols();
-  clear_residual(out);
-  fold_joints(out);
-  return out;
 }
 
 WhitenedFit make_whitened_fit(const Cell& cell, const Measurements& measured,

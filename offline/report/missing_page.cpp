@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "diagnose/diagnosis_text.hpp"
+#include "diagnose/effect_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/diagnose_view.hpp"

@@ -7,6 +7,8 @@
 
 #include "diagnose/alternatives.hpp"
 #include "diagnose/diagnosis_text.hpp"
+#include "diagnose/effect_domain.hpp"
+#include "diagnose/effect_words.hpp"
 #include "diagnose/scan.hpp"
 #include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "diagnose/candidates.hpp"
+#include "diagnose/effect_domain.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/diagnosis_text.hpp"
 #include "diagnose/effect_list.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/diagnosis_text.hpp"
+#include "diagnose/effect_words.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/fitted_laws.hpp"
 #include "show/diagnose_view.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "plumb/runtime/detail/plain.hpp"
-#include "plumb/runtime/detail/tree.hpp"
+#include "plumb/runtime/detail/tree_view.hpp"
 
 /// The bodies of TreeView's templates.
 namespace plumb {
