@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rt/bus_source.hpp"
+#include "rt/bus_kinds.hpp"
+
 #include "rt/can_source.hpp"
 #include "rt/csv_source.hpp"
 #include "rt/modbus_source.hpp"

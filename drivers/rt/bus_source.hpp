@@ -3,17 +3,15 @@
 
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "plumb/drivers/bus_layout.hpp"
 #include "plumb/drivers/bus_port.hpp"
-#include "program/toml_table.hpp"
+#include "plumb/drivers/session.hpp"
+#include "plumb/runtime/loaded_model.hpp"
 
 namespace plumb::drivers::rt {
-
-struct Deployment;
 
 /// An open bus: its port and all that the port needs, such as the thread of a Modbus link.
 class OpenBus {
@@ -27,6 +25,14 @@ class OpenBus {
 
   /// True if no further target will arrive.
   virtual bool finished() const noexcept { return false; }
+};
+
+/// What a bus is opened for.
+struct BusTask {
+  const BusLayout& layout;         // of its frames or registers
+  const BusLayout& record_layout;  // in which what passes is recorded
+  const LoadedModel& model;
+  const SessionSettings& session;
 };
 
 /// How a bus is reached, for rules about who may.
@@ -58,19 +64,7 @@ class BusSource {
 
   /// Opens the bus without sending anything. Throws Failure: E-RT-LINK (kEnvironment) with the
   /// system's reason, E-RT-CSV (kInput). Slow.
-  virtual std::unique_ptr<OpenBus> open(const Deployment& deployment) const = 0;
+  virtual std::unique_ptr<OpenBus> open(const BusTask& task) const = 0;
 };
-
-/// One kind of bus. A new kind is added by one entry in bus_kinds().
-struct BusKind {
-  const char* word;  // the value of `kind` in [source], for example "can"
-
-  /// Reads the keys of [source] besides `kind`; paths of files are relative to `folder`.
-  /// Problems are reported to the table's source.
-  std::shared_ptr<const BusSource> (*read)(TomlTable& source, const std::filesystem::path& folder);
-};
-
-/// All kinds, in the order in which messages list them.
-std::span<const BusKind> bus_kinds();
 
 }  // namespace plumb::drivers::rt

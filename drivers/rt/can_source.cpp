@@ -5,7 +5,6 @@
 
 #include "plumb/drivers/can_interface.hpp"
 #include "plumb/drivers/can_port.hpp"
-#include "rt/deployment.hpp"
 #include "rt/link_refusal.hpp"
 
 namespace plumb::drivers::rt {
@@ -39,9 +38,9 @@ std::shared_ptr<const BusSource> CanSource::read(TomlTable& source, const std::f
   return out;
 }
 
-std::unique_ptr<OpenBus> CanSource::open(const Deployment& deployment) const {
-  refuse_misfit(interface, deployment.layout);
-  auto opening = CanPort::open(interface, deployment.layout, Sender::kPlumb);
+std::unique_ptr<OpenBus> CanSource::open(const BusTask& task) const {
+  refuse_misfit(interface, task.layout);
+  auto opening = CanPort::open(interface, task.layout, Sender::kPlumb);
   if (opening.port) return std::make_unique<CanBus>(std::move(*opening.port));
   const Finding finding = describe(opening.step);
   refuse_link(fmt::format("{}: {}", finding.what, finding.why), finding.remedy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "program/toml_table.hpp"
 #include "rt/bus_source.hpp"
 
 namespace plumb::drivers::rt {
@@ -19,7 +20,7 @@ class CanSource final : public BusSource {
   }
 
   /// Refuses an interface that cannot do what the layout asks for.
-  std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
+  std::unique_ptr<OpenBus> open(const BusTask& task) const override;
 };
 
 }  // namespace plumb::drivers::rt

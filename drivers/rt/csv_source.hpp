@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "program/toml_table.hpp"
 #include "rt/bus_source.hpp"
 
 namespace plumb::drivers::rt {
@@ -15,7 +16,7 @@ class CsvSource final : public BusSource {
   BusUse use() const noexcept override { return BusUse::kModbus; }
   bool has_robot() const noexcept override { return false; }
   std::string name() const override { return "csv"; }
-  std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
+  std::unique_ptr<OpenBus> open(const BusTask& task) const override;
 };
 
 }  // namespace plumb::drivers::rt

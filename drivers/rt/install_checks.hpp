@@ -3,8 +3,9 @@
 
 #include <string>
 
+#include "program/outcome.hpp"
 #include "rt/deployment.hpp"
-#include "rt/installing.hpp"
+#include "rt/install_request.hpp"
 
 namespace plumb::drivers::rt {
 

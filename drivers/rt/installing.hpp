@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "program/outcome.hpp"
-#include "rt/version_change.hpp"
+#include "rt/install_request.hpp"
 
 namespace plumb::drivers::rt {
-
-struct InstallRequest {
-  ChangeRequest change;
-  std::filesystem::path from;  // the deploy folder
-  int keep = 5;                // versions that stay at least
-  enum class Older : std::uint8_t { kRefused, kAllowed } older = Older::kRefused;
-};
 
 /// Copies a deploy folder into the place, verifies the copy as `run` would, and makes it current.
 /// A plumb-rt that runs the place swaps to its model first, if nothing but [model] of rt.toml

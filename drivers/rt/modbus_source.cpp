@@ -4,7 +4,6 @@
 #include "plumb/drivers/modbus_client.hpp"
 #include "plumb/drivers/modbus_port.hpp"
 #include "plumb/drivers/modbus_server.hpp"
-#include "rt/deployment.hpp"
 #include "rt/link_refusal.hpp"
 #include "rt/whole_number.hpp"
 
@@ -64,15 +63,14 @@ BusEndpoint ModbusSource::endpoint() const {
           .peers = peers};
 }
 
-std::unique_ptr<OpenBus> ModbusSource::open(const Deployment& deployment) const {
+std::unique_ptr<OpenBus> ModbusSource::open(const BusTask& task) const {
   const auto own_unit = static_cast<std::uint8_t>(unit);
   if (role == Role::kClient)
     return std::make_unique<ModbusBus<ModbusClient>>(
-        deployment.layout,
-        ModbusClientSettings{.server = address_of(*this, address), .unit = own_unit});
+        task.layout, ModbusClientSettings{.server = address_of(*this, address), .unit = own_unit});
   const std::string& host = interface.empty() ? address : interface;
   return std::make_unique<ModbusBus<ModbusServer>>(
-      deployment.layout,
+      task.layout,
       ModbusServerSettings{.at = address_of(*this, host), .peers = peers, .unit = own_unit});
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "program/toml_table.hpp"
 #include "rt/bus_source.hpp"
 
 namespace plumb::drivers::rt {
@@ -24,7 +25,7 @@ class ModbusSource final : public BusSource {
   BusUse use() const noexcept override { return BusUse::kModbus; }
   std::string name() const override { return "modbus"; }
   BusEndpoint endpoint() const override;
-  std::unique_ptr<OpenBus> open(const Deployment& deployment) const override;
+  std::unique_ptr<OpenBus> open(const BusTask& task) const override;
 };
 
 }  // namespace plumb::drivers::rt

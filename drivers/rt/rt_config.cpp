@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "rt/bus_kinds.hpp"
 #include "rt/can_source.hpp"
 #include "rt/screen_units.hpp"
 #include "rt/utc.hpp"

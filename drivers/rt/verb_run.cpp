@@ -189,7 +189,9 @@ void run_folder(const RunOptions& options, Outcome& outcome) {
   need_rights(deployment.config, outcome);
   note_sensors(deployment, outcome);
   static RunShared shared;  // the signal's handler keeps its address
-  const auto bus = deployment.config.source->open(deployment);
+  const BusLayout recorded = record_layout(deployment);
+  const auto bus = deployment.config.source->open(
+      {deployment.layout, recorded, *deployment.model.loaded, deployment.session});
   ModelSlot slot(*deployment.model.loaded);
   Service service(deployment, *bus, slot, shared,
                   options.check ? Service::Files::kChecked : Service::Files::kMade);

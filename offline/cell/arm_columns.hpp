@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "cell/euler.hpp"
-#include "cell/measurements.hpp"
+#include "cell/needed_columns.hpp"
+#include "cell/table.hpp"
 #include "program/problem_list.hpp"
 
 namespace plumb::offline {

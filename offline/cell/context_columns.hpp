@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cell/measurements.hpp"
+#include "cell/table.hpp"
 #include "program/problem_list.hpp"
 
 namespace plumb::offline {

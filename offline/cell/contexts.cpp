@@ -2,11 +2,9 @@
 #include "cell/contexts.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cell/iso_time.hpp"
 #include "cell/last_moves.hpp"
-#include "cell/measurements.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -18,7 +16,7 @@ int row_count(std::span<const Table> tables) {
 }
 
 /// Columns of these names, NaN where a file lacks one; 0 rows if no file has any.
-ContextRows::RowsN gathered(std::span<const Table> tables, const std::vector<std::string>& names) {
+RowsN gathered(std::span<const Table> tables, const std::vector<std::string>& names) {
   const auto has = [&](const Table& t, const std::string& name) {
     const Column* column = t.find(name);
     return column != nullptr && !column->values.empty();
@@ -27,8 +25,7 @@ ContextRows::RowsN gathered(std::span<const Table> tables, const std::vector<std
     return std::any_of(names.begin(), names.end(), [&](const auto& name) { return has(t, name); });
   });
   if (!any || names.empty()) return {};
-  ContextRows::RowsN out = ContextRows::RowsN::Constant(
-      row_count(tables), static_cast<Eigen::Index>(names.size()), kUnknown);
+  RowsN out = RowsN::Constant(row_count(tables), static_cast<Eigen::Index>(names.size()), kUnknown);
   int first = 0;
   for (const auto& table : tables) {
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -70,26 +67,9 @@ Eigen::VectorXd times_of(std::span<const Table> tables) {
   return out.hasNaN() ? Eigen::VectorXd() : out;
 }
 
-ContextRows::RowsN picked(const ContextRows::RowsN& all, const std::vector<int>& rows) {
-  if (all.rows() == 0) return {};
-  return all(rows, Eigen::all);
-}
-
-Eigen::VectorXd picked(const Eigen::VectorXd& all, const std::vector<int>& rows) {
-  if (all.size() == 0) return {};
-  return all(rows);
-}
-
-template <class To>
-void copy_row(const ContextRows::RowsN& from, Eigen::Index row, To& to) {
-  if (from.rows() == 0) return;
-  const auto n = std::min(static_cast<std::size_t>(from.cols()), to.size());
-  for (std::size_t k = 0; k < n; ++k) to[k] = from(row, static_cast<Eigen::Index>(k));
-}
-
 }  // namespace
 
-ContextRows read_contexts(std::span<const Table> tables, const ContextRows::RowsN& q) {
+ContextRows read_contexts(std::span<const Table> tables, const RowsN& q) {
   ContextRows out;
   out.direction = gathered(tables, numbered("dir_j", q.cols()));
   out.travel = gathered(tables, numbered("travel_j", q.cols()));
@@ -100,44 +80,6 @@ ContextRows read_contexts(std::span<const Table> tables, const ContextRows::Rows
   out.temperature = gathered(tables, out.sensors);
   out.time_s = times_of(tables);
   out.order = Eigen::VectorXd::LinSpaced(q.rows(), 0.0, static_cast<double>(q.rows() - 1));
-  return out;
-}
-
-ContextRows pick(const ContextRows& all, const std::vector<int>& rows) {
-  return {.direction = picked(all.direction, rows),
-          .travel = picked(all.travel, rows),
-          .step = picked(all.step, rows),
-          .payload = picked(all.payload, rows),
-          .wrench = picked(all.wrench, rows),
-          .temperature = picked(all.temperature, rows),
-          .sensors = all.sensors,
-          .time_s = picked(all.time_s, rows),
-          .order = picked(all.order, rows)};
-}
-
-MeasuredContext context_at(const ContextRows& rows, Eigen::Index row,
-                           const std::vector<std::string>& sensors) {
-  MeasuredContext out;
-  Context& known = out.known;
-  copy_row(rows.direction, row, known.direction);
-  copy_row(rows.travel, row, known.travel);
-  copy_row(rows.step, row, out.step);
-  if (rows.payload.rows() > 0) {
-    known.payload_kg = rows.payload(row, 0);
-    for (int k = 0; k < 3; ++k) known.payload_com_m[k] = rows.payload(row, 1 + k);
-  }
-  if (rows.wrench.rows() > 0)
-    for (int k = 0; k < 3; ++k) {
-      known.force_N[k] = std::isnan(rows.wrench(row, k)) ? 0.0 : rows.wrench(row, k);
-      known.moment_Nm[k] = std::isnan(rows.wrench(row, 3 + k)) ? 0.0 : rows.wrench(row, 3 + k);
-    }
-  for (std::size_t k = 0; k < std::min(sensors.size(), known.temperature_degC.size()); ++k) {
-    const auto at = std::find(rows.sensors.begin(), rows.sensors.end(), sensors[k]);
-    if (at != rows.sensors.end())
-      known.temperature_degC[k] = rows.temperature(row, at - rows.sensors.begin());
-  }
-  if (rows.time_s.size() > 0) known.time_s = rows.time_s(row);
-  if (rows.order.size() > 0) out.order = rows.order(row);
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cell/csv_line.hpp"
-#include "cell/measurements.hpp"
+#include "cell/table.hpp"
 #include "program/problem_list.hpp"
 
 namespace plumb::offline {

@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cell/measurements.hpp"
-
 namespace plumb::offline {
 namespace {
 
-using RowsN = ContextRows::RowsN;
+using RowsN = RowsN;
 
 constexpr double kNoMove = 1e-5;  // rad or m: encoders at rest
 

@@ -3,7 +3,8 @@
 
 #include <span>
 
-#include "cell/contexts.hpp"
+#include "cell/context_rows.hpp"
+#include "cell/table.hpp"
 
 namespace plumb::offline {
 
@@ -17,11 +18,10 @@ enum class Neighbours {
 /// rows, joints). From the columns dir_jN and travel_jN if a file has them for every joint; else,
 /// or where dir_jN is 0 (unknown), from the row before. Such values are 0 in the first row of a
 /// file, and unknown (NaN) without neighbours.
-ContextRows::RowsN last_moves(std::span<const Table> tables, const ContextRows::RowsN& q,
-                              Neighbours neighbours);
+RowsN last_moves(std::span<const Table> tables, const RowsN& q, Neighbours neighbours);
 
 /// For rows of a list in any order: makes their order unknown, and the moves that were computed
 /// from the row before.
-void forget_order(std::span<const Table> tables, const ContextRows::RowsN& q, ContextRows& rows);
+void forget_order(std::span<const Table> tables, const RowsN& q, ContextRows& rows);
 
 }  // namespace plumb::offline

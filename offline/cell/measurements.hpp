@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "cell/contexts.hpp"
+#include "cell/context_rows.hpp"
 #include "cell/joint_columns.hpp"
+#include "cell/rows.hpp"
 #include "cell/table.hpp"
 
 namespace plumb::offline {
-
-/// One row per reading; columns are axes, quaternion components (w, x, y, z), or joints.
-using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-using Rows4 = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
-using RowsN = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 enum class SetMark : char { kUnmarked, kFit, kHeld, kIgnore };
 
@@ -45,15 +40,6 @@ struct Measurements {
 struct MeasurementFiles : Measurements {
   std::vector<Table> tables;  // in order; together they have as many rows
 };
-
-/// Which columns must be there.
-enum class Needs { kJoints, kJointsAndPosition };
-
-/// Reads measurement files of an arm with these joints and joins them.
-/// Throws Failure with all problems of all files (exit 3): missing q1 … qn, quaternions not of unit
-/// length, no measured axis, no rows, too many joints.
-MeasurementFiles read_measurements(const std::vector<std::filesystem::path>& files,
-                                   const JointColumns& joints, Needs needs);
 
 /// Rows picked by index, in that order.
 Measurements pick(const Measurements& all, const std::vector<int>& rows);

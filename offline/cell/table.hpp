@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cell/kept_rows.hpp"
+#include "cell/quantity.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
-
-/// Kind of quantity a column holds; it decides which units fit.
-enum class Quantity {
-  kText,
-  kNumber,
-  kLength,
-  kAngle,
-  kMass,
-  kTemperature,
-  kTime,
-  kForce,
-  kTorque
-};
 
 /// One column of a measurement file.
 struct Column {
@@ -52,10 +39,5 @@ struct Table {
 
 /// Index of the table of each row, if the tables are joined: 0, ..., 0, 1, ...
 std::vector<int> file_of_rows(const std::vector<Table>& tables);
-
-/// Reads a CSV file strictly: UTF-8, header with units, no ragged rows, only finite numbers.
-/// Throws Failure with all problems (exit 3).
-Table read_table(const std::filesystem::path& file);
-Table parse_table(std::string_view text, const std::string& file_name);
 
 }  // namespace plumb::offline

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cell/measurements.hpp"
+#include "cell/table.hpp"
 
 namespace plumb::offline {
 

@@ -8,8 +8,10 @@
 #include "cell/arm_columns.hpp"
 #include "cell/column_names.hpp"
 #include "cell/context_columns.hpp"
+#include "cell/contexts.hpp"
 #include "cell/last_moves.hpp"
 #include "cell/measurement_warnings.hpp"
+#include "cell/table_file.hpp"
 #include "cell/table_place.hpp"
 
 namespace plumb::offline {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cell/measurements.hpp"
+#include "cell/quantity.hpp"
 
 namespace plumb::offline {
 

@@ -4,18 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "check/convention.hpp"
+#include "check/reading.hpp"
 
 namespace plumb::offline {
-
-/// One way to read the files and what it leaves.
-struct Reading {
-  Convention convention;
-  double changes = 0.0;   // from the labels, see `changes`
-  double placed_m = 0.0;  // RMS 3-D residual with frame and target fitted
-  double fitted_m = 0.0;  // and with the geometry fitted near nominal
-  double size_m = 0.0;    // RMS size of the measured cloud, as read
-};
 
 /// What the convention search found.
 struct Detection {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "check/convention_search.hpp"
+#include "check/reading.hpp"
 
 namespace plumb::offline {
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/earlier_arm.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/setups.hpp"
 #include "cli/cell_lock.hpp"
 #include "cli/progress.hpp"

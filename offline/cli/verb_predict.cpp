@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cell/plain_rows.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/csv_output.hpp"

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "cell/lost_points.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/reading_digest.hpp"
 #include "cli/cell_data.hpp"
 #include "cli/cell_lock.hpp"

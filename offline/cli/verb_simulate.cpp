@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/simulate_options.hpp"
 #include "cli/verbs.hpp"
+#include "simulate/hidden_effect_reader.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline::cli {

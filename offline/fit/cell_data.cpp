@@ -10,6 +10,7 @@
 
 #include "cell/earlier_arm.hpp"
 #include "cell/lost_points.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/reading_digest.hpp"
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"

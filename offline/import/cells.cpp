@@ -5,7 +5,6 @@
 #include <cctype>
 
 #include "import/number_text.hpp"
-#include "import/vector_cells.hpp"
 #include "program/utf8.hpp"
 
 namespace plumb::offline {
@@ -70,6 +69,22 @@ Cells cut_line(std::string_view line, char separator, Brackets brackets) {
   return out;
 }
 
+Cells vector_parts(std::string_view cell) {
+  constexpr std::string_view kOpen = "[({", kClose = "])}";
+  if (cell.size() < 5) return {};
+  const auto kind = kOpen.find(cell.front());
+  if (kind == kOpen.npos || cell.back() != kClose[kind]) return {};
+  const auto inner = trimmed(cell.substr(1, cell.size() - 2));
+  const char separator = inner.find(';') != inner.npos   ? ';'
+                         : inner.find(',') != inner.npos ? ','
+                                                         : ' ';
+  Cells out = cut_line(inner, separator);
+  const bool numbers = std::all_of(out.begin(), out.end(), [](std::string_view part) {
+    return part.find(' ') == part.npos && number_in(part, '.').has_value();
+  });
+  return numbers && out.size() >= 2 ? out : Cells{};
+}
+
 bool is_comment(std::string_view line) {
   return std::any_of(std::begin(kCommentSigns), std::end(kCommentSigns),
                      [&](const char* sign) { return line.starts_with(sign); });
@@ -85,7 +100,8 @@ bool is_number(std::string_view cell) {
   // A blank may divide thousands or cells, which only the rest of the file can tell.
   const bool blank = cell.find(' ') != cell.npos;
   return (!blank && (number_in(cell, '.').has_value() || number_in(cell, ',').has_value())) ||
-         measured_cell(cell).has_value() || sexagesimal(cell).has_value() || is_vector(cell);
+         measured_cell(cell).has_value() || sexagesimal(cell).has_value() ||
+         !vector_parts(cell).empty();
 }
 
 bool is_time(std::string_view cell) {

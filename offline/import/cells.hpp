@@ -15,6 +15,9 @@ enum class Brackets { kCut, kKeptWhole };
 /// counts only at the beginning of a cell, for it also stands for inches and for seconds of arc.
 Cells cut_line(std::string_view line, char separator, Brackets brackets = Brackets::kCut);
 
+/// Several numbers in one cell, between brackets: "[0.1, 0.2, 0.3]"; none if the cell is no vector.
+Cells vector_parts(std::string_view cell);
+
 /// A line that begins with a sign for comments; the line without the sign.
 bool is_comment(std::string_view line);
 std::string_view without_comment_sign(std::string_view line);

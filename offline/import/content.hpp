@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "import/dialect.hpp"
+#include "import/raw_rows.hpp"
 
 namespace plumb::offline {
 

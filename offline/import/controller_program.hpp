@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "import/dialect.hpp"
+#include "import/raw_rows.hpp"
 
 namespace plumb::offline {
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/dialect.hpp"
+#include <string>
+#include <vector>
+
+#include "import/cell_table.hpp"
+#include "import/source_text.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

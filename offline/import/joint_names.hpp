@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/column_guess.hpp"
+#include <string>
+#include <vector>
+
+#include "import/column_plan.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

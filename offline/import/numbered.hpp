@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "import/column_guess.hpp"
+#include "import/column_plan.hpp"
+#include "import/content.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

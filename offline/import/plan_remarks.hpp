@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/column_guess.hpp"
+#include <vector>
+
+#include "import/column_plan.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

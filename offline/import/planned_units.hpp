@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/column_guess.hpp"
+#include <vector>
+
+#include "import/column_plan.hpp"
 #include "import/stated_units.hpp"
 
 namespace plumb::offline {

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "import/column_guess.hpp"
+#include "import/column_plan.hpp"
+#include "import/content.hpp"
 #include "import/imported.hpp"
 
 namespace plumb::offline {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/column_guess.hpp"
+#include "import/column_plan.hpp"
+#include "import/content.hpp"
 #include "import/imported.hpp"
 
 namespace plumb::offline {

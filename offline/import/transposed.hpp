@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/dialect.hpp"
+#include "import/raw_rows.hpp"
 
 namespace plumb::offline {
 

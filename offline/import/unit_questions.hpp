@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "import/column_guess.hpp"
-#include "import/dialect.hpp"
+#include "import/column_plan.hpp"
+#include "import/content.hpp"
+#include "import/raw_rows.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

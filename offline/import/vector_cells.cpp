@@ -14,28 +14,11 @@
 namespace plumb::offline {
 namespace {
 
-/// The numbers between the brackets; none if the cell is no vector.
-Cells parts_of(std::string_view cell) {
-  constexpr std::string_view kOpen = "[({", kClose = "])}";
-  if (cell.size() < 5) return {};
-  const auto kind = kOpen.find(cell.front());
-  if (kind == kOpen.npos || cell.back() != kClose[kind]) return {};
-  const auto inner = trimmed(cell.substr(1, cell.size() - 2));
-  const char separator = inner.find(';') != inner.npos   ? ';'
-                         : inner.find(',') != inner.npos ? ','
-                                                         : ' ';
-  Cells out = cut_line(inner, separator);
-  const bool numbers = std::all_of(out.begin(), out.end(), [](std::string_view part) {
-    return part.find(' ') == part.npos && number_in(part, '.').has_value();
-  });
-  return numbers && out.size() >= 2 ? out : Cells{};
-}
-
 /// The number of parts that all vectors of a column have; 0 if it holds anything else.
 std::size_t size_of_vectors(const RawRows& rows, std::size_t column) {
   std::size_t size = 0;
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    const auto parts = parts_of(rows.cells[i][column]).size();
+    const auto parts = vector_parts(rows.cells[i][column]).size();
     if (parts == 0 || (size > 0 && parts != size)) return 0;
     size = parts;
   }
@@ -68,7 +51,7 @@ void expand(RawRows& rows, std::size_t column, std::size_t size) {
   longer.expect(rows.cells.size(), rows.cells.size() * d.header.size());
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
     Cells row(rows.cells[i].begin(), rows.cells[i].end());
-    const Cells parts = parts_of(row[column]);
+    const Cells parts = vector_parts(row[column]);
     row.erase(row.begin() + at);
     row.insert(row.begin() + at, parts.begin(), parts.end());
     longer.add(row);
@@ -77,8 +60,6 @@ void expand(RawRows& rows, std::size_t column, std::size_t size) {
 }
 
 }  // namespace
-
-bool is_vector(std::string_view cell) { return !parts_of(cell).empty(); }
 
 void expand_vectors(const SourceText& text, RawRows& rows) {
   std::vector<std::string> expanded;

@@ -210,7 +210,7 @@ Column circumstance(const std::string& name, const std::string& unit, Quantity q
 std::vector<Column> circumstances_of(const Cell& cell, const ContextRows& rows) {
   std::vector<Column> out;
   const auto add = [&](const std::string& name, const std::string& unit, Quantity quantity,
-                       const ContextRows::RowsN& values, int column_of) {
+                       const RowsN& values, int column_of) {
     if (column_of >= values.cols() || values.rows() == 0) return;
     if (!values.col(column_of).allFinite()) return;
     out.push_back(circumstance(name, unit, quantity, values.col(column_of)));

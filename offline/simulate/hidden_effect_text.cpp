@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "simulate/hidden_effect_text.hpp"
+
 #include <utility>
 
 #include "simulate/law_list.hpp"

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "simulate/simulate.hpp"
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "simulate/hidden_effect.hpp"
 #include "simulate/statics.hpp"
 #include "simulate/visit.hpp"
 

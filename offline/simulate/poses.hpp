@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "simulate/simulate.hpp"
+#include "simulate/simulation_plan.hpp"
 
 namespace plumb::offline::sim {
 

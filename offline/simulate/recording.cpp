@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "cell/contexts.hpp"
+
 namespace plumb::offline {
 namespace sim {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "simulate/simulate.hpp"
+#include "simulate/simulation_plan.hpp"
 #include "simulate/visit.hpp"
 
 namespace plumb::offline::sim {

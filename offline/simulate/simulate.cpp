@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulate/climate.hpp"
+#include "simulate/hidden_effect_reader.hpp"
 #include "simulate/poses.hpp"
 #include "simulate/recording.hpp"
 #include "simulate/scatter.hpp"

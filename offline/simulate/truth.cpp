@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/truth.hpp"
 
+#include "simulate/hidden_effect_text.hpp"
+
 #include <numbers>
 
 namespace plumb::offline::sim {

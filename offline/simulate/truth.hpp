@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "simulate/law.hpp"
+#include "simulate/simulation.hpp"
+#include "simulate/simulation_plan.hpp"
 
 namespace plumb::offline::sim {
 

@@ -5,6 +5,7 @@
 
 #include "cell/measurements.hpp"
 #include "simulate/law.hpp"
+#include "simulate/simulation.hpp"
 
 namespace plumb::offline::sim {
 

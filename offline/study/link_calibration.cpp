@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <cmath>
 
 namespace plumb::offline::study {
 namespace {
@@ -11,30 +10,13 @@ namespace {
 constexpr int kMostIterations = 20;
 constexpr double kDecrease = 1e-9;  // relative decrease of the deviations that counts as none
 
-/// The derivatives d X / d d and d Y / d d at one pose. The model is linear in d.
-Eigen::Matrix<double, 2, 4> jacobian(double phi12, double phi23) {
-  const double p2 = phi12, p3 = phi12 + phi23;
-  Eigen::Matrix<double, 2, 4> J;
-  // cos(p + 3 pi / 2) = sin p, sin(p + 3 pi / 2) = -cos p
-  J << std::cos(p2), std::cos(p3), std::sin(p2), std::sin(p3),  //
-      std::sin(p2), std::sin(p3), -std::cos(p2), -std::cos(p3);
-  return J;
-}
-
 }  // namespace
-
-Samples rigid_points(const Links& d, const RowsN& q) {
-  Samples out(q.rows(), 2);
-  for (Eigen::Index i = 0; i < q.rows(); ++i)
-    out.row(i) = (jacobian(q(i, 0), q(i, 1)) * d).transpose();
-  return out;
-}
 
 LinkCalibration calibrate_links(const PlanarPoses& measured) {
   LinkCalibration out;
   Eigen::Matrix4d JtJ = Eigen::Matrix4d::Zero();
   for (Eigen::Index i = 0; i < measured.q.rows(); ++i) {
-    const auto J = jacobian(measured.q(i, 0), measured.q(i, 1));
+    const auto J = links_jacobian(measured.q(i, 0), measured.q(i, 1));
     JtJ += J.transpose() * J;
   }
   const auto spectrum = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(JtJ).eigenvalues();
@@ -44,8 +26,8 @@ LinkCalibration calibrate_links(const PlanarPoses& measured) {
     const Samples deviation = measured.p_AC_A - rigid_points(out.d, measured.q);
     Eigen::Vector4d Jtr = Eigen::Vector4d::Zero();
     for (Eigen::Index i = 0; i < measured.q.rows(); ++i)
-      Jtr +=
-          jacobian(measured.q(i, 0), measured.q(i, 1)).transpose() * deviation.row(i).transpose();
+      Jtr += links_jacobian(measured.q(i, 0), measured.q(i, 1)).transpose() *
+             deviation.row(i).transpose();
     const Links better = out.d + JtJ.ldlt().solve(Jtr);
     const double after = (measured.p_AC_A - rigid_points(better, measured.q)).norm();
     ++out.iterations;

@@ -2,7 +2,7 @@
 #include "study/planar_poses.hpp"
 
 #include "cell/random.hpp"
-#include "study/link_calibration.hpp"
+#include "study/rigid_links.hpp"
 #include "study/white_noise.hpp"
 
 namespace plumb::offline::study {

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "study/planar_study.hpp"
-
 namespace plumb::offline::study {
 namespace {
 
@@ -28,12 +26,12 @@ std::vector<std::string> about_the_arm(PlanarVariant variant) {
 
 }  // namespace
 
-std::vector<std::string> planar_remarks(const PlanarStudy& study) {
+std::vector<std::string> planar_remarks(PlanarVariant variant, const std::vector<StudyRow>& rows) {
   std::vector<std::string> out;
-  for (const auto& text : about_the_arm(study.request.variant))
+  for (const auto& text : about_the_arm(variant))
     out.push_back(fmt::format(fmt::runtime(text),
-                              fmt::arg("formula", mm(study.row("beam_formula").test.mean)),
-                              fmt::arg("flexure", mm(study.row("link_flexure").test.mean))));
+                              fmt::arg("formula", mm(row_of(rows, "beam_formula").test.mean)),
+                              fmt::arg("flexure", mm(row_of(rows, "link_flexure").test.mean))));
   out.push_back(
       "The paper's test positions contain its training positions; the last columns are 20,000 "
       "random positions inside the trained box, none of them seen.");
@@ -41,8 +39,8 @@ std::vector<std::string> planar_remarks(const PlanarStudy& study) {
       "The paper finds that smoothing makes trees worse ({} mm here). That holds while the leaves "
       "keep their coefficients, or are fitted one by one ({} mm): fitted all together the same "
       "class of model leaves {} mm.",
-      mm(study.row("smoothed_kept").test.mean), mm(study.row("smoothed_local").test.mean),
-      mm(study.row("blended_affine").test.mean)));
+      mm(row_of(rows, "smoothed_kept").test.mean), mm(row_of(rows, "smoothed_local").test.mean),
+      mm(row_of(rows, "blended_affine").test.mean)));
   out.push_back(
       "How the paper stopped its trees is not printed. Its sizes come out with Potts and Sammut's "
       "delta at (0.035 sigma)^2 and 10 samples a leaf, and, for the trees alone, grown out with 6 "

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "study/study_row.hpp"
+
 namespace plumb::offline::study {
 
-struct PlanarStudy;
-
 /// Sentences for the user: what deviates from the paper and why, and what the figures show.
-std::vector<std::string> planar_remarks(const PlanarStudy& study);
+std::vector<std::string> planar_remarks(PlanarVariant variant, const std::vector<StudyRow>& rows);
 
 }  // namespace plumb::offline::study

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
 #include "numbers/jobs.hpp"
 #include "plumb/runtime/detail/tree.hpp"
@@ -295,24 +294,6 @@ void add_physics(const PlanarRequest& request, const PlanarPoses& train, PlanarS
 
 }  // namespace
 
-Samples values(const AxisTrees& trees, const RowsN& q) {
-  const Samples u = normalised(trees.domain, q);
-  const std::array views{TreeView(trees.tree[0], 2), TreeView(trees.tree[1], 2)};
-  Samples out(q.rows(), 2);
-  for (Eigen::Index i = 0; i < q.rows(); ++i) {
-    const SampleRow row(u, i);
-    out.row(i) << views[0].evaluate(row.span()), views[1].evaluate(row.span());
-  }
-  return out;
-}
-
-const StudyRow& PlanarStudy::row(const std::string& key) const {
-  const auto it =
-      std::find_if(rows.begin(), rows.end(), [&](const StudyRow& r) { return r.key == key; });
-  if (it == rows.end()) throw std::out_of_range("the study has no row " + key);
-  return *it;
-}
-
 PlanarStudy run_planar_study(const PlanarRequest& request) {
   PlanarStudy out{
       .request = request, .links = {}, .test_q = {}, .rows = {}, .diagnosis = {}, .remarks = {}};
@@ -324,7 +305,7 @@ PlanarStudy run_planar_study(const PlanarRequest& request) {
   add_published(lessons, out.links.d, rows);
   add_ours(lessons, out.links.d, request.seed, rows);
   add_physics(request, train, out, rows);
-  out.remarks = planar_remarks(out);
+  out.remarks = planar_remarks(request.variant, out.rows);
   return out;
 }
 

@@ -1,42 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "plumb/format/model.hpp"
 #include "study/link_calibration.hpp"
 #include "study/planar_poses.hpp"
+#include "study/study_row.hpp"
 
 namespace plumb::offline::study {
-
-/// A tree for x and one for y, with the box in which they were trained.
-struct AxisTrees {
-  format::Domain domain;
-  std::array<format::Tree, 2> tree;
-};
-
-/// The values of the trees, shape (n, 2) [m].
-Samples values(const AxisTrees& trees, const RowsN& q);
-
-/// The origin of the model in a row.
-enum class RowKind { kPublished, kComparison, kOurs, kPhysics };
-
-/// A model of the study and its errors, always relative to positions without noise.
-struct StudyRow {
-  std::string key;    // "calibrated_llmt"
-  std::string model;  // description
-  std::string size;   // "90 + 75 leaves"
-  RowKind kind = RowKind::kPublished;
-  std::optional<TotalError> paper = {};  // Table 1 [m]
-  TotalError test = {};                  // the 5985 positions of the study [m]
-  TotalError disjoint = {};              // 20,000 random positions inside the trained box [m]
-  Eigen::VectorXd error_at_test = {};    // (5985,) [m]
-  std::optional<AxisTrees> trees = {};
-};
 
 struct PlanarRequest {
   PlanarVariant variant = PlanarVariant::kPublished;
@@ -54,7 +27,7 @@ struct PlanarStudy {
   std::string diagnosis;             // the verdict of diagnose as a sentence
   std::vector<std::string> remarks;  // what deviates from the paper, and why
 
-  const StudyRow& row(const std::string& key) const;
+  const StudyRow& row(const std::string& key) const { return row_of(rows, key); }
 };
 
 /// Runs the study: the five models of Table 1 as published, smoothing as in textbooks, the trees of

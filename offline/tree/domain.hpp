@@ -2,7 +2,7 @@
 #pragma once
 
 #include "plumb/format/model.hpp"
-#include "tree/growth.hpp"
+#include "tree/samples.hpp"
 
 namespace plumb::offline {
 

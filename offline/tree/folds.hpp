@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tree/growth.hpp"
+#include "tree/samples.hpp"
 
 namespace plumb::offline {
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "tree/rows.hpp"
 #include "tree/scan.hpp"
+#include "tree/training_rows.hpp"
 
 namespace plumb::offline {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "tree/growth.hpp"
-#include "tree/rows.hpp"
+#include "tree/grown_tree.hpp"
+#include "tree/training_rows.hpp"
 
 namespace plumb::offline {
 

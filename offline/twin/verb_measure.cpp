@@ -6,6 +6,7 @@
 #include <charconv>
 #include <memory>
 
+#include "cell/measurement_reader.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
 #include "program/shell_word.hpp"

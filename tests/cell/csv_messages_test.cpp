@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cell/measurement_reader.hpp"
 #include "cell/measurements.hpp"
+#include "cell/table_file.hpp"
 #include "support.hpp"
 
 namespace plumb::offline {

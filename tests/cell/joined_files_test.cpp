@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "cell/measurement_reader.hpp"
 #include "cell/measurements.hpp"
 #include "support.hpp"
 

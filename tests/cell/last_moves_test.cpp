@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/last_moves.hpp"
+#include "cell/measurement_reader.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/line_source.hpp"
+#include "cell/table_file.hpp"
 
 #include "cell/measurements.hpp"
 #include "program/file.hpp"

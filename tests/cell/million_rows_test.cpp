@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cell/measurement_reader.hpp"
 #include "cell/measurements.hpp"
 #include "cell/table_blocks.hpp"
+#include "cell/table_file.hpp"
 #include "support.hpp"
 #include "tests/yardstick.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "cell/table_file.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "bus_text/bus_arm.hpp"
 #include "cell/cell.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/measurements.hpp"
 #include "support.hpp"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cell/cell.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/measurements.hpp"
 #include "tests/cell/support.hpp"
 

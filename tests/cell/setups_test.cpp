@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell/setups.hpp"
+#include "cell/measurement_reader.hpp"
 
 #include "cell/replicates.hpp"
 #include "support.hpp"

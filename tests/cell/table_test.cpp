@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cell/measurements.hpp"
+#include "cell/table_file.hpp"
 #include "support.hpp"
 
 namespace plumb::offline {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cell/cell.hpp"
+#include "cell/measurement_reader.hpp"
 #include "cell/measurements.hpp"
 #include "support.hpp"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cell/measurements.hpp"
+#include "cell/table_file.hpp"
 #include "check/cell_edit.hpp"
 #include "check/measurement_edit.hpp"
 

@@ -59,7 +59,7 @@ MeasurementFiles rich_measurements(const Cell& cell) {
   m.set.assign(kPoses, SetMark::kUnmarked);
   m.replicate_group.resize(kPoses);
   std::iota(m.replicate_group.begin(), m.replicate_group.end(), 0);
-  const auto fill = [&](ContextRows::RowsN& to, int columns, double low, double high) {
+  const auto fill = [&](RowsN& to, int columns, double low, double high) {
     to.resize(kPoses, columns);
     for (Eigen::Index i = 0; i < to.size(); ++i) to.data()[i] = low + share(dice) * (high - low);
   };

@@ -8,6 +8,7 @@
 #include <functional>
 #include <sstream>
 
+#include "cell/measurement_reader.hpp"
 #include "fit/cell_data.hpp"
 #include "simulate/simulate.hpp"
 

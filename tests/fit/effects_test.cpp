@@ -41,7 +41,7 @@ Measurements rich_measurements(const Cell& cell, int n, std::uint64_t seed) {
   plan.truth.seed = seed;
   Measurements m = simulate(cell, plan).measured;
   Random dice(seed);
-  const auto fill = [&](ContextRows::RowsN& to, int columns, double low, double high) {
+  const auto fill = [&](RowsN& to, int columns, double low, double high) {
     to.resize(m.q.rows(), columns);
     for (Eigen::Index i = 0; i < to.size(); ++i) to.data()[i] = dice.uniform(low, high);
   };

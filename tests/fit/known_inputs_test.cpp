@@ -106,7 +106,7 @@ TEST(TrainedContext, HoldsTheRangesOfWhatTheEffectsRead) {
            effect("thermal_growth", {0}, {{ContextInput::kTemperature, "b", 0}})});
   model.mechanics.payload_kg = 7.0;
   ContextRows rows;
-  rows.payload = ContextRows::RowsN::Constant(3, 4, 0.02);
+  rows.payload = RowsN::Constant(3, 4, 0.02);
   rows.payload.col(0) << 1.0, kUnknown, 3.0;
   rows.sensors = {"a", "b"};
   rows.temperature.resize(3, 2);

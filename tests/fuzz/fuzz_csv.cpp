@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cell/measurements.hpp"
+#include "cell/table_file.hpp"
 #include "import/dialect.hpp"
 #include "tests/fuzz/refusals.hpp"
 

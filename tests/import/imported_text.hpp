@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cell/table.hpp"
+#include "cell/table_file.hpp"
 #include "import/imported_csv.hpp"
 #include "import/importer.hpp"
 #include "import/timestamps.hpp"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cell/measurements.hpp"
+#include "cell/table_file.hpp"
 #include "import/importer.hpp"
 #include "tests/import/imported_text.hpp"
 

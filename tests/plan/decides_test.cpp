@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "plan/pose_plan.hpp"
+#include "plan/planning.hpp"
 #include "tests/plan/hidden_pair.hpp"
 #include "tests/random_numbers.hpp"
 

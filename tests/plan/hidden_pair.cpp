@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cell/measurement_reader.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/scan.hpp"
 #include "simulate/blind_case.hpp"

@@ -6,7 +6,7 @@
 
 #include "fit/calibrate.hpp"
 #include "fit/fit_judgement.hpp"
-#include "plan/pose_plan.hpp"
+#include "plan/planning.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

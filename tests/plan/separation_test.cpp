@@ -9,9 +9,10 @@
 #include <numeric>
 #include <random>
 
+#include "cell/measurement_reader.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
-#include "plan/pose_plan.hpp"
+#include "plan/planning.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "simulate/hidden_effect_reader.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {

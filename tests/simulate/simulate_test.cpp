@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/simulate.hpp"
+#include "cell/measurement_reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 
 #include "simulate/arm.hpp"
 #include "simulate/blind_case.hpp"
+#include "simulate/hidden_effect_reader.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

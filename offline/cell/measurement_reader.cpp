@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/measurements.hpp"
+#include "cell/measurement_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,11 @@
 
 #include "cell/arm_columns.hpp"
 #include "cell/arm_reach.hpp"
+#include "cell/contexts.hpp"
 #include "cell/last_moves.hpp"
 #include "cell/measurement_warnings.hpp"
-#include "cell/plain_rows.hpp"
 #include "cell/replicates.hpp"
+#include "cell/table_file.hpp"
 #include "cell/table_place.hpp"
 
 namespace plumb::offline {

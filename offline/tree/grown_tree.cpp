@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tree/grown_tree.hpp"
+
 #include <algorithm>
 
 #include "plumb/runtime/detail/tree.hpp"
-#include "tree/growth.hpp"
 
 namespace plumb::offline {
 namespace {
