@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "plumb/drivers/can_link.hpp"
+#include "plumb/drivers/can_link_options.hpp"
 
 namespace plumb::drivers {
 

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "link_thread.hpp"
+#include "modbus_faults.hpp"
 #include "modbus_owner.hpp"
 #include "modbus_reader.hpp"
-#include "modbus_settings.hpp"
 #include "modbus_talk.hpp"
 #include "modbus_writer.hpp"
 #include "plumb/drivers/time_source.hpp"

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "link_thread.hpp"
-#include "plumb/drivers/modbus_client.hpp"
 #include "plumb/drivers/modbus_frame.hpp"
+#include "plumb/drivers/modbus_settings.hpp"
 
 namespace plumb::drivers {
 

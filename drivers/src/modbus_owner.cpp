@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "link_thread.hpp"
-#include "modbus_settings.hpp"
+#include "modbus_faults.hpp"
 #include "plumb/drivers/time_source.hpp"
 
 namespace plumb::drivers {

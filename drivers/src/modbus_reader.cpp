@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "link_thread.hpp"
-#include "modbus_settings.hpp"
+#include "modbus_faults.hpp"
 #include "plumb/drivers/time_source.hpp"
 
 namespace plumb::drivers {

@@ -2,8 +2,8 @@
 #include "plumb/drivers/modbus_server.hpp"
 
 #include "link_thread.hpp"
+#include "modbus_faults.hpp"
 #include "modbus_serial_listener.hpp"
-#include "modbus_settings.hpp"
 #include "modbus_tcp_listener.hpp"
 
 namespace plumb::drivers {

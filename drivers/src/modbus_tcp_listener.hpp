@@ -9,8 +9,8 @@
 
 #include "link_thread.hpp"
 #include "modbus_tcp_socket.hpp"
-#include "plumb/drivers/modbus_server.hpp"
 #include "plumb/drivers/modbus_service.hpp"
+#include "plumb/drivers/modbus_settings.hpp"
 
 namespace plumb::drivers {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "plumb/drivers/descriptor.hpp"
-#include "plumb/drivers/modbus_server.hpp"
+#include "plumb/drivers/modbus_settings.hpp"
 
 namespace plumb::drivers {
 

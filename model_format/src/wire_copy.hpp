@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "plumb/format/model.hpp"
-#include "plumb/format/reader.hpp"
+#include "plumb/format/read_error.hpp"
 
 namespace plumb::format::wire {
 struct Model;

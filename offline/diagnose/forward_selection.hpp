@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnose/diagnosis.hpp"
+#include "diagnose/forward_start.hpp"
 #include "diagnose/scan.hpp"
 
 namespace plumb::offline {
@@ -33,17 +33,6 @@ struct ForwardSelection {
   std::optional<Undecided> undecided;   // where it ended for that reason
   std::vector<Oversized> unlikely;      // of the steps: large, but nothing else explains as much
   std::vector<std::string> not_judged;  // models that could not be refitted, in words
-};
-
-/// What a selection works on; the cell's own effects are the start. The measurements must outlive
-/// the selection.
-struct ForwardStart {
-  Cell cell;
-  const Measurements& measured;
-  std::vector<int> fit;  // rows
-  std::vector<std::string> not_testable;
-  std::function<void(const std::string&)> tell;  // progress; may be empty
-  std::vector<Testable> excluded = {};  // not_testable, and why; empty: nobody asks for look-alikes
 };
 
 /// `first` is the scan of `whitened`, the calibration's.

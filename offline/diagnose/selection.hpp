@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/forward_selection.hpp"
+#include "diagnose/forward_start.hpp"
 #include "diagnose/judged_model.hpp"
 #include "diagnose/refit.hpp"
 

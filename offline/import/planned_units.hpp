@@ -5,6 +5,7 @@
 
 #include "import/column_plan.hpp"
 #include "import/stated_units.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 

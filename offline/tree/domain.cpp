@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plumb/runtime/detail/tree.hpp"
+#include "plumb/runtime/detail/trained_domain.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "chain_walk.hpp"
+#include "chain.hpp"
 
 namespace plumb {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "crisp_walks.hpp"
+#include "crisp_trees.hpp"
 
 namespace plumb {
 namespace {

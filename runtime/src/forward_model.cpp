@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "chain_walk.hpp"
-#include "crisp_walks.hpp"
+#include "chain.hpp"
+#include "crisp_trees.hpp"
 #include "finite.hpp"
 #include "trained_domain.hpp"
 #include "turn.hpp"

@@ -6,7 +6,7 @@
 
 #include "lane_choices.hpp"
 #include "lanes.hpp"
-#include "plumb/runtime/detail/tree.hpp"
+#include "plumb/runtime/detail/trained_domain.hpp"
 #include "six_joints.hpp"
 
 /// The inline functions of TrainedDomain.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "plumb/runtime/detail/trained_domain.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "tests/runtime/literal_tree.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "plumb/runtime/detail/trained_domain.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "tests/random_numbers.hpp"
 #include "tests/tree/tree_data.hpp"

@@ -8,22 +8,9 @@
 #include "plumb/drivers/bus_layout.hpp"
 #include "plumb/drivers/modbus_address.hpp"
 #include "plumb/drivers/modbus_exchange.hpp"
+#include "plumb/drivers/modbus_settings.hpp"
 
 namespace plumb::drivers {
-
-struct ModbusClientSettings {
-  ModbusAddress server = TcpAddress{};
-  Sender self = Sender::kPlumb;
-  std::uint8_t unit = 1;  // 0 .. 255; serial: 1 .. 247
-
-  double poll_period_s = 0;         // 0: half the shortest period of the messages to read
-  double response_timeout_s = 0.1;  // for a complete answer, and for a connection
-  double first_back_off_s = 0.01;   // wait before the next attempt to connect; doubles each time
-  double longest_back_off_s = 0.5;
-  double stale_after_s = 0.1;  // a message of the cycle that waited longer is not written
-  double watch_s = 0.3;  // how long registers that are in use must not change before we take them
-  std::uint32_t token = 0;  // written into the layout's register for it; 0: a random number
-};
 
 /// A Modbus client for a controller that is the Modbus server: it polls the controller's messages
 /// and writes ours.

@@ -1,34 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "plumb/drivers/bus_layout.hpp"
 #include "plumb/drivers/modbus_address.hpp"
 #include "plumb/drivers/modbus_exchange.hpp"
+#include "plumb/drivers/modbus_settings.hpp"
 
 namespace plumb::drivers {
-
-struct ModbusServerSettings {
-  enum class Wildcard : std::uint8_t { kRefused, kAllowed };
-
-  ModbusAddress at = TcpAddress{};         // host: an address or interface ("eth1") of this machine
-  Wildcard wildcard = Wildcard::kRefused;  // whether host may be 0.0.0.0 or ::
-  std::vector<std::string> peers = {};     // TCP: addresses that may connect; one at least
-  Sender self = Sender::kPlumb;
-  std::uint8_t unit = 1;  // over TCP the units 0 and 255 are answered, too
-
-  std::size_t most_connections = 4;
-  double request_timeout_s = 0.1;  // from a request's first byte to its last
-  double idle_timeout_s = 5.0;     // longest time without a complete request
-  double stale_after_s = 0.1;      // a message of ours that is older loses its checksum
-  double writer_hold_s = 0.5;      // how long after a write other connections may not write
-};
 
 /// A Modbus server for controllers that poll. It offers the messages of the layout as holding
 /// registers, and the same as input registers. It serves functions 3, 4, 6, 16 and 23 only.

@@ -8,6 +8,7 @@
 #include "plumb/runtime/chain.hpp"
 #include "plumb/runtime/detail/crisp_trees.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
+#include "plumb/runtime/detail/trained_domain.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "plumb/runtime/status.hpp"
 

@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "plumb/drivers/modbus_client.hpp"
-#include "plumb/drivers/modbus_server.hpp"
+#include "plumb/drivers/modbus_settings.hpp"
 
 namespace plumb::drivers {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modbus_settings.hpp"
+#include "modbus_faults.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
