@@ -108,7 +108,8 @@ def violations(source):
 def unit_of(path):
     """A header and the source of the same name count as one: NAME.hpp and NAME.cpp, also include/.../NAME.hpp and
     src/NAME.cpp of a room."""
-    room, own, name = re.fullmatch(r"(.*?)(?:/(src|include/plumb(?:/\w+(?=/))?))?((?:/\w+)+)", path.with_suffix("").as_posix()).groups()
+    found = re.fullmatch(r"(.*?)(?:/(src|include/plumb(?:/\w+(?=/))?))?((?:/\w+)+)", path.with_suffix("").as_posix())
+    room, own, name = found.groups()
     return room + (name.replace("/detail/", "/") if own else name)
 
 

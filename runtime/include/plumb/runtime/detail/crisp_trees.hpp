@@ -12,6 +12,8 @@
 namespace plumb {
 namespace internal {
 
+struct SixJoints;  // one number per joint, in registers
+
 /// A walk down a crisp tree without branches, which a processor could not predict here. A position
 /// counts children, eight per node: the high child directly follows the low one and is reached by
 /// adding the result of the comparison. Leaf k has the position that node ~k (< 0) would have.
