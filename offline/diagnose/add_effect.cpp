@@ -14,13 +14,6 @@
 namespace plumb::offline {
 namespace {
 
-/// A wave may be taken out twice and still be found again; any other effect is banned at once.
-void take_out(Selection& s, const EffectEntry& weak) {
-  const std::string key = s.key(weak);
-  if (!is_wave(weak.name) || ++s.dropped[key] > 2) s.ban(key);
-  forget(s.added, weak);
-}
-
 /// A series takes the place of what the selection itself has found of uneven gears at its joints.
 void forget_what_it_covers(Selection& s, const Found& found) {
   for (const int joint : found.entry.joints)
@@ -60,7 +53,7 @@ void add_if_it_fits(Selection& s, const Found& found) {
   }
   if (is_series(found.entry.name)) forget_what_it_covers(s, found);
   s.added.push_back(found);
-  if (weak) take_out(s, *weak);
+  if (weak) s.take_out(*weak);
   s.look_at(std::move(next), std::move(whitened));
 }
 

@@ -9,7 +9,6 @@
 #include "diagnose/evidence_without.hpp"
 #include "diagnose/found_list.hpp"
 #include "diagnose/model_parts.hpp"
-#include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
 
 namespace plumb::offline {
@@ -40,18 +39,17 @@ const Found* better_than(const Selection& s, const JudgedModel& without, const F
   return other->ln_bayes() < evidence_without(without, found) + kSupported ? nullptr : other;
 }
 
-bool exchange_one(Selection& s, const Found& found) {
+std::optional<Proposal> better_one(const Selection& s, const Found& found) {
   // A step stays out for good once one of its moves was dropped; here all of them are tried again.
   std::vector<std::string> banned = s.banned();
   if (is_change_point(found.entry.name)) std::erase(banned, s.key(found.entry));
   const JudgedModel without = s.without(found.entries(), banned);
   const Found* other = better_than(s, without, found);
-  if (other == nullptr) return false;
-  s.remember_alternatives(without, *other);
-  s.look_at(s.fitted(with_found(without.model.cell->effects, *other)));
-  for (const auto& entry : found.entries()) forget(s.added, entry);
-  s.added.push_back(*other);
-  return true;
+  if (other == nullptr) return std::nullopt;
+  return Proposal{.model = s.fitted(with_found(without.model.cell->effects, *other)),
+                  .out = found.entries(),
+                  .in = {*other},
+                  .instead = s.alternatives_in(without, *other)};
 }
 
 /// Effects of the model, several waves or moves of one part counted once: a move may have been part
@@ -62,17 +60,13 @@ std::size_t findings_in(const Selection& s) {
   return out.size();
 }
 
-/// Whether an effect is to be taken out now; remembers that it was.
-bool is_due(Selection& s, const EffectEntry& entry) {
+/// Waves are looked for again together (fresh_waves.hpp).
+bool is_due_for_exchange(Selection& s, const char* name, const Found& found) {
+  const EffectEntry& entry = found.entry;
   const std::string key = s.key(entry);
   if (is_wave(entry.name) || is_series(entry.name)) return false;
-  if (is_change_point(entry.name)) {
-    const auto [last, fresh] = s.steps_ranked.try_emplace(key, findings_in(s));
-    if (!fresh && last->second == findings_in(s)) return false;
-    last->second = findings_in(s);
-    return true;
-  }
-  return s.exchanged.size() < kMostExchanges && s.exchanged.insert(key).second;
+  if (is_change_point(entry.name)) return s.first_time("rank of a step", key, findings_in(s));
+  return s.times(name) < kMostExchanges && s.first_time(name, key);
 }
 
 bool is_oversized(const Cell& cell, const WhitenedFit& whitened, const Calibration& calibration,
@@ -82,51 +76,44 @@ bool is_oversized(const Cell& cell, const WhitenedFit& whitened, const Calibrati
                      [&](const Oversized& one) { return one.entry.name == entry.name; });
 }
 
-bool exchange_for_size(Selection& s, const EffectEntry& entry) {
+std::vector<Found> of_unusual_size(const Selection& s) {
+  std::vector<Found> out;
+  for (auto& one : oversized(s.cell(), s.whitened(), s.calibration(), s.start().cell.effects))
+    if (!is_wave(one.entry.name) && !is_series(one.entry.name))
+      out.emplace_back().entry = std::move(one.entry);
+  return out;
+}
+
+std::optional<Proposal> one_of_usual_size(const Selection& s, const Found& found) {
+  const EffectEntry& entry = found.entry;
   const JudgedModel without = s.without(entry, s.banned());
   const Found* own = without.look.find(s.cell(), s.key(entry));
   const Found* other = without.look.supported(
       [&](const Found& f) { return f.entry.name != entry.name || f.entry.joints != entry.joints; });
   if (own == nullptr || other == nullptr || other->ln_bayes() < own->ln_bayes() - kTold_nats)
-    return false;
+    return std::nullopt;
   FittedModel next = s.fitted(with_found(without.model.cell->effects, *other));
   WhitenedFit whitened = s.whitened_fit_of(next);
   if (is_oversized(*next.cell, whitened, next.calibration, s.start().cell.effects, other->entry))
-    return false;
-  const Found chosen = *other;
-  s.remember_alternatives(without, chosen);
-  s.look_at(std::move(next), std::move(whitened));
-  forget(s.added, entry);
-  s.added.push_back(chosen);
-  return true;
+    return std::nullopt;
+  return Proposal{.model = std::move(next),
+                  .whitened = std::move(whitened),
+                  .out = {entry},
+                  .in = {*other},
+                  .instead = s.alternatives_in(without, *other)};
+}
+
+/// One effect alone has none to be exchanged for.
+std::vector<Found> if_several(const Selection& s) {
+  return s.added.size() < 2 ? std::vector<Found>() : s.added;
 }
 
 }  // namespace
 
-bool exchange_oversized(Selection& s) {
-  for (const auto& one :
-       oversized(s.cell(), s.whitened(), s.calibration(), s.start().cell.effects)) {
-    if (is_wave(one.entry.name) || is_series(one.entry.name) ||
-        !s.sizes_doubted.insert(s.key(one.entry)).second)
-      continue;
-    bool done = false;
-    if (!unless_refused([&] { done = exchange_for_size(s, one.entry); }))
-      s.not_compared_without(one.entry);
-    if (done) return true;
-  }
-  return false;
-}
+const Revision kExchange{
+    .name = "exchange", .subjects = if_several, .proposal = better_one, .due = is_due_for_exchange};
 
-bool exchange(Selection& s) {
-  if (s.added.size() < 2) return false;
-  for (const Found& found : std::vector<Found>(s.added)) {
-    if (!is_due(s, found.entry)) continue;
-    bool done = false;
-    if (!unless_refused([&] { done = exchange_one(s, found); }))
-      s.not_compared_without(found.entry);
-    if (done) return true;
-  }
-  return false;
-}
+const Revision kExchangeForSize{
+    .name = "exchange for size", .subjects = of_unusual_size, .proposal = one_of_usual_size};
 
 }  // namespace plumb::offline

@@ -9,14 +9,14 @@
 #include "diagnose/behind_oversized.hpp"
 #include "diagnose/candidates.hpp"
 #include "diagnose/constants.hpp"
-#include "diagnose/doubt_strongest.hpp"
+#include "diagnose/doubt.hpp"
 #include "diagnose/effect_domain.hpp"
 #include "diagnose/exchange.hpp"
 #include "diagnose/found_list.hpp"
 #include "diagnose/fresh_waves.hpp"
-#include "diagnose/give_way.hpp"
+#include "diagnose/imitating_step.hpp"
+#include "diagnose/left_out_ends.hpp"
 #include "diagnose/unless_refused.hpp"
-#include "diagnose/untrim_ends.hpp"
 #include "effects/effect_option.hpp"
 
 namespace plumb::offline {
@@ -48,8 +48,14 @@ bool may_be_added(Selection& s, const Found& best, ForwardSelection& out) {
                               unknown_structure(s.whitened(), *slow)};
     return false;
   }
-  s.unsure[s.key(best.entry)] = std::move(others);
+  s.remember_alternatives(s.key(best.entry), std::move(others));
   return true;
+}
+
+/// Tries these in their order until one has changed the model.
+bool revise_once(Selection& s, std::initializer_list<const Revision*> revisions) {
+  return std::any_of(revisions.begin(), revisions.end(),
+                     [&](const Revision* revision) { return revise(s, *revision); });
 }
 
 /// What the selection ends with by itself: unknown structure, a full model, or nothing more.
@@ -57,7 +63,7 @@ void select(Selection& s, ForwardSelection& out) {
   for (int step = 0; step < kMostSteps; ++step) {
     if (s.look().unknown() && !s.leaves_as_remainder(*s.look().pattern)) {
       // A structure of no law comes last: it may be what a wrongly named effect leaves.
-      if (untrim_ends(s) || exchange_oversized(s) || exchange(s) || step_gives_way(s)) continue;
+      if (revise_once(s, {&kLeftOutEnds, &kExchangeForSize, &kExchange, &kImitatingStep})) continue;
       out.unknown = unknown_structure(s.whitened(), *s.look().pattern);
       return;
     }
@@ -68,7 +74,7 @@ void select(Selection& s, ForwardSelection& out) {
     out.undecided.reset();
     if (best != nullptr && may_be_added(s, *best, out))
       add_effect(s, as_many_as_fit(s, with_fresh_waves(s, *best)));
-    else if (!exchange(s) && !doubt_strongest(s) && !exchange_oversized(s) && !untrim_ends(s))
+    else if (!revise_once(s, {&kExchange, &kDoubt, &kExchangeForSize, &kLeftOutEnds}))
       return;
   }
 }
@@ -94,13 +100,12 @@ std::vector<ForwardStep> steps(Selection& s) {
     const bool last = out.size() + 1 == s.added.size();
     EffectEntry entry = found.entry;
     if (!found.cycles.empty()) set_option(entry, OptionKey::kCyclesPerTurn, found.cycles.front());
-    const auto others = s.unsure.find(s.key(found.entry));
     out.push_back({entry,
                    found.cycles,
                    found.peaks,
                    found.moves,
                    found.ln_bayes(),
-                   others == s.unsure.end() ? std::vector<Alternative>() : others->second,
+                   s.alternatives_of(s.key(found.entry)),
                    last ? s.cell().effects : effects,
                    {}});
   }

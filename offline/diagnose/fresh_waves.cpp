@@ -24,7 +24,7 @@ bool has_waves_of_its_own(const Selection& s, const EffectEntry& entry) {
 
 Found with_fresh_waves(Selection& s, Found best) {
   const std::string key = s.key(best.entry);
-  if (!has_waves_of_its_own(s, best.entry) || !s.renewed.insert(key).second) return best;
+  if (!has_waves_of_its_own(s, best.entry) || !s.first_time("fresh waves", key)) return best;
   const EffectEntry all{
       .name = wave_effect(), .joints = best.entry.joints, .options = {}, .place = {}};
   const bool compared = unless_refused([&] {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/selection.hpp"
 
+#include <utility>
+
 #include "diagnose/alternatives.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/effect_words.hpp"
+#include "diagnose/found_list.hpp"
 #include "diagnose/judged_fit.hpp"
 #include "diagnose/model_parts.hpp"
 #include "diagnose/unless_refused.hpp"
+#include "effects/registry.hpp"
 
 namespace plumb::offline {
 
@@ -55,8 +59,24 @@ JudgedModel Selection::without(const std::vector<EffectEntry>& entries,
   return {std::move(model), std::move(found.whitened), std::move(found.look)};
 }
 
-void Selection::remember_alternatives(const JudgedModel& without, const Found& found) {
-  unsure[key(found.entry)] = alternatives(without.whitened, without.look, found, start_.excluded);
+std::vector<Alternative> Selection::alternatives_in(const JudgedModel& without,
+                                                    const Found& found) const {
+  return alternatives(without.whitened, without.look, found, start_.excluded);
+}
+
+void Selection::take(Proposal p) {
+  banned_.insert(banned_.end(), p.banned.begin(), p.banned.end());
+  if (auto* const judged = std::get_if<JudgedModel>(&p.model)) {
+    go_to(std::move(*judged));
+    if (!p.banned.empty()) look_again();
+  } else {
+    auto& fitted = std::get<FittedModel>(p.model);
+    if (!p.whitened) p.whitened = whitened_fit_of(fitted);
+    look_at(std::move(fitted), std::move(*p.whitened));
+  }
+  for (const auto& entry : p.out) forget(added, entry);
+  if (p.instead) remember_alternatives(key(p.in.front().entry), std::move(*p.instead));
+  added.insert(added.end(), p.in.begin(), p.in.end());
 }
 
 void Selection::go_to(JudgedModel there) {
@@ -85,6 +105,30 @@ void Selection::set_aside(const EffectEntry& entry) {
   not_judged_["with " + name] = "with " + in_words(cell(), entry);
   (++failed_[name] > 1 ? banned_ : waiting_).push_back(name);
   look_again();
+}
+
+void Selection::take_out(const EffectEntry& weak) {
+  if (const std::string name = key(weak); !is_wave(weak.name) || ++taken_out_[name] > 2) ban(name);
+  forget(added, weak);
+}
+
+bool Selection::first_time(const std::string& what, const std::string& key, std::size_t state) {
+  const auto [last, fresh] = done_[what].try_emplace(key, state);
+  return fresh || std::exchange(last->second, state) != state;
+}
+
+std::size_t Selection::times(const std::string& what) const {
+  const auto found = done_.find(what);
+  return found == done_.end() ? 0 : found->second.size();
+}
+
+void Selection::remember_alternatives(const std::string& key, std::vector<Alternative> others) {
+  alternatives_[key] = std::move(others);
+}
+
+std::vector<Alternative> Selection::alternatives_of(const std::string& key) const {
+  const auto found = alternatives_.find(key);
+  return found == alternatives_.end() ? std::vector<Alternative>() : found->second;
 }
 
 void Selection::not_compared_without(const EffectEntry& entry) {

@@ -2,20 +2,20 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "diagnose/forward_start.hpp"
 #include "diagnose/judged_model.hpp"
+#include "diagnose/proposal.hpp"
 #include "diagnose/refit.hpp"
 
 namespace plumb::offline {
 
 /// A forward selection under way: where it stands, what it has chosen, and what stays out. It owns
-/// all but the measurements. Its moves have files of their own (add_effect, fresh_waves, exchange,
-/// doubt_strongest, behind_oversized): each works out the next model first and then changes this
-/// state, so that a refit that is refused leaves it as it stood before.
+/// all but the measurements. Its revisions have files of their own (exchange, doubt,
+/// imitating_step, left_out_ends): each works out the next model first, which is then taken, so
+/// that a refit that is refused leaves it as it stood before.
 class Selection {
  public:
   /// whitened fit, look: of `calibration`.
@@ -46,8 +46,11 @@ class Selection {
   JudgedModel without(const std::vector<EffectEntry>& entries,
                       const std::vector<std::string>& banned) const;
 
-  /// Remembers what an effect, found in the model without the one that it replaces, may be instead.
-  void remember_alternatives(const JudgedModel& without, const Found& found);
+  /// What an effect, found in the model without the one that it replaces, may be instead.
+  std::vector<Alternative> alternatives_in(const JudgedModel& without, const Found& found) const;
+
+  /// The one way to accept what a revision proposes.
+  void take(Proposal proposal);
 
   /// Stands at another model from now on. look_at: what was set aside is tried again there.
   void go_to(JudgedModel there);
@@ -76,16 +79,21 @@ class Selection {
   /// Models that could not be refitted, in words.
   std::vector<std::string> not_judged() const;
 
-  std::vector<Found> added;                                // in the order of their choice
-  std::map<std::string, std::vector<Alternative>> unsure;  // what they may be instead, by key
-  std::map<std::string, int> dropped;                      // how often each was taken out, by key
-  std::set<std::string> exchanged;                         // taken out once and looked for again
-  std::set<std::string> sizes_doubted;                     // taken out once because of their size
-  /// By key: how many effects were in the model when a step was last ranked.
-  std::map<std::string, std::size_t> steps_ranked;
-  bool untrimmed = false;         // the first and last poses were looked at again
-  std::set<std::string> doubted;  // their rivals were followed
-  std::set<std::string> renewed;  // waves that were looked for again, together
+  /// Takes an effect out that lost its evidence to others. A wave may be taken out twice and still
+  /// be found again; any other effect stays out.
+  void take_out(const EffectEntry& weak);
+
+  /// Whether `what` was not yet done with the effect of that key, or only in another state;
+  /// remembers it.
+  bool first_time(const std::string& what, const std::string& key, std::size_t state = 0);
+  /// With how many effects it was done.
+  std::size_t times(const std::string& what) const;
+
+  /// Effects that one of that key may be instead.
+  void remember_alternatives(const std::string& key, std::vector<Alternative> others);
+  std::vector<Alternative> alternatives_of(const std::string& key) const;
+
+  std::vector<Found> added;                                       // in the order of their choice
   const std::vector<FittedModel>& seen() const { return seen_; }  // the present one is the last
 
  private:
@@ -93,8 +101,10 @@ class Selection {
   JudgedModel now_;
   std::vector<FittedModel> seen_;
   std::vector<std::string> banned_, waiting_;  // waiting: set aside until the model is another one
-  std::map<std::string, int> failed_;
-  std::map<std::string, std::string> not_judged_;  // in words, by what it is
+  std::map<std::string, int> failed_, taken_out_;                   // how often, by key
+  std::map<std::string, std::map<std::string, std::size_t>> done_;  // states by what and key
+  std::map<std::string, std::vector<Alternative>> alternatives_;    // by key
+  std::map<std::string, std::string> not_judged_;                   // in words, by what it is
 };
 
 }  // namespace plumb::offline

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "diagnose/revision.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "simulate/blind_case.hpp"
 
@@ -66,6 +67,48 @@ TEST(Selection, LooksAgainWithoutWhatIsBanned) {
   selection.ban(best);
   selection.look_again();
   EXPECT_NE(selection.key(selection.look().library.front().entry), best);
+}
+
+std::vector<Found> best_of_the_scan(const Selection& s) { return {s.look().library.front()}; }
+
+std::optional<Proposal> with_it(const Selection& s, const Found& found) {
+  return Proposal{.model = s.fitted({found.entry}),
+                  .in = {found},
+                  .instead = std::vector<Alternative>(2),
+                  .banned = {"banned"}};
+}
+
+std::optional<Proposal> refused(const Selection&, const Found&) {
+  throw Failure(Exit::kNumbersSayNo, Problem{.code = "E-TEST", .message = "a test"});
+}
+
+TEST(Revision, IsTriedOnceWithEachEffectAndTakenWhole) {
+  const BlindCase blind = make_blind_case(yielding());
+  Selection s = begun(blind);
+  const Found best = s.look().library.front();
+  EXPECT_FALSE(revise(s, {.name = "a", .subjects = best_of_the_scan, .proposal = refused}));
+  EXPECT_EQ(s.not_judged().size(), 1U);
+  EXPECT_TRUE(s.added.empty());
+  EXPECT_FALSE(revise(s, {.name = "a", .subjects = best_of_the_scan, .proposal = with_it}));
+  EXPECT_TRUE(revise(s, {.name = "b", .subjects = best_of_the_scan, .proposal = with_it}));
+  EXPECT_EQ(s.cell().effects.size(), 1U);
+  ASSERT_EQ(s.added.size(), 1U);
+  EXPECT_EQ(s.key(s.added.front().entry), s.key(best.entry));
+  EXPECT_EQ(s.alternatives_of(s.key(best.entry)).size(), 2U);
+  EXPECT_EQ(s.banned(), std::vector<std::string>{"banned"});
+}
+
+TEST(Selection, RemembersWhatWasDoneInWhichState) {
+  const BlindCase blind = make_blind_case(yielding());
+  Selection s = begun(blind);
+  EXPECT_TRUE(s.first_time("a", "J1"));
+  EXPECT_FALSE(s.first_time("a", "J1"));
+  EXPECT_TRUE(s.first_time("a", "J2", 3));
+  EXPECT_TRUE(s.first_time("a", "J2", 4));
+  EXPECT_FALSE(s.first_time("a", "J2", 4));
+  EXPECT_TRUE(s.first_time("b", "J1"));
+  EXPECT_EQ(s.times("a"), 2U);
+  EXPECT_EQ(s.times("c"), 0U);
 }
 
 TEST(UnlessRefused, TakesOnlyNumbersThatSayNoForAnAnswer) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/untrim_ends.hpp"
+#include "diagnose/left_out_ends.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "diagnose/constants.hpp"
 #include "diagnose/found_list.hpp"
-#include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
 
 namespace plumb::offline {
@@ -44,31 +43,24 @@ Calibration with_ends(const Selection& s) {
   return out;
 }
 
-bool look_at_ends(Selection& s) {
+std::optional<Proposal> with_step_at_ends(const Selection& s, const Found&) {
   const Calibration ends = with_ends(s);
-  if (ends.outliers.size() == s.calibration().outliers.size()) return false;
+  if (ends.outliers.size() == s.calibration().outliers.size()) return std::nullopt;
   const WhitenedFit whitened = make_whitened_fit(
       s.cell(), s.start().measured, ends, without_outliers(s.start().fit, ends.outliers), {});
   const Scan look = scan(whitened, s.start().not_testable, s.banned());
   const Found* step = look.supported([](const Found& f) { return is_change_point(f.entry.name); });
-  if (step == nullptr) return false;
+  if (step == nullptr) return std::nullopt;
   FittedModel next = s.fitted_from(ends, with_found(s.cell().effects, *step));
   // A step that leaves them outliers does not explain them.
-  if (next.calibration.outliers.size() >= s.calibration().outliers.size()) return false;
-  const Found found = *step;
-  s.look_at(std::move(next));
-  s.added.push_back(found);
-  return true;
+  if (next.calibration.outliers.size() >= s.calibration().outliers.size()) return std::nullopt;
+  return Proposal{.model = std::move(next), .in = {*step}};
 }
 
 }  // namespace
 
-bool untrim_ends(Selection& s) {
-  if (s.untrimmed) return false;
-  s.untrimmed = true;
-  bool done = false;
-  unless_refused([&] { done = look_at_ends(s); });
-  return done;
-}
+const Revision kLeftOutEnds{.name = "left-out ends",
+                            .subjects = [](const Selection&) { return std::vector<Found>(1); },
+                            .proposal = with_step_at_ends};
 
 }  // namespace plumb::offline
