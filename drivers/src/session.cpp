@@ -65,11 +65,10 @@ Session::Session(ModelSlot& slot, const SessionSettings& settings) noexcept
   if (settings.start.fault != FaultCause::kNone) state_ = SessionState::kFault;
 }
 
-/// All that a session holds are numbers, except where its models come from.
 void Session::resume(std::span<const std::byte> copy, ModelSlot& slot) noexcept {
   if (copy.size() != sizeof(Session)) return;
-  std::memcpy(static_cast<void*>(this), copy.data(), sizeof(Session));
-  cycle_.rebind(slot);
+  std::memcpy(this, copy.data(), sizeof(Session));
+  cycle_.rebind(slot);  // all that it holds besides are numbers
 }
 
 void Session::hear(const BusMessage& message) noexcept {
@@ -138,7 +137,8 @@ void Session::take_target() noexcept {
     target_came_ = false;
   }
   if (target_misbehaved_) target_came_ = false;
-  if (target_came_) X_BD_ = pose_in(target_).value_or(X_BD_);
+  if (!target_came_) return;
+  if (const auto X_BD = pose_in(target_)) X_BD_ = *X_BD;
 }
 
 CycleInput Session::cycle_input(std::int64_t now_ns) const noexcept {
@@ -318,8 +318,9 @@ void Session::fill_report(const GuardOutput& guarded) noexcept {
   report_.joints_age_s = inbox_.age_s(MessageKind::kJoints);
   report_.controller_age_s = inbox_.age_s(MessageKind::kController);
   report_.robot_age_s = inbox_.age_s(MessageKind::kRobot);
-  report_.wanted_m = (guarded.X_BC.p - X_BD_.p).norm();
-  report_.wanted_rad = rotation_vector(times_transposed<double>(guarded.X_BC.R, X_BD_.R)).norm();
+  const Transformd X_BD = X_BD_;
+  report_.wanted_m = (guarded.X_BC.p - X_BD.p).norm();
+  report_.wanted_rad = rotation_vector(times_transposed<double>(guarded.X_BC.R, X_BD.R)).norm();
   report_.applied_m = share_.translation_m();
   report_.applied_rad = share_.rotation_rad();
   report_.sync = sync_.counters();

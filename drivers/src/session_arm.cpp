@@ -49,8 +49,9 @@ void ArmWatch::aim(const Transformd& X_BD) noexcept {
   }
   if (!aimed_) X_BD_moved_ = X_BD;
   aimed_ = true;
-  const bool reached = (X_BD.p - X_BD_moved_.p).norm() <= limits_.moved_m &&
-                       cos_between(X_BD, X_BD_moved_) >= cos_moved_;
+  const Transformd X_BD_moved = X_BD_moved_;
+  const bool reached = (X_BD.p - X_BD_moved.p).norm() <= limits_.moved_m &&
+                       cos_between(X_BD, X_BD_moved) >= cos_moved_;
   if (reached) reached_s_ = now_s_;
 }
 
@@ -61,8 +62,9 @@ void ArmWatch::jump() noexcept {
 }
 
 bool ArmWatch::near(const Aim& from, const Aim& to, const Transformd& X_BA) const noexcept {
-  return distance(X_BA.p, from.X_BD.p, to.X_BD.p) <= limits_.distance_m &&
-         std::max(cos_between(from.X_BD, X_BA), cos_between(to.X_BD, X_BA)) >= cos_angle_;
+  const Transformd begin = from.X_BD, end = to.X_BD;
+  return distance(X_BA.p, begin.p, end.p) <= limits_.distance_m &&
+         std::max(cos_between(begin, X_BA), cos_between(end, X_BA)) >= cos_angle_;
 }
 
 void ArmWatch::show(const Transformd& X_BA) noexcept {

@@ -14,16 +14,18 @@ double towards(double from, double to, double step) noexcept {
 }
 
 /// `from` moved towards `to` by at most `most`. On arrival the result is exactly `to`.
-Vector3 slewed(const Vector3& from, const Vector3& to, double most) noexcept {
-  const Vector3 way = to - from;
+/// Moves `at` by at most `most`. True if it has arrived.
+bool slew(const Vector3& to, double most, std::array<double, 3>& at) noexcept {
+  const Vector3 from(at.data()), way = to - from;
   const double length = way.norm();
-  return length <= most ? to : Vector3(from + way * (most / length));
+  Eigen::Map<Vector3>(at.data()) = length <= most ? to : Vector3(from + way * (most / length));
+  return Eigen::Map<Vector3>(at.data()) == to;
 }
 
 }  // namespace
 
 bool CorrectionShare::at_zero() const noexcept {
-  return translation_.norm() <= kZero_m && rotation_.norm() <= kZero_rad;
+  return translation_m() <= kZero_m && rotation_rad() <= kZero_rad;
 }
 
 void CorrectionShare::move_share(CorrectionMode mode, double step) noexcept {
@@ -52,14 +54,12 @@ Transformd CorrectionShare::step(const Transformd& X_BD, const Transformd& X_BG,
                                  double dt_s) noexcept {
   move_share(mode, limits.ramp_s > 0.0 ? dt_s / limits.ramp_s : 1.0);
   const Goal to = goal(X_BD, X_BG);
-  translation_ = slewed(translation_, to.translation, limits.slew_m_per_s * dt_s);
-  rotation_ = slewed(rotation_, to.rotation, limits.slew_rad_per_s * dt_s);
-  const bool whole =
-      scale_ == 1.0 && cap_ == 1.0 && translation_ == to.translation && rotation_ == to.rotation;
-  if (whole) return X_BG;
-  Transformd X_BC = exp(format::Twist{.d = {}, .e = {rotation_(0), rotation_(1), rotation_(2)}});
+  const bool there = slew(to.translation, limits.slew_m_per_s * dt_s, applied_.d) &
+                     slew(to.rotation, limits.slew_rad_per_s * dt_s, applied_.e);
+  if (scale_ == 1.0 && cap_ == 1.0 && there) return X_BG;
+  Transformd X_BC = exp(format::Twist{.d = {}, .e = applied_.e});
   X_BC.R = (X_BC * Transformd{.R = X_BD.R, .p = Vector3::Zero()}).R;
-  X_BC.p = X_BD.p + translation_;
+  X_BC.p = X_BD.p + Vector3(applied_.d.data());
   return X_BC;
 }
 

@@ -42,8 +42,9 @@ double TargetGate::elapsed_s(const BusMessage& target) const noexcept {
 }
 
 TargetVerdict TargetGate::motion(const Transformd& X_BD, double elapsed_s) const noexcept {
-  const double distance_m = (X_BD.p - last_.p).norm();
-  const double angle_rad = rotation_vector(times_transposed<double>(X_BD.R, last_.R)).norm();
+  const Transformd last = last_;
+  const double distance_m = (X_BD.p - last.p).norm();
+  const double angle_rad = rotation_vector(times_transposed<double>(X_BD.R, last.R)).norm();
   if (!(distance_m <= limits_.step_m && angle_rad <= limits_.step_rad))
     return TargetVerdict::kTooFar;
   const bool slow =

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "lane_order.hpp"
-#include "plumb/runtime/transform.hpp"
+#include "plumb/runtime/detail/kept_pose.hpp"
 
 /// Loads and stores of poses in whole registers.
 namespace plumb {
@@ -23,12 +23,12 @@ inline Lanes axis(const Transformd& X_AB, std::size_t j) { return lanes(numbers(
 inline Lanes origin(const Transformd& X_AB) { return last_three(lanes(numbers(X_AB) + 8)); }
 
 /// Copies in whole registers; all are read before the first is written.
-inline void copy(const Transformd& from, Transformd& to) {
+inline void copy(const Transformd& from, KeptPose& to) {
   const double* in = numbers(from);
   const Lanes begin = lanes(in), middle = lanes(in + 4), end = lanes(in + 8);
-  store(begin, numbers(to));
-  store(middle, numbers(to) + 4);
-  store(end, numbers(to) + 8);
+  store(begin, to.numbers());
+  store(middle, to.numbers() + 4);
+  store(end, to.numbers() + 8);
 }
 
 /// X_AB with its origin moved by d, given in A.

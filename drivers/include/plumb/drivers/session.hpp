@@ -20,6 +20,7 @@
 #include "plumb/drivers/session_target.hpp"
 #include "plumb/drivers/session_transition.hpp"
 #include "plumb/runtime/cycle.hpp"
+#include "plumb/runtime/detail/kept_pose.hpp"
 
 namespace plumb::drivers {
 
@@ -195,8 +196,8 @@ class Session {
   CycleTime time_;
   SessionState state_ = SessionState::kInit;
   BusMessage target_;                   // the newest accepted target
-  Transformd X_BD_;                     // pose of the target
-  Transformd X_BC_;                     // corrected pose of the target
+  KeptPose X_BD_;                       // pose of the target
+  KeptPose X_BC_;                       // corrected pose of the target
   bool target_came_ = false;            // a target arrived in this cycle and is not too old
   bool target_misbehaved_ = false;      // a target of this cycle exceeded its limits
   bool acknowledged_ = false;           // an operator acknowledged in this cycle
@@ -217,6 +218,7 @@ class Session {
   SessionReport report_;
 };
 
-static_assert(std::is_trivially_destructible_v<Session>);
+// A recorder copies its bytes, and a replay resumes from them.
+static_assert(std::is_trivially_copyable_v<Session>);
 
 }  // namespace plumb::drivers

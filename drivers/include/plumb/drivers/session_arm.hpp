@@ -6,7 +6,7 @@
 #include <span>
 
 #include "plumb/drivers/bus_message.hpp"
-#include "plumb/runtime/transform.hpp"
+#include "plumb/runtime/detail/kept_pose.hpp"
 
 namespace plumb::drivers {
 
@@ -55,7 +55,7 @@ class ArmWatch {
   static constexpr int kKept = 16;
   static constexpr int kPosesAway = 3;
   struct Aim {
-    Transformd X_BD;
+    KeptPose X_BD;
     double time_s = 0.0;
   };
 
@@ -73,7 +73,7 @@ class ArmWatch {
   double near_s_ = 0.0;  // when the arm was last near the path
   int away_ = 0;         // poses in a row that were not
   std::array<double, kMaxMessageValues> q_ = BusMessage::unknown();
-  Transformd X_BD_moved_;   // the target when a joint last moved
+  KeptPose X_BD_moved_;     // the target when a joint last moved
   double reached_s_ = 0.0;  // when the target was last within moved_m of it
   bool aimed_ = false;      // a target has come
 };

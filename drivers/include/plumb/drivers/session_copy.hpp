@@ -26,8 +26,7 @@ class SessionCopy {
   void ask() noexcept { asked_.store(true, std::memory_order_release); }          // recorder
   bool asked() const noexcept { return asked_.load(std::memory_order_acquire); }  // cycle
   void put(const Session& session) noexcept {
-    // Its bytes, of which nobody makes a session but a replay by the same build.
-    std::memcpy(bytes_.data(), static_cast<const void*>(&session), sizeof session);
+    std::memcpy(bytes_.data(), &session, sizeof session);
   }
   void given() noexcept { asked_.store(false, std::memory_order_relaxed); }  // cycle
   std::span<const std::byte> bytes() const noexcept { return bytes_; }       // recorder

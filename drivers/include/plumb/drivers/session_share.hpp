@@ -34,8 +34,8 @@ class CorrectionShare {
   /// Sets the output to zero, from where the next correction begins.
   void reset() noexcept { *this = CorrectionShare(settings_); }
 
-  double translation_m() const noexcept { return translation_.norm(); }
-  double rotation_rad() const noexcept { return rotation_.norm(); }
+  double translation_m() const noexcept { return Vector3(applied_.d.data()).norm(); }
+  double rotation_rad() const noexcept { return Vector3(applied_.e.data()).norm(); }
   bool at_zero() const noexcept;
 
  private:
@@ -47,10 +47,9 @@ class CorrectionShare {
   void move_share(CorrectionMode mode, double step) noexcept;
 
   ShareSettings settings_;
-  double scale_ = 0.0;  // scale of the guard's correction, 0 .. 1
-  double cap_ = 0.0;    // limit of its length, from limited_m (0) to no limit (1)
-  Vector3 translation_ = Vector3::Zero();
-  Vector3 rotation_ = Vector3::Zero();
+  double scale_ = 0.0;     // scale of the guard's correction, 0 .. 1
+  double cap_ = 0.0;       // limit of its length, from limited_m (0) to no limit (1)
+  format::Twist applied_;  // the correction that is sent: translation [m], rotation vector [rad]
 };
 
 }  // namespace plumb::drivers

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "plumb/drivers/bus_message.hpp"
-#include "plumb/runtime/transform.hpp"
+#include "plumb/runtime/detail/kept_pose.hpp"
 
 namespace plumb::drivers {
 
@@ -53,7 +53,7 @@ class TargetGate {
   TargetVerdict motion(const Transformd& X_BD, double elapsed_s) const noexcept;
 
   TargetLimits limits_;
-  Transformd last_;
+  KeptPose last_;
   std::int64_t last_ns_ = 0;
   std::uint16_t last_counter_ = 0;
   bool has_last_ = false;

@@ -8,6 +8,7 @@
 
 #include "plumb/runtime/context_inputs.hpp"
 #include "plumb/runtime/detail/age.hpp"
+#include "plumb/runtime/detail/kept_pose.hpp"
 #include "plumb/runtime/detail/last_move.hpp"
 #include "plumb/runtime/guard.hpp"
 #include "plumb/runtime/model_slot.hpp"
@@ -111,7 +112,7 @@ class Cycle {
   CycleTime time_;
   Age target_age_;
   Age joints_age_;
-  Transformd X_BD_;  // the last valid target
+  KeptPose X_BD_;  // the last valid target
   Joints q_measured_ = Context::unknown();
   Joints q_commanded_ = Context::unknown();
   Joints q_solution_{};
@@ -120,6 +121,6 @@ class Cycle {
 };
 
 static_assert(sizeof(Cycle) <= 2048);
-static_assert(std::is_trivially_destructible_v<Cycle>);
+static_assert(std::is_trivially_copyable_v<Cycle>);
 
 }  // namespace plumb

@@ -6,6 +6,7 @@
 
 #include "plumb/format/model.hpp"
 #include "plumb/runtime/corrector.hpp"
+#include "plumb/runtime/detail/kept_pose.hpp"
 
 namespace plumb {
 
@@ -101,7 +102,7 @@ class Guard {
   Offset applied_;     // the correction that is now added to the target
   double ramp_ = 0.0;  // 0 .. 1
   Enable enabled_ = Enable::kOn;
-  Transformd last_;
+  KeptPose last_;
   bool has_output_ = false;
   GuardCounters counters_;
 };
