@@ -672,10 +672,6 @@ constexpr Explanation kCodes[] = {
      "the poses support beyond these effects is left out of the correction."},
     {"W-AUDIT-HELD",
      "The model was fitted on every pose, so no pose is left to measure its accuracy with."},
-    {"E-EMIT-NO-TREE",
-     "compile --emit-c writes the tree alone, and this model has none: [effects] in cell.toml does "
-     "not list local_tree, or no tree lowered the cross-validated error, which plumb fit says. No "
-     "model was written either."},
     {"E-MODEL-OPEN", "The model file is missing, a folder, or not readable."},
     {"E-MODEL-SIZE", "The file is larger than any model file can be."},
     {"E-MODEL-TRUNCATED", "The file is shorter than it says: a copy was cut off."},

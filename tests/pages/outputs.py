@@ -200,7 +200,7 @@ def other_measurements(plumb):
     at = ("plumb", "-C", "study")
     plumb.run(*at, "add", "local_tree")
     plumb.run(*at, "fit", "--dry-run")
-    plumb.run(*at, "compile", "--emit-c", "study/arm.h")
+    plumb.run(*at, "compile")
     plumb.run("plumb", "inspect", "study/robot.plumb")
     plumb.run("plumb", "bench", "study/robot.plumb", "--calls", "200", "-o", "latency.svg")
     plumb.run("plumb", "demo", "clean", "turning")
