@@ -12,8 +12,7 @@ constexpr double kNarrowest = 1e-6;  // half width, normalised; narrower ramps v
 
 class Ramps {
  public:
-  Ramps(format::Tree& tree, const Samples& u, double overlap)
-      : tree_(tree), u_(u), overlap_(overlap) {
+  Ramps(format::Tree& tree, double overlap) : tree_(tree), overlap_(overlap) {
     tree_.blend_half_width.assign(tree_.nodes.size(), 0.0);
   }
 
@@ -29,47 +28,19 @@ class Ramps {
     along_axes(n.high, side);
   }
 
-  void along_directions(int node, const std::vector<int>& rows) {
-    if (node < 0) return;
-    std::vector<int> low, high;
-    double least = 1.0, most = -1.0;
-    for (int row : rows) {
-      const double x = projected(node, row);
-      least = std::min(least, x);
-      most = std::max(most, x);
-      (x <= tree_.nodes[node].threshold ? low : high).push_back(row);
-    }
-    set(node, tree_.nodes[node].threshold - least, most - tree_.nodes[node].threshold);
-    along_directions(tree_.nodes[node].low, low);
-    along_directions(tree_.nodes[node].high, high);
-  }
-
  private:
-  double projected(int node, int row) const {
-    double sum = 0.0;
-    for (Eigen::Index k = 0; k < u_.cols(); ++k)
-      sum += tree_.directions[node * u_.cols() + k] * u_(row, k);
-    return sum;
-  }
-
   void set(int node, double below, double above) {
     tree_.blend_half_width[node] = std::max(overlap_ * std::min(below, above), kNarrowest);
   }
 
   format::Tree& tree_;
-  const Samples& u_;
   double overlap_;
 };
 
 }  // namespace
 
-void add_ramps(format::Tree& tree, const Samples& u, double overlap) {
-  if (tree.nodes.empty()) return;
-  Ramps ramps(tree, u, overlap);
-  if (tree.directions.empty()) return ramps.along_axes(0, {});
-  std::vector<int> all(u.rows());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  ramps.along_directions(0, all);
+void add_ramps(format::Tree& tree, double overlap) {
+  if (!tree.nodes.empty()) Ramps(tree, overlap).along_axes(0, {});
 }
 
 }  // namespace plumb::offline

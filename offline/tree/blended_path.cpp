@@ -22,7 +22,7 @@ constexpr double kAlmostAll = 1e-6;
 std::optional<format::Tree> with_ramps(format::Tree tree, const Samples& u, double overlap) {
   const int inputs = static_cast<int>(u.cols());
   while (overlap > kLeastOverlap) {
-    add_ramps(tree, u, overlap);
+    add_ramps(tree, overlap);
     if (tree.leaves() <= format::kMaxActiveLeaves) return tree;
     if (most_active_leaves(tree, inputs) <= format::kMaxActiveLeaves) return tree;
     overlap *= kNarrower;

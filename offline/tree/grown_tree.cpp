@@ -36,36 +36,12 @@ void append_leaf(const LocalModel& model, std::size_t terms, int output, format:
 
 void append_node(const TreeCell& cell, int low, int high, format::Tree& out) {
   out.nodes.push_back({.threshold = cell.threshold,
-                       .input = static_cast<std::uint16_t>(std::max(cell.input, 0)),
+                       .input = static_cast<std::uint16_t>(cell.input),
                        .low = static_cast<std::int16_t>(low),
                        .high = static_cast<std::int16_t>(high)});
 }
 
-/// Stores a direction for every split if one is oblique, so that every step down the tree costs the
-/// same.
-void append_directions(const GrownTree& tree, const std::vector<int>& inner, format::Tree& out) {
-  const auto oblique = [&](int cell) { return !tree.cells[cell].direction.empty(); };
-  if (std::none_of(inner.begin(), inner.end(), oblique)) return;
-  for (std::size_t i = 0; i < inner.size(); ++i) {
-    const TreeCell& cell = tree.cells[inner[i]];
-    std::vector<double> direction = cell.direction;
-    if (direction.empty()) {
-      direction.assign(tree.inputs, 0.0);
-      direction[cell.input] = 1.0;
-    }
-    out.directions.insert(out.directions.end(), direction.begin(), direction.end());
-    out.nodes[i].input = 0;
-  }
-}
-
 }  // namespace
-
-double TreeCell::split_value(std::span<const double> u) const {
-  if (direction.empty()) return u[input];
-  double sum = 0.0;
-  for (std::size_t i = 0; i < direction.size(); ++i) sum += direction[i] * u[i];
-  return sum;
-}
 
 double GrownTree::predict(int cell, std::span<const double> u, int output) const {
   std::array<double, format::kMaxLeafTerms> terms;
@@ -113,7 +89,6 @@ format::Tree GrownTree::cut(const Splits& stand, int output) const {
   }
   for (int cell : inner)
     append_node(cells[cell], child[cells[cell].low], child[cells[cell].high], out);
-  append_directions(*this, inner, out);
   return out;
 }
 

@@ -22,14 +22,13 @@ struct LocalModel {
 struct TreeCell {
   LocalModel model;
   int depth = 0;
-  int input = -1;                      // input of its split; -1 if not split or oblique
-  std::vector<double> direction = {};  // of an oblique split: shape (p,), sum |.| = 1
+  int input = -1;  // input of its split; -1 if it was never split
   double threshold = 0.0;
   int low = -1, high = -1;  // its two parts; -1 if it was never split
   int split_at = 0;         // number of leaves when it was split
 
   bool is_split() const { return low >= 0; }
-  double split_value(std::span<const double> u) const;
+  double split_value(std::span<const double> u) const { return u[input]; }
 };
 
 /// For each cell of a grown tree, whether its split is used. Splits below an unused one have no

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <queue>
 
-#include "tree/oblique.hpp"
 #include "tree/rows.hpp"
 #include "tree/scan.hpp"
 #include "tree/walls.hpp"
@@ -38,7 +37,7 @@ class SortedLists {
   /// Splits every list of the range in place, keeping the order; returns where high begins.
   int partition(int begin, int end, const TrainingRows& rows, const SplitCandidate& at) {
     for (int i = begin; i < end; ++i)
-      low_[lists_[0][i]] = at.value(rows, lists_[0][i]) <= at.threshold;
+      low_[lists_[0][i]] = rows.value(lists_[0][i], at.column) <= at.threshold;
     int middle = begin;
     for (auto& list : lists_) {
       middle = begin;
@@ -105,20 +104,12 @@ class Grower {
     ranges_.push_back({begin, end, walls, {}});
     const double noise = kRounding * y_max_, rss = tree_.cells[cell].model.rss;
     if (depth >= settings_.max_depth || rss <= noise * noise * (end - begin)) return;
-    SplitCandidate best = best_split(rows_, sorted, admissible(walls), settings_.min_samples);
-    if (settings_.splits == SplitKind::kOblique)
-      best = oblique_split(rows_, sorted[0], best, settings_.min_samples);
+    const SplitCandidate best = best_split(rows_, sorted, admissible(walls), settings_.min_samples);
     const double gain = rss - best.rss;
     if (best.found() && gain > 0.0) {
-      ranges_[cell].candidate = std::move(best);
+      ranges_[cell].candidate = best;
       waiting_.push({gain, cell});
     }
-  }
-
-  std::vector<double> of_all_inputs(const std::vector<double>& direction) const {
-    std::vector<double> out(tree_.inputs, 0.0);
-    for (std::size_t i = 0; i < direction.size(); ++i) out[rows_.terms[i] - 1] = direction[i];
-    return out;
   }
 
   void split(int cell) {
@@ -127,17 +118,14 @@ class Grower {
     const int depth = tree_.cells[cell].depth + 1;
     TreeCell& parent = tree_.cells[cell];
     parent.split_at = tree_.leaves();
-    if (range.candidate.direction.empty())
-      parent.input = rows_.terms[range.candidate.column] - 1;
-    else
-      parent.direction = of_all_inputs(range.candidate.direction);
+    parent.input = rows_.terms[range.candidate.column] - 1;
     parent.threshold = range.candidate.threshold;
     parent.low = static_cast<int>(tree_.cells.size());
     parent.high = parent.low + 1;
     tree_.split_order.push_back(cell);
     Walls low = range.walls, high = range.walls;
     const SplitCandidate& at = range.candidate;
-    if (at.column >= 0) low.high[at.column] = high.low[at.column] = at.threshold;
+    low.high[at.column] = high.low[at.column] = at.threshold;
     add_cell(range.begin, middle, depth, low);
     add_cell(middle, range.end, depth, high);
   }

@@ -7,16 +7,11 @@
 
 namespace plumb::offline {
 
-/// kAxes: every split is along one input. kOblique: also along weighted sums of inputs where that
-/// lowers the error clearly.
-enum class SplitKind { kAxes, kOblique };
-
 struct GrowthSettings {
   int max_leaves = 256;
   int min_samples = 0;                    // per leaf; 0 = 3 times its coefficients
   int max_depth = format::kMaxTreeDepth;  // comparisons on the way to a leaf
   int degree = 1;                         // of the leaves: affine or quadratic
-  SplitKind splits = SplitKind::kAxes;
   double min_side = 0.0;  // share of a cell's width that either side of a split keeps, 0 .. 0.5;
 };                        // 0.5 halves cells as LOLIMOT does. Wide cells blend better.
 
@@ -26,7 +21,7 @@ struct GrowthSettings {
 /// coefficient and no split. Thresholds lie midway between neighbouring values. Of equal splits the
 /// one with the lowest input, then with the lowest threshold, is chosen. The result is the same to
 /// the last bit for any order of the rows. Fewer than min_samples rows: no leaves.
-/// Cost O(p terms^2 n) a level after one sort; oblique splits sort again in every cell.
+/// Cost O(p terms^2 n) a level after one sort.
 GrownTree grow(const Samples& u, const Samples& y, const GrowthSettings& settings);
 
 }  // namespace plumb::offline

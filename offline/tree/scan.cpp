@@ -138,14 +138,6 @@ auto with_sizes(const TrainingRows& rows, const F& f) {
 
 }  // namespace
 
-double SplitCandidate::value(const TrainingRows& rows, int row) const {
-  if (direction.empty()) return rows.value(row, column);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < direction.size(); ++i)
-    sum += direction[i] * rows.value(row, static_cast<int>(i));
-  return sum;
-}
-
 SplitCandidate best_split(const TrainingRows& rows, const std::vector<std::span<const int>>& sorted,
                           std::span<const Admissible> admissible, int min_samples) {
   return with_sizes(rows, [&](auto p, auto y) {
@@ -158,18 +150,6 @@ SplitCandidate best_split(const TrainingRows& rows, const std::vector<std::span<
       if (search<p(), y()>(rows, order, value, admissible[column], min_samples, sums, best))
         best.column = column;
     }
-    return best;
-  });
-}
-
-SplitCandidate best_split_along(const TrainingRows& rows, std::span<const int> order,
-                                std::span<const double> value, int min_samples) {
-  return with_sizes(rows, [&](auto p, auto y) {
-    SplitCandidate best;
-    best.rss = kNone;
-    EndSums sums;
-    const auto at = [&](int k) { return value[k]; };
-    search<p(), y()>(rows, order, at, {}, min_samples, sums, best);
     return best;
   });
 }

@@ -13,15 +13,13 @@ namespace plumb::offline {
 /// sample on either side of a threshold between them.
 inline constexpr double kSameValue = 1e-9;
 
-/// One of the weighted sums of inputs tried in a cell; a single input is column `column`.
+/// A split of a cell along one input.
 struct SplitCandidate {
-  int column = -1;                // of TrainingRows; -1 if there is none or it is oblique
-  std::vector<double> direction;  // over the used inputs, sum |.| = 1; empty for one column
-  double threshold = 0.0;         // rows with value <= threshold go low
-  double rss = 0.0;               // both sides together [m^2]
+  int column = -1;         // of TrainingRows; -1 if there is none
+  double threshold = 0.0;  // rows with a value <= threshold go low
+  double rss = 0.0;        // both sides together [m^2]
 
-  bool found() const { return column >= 0 || !direction.empty(); }
-  double value(const TrainingRows& rows, int row) const;
+  bool found() const { return column >= 0; }
 };
 
 /// The range of the thresholds that may be chosen.
@@ -33,11 +31,6 @@ struct Admissible {
 /// rows in the order of column c; admissible: shape (inputs,). Cost O(inputs terms^2 rows).
 SplitCandidate best_split(const TrainingRows& rows, const std::vector<std::span<const int>>& sorted,
                           std::span<const Admissible> admissible, int min_samples);
-
-/// The best split along one direction. `order` lists the rows of the cell sorted by `value`, shape
-/// (rows of the cell,). rss is infinite if no split is admissible.
-SplitCandidate best_split_along(const TrainingRows& rows, std::span<const int> order,
-                                std::span<const double> value, int min_samples);
 
 /// The least-squares model of some rows, with coefficients for all leaf terms. all_terms: number of
 /// terms of a leaf, including the constant.

@@ -39,7 +39,7 @@ Problem problem(int rows, int inputs, int leaves, int degree, double overlap, st
   const GrownTree grown = grow(out.u, out.y, growth);
   EXPECT_EQ(grown.leaves(), leaves);
   out.tree = grown.cut(grown.leaves());
-  add_ramps(out.tree, out.u, overlap);
+  add_ramps(out.tree, overlap);
   return out;
 }
 

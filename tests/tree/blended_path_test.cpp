@@ -36,30 +36,16 @@ void expect_near(const std::vector<double>& seen, const std::vector<double>& exp
 
 TEST(Ramps, ReachTheNearerWallOfTheCellTheyDivideTimesTheOverlap) {
   format::Tree tree = four_splits();
-  add_ramps(tree, Samples::Zero(1, 2), 1.0);
+  add_ramps(tree, 1.0);
   expect_near(tree.blend_half_width, {0.8, 0.2, 0.7, 0.3});
-  add_ramps(tree, Samples::Zero(1, 2), 0.25);
+  add_ramps(tree, 0.25);
   expect_near(tree.blend_half_width, {0.2, 0.05, 0.175, 0.075});
-}
-
-TEST(Ramps, OfObliqueSplitsReachTheOutermostSampleOfTheirCell) {
-  format::Tree tree{.depth = 2,
-                    .nodes = {{0.25, 0, ~0, 1, 0}, {-0.125, 0, ~1, ~2, 0}},
-                    .coefficients = std::vector<double>(9, 0.0),
-                    .bounds = std::vector<double>(6, 0.0),
-                    .directions = {0.5, 0.5, 0.75, -0.25}};
-  Samples u(4, 2);
-  u << -1.0, -0.5, 0.5, 0.25, 1.0, 0.5, 0.0, 1.0;
-  // Along the first: -0.75, 0.375, 0.75, 0.5. Along the second, of the last three: 0.3125, 0.625,
-  // -0.25.
-  add_ramps(tree, u, 1.0);
-  expect_near(tree.blend_half_width, {0.5, 0.125});
 }
 
 TEST(Ramps, AreNeverTooNarrowToDivideBy) {
   format::Tree tree = four_splits();
   tree.nodes[3].threshold = tree.nodes[0].threshold + 1e-12;
-  add_ramps(tree, Samples::Zero(1, 2), 1.0);
+  add_ramps(tree, 1.0);
   EXPECT_GE(tree.blend_half_width[3], 1e-9);
 }
 
