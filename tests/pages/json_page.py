@@ -1,40 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/json.md from the schemas in docs/schemas.
-
-usage: scripts/json-page            writes the page
-       scripts/json-page --check    ends with 1 if the page is not what the schemas say
-"""
+"""Prints the schemas of docs/schemas as one page of tables: scripts/json-page > json.md"""
 import json
 import pathlib
 import re
-import sys
 
-DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
-PAGE = DOCS / "json.md"
+SCHEMAS = pathlib.Path(__file__).resolve().parents[2] / "docs/schemas"
 SHARED = ("envelope", "common")
 
-BEGINNING = """# What --json prints
 
-Every verb of `plumb`, `plumb-rt` and `plumb-twin` takes `--json`. It then prints exactly one object on the standard
-output, whatever happens; messages and progress go to the standard error. Each object is described by a JSON Schema
-(draft 2020-12) in [schemas](schemas), one file a verb; a test holds what the programs print against them. This page is
-written from the schemas by `scripts/json-page`, and a test compares the two.
-
-* Units stand in the names: `rms_mm`, `cycle_us`. Where rows of one table have different units, `unit` stands beside the
-  numbers.
-* A number that does not exist is never NaN. It is `null`, and the reason stands beside it in `NAME_reason`; the table
-  says "or null" where that can happen. The reason is there exactly when the value is null.
-* Members marked *optional* are left out where they have no meaning, or in a form of the verb that has none. All
-  others are always there when `ok` is true.
-* After an error `result` is `null`, or holds what was found until then. A failed gate (exit code 1) leaves it complete.
-* Later versions may add members. The schemas refuse members that they do not list, so that our tests notice them; a
-  program that reads the object should ignore what it does not know.
-"""
+def beginning():
+    """What holds for every schema, as the page of their folder says it."""
+    return (SCHEMAS / "README.md").read_text().partition("## The files")[0]
 
 
 def load(name):
-    return json.loads((DOCS / "schemas" / f"{name}.json").read_text())
+    return json.loads((SCHEMAS / f"{name}.json").read_text())
 
 
 def resolved(schema):
@@ -114,9 +95,9 @@ def section(name):
 
 
 def page():
-    names = sorted(path.stem for path in (DOCS / "schemas").glob("*.json") if path.stem not in SHARED)
+    names = sorted(path.stem for path in SCHEMAS.glob("*.json") if path.stem not in SHARED)
     envelope, common = load("envelope"), load("common")
-    out = [BEGINNING, "## The object", "", "Schema: [envelope.json](schemas/envelope.json).", ""]
+    out = [beginning().rstrip("\n"), "", "## The object", "", "Schema: [envelope.json](schemas/envelope.json).", ""]
     out += table(envelope, envelope["required"]) + ["", "## What several verbs share", "",
                                                     "Schema: [common.json](schemas/common.json).", ""]
     for name, one in {"problem": envelope["$defs"]["problem"], **common["$defs"]}.items():
@@ -135,19 +116,5 @@ def page():
     return "\n".join(out).rstrip("\n") + "\n"
 
 
-def main():
-    if sys.argv[1:] not in ([], ["--check"]):
-        print(__doc__, file=sys.stderr)
-        return 2
-    text = page()
-    if not sys.argv[1:]:
-        PAGE.write_text(text)
-        return 0
-    if PAGE.exists() and PAGE.read_text() == text:
-        return 0
-    print("error: docs/json.md is not what docs/schemas say\n  = help: scripts/json-page", file=sys.stderr)
-    return 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    print(page(), end="")

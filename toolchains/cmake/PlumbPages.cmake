@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Manual pages and shell completions: each program prints its own, from the tables that its help comes from. The target
-# "man" writes them into the folder share of the build folder. Where the programs cannot be run, there are none.
+# "man" writes them into the folder share of the build folder, with the page of the JSON schemas. Where the programs cannot be run, there are none.
 
 # plumb_pages(PROGRAM COMPONENT): the pages of one program, and where they are installed.
 function(plumb_pages program component)
@@ -29,6 +29,23 @@ function(plumb_pages program component)
   endforeach()
 endfunction()
 
+# plumb_json_page(COMPONENT): what the verbs print with --json, in tables, and the schemas that they are made of.
+function(plumb_json_page component)
+  find_program(PLUMB_PAGE_PYTHON python3)
+  if(NOT PLUMB_PAGE_PYTHON)
+    return()
+  endif()
+  set(page ${PROJECT_BINARY_DIR}/share/doc/plumb/json.md)
+  cmake_path(GET page PARENT_PATH folder)
+  file(MAKE_DIRECTORY ${folder})
+  file(GLOB schemas CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/schemas/*)
+  add_custom_command(OUTPUT ${page} COMMAND ${PROJECT_SOURCE_DIR}/scripts/json-page > ${page}
+                     DEPENDS ${schemas} ${PROJECT_SOURCE_DIR}/tests/pages/json_page.py COMMENT "Page of the JSON schemas" VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY plumb_pages ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/plumb COMPONENT ${component} OPTIONAL)
+  install(FILES ${schemas} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/plumb/schemas COMPONENT ${component})
+endfunction()
+
 # A cross build runs its programs in the emulator of its toolchain file, if that names one.
 if(PROJECT_IS_TOP_LEVEL AND NOT PLUMB_SANITIZE AND (CMAKE_CROSSCOMPILING_EMULATOR OR NOT CMAKE_CROSSCOMPILING))
   foreach(program plumb plumb-twin)
@@ -36,6 +53,9 @@ if(PROJECT_IS_TOP_LEVEL AND NOT PLUMB_SANITIZE AND (CMAKE_CROSSCOMPILING_EMULATO
       plumb_pages(${program} plumb)
     endif()
   endforeach()
+  if(TARGET plumb)
+    plumb_json_page(plumb)
+  endif()
   if(TARGET plumb-rt)
     plumb_pages(plumb-rt plumb-rt)
   endif()
