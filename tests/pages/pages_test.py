@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The manual page and the shell completions of a program name every verb and every option that its help names.
+"""The manual page and the shell completions of a program name every verb and every option that its help names, and the pages of docs every option.
 
 usage: pages_test.py PROGRAM
 """
@@ -13,6 +13,7 @@ import unittest
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 NAME = PROGRAM.name
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 def printed(*words):
@@ -23,15 +24,19 @@ def section(help_text, title):
     return help_text.partition(f"\n{title}:\n")[2].partition("\n\n")[0]
 
 
+def heads(help_text):
+    """The names of each option: ["-o", "--output"] of "  -o,--output FILE"."""
+    return [head.split(",") for head in re.findall(r"(?m)^  (-\S+)", section(help_text, "Options"))]
+
+
 def options(help_text):
-    """Every name of an option: "-o" and "--output" of "  -o,--output FILE"."""
-    heads = re.findall(r"(?m)^  (-\S+)", section(help_text, "Options"))
-    return {name for head in heads for name in head.split(",")}
+    return {name for head in heads(help_text) for name in head}
 
 
 HELP = printed("--help")
 VERBS = re.findall(r"(?m)^  (\S+)  ", section(HELP, "Verbs"))
-OPTIONS = {verb: options(printed(verb, "--help")) for verb in VERBS}
+HELP_OF = {verb: printed(verb, "--help") for verb in VERBS}
+OPTIONS = {verb: options(text) for verb, text in HELP_OF.items()}
 MAN = printed("--man")
 COMPLETIONS = {shell: printed("--completion", shell) for shell in ("bash", "zsh", "fish")}
 
@@ -78,6 +83,12 @@ class Pages(unittest.TestCase):
             self.assertTrue(part_of(verb), f"no section of {verb}")
             for option in OPTIONS[verb]:
                 self.assertTrue(names(part_of(verb), option) or names(of_all, option), f"{verb} {option}")
+
+    def test_a_page_for_readers_names_every_option(self):
+        pages = "\n".join(path.read_text() for path in [SOURCE / "README.md", *(SOURCE / "docs").rglob("*.md")])
+        for verb, text in HELP_OF.items():
+            for head in heads(text):
+                self.assertTrue(head == ["-h", "--help"] or any(names(pages, name) for name in head), f"{NAME} {verb} {head}")
 
     def test_the_manual_page_has_the_sections_of_a_manual_page(self):
         titles = re.findall(r"(?m)^\.SH (.*)$", MAN)
