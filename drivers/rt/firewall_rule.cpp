@@ -92,6 +92,29 @@ std::vector<std::string> from_strangers(const BusEndpoint& bus, const std::optio
   return out;
 }
 
+/// On what leaves our port: all that the service sends. The kernel sends without an owner what
+/// belongs to no open socket: a refusal, the end of a connection, and the unsent bytes of whoever
+/// has closed his socket. Of that passes what carries no byte and opens no connection: a TCP header
+/// of 20 bytes, or of 32 with time stamps.
+std::vector<std::string> by_the_service(const BusEndpoint& bus, const std::optional<Address>& at,
+                                        const std::string& user) {
+  const std::string ours = fmt::format("{} tcp sport {}",
+                                       at ? fmt::format("{} saddr {}", at->family, at->number)
+                                          : fmt::format("oifname \"{}\"", bus.interface),
+                                       bus.port);
+  std::vector<std::string> out{
+      statement(fmt::format("{} meta skuid \"{}\"", ours, user), "accept")};
+  for (const auto& [family, header] : {std::pair{"ip", 20}, std::pair{"ip6", 0}}) {
+    if (at && at->family != family) continue;
+    for (const auto& [length, more] : {std::pair{20, ""}, std::pair{32, " tcp doff 8"}})
+      out.push_back(statement(fmt::format("{} tcp flags & syn == 0 {} length {}{}", ours, family,
+                                          header + length, more),
+                              "accept"));
+  }
+  out.push_back(statement(ours, "drop"));
+  return out;
+}
+
 std::optional<FirewallRule> listening(const std::string& place, const BusEndpoint& bus,
                                       const std::string& user) {
   const auto at = bus.interface.empty() ? address_of(bus.address) : std::nullopt;
@@ -103,8 +126,6 @@ std::optional<FirewallRule> listening(const std::string& place, const BusEndpoin
   std::vector<std::string> names;
   for (const Address& peer : peers) names.push_back(peer.number);
   const std::string where = at ? at->number : bus.interface;
-  const std::string ours = at ? fmt::format("{} saddr {}", at->family, at->number)
-                              : fmt::format("oifname \"{}\"", bus.interface);
   return FirewallRule{
       .file = kTcpFile,
       .says = fmt::format("{}: only the peers {} reach port {} of {}, and only user {} answers "
@@ -114,8 +135,7 @@ std::optional<FirewallRule> listening(const std::string& place, const BusEndpoin
       .without = fmt::format("{}: any user of this machine may answer at port {} of {} while "
                              "plumb-rt does not run",
                              place, bus.port, where),
-      .output = {statement(
-          fmt::format("{} tcp sport {} meta skuid != \"{}\"", ours, bus.port, user), "drop")},
+      .output = by_the_service(bus, at, user),
       .input = from_strangers(bus, at, peers)};
 }
 

@@ -3,9 +3,11 @@
 #include "rt/firewall.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <net/if.h>
 #include <sched.h>
+#include <signal.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -67,7 +69,11 @@ TEST(Firewall, AServersPortIsForItsPeersOnlyInBothFamilies) {
         "192.168.0.10, 192.168.0.11 } counter drop",
         "iifname \"eth1\" meta nfproto ipv6 tcp dport 502 ip6 saddr != { fd00::7 "
         "} counter drop",
-        "oifname \"eth1\" tcp sport 502 meta skuid != \"plumb\" counter drop"})
+        "oifname \"eth1\" tcp sport 502 meta skuid \"plumb\" counter accept",
+        "oifname \"eth1\" tcp sport 502 tcp flags & syn == 0 ip length 40 counter accept",
+        "oifname \"eth1\" tcp sport 502 tcp flags & syn == 0 ip6 length 32 tcp doff 8 counter "
+        "accept",
+        "oifname \"eth1\" tcp sport 502 counter drop"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
 }
 
@@ -119,6 +125,15 @@ TEST(Firewall, DoctorSaysWhetherTheRuleIsInForce) {
   EXPECT_EQ(firewall_checks({}, {.listed = ""}).front().finding.grant, Grant::kSkipped);
 }
 
+void load(const std::string& rules) {
+  const std::string file =
+      std::filesystem::temp_directory_path() / ("plumb-rules-" + std::to_string(::getpid()));
+  std::ofstream(file) << rules;
+  const auto refused = load_firewall(file);
+  ::unlink(file.c_str());
+  if (refused) std::fprintf(stderr, "nft: %s\n", refused->c_str());
+}
+
 /// A child in a network of its own, in which these rules are in force; false: it can have none.
 class OwnNetwork {
  public:
@@ -139,14 +154,8 @@ class OwnNetwork {
     loopback.ifr_flags = IFF_UP;
     const int any = ::socket(AF_INET, SOCK_DGRAM, 0);
     if (::ioctl(any, SIOCSIFFLAGS, &loopback) != 0 || !read_firewall().listed) return false;
-    const std::string file =
-        std::filesystem::temp_directory_path() / ("plumb-rules-" + std::to_string(::getpid()));
-    std::ofstream(file) << rules;
-    // Twice: what is loaded again replaces itself.
-    const auto refused = load_firewall(file);
-    const auto again = load_firewall(file);
-    ::unlink(file.c_str());
-    if (refused || again) std::fprintf(stderr, "nft: %s\n", refused.value_or("again").c_str());
+    load(rules);
+    load(rules);  // again: it replaces itself
     return true;
   }
 };
@@ -221,8 +230,110 @@ TEST(FirewallInTheKernel, OnlyPeersReachTheServerAndOnlyTheServiceAnswersThere) 
   EXPECT_EQ(other, 0) << "another user stands in for plumb-rt";
 }
 
+/// Answers `calls` on a connection, each received byte with itself, and closes it.
+void answer(int listening, int calls) {
+  const int one = ::accept(listening, nullptr, nullptr);
+  char byte = 0;
+  for (int i = 0; i < calls && ::read(one, &byte, 1) == 1; ++i) (void)!::write(one, &byte, 1);
+  ::close(one);
+}
+
+pid_t answering(int listening, int calls, uid_t user) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  if (::setuid(user) == 0) answer(listening, calls);
+  ::close(listening);
+  ::pause();
+  ::_exit(0);
+}
+
+/// A socket of the peer's, connected to our port within half a second; -1: it is not, with errno.
+int peer_socket() {
+  const int own = bound("127.0.0.7", 0);
+  const timeval soon{.tv_sec = 0, .tv_usec = 500'000};
+  ::setsockopt(own, SOL_SOCKET, SO_SNDTIMEO, &soon, sizeof soon);
+  ::setsockopt(own, SOL_SOCKET, SO_RCVTIMEO, &soon, sizeof soon);
+  const sockaddr_in to = at("127.0.0.1", kPort);
+  return ::connect(own, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0 ? own : -1;
+}
+
+bool echoes(int own, char byte) {
+  char heard = 0;
+  return ::write(own, &byte, 1) == 1 && ::read(own, &heard, 1) == 1 && heard == byte;
+}
+
+/// True if the kernel keeps nothing of a connection that both sides have closed; this one last.
+bool is_forgotten(int own) {
+  sockaddr_in here{};
+  socklen_t size = sizeof here;
+  ::getsockname(own, reinterpret_cast<sockaddr*>(&here), &size);
+  const std::string row = fmt::format("0700007F:{:04X} 0100007F", ntohs(here.sin_port));
+  ::close(own);
+  ::usleep(300'000);
+  std::ifstream table("/proc/self/net/tcp");
+  for (std::string line; std::getline(table, line);)
+    if (line.find(row) != std::string::npos) return false;
+  return true;
+}
+
+TEST(FirewallInTheKernel, AConversationWithTheServiceIsCompleteFromItsBeginningToItsEnd) {
+  const int seen = OwnNetwork::run(text_of(firewall_rule("a", kServer, kNobody)), [] {
+    if (peer_socket() >= 0 || errno != ECONNREFUSED) return 1;
+    const int listening = listen_as(kNobodyId);
+    const pid_t service = answering(listening, 3, kNobodyId);
+    ::close(listening);
+    const int own = peer_socket();
+    int wrong = own < 0 ? 2 : 0;
+    for (const char byte : {'a', 'b', 'c'}) wrong += echoes(own, byte) ? 0 : 4;
+    char end = 0;
+    wrong += ::read(own, &end, 1) == 0 ? 0 : 16;
+    wrong += is_forgotten(own) ? 0 : 32;
+    ::kill(service, SIGKILL);
+    return wrong;
+  });
+  if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+  EXPECT_EQ(seen, 0) << "1: not refused while nobody listens; 2: no connection; 4, 8, 12: no "
+                        "answer; 16: no end; 32: the peer waits for the last acknowledgement";
+}
+
+/// Whether a byte of a forger reaches the peer. His socket answers a SYN by a cookie, which has no
+/// owner; so has what he writes when he has closed it. `later`: rules that come when he is
+/// connected already.
+bool forges(const std::string& later) {
+  std::ofstream("/proc/sys/net/ipv4/tcp_syncookies") << 2;
+  const int listening = listen_as(kOtherId);
+  const pid_t forger = ::fork();
+  if (forger == 0) {
+    if (::setuid(kOtherId) != 0) ::_exit(0);
+    const int one = ::accept(listening, nullptr, nullptr);
+    char asked = 0;
+    (void)!::read(one, &asked, 1);
+    (void)!::write(one, "x", 1);
+    ::close(one);
+    ::pause();
+  }
+  const int own = peer_socket();
+  load(later);
+  char heard = 0;
+  const bool out = own >= 0 && ::write(own, "?", 1) == 1 && ::read(own, &heard, 1) == 1;
+  ::kill(forger, SIGKILL);
+  return out;
+}
+
+TEST(FirewallInTheKernel, AForgerDeliversNoByteFromASocketThatHeCloses) {
+  const std::string rules = text_of(firewall_rule("a", kServer, kNobody));
+  const auto before = [] { return forges("") ? 1 : 0; };
+  const int seen = OwnNetwork::run(rules, before);
+  if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+  EXPECT_EQ(seen, 0) << "he is connected in spite of the rule";
+  EXPECT_EQ(OwnNetwork::run("", [&] { return forges(rules) ? 1 : 0; }), 0) << "he was before it";
+  EXPECT_EQ(OwnNetwork::run("", before), 1) << "without the rule he can";
+}
+
 TEST(FirewallInTheKernel, IsSeenByDoctorOnceItIsLoaded) {
-  for (const BusEndpoint& bus : {kClient, kServer}) {
+  const BusEndpoint both_families{
+      .kind = Kind::kListens, .interface = "lo", .port = kPort, .peers = {"10.0.0.1", "fd00::7"}};
+  for (const BusEndpoint& bus : {kClient, kServer, both_families}) {
     const FirewallRule rule = firewall_rule("a", bus, kNobody).value();
     const int seen = OwnNetwork::run(text_of(rule), [&] {
       const auto checks = firewall_checks({.rules = {rule}}, read_firewall());
