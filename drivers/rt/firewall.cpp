@@ -8,6 +8,7 @@
 #include <chrono>
 #include <map>
 #include <system_error>
+#include <utility>
 
 #include "program/bounded_file.hpp"
 #include "program/child.hpp"
@@ -23,6 +24,11 @@ namespace fs = std::filesystem;
 constexpr const char* kNft = "/usr/sbin/nft";
 constexpr const char* kAskRoot = "sudo plumb-rt doctor";
 
+constexpr std::pair<const char*, std::vector<std::string> FirewallRule::*> kChains[] = {
+    {"output", &FirewallRule::output},
+    {"input", &FirewallRule::input},
+    {"forward", &FirewallRule::forward}};
+
 std::string head(const std::string& table) {
   return fmt::format(
       "# Written by plumb-rt doctor --fix. plumb-rt@NAME loads it at every start; by hand: nft -f "
@@ -33,7 +39,7 @@ std::string head(const std::string& table) {
       table);
 }
 
-std::string chain(const char* name, const std::string& hook, const std::string& lines) {
+std::string chain(const std::string& name, const std::string& hook, const std::string& lines) {
   return fmt::format("  chain {} {{\n    type filter hook {}\n{}  }}\n", name, hook, lines);
 }
 
@@ -51,14 +57,14 @@ std::string can_text(const FirewallRule& rule) {
 }
 
 std::string tcp_text(const std::vector<FirewallRule>& rules) {
-  std::string output, input;
-  for (const FirewallRule& rule : rules) {
-    if (!rule.can.empty()) continue;
-    output += lines_of(rule, rule.output);
-    input += lines_of(rule, rule.input);
+  std::string out = head("inet plumb_rt");
+  for (const auto& [name, statements] : kChains) {
+    std::string lines;
+    for (const FirewallRule& rule : rules)
+      if (rule.can.empty()) lines += lines_of(rule, rule.*statements);
+    out += chain(name, std::string(name) + " priority filter; policy accept;", lines);
   }
-  return head("inet plumb_rt") + chain("output", "output priority filter; policy accept;", output) +
-         chain("input", "input priority filter; policy accept;", input) + "}\n";
+  return out + "}\n";
 }
 
 MachineSetting setting(const fs::path& file, std::string text) {
@@ -88,8 +94,8 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 /// True if every statement of the rule is listed, by its comment.
 bool is_listed(const FirewallRule& rule, const std::string& listed) {
-  for (const auto* chain : {&rule.output, &rule.input})
-    for (const std::string& one : *chain)
+  for (const auto& [name, statements] : kChains)
+    for (const std::string& one : rule.*statements)
       if (listed.find(one.substr(one.find("comment "))) == std::string::npos) return false;
   return true;
 }

@@ -57,19 +57,25 @@ std::string statement(const std::string& match, const std::string& verdict) {
                      sha256(match + verdict).substr(0, 12));
 }
 
+/// What is forwarded to the controller comes from a container, a virtual machine or a neighbouring
+/// network, and has no user.
 std::optional<FirewallRule> connecting(const std::string& place, const BusEndpoint& bus,
                                        const std::string& user) {
   const auto to = address_of(bus.address);
   if (!to) return std::nullopt;
+  const std::string there =
+      fmt::format("{} daddr {} tcp dport {}", to->family, to->number, bus.port);
   return FirewallRule{
       .file = kTcpFile,
-      .says = fmt::format("{}: only user {} may connect to {}, port {}", place, user, to->number,
-                          bus.port),
-      .without = fmt::format("{}: every user of this machine may connect to {}, port {}", place,
-                             to->number, bus.port),
-      .output = {statement(fmt::format("{} daddr {} tcp dport {} meta skuid != \"{}\"", to->family,
-                                       to->number, bus.port, user),
-                           "reject with tcp reset")}};
+      .says = fmt::format("{}: only user {} may connect to {}, port {}, and nothing is forwarded "
+                          "there",
+                          place, user, to->number, bus.port),
+      .without = fmt::format("{}: every user of this machine, and every container, may connect to "
+                             "{}, port {}",
+                             place, to->number, bus.port),
+      .output = {statement(fmt::format("{} meta skuid != \"{}\"", there, user),
+                           "reject with tcp reset")},
+      .forward = {statement(there, "reject with tcp reset")}};
 }
 
 /// For each family what is dropped on its way to our port: all that comes from no peer of it.
@@ -92,16 +98,20 @@ std::vector<std::string> from_strangers(const BusEndpoint& bus, const std::optio
   return out;
 }
 
+/// What leaves our port.
+std::string from_our_port(const BusEndpoint& bus, const std::optional<Address>& at) {
+  return fmt::format("{} tcp sport {}",
+                     at ? fmt::format("{} saddr {}", at->family, at->number)
+                        : fmt::format("oifname \"{}\"", bus.interface),
+                     bus.port);
+}
+
 /// On what leaves our port: all that the service sends. The kernel sends without an owner what
 /// belongs to no open socket: a refusal, the end of a connection, and the unsent bytes of whoever
 /// has closed his socket. Of that passes what carries no byte and opens no connection: a TCP header
 /// of 20 bytes, or of 32 with time stamps.
-std::vector<std::string> by_the_service(const BusEndpoint& bus, const std::optional<Address>& at,
+std::vector<std::string> by_the_service(const std::string& ours, const std::optional<Address>& at,
                                         const std::string& user) {
-  const std::string ours = fmt::format("{} tcp sport {}",
-                                       at ? fmt::format("{} saddr {}", at->family, at->number)
-                                          : fmt::format("oifname \"{}\"", bus.interface),
-                                       bus.port);
   std::vector<std::string> out{
       statement(fmt::format("{} meta skuid \"{}\"", ours, user), "accept")};
   for (const auto& [family, header] : {std::pair{"ip", 20}, std::pair{"ip6", 0}}) {
@@ -126,6 +136,7 @@ std::optional<FirewallRule> listening(const std::string& place, const BusEndpoin
   std::vector<std::string> names;
   for (const Address& peer : peers) names.push_back(peer.number);
   const std::string where = at ? at->number : bus.interface;
+  const std::string ours = from_our_port(bus, at);
   return FirewallRule{
       .file = kTcpFile,
       .says = fmt::format("{}: only the peers {} reach port {} of {}, and only user {} answers "
@@ -135,8 +146,10 @@ std::optional<FirewallRule> listening(const std::string& place, const BusEndpoin
       .without = fmt::format("{}: any user of this machine may answer at port {} of {} while "
                              "plumb-rt does not run",
                              place, bus.port, where),
-      .output = by_the_service(bus, at, user),
-      .input = from_strangers(bus, at, peers)};
+      .output = by_the_service(ours, at, user),
+      .input = from_strangers(bus, at, peers),
+      // A container that takes our address for its own.
+      .forward = {statement(ours + (at ? "" : " fib saddr type local"), "drop")}};
 }
 
 /// CAN has no addresses and no ports, but what is sent on an interface passes its egress hook.

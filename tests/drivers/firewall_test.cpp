@@ -3,16 +3,19 @@
 #include "rt/firewall.hpp"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <net/if.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -53,7 +56,8 @@ TEST(Firewall, AClientsControllerIsForTheServiceOnly) {
   EXPECT_NE(text.find("ip daddr 127.0.0.1 tcp dport 1502 meta skuid != \"plumb\" counter reject"),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("cell4: only user plumb may connect to 127.0.0.1, port 1502"),
+  EXPECT_NE(text.find("cell4: only user plumb may connect to 127.0.0.1, port 1502, and nothing is "
+                      "forwarded there"),
             std::string::npos);
   EXPECT_EQ(text.rfind("# Written by plumb-rt doctor --fix", 0), 0U);  // as postrm asks
 }
@@ -185,16 +189,17 @@ bool connects(const char* from) {
   return ::connect(own, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
 }
 
-/// The owner of a socket is the user who made it.
-bool connects_as(uid_t user) {
+/// What a child of this user sees: the owner of a socket is the user who made it.
+bool as(uid_t user, const std::function<bool()>& seen) {
   const pid_t child = ::fork();
-  if (child == 0) {
-    if (::setuid(user) != 0) ::_exit(2);
-    ::_exit(connects("127.0.0.1") ? 0 : 1);
-  }
+  if (child == 0) ::_exit(::setuid(user) == 0 && seen() ? 0 : 1);
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool connects_as(uid_t user) {
+  return as(user, [] { return connects("127.0.0.1"); });
 }
 
 int listen_as(uid_t user) {
@@ -328,6 +333,76 @@ TEST(FirewallInTheKernel, AForgerDeliversNoByteFromASocketThatHeCloses) {
   EXPECT_EQ(seen, 0) << "he is connected in spite of the rule";
   EXPECT_EQ(OwnNetwork::run("", [&] { return forges(rules) ? 1 : 0; }), 0) << "he was before it";
   EXPECT_EQ(OwnNetwork::run("", before), 1) << "without the rule he can";
+}
+
+/// A process in a network of its own that listens at our port of whatever address it gets.
+class Neighbour {
+ public:
+  Neighbour() {
+    const int before = ::eventfd(0, 0);
+    child_ = ::fork();
+    if (child_ == 0) {
+      (void)::unshare(CLONE_NEWNET);
+      ::listen(bound("0.0.0.0", kPort), 4);
+      ::eventfd_write(before, 1);
+      for (;;) ::pause();
+    }
+    eventfd_t made = 0;
+    ::eventfd_read(before, &made);
+    ::close(before);
+  }
+  ~Neighbour() {
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+
+  /// A cable to it: we are 10.9.N.1, it is 10.9.N.2 and sends through us what goes elsewhere.
+  bool plug(int n) const {
+    return std::system(
+               fmt::format("ip link add v{0} type veth peer name v0 netns {1} && "
+                           "ip address add 10.9.{0}.1/24 dev v{0} && ip link set v{0} up && "
+                           "nsenter -t {1} -n sh -c 'ip address add 10.9.{0}.2/24 dev v0 && "
+                           "ip link set v0 up && ip route add default via 10.9.{0}.1'",
+                           n, child_)
+                   .c_str()) == 0;
+  }
+
+  /// Whether this is so there.
+  bool sees(const std::function<bool()>& so) const {
+    return as(0, [&] { return enter() && so(); });
+  }
+
+ private:
+  bool enter() const {
+    const int network = ::open(fmt::format("/proc/{}/ns/net", child_).c_str(), O_RDONLY);
+    return ::setns(network, CLONE_NEWNET) == 0;
+  }
+
+  pid_t child_ = -1;
+};
+
+bool reaches(const char* host) {
+  const int own = ::socket(AF_INET, SOCK_STREAM, 0);
+  const timeval soon{.tv_sec = 1, .tv_usec = 0};
+  ::setsockopt(own, SOL_SOCKET, SO_SNDTIMEO, &soon, sizeof soon);
+  const sockaddr_in to = at(host, kPort);
+  return ::connect(own, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+}
+
+TEST(FirewallInTheKernel, NothingIsForwardedToTheController) {
+  BusEndpoint bus = kClient;
+  bus.address = "10.9.2.2";
+  const auto in_it = [] {
+    const Neighbour container, controller;
+    if (!container.plug(1) || !controller.plug(2)) return OwnNetwork::kImpossible;
+    std::ofstream("/proc/sys/net/ipv4/ip_forward") << 1;
+    const auto there = [] { return reaches("10.9.2.2"); };
+    return container.sees(there) + 2 * as(kNobodyId, there);
+  };
+  const int seen = OwnNetwork::run(text_of(firewall_rule("a", bus, kNobody)), in_it);
+  if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+  EXPECT_EQ(seen, 2) << "1: the container reaches the controller";
+  EXPECT_EQ(OwnNetwork::run("", in_it), 3) << "without the rule it does";
 }
 
 TEST(FirewallInTheKernel, IsSeenByDoctorOnceItIsLoaded) {
