@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <map>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -100,19 +101,36 @@ bool is_listed(const FirewallRule& rule, const std::string& listed) {
   return true;
 }
 
+/// The list without the tables that the kernel keeps and does not apply.
+std::string without_dormant(const std::string& listed) {
+  std::string out, table;
+  bool dormant = false;
+  std::istringstream lines(listed);
+  for (std::string line; std::getline(lines, line);) {
+    table += line + "\n";
+    dormant = dormant || (line.starts_with("\tflags ") && line.find("dormant") != line.npos);
+    if (line != "}") continue;
+    out += dormant ? "" : table;
+    table.clear();
+    dormant = false;
+  }
+  return out + table;
+}
+
+Finding finding_of(const FirewallRule& rule, const FirewallInForce& now) {
+  if (!now.listed) return {.why = now.why_not, .remedy = now.remedy};
+  if (is_listed(rule, without_dormant(*now.listed)))
+    return {.grant = Grant::kGranted, .why = rule.says};
+  const bool dormant = is_listed(rule, *now.listed);
+  return {.grant = Grant::kDenied,
+          .why = rule.without + (dormant ? "; the table of its rule is dormant" : ""),
+          .remedy = "sudo plumb-rt doctor --fix"};
+}
+
 Check check_of(const FirewallRule& rule, const FirewallInForce& now) {
-  const bool in_force = now.listed && is_listed(rule, *now.listed);
-  return {.id = "firewall",
-          .finding = {.what = "firewall",
-                      .grant = in_force     ? Grant::kGranted
-                               : now.listed ? Grant::kDenied
-                                            : Grant::kSkipped,
-                      .why = in_force     ? rule.says
-                             : now.listed ? rule.without
-                                          : now.why_not,
-                      .remedy = in_force     ? ""
-                                : now.listed ? "sudo plumb-rt doctor --fix"
-                                             : now.remedy}};
+  Check out{.id = "firewall", .finding = finding_of(rule, now)};
+  out.finding.what = "firewall";
+  return out;
 }
 
 Check not_asked(const std::string& why, const std::string& remedy) {

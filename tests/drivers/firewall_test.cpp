@@ -405,6 +405,27 @@ TEST(FirewallInTheKernel, NothingIsForwardedToTheController) {
   EXPECT_EQ(OwnNetwork::run("", in_it), 3) << "without the rule it does";
 }
 
+TEST(FirewallInTheKernel, IsNotInForceWhileItsTableIsDormant) {
+  const FirewallRule rule = firewall_rule("a", kClient, kNobody).value();
+  const int seen = OwnNetwork::run(text_of(rule) + "table inet other {\n}\n", [&] {
+    const auto said = [&] {
+      return firewall_checks({.rules = {rule}}, read_firewall()).front().finding;
+    };
+    load("add table inet other { flags dormant; }\n");
+    const bool before = said().grant == Grant::kGranted;
+    load("add table inet plumb_rt { flags dormant; }\n");
+    const Finding asleep = said();
+    const bool told = asleep.grant == Grant::kDenied &&
+                      asleep.why.find("every user") != std::string::npos &&
+                      asleep.why.find("dormant") != std::string::npos;
+    load(text_of(rule));  // as the remedy does
+    return (before ? 0 : 1) + (told ? 0 : 2) + (said().grant == Grant::kGranted ? 0 : 4);
+  });
+  if (seen == OwnNetwork::kImpossible) GTEST_SKIP() << "no nft, or no right to a network";
+  EXPECT_EQ(seen, 0)
+      << "1: another table's sleep counts; 2: it is said to be in force; 4: stays so";
+}
+
 TEST(FirewallInTheKernel, IsSeenByDoctorOnceItIsLoaded) {
   const BusEndpoint both_families{
       .kind = Kind::kListens, .interface = "lo", .port = kPort, .peers = {"10.0.0.1", "fd00::7"}};
