@@ -2,6 +2,7 @@
 #include "rt/firewall.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -170,7 +171,7 @@ std::vector<MachineSetting> firewall_settings(const std::vector<FirewallRule>& r
   return out;
 }
 
-bool can_load_firewall() { return fs::exists(kNft); }
+bool can_load_firewall() { return ::access(kNft, X_OK) == 0; }
 
 FirewallInForce read_firewall() {
   if (!can_load_firewall())

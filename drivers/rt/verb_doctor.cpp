@@ -46,10 +46,6 @@ FixMode mode_of(const WriteOptions& options) {
 void load(const std::vector<MachineSetting>& firewall, Fix& done, Outcome& outcome) {
   auto file = done.files.end() - static_cast<std::ptrdiff_t>(firewall.size());
   for (; file != done.files.end(); ++file) {
-    if (!can_load_firewall()) {
-      file->then = "sudo apt-get install nftables, then: " + file->then;
-      continue;
-    }
     const auto refusal = load_firewall(file->path);
     if (!refusal) {
       file->then = "in force; plumb-rt@NAME loads it at every start";
@@ -59,7 +55,9 @@ void load(const std::vector<MachineSetting>& firewall, Fix& done, Outcome& outco
     outcome.errors.push_back({.code = "E-FIX-FIREWALL",
                               .message = fmt::format("{} is written and not in force: {}",
                                                      file->path.string(), *refusal),
-                              .help = file->then});
+                              .help = fmt::format("{}; until then plumb-rt@NAME does not start; to "
+                                                  "do without the rule: sudo rm {}",
+                                                  file->then, file->path.string())});
   }
 }
 
@@ -67,11 +65,18 @@ void load(const std::vector<MachineSetting>& firewall, Fix& done, Outcome& outco
 void fix(const DoctorOptions& options, const MachineFiles& files, const Examination& seen,
          const FirewallRules& found, Outcome& outcome) {
   std::vector<MachineSetting> settings = machine_settings(files);
-  const auto firewall = firewall_settings(found.rules);
+  const bool loads = options.root == "/";
+  // A rule that is there and not loaded keeps the service from starting.
+  const bool without = loads && !can_load_firewall();
+  const auto firewall = without ? std::vector<MachineSetting>{} : firewall_settings(found.rules);
   settings.insert(settings.end(), firewall.begin(), firewall.end());
   Fix done{.files = write_settings(options.root, settings, mode_of(options.write)),
            .beyond = beyond_settings(files, seen.checks)};
-  if (options.root == "/" && !options.write.dry_run) load(firewall, done, outcome);
+  if (without && !found.rules.empty()) {
+    const FirewallInForce now = read_firewall();
+    done.beyond.push_back(fmt::format("firewall: {}; {}", now.why_not, now.remedy));
+  }
+  if (loads && !options.write.dry_run) load(firewall, done, outcome);
   outcome.result["fix"] = to_json(done);
   outcome.text += to_text(done);
 }

@@ -800,7 +800,12 @@ constexpr Explanation kCodes[] = {
     {"E-FIX-FIREWALL",
      "plumb-rt doctor --fix wrote a file of firewall rules, and the kernel did not take it; the "
      "message has what nft says. An interface may be missing yet, or the kernel older than 5.16, "
-     "which has no hook for CAN. plumb-rt@NAME tries again at every start."},
+     "which has no hook for CAN. plumb-rt@NAME tries again at every start, and does not start with "
+     "a rule that cannot be loaded; delete the file to do without it."},
+    {"E-RT-FIREWALL",
+     "The service plumb-rt@NAME did not start, because a file of firewall rules in /etc/plumb "
+     "cannot be loaded: the line above has what nft says. Who installed the rule counts on it. "
+     "Install nftables, run plumb-rt doctor --fix --force, or delete the file to do without it."},
     {"E-RT-KEY",
      "rt.toml has a key that plumb-rt does not know; nothing was sent. Rename it as proposed."},
     {"E-RT-TYPE", "A value of rt.toml is of the wrong type. The message says what is expected."},

@@ -55,7 +55,7 @@ set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_DEPENDS
     "systemd | systemd-standalone-sysusers, systemd | systemd-standalone-tmpfiles")
-set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_RECOMMENDS "iproute2, udev")
+set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_RECOMMENDS "iproute2, nftables, udev")
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_SUGGESTS "can-utils, prometheus")
 set(CPACK_DEBIAN_PLUMB-RT_PACKAGE_CONTROL_EXTRA ${debian}/postinst ${debian}/prerm ${debian}/postrm)
 set(CPACK_COMPONENT_PLUMB-RT_DESCRIPTION "real-time correction of robot targets
