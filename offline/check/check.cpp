@@ -26,6 +26,7 @@
 #include "fit/few_poses.hpp"
 #include "fit/main_jump.hpp"
 #include "fit/orientation_words.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 #include "program/counted_words.hpp"
 

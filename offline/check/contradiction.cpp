@@ -11,6 +11,7 @@
 #include "cell/table_place.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 #include "numbers/quantile.hpp"
 

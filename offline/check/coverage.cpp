@@ -8,6 +8,7 @@
 #include <set>
 
 #include "check/arm_shape.hpp"
+#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "check/row_lines.hpp"
 #include "check/tool_errors.hpp"
+#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

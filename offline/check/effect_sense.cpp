@@ -8,6 +8,7 @@
 
 #include "cell/effect_option.hpp"
 #include "fit/parameter.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {

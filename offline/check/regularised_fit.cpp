@@ -7,6 +7,7 @@
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/solver.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/rotation_fit.hpp"

@@ -13,6 +13,7 @@
 #include "check/row_lines.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 #include "numbers/quantile.hpp"
 

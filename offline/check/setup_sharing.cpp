@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/tool_errors.hpp"
 
+#include "fit/predicted_points.hpp"
+
 namespace plumb::offline {
 
 Rows3 errors_in_tool(const ArmState& state, const Measurements& some, const Rows3& errors_M) {

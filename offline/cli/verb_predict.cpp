@@ -17,6 +17,7 @@
 #include "fit/effect_binding.hpp"
 #include "fit/known_inputs.hpp"
 #include "fit/measured_arm.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/series_place.hpp"
 #include "program/counted_words.hpp"
 #include "show/units.hpp"

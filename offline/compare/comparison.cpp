@@ -6,6 +6,7 @@
 
 #include "cell/group_rows.hpp"
 #include "compare/profiles.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/step_motions.hpp"
 
 namespace plumb::offline::compare {

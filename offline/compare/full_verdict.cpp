@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compare/joint_shares.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/repeatability.hpp"
 #include "fit/series.hpp"
 #include "fit/step_motions.hpp"

@@ -22,6 +22,7 @@
 #include "effects/registry.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/measured_orientations.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/split.hpp"
 #include "fit/usual_errors.hpp"
 

@@ -8,6 +8,7 @@
 #include "cell/replicates.hpp"
 #include "diagnose/constants.hpp"
 #include "fit/noise_floor.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/series_numbers.hpp"
 #include "fit/solver.hpp"
 #include "fit/split.hpp"

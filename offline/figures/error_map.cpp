@@ -8,6 +8,7 @@
 #include "figures/words.hpp"
 #include "figures/workspace_views.hpp"
 #include "figures/worst_band.hpp"
+#include "fit/predicted_points.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline::figures {

@@ -14,6 +14,7 @@
 #include "fit/effect_binding.hpp"
 #include "fit/fitted_effects.hpp"
 #include "fit/outliers.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/series.hpp"
 #include "plumb/format/formula.hpp"
 #include "plumb/runtime/chain.hpp"

@@ -9,6 +9,7 @@
 #include "effects/registry.hpp"
 #include "figures/words.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/predicted_points.hpp"
 
 namespace plumb::offline::figures {
 namespace {

@@ -7,6 +7,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/earlier_runs.hpp"
 #include "fit/measured_orientations.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/verdict.hpp"
 
 namespace plumb::offline::figures {

@@ -13,6 +13,7 @@
 #include "figures/workspace_views.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/geometry_derivative.hpp"
+#include "fit/predicted_points.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {

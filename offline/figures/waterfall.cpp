@@ -10,7 +10,7 @@
 #include "figures/error_axis.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
-#include "fit/arm_state.hpp"
+#include "fit/predicted_points.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {

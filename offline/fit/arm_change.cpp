@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/arm_change.hpp"
 
+#include "formula/degree.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -94,6 +96,15 @@ double value_of(const ArmState& state, const Parameter& parameter) {
     default:
       return dh_value(row, parameter.kind);
   }
+}
+
+ArmState unhidden(ArmState state) {
+  for (auto& effect : state.arm.effects) {
+    if (effect.formula.code.empty() || degree_of(effect.formula) != Degree::kCurved) continue;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
+      if (effect.parameters[k] == 0.0) effect.parameters[k] = effect.formula.parameters[k].typical;
+  }
+  return state;
 }
 
 }  // namespace plumb::offline

@@ -21,6 +21,10 @@ double value_of(const ArmState& state, const Parameter& parameter);
 Vector3 gathered(const std::vector<Parameter>& parameters, const Eigen::VectorXd& change,
                  Parameter::Kind kind, int first_component, int setup = 0);
 
+/// Where a search may begin: of a formula in which a parameter that is 0 hides another one, as k in
+/// k (1 + c tau2), the hiding ones are of typical size.
+ArmState unhidden(ArmState state);
+
 /// Turned by a rotation vector [rad].
 Transformd turned(const Vector3& e);
 

@@ -20,6 +20,7 @@
 #include "fit/parameter_subset.hpp"
 #include "fit/placement.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/prior_lines.hpp"
 #include "fit/series_solver.hpp"
 #include "fit/thinned_rows.hpp"

@@ -8,6 +8,7 @@
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/parameter.hpp"
+#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

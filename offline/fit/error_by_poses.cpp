@@ -6,9 +6,9 @@
 #include <map>
 
 #include "cell/random.hpp"
-#include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
+#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -17,6 +17,7 @@
 #include "fit/imagined_poses.hpp"
 #include "fit/orientation_words.hpp"
 #include "fit/pose_sense.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/usual_errors.hpp"
 #include "program/counted_words.hpp"
 #include "tree/domain.hpp"

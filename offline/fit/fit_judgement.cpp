@@ -10,6 +10,7 @@
 #include "cell/formula_reader.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/placement.hpp"
+#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "cell/formula_reader.hpp"
 #include "effects/registry.hpp"
-#include "formula/degree.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -97,15 +96,6 @@ class FormulaBinder {
 format::Effect bind_formula(const Cell& cell, const Measurements& measured,
                             const EffectEntry& entry) {
   return FormulaBinder(cell, measured, entry).bind();
-}
-
-ArmState unhidden(ArmState state) {
-  for (auto& effect : state.arm.effects) {
-    if (effect.formula.code.empty() || degree_of(effect.formula) != Degree::kCurved) continue;
-    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
-      if (effect.parameters[k] == 0.0) effect.parameters[k] = effect.formula.parameters[k].typical;
-  }
-  return state;
 }
 
 }  // namespace plumb::offline

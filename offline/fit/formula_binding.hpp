@@ -3,7 +3,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
+#include "plumb/format/model.hpp"
 
 namespace plumb::offline {
 
@@ -13,9 +13,5 @@ namespace plumb::offline {
 /// Throws Failure (kInput) if the measurements lack what it reads.
 format::Effect bind_formula(const Cell& cell, const Measurements& measured,
                             const EffectEntry& entry);
-
-/// Where a search may begin: of a formula in which a parameter that is 0 hides another one, as k in
-/// k (1 + c tau2), the hiding ones are of typical size.
-ArmState unhidden(ArmState state);
 
 }  // namespace plumb::offline

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/predicted_points.hpp"
+
 namespace plumb::offline {
 namespace {
 

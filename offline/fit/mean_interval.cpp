@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "fit/arm_state.hpp"
+#include "fit/predicted_points.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline {

@@ -14,6 +14,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/measured_arm.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 #include "numbers/quantile.hpp"
 #include "numbers/rotation_fit.hpp"

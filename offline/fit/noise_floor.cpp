@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cell/group_rows.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/repeat_groups.hpp"
 #include "numbers/quantile.hpp"
 

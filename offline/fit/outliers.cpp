@@ -10,6 +10,7 @@
 
 #include "fit/leverage.hpp"
 #include "fit/many_rows.hpp"
+#include "fit/predicted_points.hpp"
 #include "numbers/quantile.hpp"
 
 namespace plumb::offline {

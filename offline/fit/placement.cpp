@@ -6,6 +6,7 @@
 
 #include "fit/frame_start.hpp"
 #include "fit/parameter_subset.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {

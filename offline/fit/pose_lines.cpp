@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/pose_lines.hpp"
 
+#include "fit/predicted_points.hpp"
+
 namespace plumb::offline {
 
 PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int first, int last,

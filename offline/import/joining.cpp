@@ -12,6 +12,7 @@
 
 #include "cell/units.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "import/words.hpp"
 
 namespace plumb::offline {

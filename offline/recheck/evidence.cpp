@@ -6,6 +6,7 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/frame_start.hpp"
+#include "fit/predicted_points.hpp"
 #include "numbers/gaussian.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "recheck/constants.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fit/outliers.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/series_solver.hpp"
 #include "fit/verdict.hpp"
 #include "fit/weights.hpp"

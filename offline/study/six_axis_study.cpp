@@ -9,6 +9,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "simulate/arm_rows.hpp"
 #include "simulate/simulate.hpp"

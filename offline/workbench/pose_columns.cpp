@@ -10,6 +10,7 @@
 #include "figures/worst_band.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
+#include "fit/predicted_points.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
 #include "show/compare_words.hpp"

@@ -16,6 +16,7 @@
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fit.hpp"
+#include "fit/predicted_points.hpp"
 #include "program/file.hpp"
 #include "simulate/law.hpp"
 #include "tests/blind/answer.hpp"

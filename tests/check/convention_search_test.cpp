@@ -12,6 +12,7 @@
 #include "check/check.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/predicted_points.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/check/scrambled.hpp"

@@ -9,6 +9,7 @@
 #include "check/identifiability.hpp"
 #include "effects/fitted_laws.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/predicted_points.hpp"
 
 /// What a check says of a cell whose model holds an effect.
 namespace plumb::offline {

@@ -6,6 +6,7 @@
 
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/series.hpp"
 #include "fit/step_motions.hpp"
 #include "simulate/simulate.hpp"

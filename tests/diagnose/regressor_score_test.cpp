@@ -9,6 +9,7 @@
 
 #include "diagnose/extension.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/predicted_points.hpp"
 #include "simulate/blind_case.hpp"
 
 namespace plumb::offline {

@@ -9,6 +9,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/series_numbers.hpp"
 #include "simulate/blind_case.hpp"
 

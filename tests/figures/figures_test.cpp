@@ -24,6 +24,7 @@
 #include "figures/words.hpp"
 #include "figures/worst_band.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "plumb/format/formula.hpp"
 #include "tests/draw/text_boxes.hpp"
 #include "tests/draw/well_formed.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fit/fit.hpp"
+#include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "simulate/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -8,6 +8,7 @@
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/geometry_derivative.hpp"
+#include "fit/predicted_points.hpp"
 #include "plumb/format/formula.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"

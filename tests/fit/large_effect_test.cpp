@@ -7,6 +7,7 @@
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/predicted_points.hpp"
 #include "simulate/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 

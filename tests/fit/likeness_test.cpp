@@ -10,6 +10,7 @@
 #include "cell/earlier_arm.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {

@@ -9,6 +9,7 @@
 
 #include "fit/calibrate.hpp"
 #include "fit/outliers.hpp"
+#include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

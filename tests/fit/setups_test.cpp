@@ -7,6 +7,7 @@
 #include "cell/setups.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/fit.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/run_json.hpp"
 #include "fit/solver.hpp"
 #include "fit/weights.hpp"

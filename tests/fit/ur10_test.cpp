@@ -7,6 +7,7 @@
 
 #include "fit/cell_data.hpp"
 #include "fit/fit.hpp"
+#include "fit/predicted_points.hpp"
 #include "tests/yardstick.hpp"
 
 namespace plumb::offline {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fit/predicted_points.hpp"
 #include "fit/repeatability.hpp"
 #include "simulate/simulate.hpp"
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "fit/calibrate.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/weak_directions.hpp"
 
 /// Poses along a path or on a surface: sound data that say little of some numbers of the arm.

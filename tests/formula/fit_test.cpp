@@ -8,6 +8,7 @@
 #include "compile/compiler.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/predicted_points.hpp"
 #include "fit/run_json.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"

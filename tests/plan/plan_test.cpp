@@ -6,6 +6,7 @@
 
 #include "fit/calibrate.hpp"
 #include "fit/fit_judgement.hpp"
+#include "fit/predicted_points.hpp"
 #include "plan/planning.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
