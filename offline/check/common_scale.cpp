@@ -9,7 +9,7 @@
 
 #include "cell/units.hpp"
 #include "check/linear_placement.hpp"
-#include "fit/solver.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/thinned_rows.hpp"
 #include "numbers/pivoted_qr.hpp"
 #include "plumb/runtime/chain.hpp"

@@ -8,7 +8,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "check/convention_search.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 
 namespace plumb::offline {
 

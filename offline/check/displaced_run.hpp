@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/arm_state.hpp"
-#include "fit/outliers.hpp"
+#include "fit/outlier.hpp"
 
 namespace plumb::offline {
 

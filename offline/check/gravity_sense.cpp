@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "effects/registry.hpp"
-#include "fit/outliers.hpp"
+#include "fit/outlier.hpp"
 #include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"
 #include "numbers/lu.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/spectrum.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/imagined_poses.hpp"
 #include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"

@@ -9,7 +9,7 @@
 #include "cell/measurements.hpp"
 #include "check/observability.hpp"
 #include "check/separation.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 
 namespace plumb::offline {
 

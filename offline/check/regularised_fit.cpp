@@ -7,8 +7,8 @@
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/predicted_points.hpp"
-#include "fit/solver.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/rotation_fit.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cell/cell.hpp"
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
 
 namespace plumb::offline {
 

@@ -6,7 +6,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 #include "program/outcome.hpp"
 #include "show/runs_view.hpp"
 

@@ -8,6 +8,8 @@
 #include "cli/model_limits.hpp"
 #include "cli/progress.hpp"
 #include "compile/compiler.hpp"
+#include "fit/fit_cell.hpp"
+#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"

@@ -18,6 +18,7 @@
 #include "figures/law_figures.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "show/diagnose_view.hpp"

@@ -9,6 +9,7 @@
 #include "cli/verbs.hpp"
 #include "compare/comparison.hpp"
 #include "fit/earlier_runs.hpp"
+#include "fit/run_store.hpp"
 #include "show/compare_view.hpp"
 #include "show/runs_view.hpp"
 

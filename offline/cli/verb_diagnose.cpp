@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "report/kept_diagnosis.hpp"
 #include "show/diagnose_view.hpp"

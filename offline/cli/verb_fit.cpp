@@ -15,6 +15,7 @@
 #include "fit/controller_base.hpp"
 #include "fit/main_jump.hpp"
 #include "fit/moving_part.hpp"
+#include "fit/run_store.hpp"
 #include "fit/thinned_rows.hpp"
 #include "fit/verdict.hpp"
 #include "show/fit_view.hpp"

@@ -17,6 +17,7 @@
 #include "figures/registry.hpp"
 #include "figures/run_figures.hpp"
 #include "fit/earlier_runs.hpp"
+#include "fit/run_store.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
 #include "report/kept_diagnosis.hpp"

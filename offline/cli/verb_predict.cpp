@@ -18,6 +18,7 @@
 #include "fit/known_inputs.hpp"
 #include "fit/measured_arm.hpp"
 #include "fit/predicted_points.hpp"
+#include "fit/run_store.hpp"
 #include "fit/series_place.hpp"
 #include "program/counted_words.hpp"
 #include "show/units.hpp"

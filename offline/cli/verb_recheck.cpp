@@ -16,6 +16,7 @@
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/known_inputs.hpp"
+#include "fit/run_store.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
 #include "recheck/recheck.hpp"

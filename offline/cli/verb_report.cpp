@@ -15,6 +15,7 @@
 #include "compile/compiler.hpp"
 #include "deploy/bus_of_cell.hpp"
 #include "fit/earlier_runs.hpp"
+#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"

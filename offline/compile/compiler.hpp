@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cell/cell.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 #include "plumb/format/model.hpp"
 
 namespace plumb::offline {

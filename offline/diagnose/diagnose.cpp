@@ -20,6 +20,7 @@
 #include "diagnose/refit.hpp"
 #include "diagnose/sharpen_steps.hpp"
 #include "effects/registry.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/measured_orientations.hpp"
 #include "fit/predicted_points.hpp"

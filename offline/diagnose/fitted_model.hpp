@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cell/cell.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 
 namespace plumb::offline {
 

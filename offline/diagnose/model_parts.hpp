@@ -6,7 +6,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/found.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 
 namespace plumb::offline {
 

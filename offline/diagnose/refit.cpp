@@ -4,6 +4,7 @@
 #include <map>
 
 #include "fit/arm_change.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 
 namespace plumb::offline {

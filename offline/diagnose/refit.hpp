@@ -5,7 +5,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 
 namespace plumb::offline {
 

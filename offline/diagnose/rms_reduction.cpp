@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/rms_reduction.hpp"
 
-#include "fit/solver.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/weights.hpp"
 
 namespace plumb::offline {

@@ -7,10 +7,10 @@
 
 #include "cell/replicates.hpp"
 #include "diagnose/constants.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/noise_floor.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/series_numbers.hpp"
-#include "fit/solver.hpp"
 #include "fit/split.hpp"
 #include "fit/weights.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"

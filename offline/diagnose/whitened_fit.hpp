@@ -6,7 +6,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 #include "fit/orthonormal.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 

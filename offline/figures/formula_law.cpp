@@ -13,7 +13,7 @@
 #include "figures/joint_residual.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/fitted_effects.hpp"
-#include "fit/outliers.hpp"
+#include "fit/outlier.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/series.hpp"
 #include "plumb/format/formula.hpp"

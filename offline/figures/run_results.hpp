@@ -8,7 +8,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/parameter.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 
 namespace plumb::offline::figures {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "fit/arm_change.hpp"
-#include "fit/fit_judgement.hpp"
 #include "fit/row_sums.hpp"
+#include "fit/solution_checks.hpp"
 #include "fit/thinned_rows.hpp"
 #include "numbers/cholesky.hpp"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "fit/run_json.hpp"
+#include "fit/run_store.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
 

@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "fit/run_store.hpp"
+#include "cell/cell.hpp"
+#include "cell/measurements.hpp"
+#include "fit/run.hpp"
 
 namespace plumb::offline {
 

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 #include "fit/error_stats.hpp"
 #include "fit/measured_orientations.hpp"
 #include "fit/noise_floor.hpp"
@@ -41,12 +40,5 @@ struct Fit {
   std::vector<std::string> still;  // joints that never moved
   std::vector<Problem> remarks;
 };
-
-/// Splits, calibrates, learns the tree, and measures the held-out error. The held-out poses are
-/// never seen by selection. Throws Failure as `calibrate` and `split_poses` do.
-Fit fit_cell(const Cell& cell, const Measurements& measured);
-
-/// Final model on every pose; carries no held-out figure.
-Fit fit_all(const Cell& cell, const Measurements& measured);
 
 }  // namespace plumb::offline

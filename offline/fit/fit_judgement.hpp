@@ -3,31 +3,13 @@
 
 #include <vector>
 
-#include "fit/calibrate.hpp"
-#include "fit/solver.hpp"
+#include "fit/calibration.hpp"
 #include "plumb/runtime/detail/effect.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline {
 
-/// Whether a calibration can be believed. Each check throws Failure (kNumbersSayNo).
-
-/// E-FIT-FEW: no more coordinates than kept parameters. If there are enough coordinates for the
-/// candidates of arm, frame and target alone, the message blames the effects.
-void check_enough(const FitData& data, std::size_t kept, const std::vector<Parameter>& candidates);
-
-/// E-FIT-FORMULA: a formula has no value, or no slope, at a row of the data.
-[[noreturn]] void refuse_undefined(const FitData& data, const format::Effect& effect, int row);
-
-/// E-FIT-CONVERGE: the solver gave up.
-void check_converged(const Solution& solution);
-
-/// E-FIT-MISS: the points are still missed by more than 1 % of the reach, which no error of an
-/// arm explains.
-void check_meets(const Cell& cell, const FitData& data, const Solution& solution);
-
-/// W-FIT-AMBIGUOUS: frames `best` and `other` fit almost equally well.
-Problem ambiguous_frame(const ArmState& best, const ArmState& other);
+/// Whether the numbers of a calibration can be believed. A check throws Failure (kNumbersSayNo).
 
 /// E-FIT-FAR: a parameter of the arm more than 100 mm or 10 deg from nominal: the fit has turned
 /// it into another arm.

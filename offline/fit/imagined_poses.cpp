@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "cell/random.hpp"
+#include "fit/evaluation.hpp"
 
 namespace plumb::offline {
 namespace {

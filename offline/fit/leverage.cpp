@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/many_rows.hpp"
+#include "fit/jacobian_visit.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/triangle.hpp"
 

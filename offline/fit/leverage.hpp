@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
+#include "fit/parameter.hpp"
+#include "fit/solution.hpp"
 
 namespace plumb::offline {
 

@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
+#include "fit/solution.hpp"
 
 namespace plumb::offline {
 

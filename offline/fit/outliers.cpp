@@ -8,9 +8,11 @@
 #include <set>
 #include <unordered_set>
 
+#include "fit/evaluation.hpp"
 #include "fit/leverage.hpp"
 #include "fit/many_rows.hpp"
 #include "fit/predicted_points.hpp"
+#include "fit/solver.hpp"
 #include "numbers/quantile.hpp"
 
 namespace plumb::offline {
@@ -113,13 +115,6 @@ std::vector<Outlier> described(const FitData& data, const std::vector<int>& take
 }
 
 }  // namespace
-
-std::vector<int> without_outliers(std::vector<int> rows, const std::vector<Outlier>& outliers) {
-  std::unordered_set<int> out;
-  for (const auto& outlier : outliers) out.insert(outlier.row);
-  std::erase_if(rows, [&](int row) { return out.contains(row); });
-  return rows;
-}
 
 Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution) {
   return Leverage(data, solution).distances(data, solution);

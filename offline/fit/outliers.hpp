@@ -2,29 +2,24 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
+#include "fit/outlier.hpp"
+#include "fit/parameter.hpp"
+#include "fit/solution.hpp"
 
 namespace plumb::offline {
-
-/// A measured pose that the others contradict.
-struct Outlier {
-  int row = 0;           // of the measurements
-  double error_m = 0.0;  // from where the fit without it predicts the point
-  double times = 0.0;    // the usual scatter
-  std::string pose{};    // its name; empty: it has none
-};
-
-/// `rows` without these.
-std::vector<int> without_outliers(std::vector<int> rows, const std::vector<Outlier>& outliers);
 
 /// Distance of every pose from what the *other* poses predict, in its own standard deviations:
 /// sqrt(e^T (I - H)^-1 e) with e the whitened residuals of the pose and H its block of the hat
 /// matrix, so a pose cannot hide by pulling the fit. Shape (poses,). Cost: poses * parameters^2.
 /// [Cook & Weisberg 1982]
 Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution);
+
+/// The same of a solution of these parameters, whose Jacobian may be only its triangle (is_many).
+Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution,
+                                   const std::vector<Parameter>& parameters);
 
 /// Usual size of such distances: their median as a multiple of what noise alone gives, at least 1.
 double usual_scatter(const Eigen::VectorXd& distances, int per_pose);

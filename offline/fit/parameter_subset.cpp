@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fit/scaled_jacobian.hpp"
 #include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/placement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "fit/frame_start.hpp"
 #include "fit/parameter_subset.hpp"
 #include "fit/predicted_points.hpp"
+#include "fit/solver.hpp"
 #include "fit/thinned_rows.hpp"
 
 namespace plumb::offline {
@@ -179,6 +182,15 @@ double turn_between(const ArmState& a, const ArmState& b) {
     most = std::max(most, rotation_vector(turn).norm());
   }
   return most;
+}
+
+Problem ambiguous_frame(const ArmState& best, const ArmState& other) {
+  return {.severity = Severity::kWarning,
+          .code = "W-FIT-AMBIGUOUS",
+          .message = fmt::format("a tracker frame turned by {:.0f} deg fits these poses almost as "
+                                 "well: which one is true stays open",
+                                 turn_between(best, other) * 180.0 / M_PI),
+          .help = "state the frame: [measurement] frame = { xyz, rpy }, or measure other poses"};
 }
 
 std::vector<Solution> placements(const FitData& data, const ArmState& nominal,

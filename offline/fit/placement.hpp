@@ -3,7 +3,10 @@
 
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
+#include "fit/parameter.hpp"
+#include "fit/solution.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 
@@ -22,5 +25,8 @@ inline constexpr double kSameTurn_rad = 0.01;
 /// The best of them, on all of `data`.
 Solution place(const FitData& data, const ArmState& nominal,
                const std::vector<Parameter>& candidates);
+
+/// W-FIT-AMBIGUOUS: frames `best` and `other` fit almost equally well.
+Problem ambiguous_frame(const ArmState& best, const ArmState& other);
 
 }  // namespace plumb::offline

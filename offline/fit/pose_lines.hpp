@@ -3,10 +3,14 @@
 
 #include <vector>
 
+#include "fit/fit_data.hpp"
 #include "fit/geometry_derivative.hpp"
-#include "fit/solver.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
+
+/// Rows that one thread evaluates in one go.
+inline constexpr int kRowsOfOneThread = 256;
 
 /// The measured poses as lines of a least squares problem: whitened residuals, pose by pose, and
 /// how they change.

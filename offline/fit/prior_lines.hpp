@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "fit/arm_state.hpp"
+#include "fit/fit_data.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 

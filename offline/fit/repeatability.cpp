@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "fit/arm_change.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/orthonormal.hpp"
-#include "fit/solver.hpp"
 #include "fit/weights.hpp"
 
 namespace plumb::offline {

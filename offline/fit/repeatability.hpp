@@ -6,7 +6,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 #include "fit/joint_scatter.hpp"
 #include "fit/noise_floor.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fit/arm_state.hpp"
 #include "fit/many_rows.hpp"
 #include "fit/pose_lines.hpp"
 

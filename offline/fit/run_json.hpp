@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 
 namespace plumb::offline {
 

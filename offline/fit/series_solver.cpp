@@ -6,6 +6,7 @@
 #include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/descent.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/many_rows.hpp"
 #include "fit/series_numbers.hpp"
 #include "numbers/cholesky.hpp"

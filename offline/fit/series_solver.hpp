@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
+#include "fit/parameter.hpp"
+#include "fit/solution.hpp"
 
 namespace plumb::offline {
 

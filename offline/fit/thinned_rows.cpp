@@ -2,8 +2,6 @@
 #include "fit/thinned_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include "fit/arm_state.hpp"
 
@@ -12,13 +10,13 @@ namespace {
 
 constexpr int kFewOfSetup = 100;  // readings: a set-up with no more of them stays whole
 
+}  // namespace
+
 std::map<int, int> rows_by_setup(const Measurements& measured, const std::vector<int>& rows) {
   std::map<int, int> out;
   for (const int row : rows) ++out[setup_of(measured, row)];
   return out;
 }
-
-}  // namespace
 
 std::vector<int> thinned(const Measurements& measured, const std::vector<int>& rows, int most) {
   if (static_cast<int>(rows.size()) <= most) return rows;
@@ -32,20 +30,6 @@ std::vector<int> thinned(const Measurements& measured, const std::vector<int>& r
   for (std::size_t i = 0; i < room; ++i) out.push_back(many[many.size() * i / room]);
   std::sort(out.begin(), out.end());
   return out;
-}
-
-Eigen::MatrixXd jacobian_for_all(const FitData& all, const FitData& some, const ArmState& state,
-                                 const std::vector<Parameter>& parameters) {
-  Eigen::MatrixXd J = evaluate(some, state, parameters).jacobian;
-  std::map<int, int> of_all = rows_by_setup(*all.measured, all.rows),
-                     of_some = rows_by_setup(*some.measured, some.rows);
-  const Eigen::Index lines = some.per_pose();
-  for (std::size_t i = 0; i < some.rows.size(); ++i) {
-    const int setup = setup_of(*some.measured, some.rows[i]);
-    const double times = static_cast<double>(of_all[setup]) / of_some[setup];
-    J.middleRows(static_cast<Eigen::Index>(i) * lines, lines) *= std::sqrt(times);
-  }
-  return J;
 }
 
 }  // namespace plumb::offline

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <map>
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "fit/fit_data.hpp"
 
 namespace plumb::offline {
 
@@ -15,9 +15,7 @@ inline std::vector<int> thinned(const FitData& data, int most) {
   return thinned(*data.measured, data.rows, most);
 }
 
-/// The whitened Jacobian of `some` rows of `all`, the lines of each set-up scaled so that it says
-/// as much as with all of its rows. Shape as `evaluate`'s.
-Eigen::MatrixXd jacobian_for_all(const FitData& all, const FitData& some, const ArmState& state,
-                                 const std::vector<Parameter>& parameters);
+/// How many of the rows are of each set-up.
+std::map<int, int> rows_by_setup(const Measurements& measured, const std::vector<int>& rows);
 
 }  // namespace plumb::offline

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "fit/arm_state.hpp"
+#include "fit/fit_data.hpp"
 #include "fit/identifiable.hpp"
-#include "fit/solver.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 

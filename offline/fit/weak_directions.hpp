@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "fit/solver.hpp"
+#include "cell/cell.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 
-/// Combinations of the arm's numbers among `parameters` that the poses of `data` show worse than a
-/// third of [fit] prior_mm and prior_mrad: those are held near nominal. With x the numbers of the
-/// arm in units of that prior, J_x their whitened derivatives less what frame, target and effects
-/// explain, and
-///
-///   J_x = U diag(s) V^T
-///
-/// the columns of V with s < 3. What the poses show clearly is thus left exactly as they show it.
-/// None without a cell, or where the cell sets the prior to 0. Numbers with a prior of their own in
-/// [fit] prior take no part. Cost: one evaluation on at most 4000 rows, and a QR decomposition.
-WeakDirections weak_directions(const FitData& data, const ArmState& state,
-                               const std::vector<Parameter>& parameters);
+/// Combinations of the arm's numbers about which the poses say next to nothing: each row of
+/// `weights` times what the numbers are away from nominal is a distance in standard deviations.
+struct WeakDirections {
+  std::vector<Parameter> parameters;
+  Eigen::MatrixXd weights;  // shape (directions, parameters) [1/SI]
+  Eigen::VectorXd share;    // of each number that lies in these directions, 0 to 1
+};
 
 /// Names of the numbers that make up most of these directions, in their order.
 std::vector<std::string> names_of(const WeakDirections& weak);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 #include "plan/pose_plan.hpp"
 
 namespace plumb::offline {

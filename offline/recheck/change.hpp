@@ -9,7 +9,7 @@
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/parameter.hpp"
-#include "fit/solver.hpp"
+#include "fit/solution.hpp"
 
 namespace plumb::offline::recheck {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/outliers.hpp"
+#include "fit/outlier.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/series_solver.hpp"
 #include "fit/verdict.hpp"

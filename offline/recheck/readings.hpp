@@ -7,7 +7,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/arm_state.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 
 namespace plumb::offline::recheck {
 

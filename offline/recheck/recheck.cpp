@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "fit/arm_change.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/verdict.hpp"
 #include "numbers/tails.hpp"

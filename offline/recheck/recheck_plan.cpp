@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/outliers.hpp"
+#include "fit/outlier.hpp"
 #include "fit/thinned_rows.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/lu.hpp"

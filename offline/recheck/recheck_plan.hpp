@@ -5,7 +5,7 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 #include "recheck/visible.hpp"
 
 namespace plumb::offline::recheck {

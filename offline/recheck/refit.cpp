@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "fit/arm_change.hpp"
+#include "fit/calibrate.hpp"
 #include "program/problem.hpp"
 
 namespace plumb::offline::recheck {

@@ -12,7 +12,7 @@
 #include "compile/audit.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "figures/run_results.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 #include "plumb/drivers/bus_layout.hpp"
 
 namespace plumb::offline::report {

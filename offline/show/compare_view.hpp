@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compare/comparison.hpp"
-#include "fit/run_store.hpp"
+#include "fit/run.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fit/calibrate.hpp"
+#include "fit/calibration.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {

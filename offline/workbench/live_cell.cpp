@@ -11,6 +11,7 @@
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
 #include "fit/earlier_runs.hpp"
+#include "fit/run_store.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/folder_lock.hpp"

@@ -15,7 +15,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
-#include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "program/file.hpp"
 #include "simulate/law.hpp"

@@ -6,6 +6,7 @@
 
 #include "check/check.hpp"
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "simulate/simulate.hpp"
 
 /// What fit fits well, check calls usable; and each reason that it gives is the true one.

@@ -8,6 +8,7 @@
 
 #include "check/identifiability.hpp"
 #include "effects/fitted_laws.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/predicted_points.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "check/check.hpp"
 #include "fit/few_poses.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/held_out_excess.hpp"
 #include "fit/verdict.hpp"
 #include "simulate/simulate.hpp"

@@ -9,6 +9,7 @@
 
 #include "check/check.hpp"
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 namespace plumb::offline {

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "diagnose/diagnosis.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/verdict.hpp"
 #include "simulate/blind_case.hpp"
 #include "simulate/planar.hpp"

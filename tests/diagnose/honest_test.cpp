@@ -17,6 +17,7 @@
 #include "diagnose/evidence.hpp"
 #include "diagnose/rms_reduction.hpp"
 #include "diagnose/scan.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/held_out_excess.hpp"
 #include "simulate/blind_case.hpp"

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "diagnose/extension.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/predicted_points.hpp"
 #include "simulate/blind_case.hpp"

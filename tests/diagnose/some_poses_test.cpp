@@ -8,7 +8,9 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/thinned_fit.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "simulate/blind_case.hpp"
 
 namespace plumb::offline {

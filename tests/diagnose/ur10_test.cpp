@@ -13,6 +13,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
 

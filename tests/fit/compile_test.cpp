@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compile/audit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"

@@ -9,7 +9,7 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/solver.hpp"
+#include "fit/evaluation.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -12,6 +12,7 @@
 #include "cell/run_checksum.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/earlier_runs.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/orientation_words.hpp"
 #include "program/file.hpp"
 #include "simulate/simulate.hpp"

@@ -6,10 +6,12 @@
 
 #include "cell/setups.hpp"
 #include "fit/arm_change.hpp"
+#include "fit/calibrate.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/run_json.hpp"
-#include "fit/solver.hpp"
 #include "fit/weights.hpp"
 #include "simulate/simulate.hpp"
 

@@ -5,8 +5,10 @@
 
 #include <filesystem>
 
+#include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "tests/yardstick.hpp"
 

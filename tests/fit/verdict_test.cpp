@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/repeatability.hpp"
 #include "simulate/simulate.hpp"

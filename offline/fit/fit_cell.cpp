@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/fit.hpp"
+#include "fit/fit_cell.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include "cell/setups.hpp"
 #include "effects/registry.hpp"
 #include "fit/arm_state.hpp"
+#include "fit/calibrate.hpp"
 #include "fit/context_needs.hpp"
 #include "fit/few_poses.hpp"
-#include "fit/fit_steps.hpp"
 #include "fit/imagined_poses.hpp"
 #include "fit/orientation_words.hpp"
 #include "fit/pose_sense.hpp"
@@ -380,10 +380,6 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
 }
 
 }  // namespace
-
-Fit fit_cell(const Cell& cell, const Measurements& measured) {
-  return fit_cell(cell, measured, {});
-}
 
 Fit fit_cell(const Cell& cell, const Measurements& measured,
              const std::function<void(const std::string&)>& tell) {

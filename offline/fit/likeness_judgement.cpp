@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/likeness_judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cell/earlier_arm.hpp"
+#include "effects/fitted_laws.hpp"
+#include "fit/arm_change.hpp"
+#include "fit/effect_binding.hpp"
+#include "fit/evaluation.hpp"
+#include "fit/many_rows.hpp"
+#include "fit/thinned_rows.hpp"
+#include "numbers/gaussian.hpp"
+#include "numbers/spectrum.hpp"
+#include "numbers/triangle.hpp"
+#include "program/counted_words.hpp"
+#include "program/file.hpp"
+
+namespace plumb::offline {
+namespace {
+
+// Of what arms are built with: the difference between the two, and its whole scale.
+constexpr double kSpreads[] = {0.0, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0};
+constexpr double kScales[] = {0.25, 0.5, 1.0, 2.0, 4.0};
+constexpr double kNoises[] = {0.5, 0.6, 0.7, 0.8, 0.9, 1.0,  1.1,  1.2,  1.4,   1.7,   2.0,
+                              2.5, 3.0, 4.0, 6.0, 9.0, 14.0, 25.0, 50.0, 100.0, 250.0, 1000.0};
+// The earlier run has seen the noise; but another instrument may be far worse: a t distribution of
+// the logarithm, with that scale and 2 degrees of freedom.
+constexpr double kNoiseKnown = 0.2;
+constexpr double kMostWithChange = 0.1;  // spread of arms in which a single change can be seen
+constexpr double kChangeChance = 0.1;    // that one number has changed
+constexpr double kChangeTimes = 4.0;     // as large as arms are built different
+constexpr double kSame = 0.04;           // spread up to which arms are as good as one
+constexpr double kUnlike = 0.85;         // spread from which on arms have little in common
+constexpr double kSure = 0.9;
+constexpr double kNegligible = 1e-7;  // weight of a hypothesis
+constexpr double kMostBuilt = 10e-3;  // m or rad: how far at most arms are built from nominal
+constexpr int kUnchanged = -1, kOffsets = -2;  // in the place of a number that has changed
+constexpr double kSameNominal = 1e-9;          // SI
+constexpr double kUnsetPrior = 0.5e-3;         // m or rad, where the cell sets its own to 0
+
+struct Shared {
+  Parameter parameter;
+  Eigen::Index in_earlier;
+  double built = 0.0;  // 1 sigma of the number from arm to arm of any model, SI
+};
+
+bool of_measurement(const ArmState& at, const Parameter& p) {
+  const format::Effect& effect = at.arm.effects[static_cast<std::size_t>(p.joint)];
+  return is_measurement_law(find_fitted_law(effect.name));
+}
+
+double built_within(const FitData& data, const ArmState& at, const Parameter& p, double value) {
+  if (p.of_effect())
+    return std::hypot(effect_parameter(at.arm, p.joint, p.component).typical, value);
+  const FitSettings& fit = data.cell->fit;
+  const double stated = p.is_length() ? fit.prior_m : fit.prior_rad;
+  return stated > 0.0 ? std::min(stated, kMostBuilt) : kUnsetPrior;
+}
+
+/// Whether the number adds to what the encoder of the joint says.
+bool is_offset(const FitData& data, const Parameter& p) {
+  if (p.of_effect()) return false;
+  const auto& row = data.cell->nominal.joints[static_cast<std::size_t>(p.joint)];
+  return p.kind == (row.type == format::JointType::kPrismatic ? Parameter::Kind::kD
+                                                              : Parameter::Kind::kTheta);
+}
+
+double nominal_of(const FitData& data, const Parameter& p) {
+  if (p.of_effect()) return 0.0;
+  ArmState nominal;
+  nominal.arm.calibrated = data.cell->nominal;
+  return value_of(nominal, p);
+}
+
+[[noreturn]] void refuse(const EarlierArm& earlier, const std::string& why) {
+  throw Failure(Exit::kInput, {.code = "E-FIT-EARLIER",
+                               .message = fmt::format("{} {}", display_name(earlier.run), why),
+                               .help = "name a run of this arm, or of one of the same model"});
+}
+
+std::vector<Shared> shared_numbers(const FitData& data, const ArmState& at,
+                                   const std::vector<Parameter>& parameters,
+                                   const EarlierArm& earlier) {
+  std::vector<Shared> out;
+  const auto& own = data.cell->fit.priors;
+  for (const auto& p : parameters) {
+    const auto found = std::find_if(earlier.numbers.begin(), earlier.numbers.end(),
+                                    [&](const auto& n) { return n.name == p.name; });
+    const bool stated = std::any_of(own.begin(), own.end(),
+                                    [&](const Prior& prior) { return prior.name == p.name; });
+    if (found == earlier.numbers.end() || stated || !p.of_robot()) continue;
+    if (p.of_effect() && of_measurement(at, p)) continue;
+    const double built = built_within(data, at, p, found->value);
+    if (built > 0.0) out.push_back({p, found - earlier.numbers.begin(), built});
+  }
+  if (out.empty())
+    refuse(earlier,
+           "has no number in common with this fit: another [fit] model, or all are held fixed");
+  return out;
+}
+
+/// The earlier arm in the units in which arms are built, about nominal.
+struct Earlier {
+  Eigen::VectorXd nominal, built;  // SI
+  Eigen::VectorXd x;               // its differences from nominal
+  Eigen::MatrixXd C;               // their covariance
+};
+
+Earlier scaled(const FitData& data, const std::vector<Shared>& shared, const EarlierArm& earlier) {
+  const auto count = static_cast<Eigen::Index>(shared.size());
+  Earlier out;
+  out.nominal.resize(count);
+  out.built.resize(count);
+  out.x.resize(count);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Shared& one = shared[static_cast<std::size_t>(i)];
+    rows.push_back(one.in_earlier);
+    out.nominal(i) = nominal_of(data, one.parameter);
+    out.built(i) = one.built;
+    const double value = earlier.numbers[static_cast<std::size_t>(one.in_earlier)].value;
+    out.x(i) = (value - out.nominal(i)) / one.built;
+  }
+  const Eigen::VectorXd per_built = out.built.cwiseInverse();
+  out.C = per_built.asDiagonal() * Eigen::MatrixXd(earlier.covariance(rows, rows)) *
+          per_built.asDiagonal();
+  return out;
+}
+
+/// What the readings say of the shared numbers u, everything else being free:
+/// z = R (u - u0) + unit noise, and `rest`, the sum of squares of `rest_lines` that no number
+/// moves.
+struct Shown {
+  Eigen::MatrixXd R;
+  Eigen::VectorXd z;
+  double rest = 0.0;
+  double rest_lines = 0.0;
+};
+
+Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter>& parameters,
+            const std::vector<Shared>& shared, const Eigen::VectorXd& built) {
+  const auto is_shared = [&](const Parameter& p) {
+    return std::any_of(shared.begin(), shared.end(),
+                       [&](const Shared& one) { return one.parameter.name == p.name; });
+  };
+  std::vector<Parameter> order;
+  for (const auto& p : parameters)
+    if (!is_shared(p)) order.push_back(p);
+  const auto free = static_cast<Eigen::Index>(order.size());
+  for (const auto& one : shared) order.push_back(one.parameter);
+  FitData some = data;
+  some.arm = {};
+  some.weak = {};
+  some.rows = thinned(data, kManyRows);
+  const Solution here = evaluate(some, at, order);
+  const Eigen::Index columns = here.jacobian.cols(), lines = here.jacobian.rows();
+  Eigen::MatrixXd A(lines, columns + 1);
+  A.leftCols(columns) = here.jacobian;
+  A.rightCols(1) = here.residual;
+  A.middleCols(free, built.size()) *= built.asDiagonal();
+  for (Eigen::Index k = 0; k < free; ++k) A.col(k) /= std::max(A.col(k).norm(), 1e-300);
+  const Eigen::MatrixXd triangle = householder_triangle(A);
+  const Eigen::Index told = std::max<Eigen::Index>(0, std::min(lines, columns) - free);
+  Shown out;
+  out.R = triangle.block(free, free, told, built.size());
+  out.z = triangle.block(free, columns, told, 1);
+  if (lines > columns) {
+    out.rest = std::pow(triangle(columns, columns), 2);
+    out.rest_lines = static_cast<double>(lines - columns);
+  }
+  return out;
+}
+
+/// One degree of likeness: this arm is N(mean, P), in which the number `changed` may be anything.
+struct Hypothesis {
+  double weight = 0.0;  // of the posterior; its logarithm, not normalised, until all are weighed
+  double scale = 1.0, spread = 0.0, noise = 1.0;
+  int changed = kUnchanged;
+  std::size_t base = 0;  // index of mean and covariance
+};
+
+struct Base {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd P;
+};
+
+class Mixture {
+ public:
+  /// offsets: places of the encoder offsets among the shared numbers.
+  Mixture(Earlier earlier, Shown shown, Eigen::VectorXd u0, std::vector<Eigen::Index> offsets)
+      : earlier_(std::move(earlier)),
+        shown_(std::move(shown)),
+        u0_(std::move(u0)),
+        offsets_(std::move(offsets)) {
+    for (const double scale : kScales) weigh(scale);
+    normalise();
+  }
+
+  const std::vector<Hypothesis>& hypotheses() const { return all_; }
+
+  /// Fills in the numbers and how much of them the readings decide.
+  void conclude(const std::vector<Shared>& shared, Judgement& out) const {
+    const Eigen::Index count = earlier_.x.size();
+    const Eigen::MatrixXd information = shown_.R.transpose() * shown_.R;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(count);
+    Eigen::MatrixXd second = Eigen::MatrixXd::Zero(count, count);  // E[u u^T]
+    double noise = 0.0;
+    for (const auto& h : all_) {
+      const Base posterior = posterior_of(h);
+      mean += h.weight * posterior.mean;
+      second += h.weight * (posterior.P + posterior.mean * posterior.mean.transpose());
+      noise += h.weight * h.noise * h.noise;
+      out.decided += h.weight * information.cwiseProduct(posterior.P).sum() / (h.noise * h.noise);
+    }
+    for (const auto& one : shared) out.arm.names.push_back(one.parameter.name);
+    out.arm.mean = earlier_.nominal + earlier_.built.cwiseProduct(mean);
+    out.arm.covariance = earlier_.built.asDiagonal() * (second - mean * mean.transpose()) *
+                         earlier_.built.asDiagonal();
+    out.noise_times = std::sqrt(noise);
+  }
+
+ private:
+  /// The shared numbers if this hypothesis is right, before the readings.
+  Base prior_of(const Hypothesis& h) const {
+    Base out = bases_[h.base];
+    const double variance = std::pow(kChangeTimes * h.scale, 2);
+    if (h.changed >= 0) out.P(h.changed, h.changed) += variance;
+    if (h.changed == kOffsets)
+      for (const auto k : offsets_) out.P(k, k) += variance;
+    return out;
+  }
+
+  /// The same with the readings.
+  Base posterior_of(const Hypothesis& h) const {
+    Base out = prior_of(h);
+    const Eigen::MatrixXd across = out.P * shown_.R.transpose();
+    Eigen::MatrixXd S = shown_.R * across;
+    S.diagonal().array() += h.noise * h.noise;
+    const Cholesky llt(S);
+    const Eigen::VectorXd off = shown_.z - shown_.R * (out.mean - u0_);
+    out.mean += across * llt.solve(off);
+    out.P -= across * llt.solve(across.transpose());
+    return out;
+  }
+
+  void weigh(double scale) {
+    const Eigen::Index count = earlier_.x.size();
+    const Eigen::MatrixXd T = scale * scale * Eigen::MatrixXd::Identity(count, count);
+    const Eigen::MatrixXd of_run = earlier_.C + T;
+    const Cholesky llt(of_run);
+    const double ln_earlier = ln_normal(earlier_.x, llt);
+    const Eigen::VectorXd d = T * llt.solve(earlier_.x);
+    const Eigen::MatrixXd V = T - T * llt.solve(T);
+    for (const double spread : kSpreads) {
+      const double r2 = 1.0 - spread * spread;
+      bases_.push_back({std::sqrt(r2) * d, r2 * V + spread * spread * T});
+      const double chance =
+          spread == 0.0 ? 0.5 : 0.5 / static_cast<double>(std::size(kSpreads) - 1);
+      weigh(scale, spread, ln_earlier + std::log(chance));
+    }
+  }
+
+  /// One spread at every noise, with and without a number that has changed.
+  void weigh(double scale, double spread, double ln_before) {
+    const Base& base = bases_.back();
+    const Eigen::VectorXd z = shown_.z - shown_.R * (base.mean - u0_);
+    const Eigen::MatrixXd seen = shown_.R * base.P * shown_.R.transpose();
+    const SymmetricEigen eigen = symmetric_eigen(seen);
+    const Eigen::MatrixXd Ut = eigen.vectors.transpose();
+    const Eigen::ArrayXd w = Ut * z;
+    const Eigen::MatrixXd moved = Ut * shown_.R * (kChangeTimes * scale);
+    const bool may_change = spread <= kMostWithChange;
+    for (const double noise : kNoises) {
+      const Eigen::ArrayXd S = eigen.values.array().max(0.0) + noise * noise;
+      const Eigen::ArrayXd Sw = w / S;
+      const double ln = ln_before - 0.5 * ((w * Sw).sum() + S.log().sum()) -
+                        0.5 * shown_.rest / (noise * noise) - shown_.rest_lines * std::log(noise) -
+                        1.5 * std::log1p(0.5 * std::pow(std::log(noise) / kNoiseKnown, 2));
+      Hypothesis one{ln, scale, spread, noise, kUnchanged, bases_.size() - 1};
+      if (may_change) one.weight += std::log(1.0 - 2.0 * kChangeChance);
+      all_.push_back(one);
+      if (!may_change) continue;
+      one.changed = kOffsets;
+      one.weight = ln + ln_of_offsets(one, S, Sw, Ut) + std::log(kChangeChance);
+      all_.push_back(one);
+      for (Eigen::Index j = 0; j < moved.cols(); ++j) {
+        const Eigen::ArrayXd v = moved.col(j);
+        const double more = 1.0 + (v * v / S).sum();
+        one.changed = static_cast<int>(j);
+        one.weight = ln + std::log(kChangeChance / static_cast<double>(moved.cols())) -
+                     0.5 * std::log(more) + 0.5 * std::pow((v * Sw).sum(), 2) / more;
+        all_.push_back(one);
+      }
+    }
+  }
+
+  /// What it adds to ln of the evidence if the offsets of all joints may have changed, by the
+  /// Woodbury identity.
+  double ln_of_offsets(const Hypothesis& h, const Eigen::ArrayXd& S, const Eigen::ArrayXd& Sw,
+                       const Eigen::MatrixXd& Ut) const {
+    if (offsets_.empty()) return 0.0;
+    const Eigen::MatrixXd V = Ut * shown_.R(Eigen::all, offsets_) * (kChangeTimes * h.scale);
+    Eigen::MatrixXd more = V.transpose() * S.inverse().matrix().asDiagonal() * V;
+    more.diagonal().array() += 1.0;
+    const Cholesky llt(more);
+    const Eigen::VectorXd towards = V.transpose() * Sw.matrix();
+    return 0.5 * towards.dot(llt.solve(towards)) - 0.5 * llt.ln_det();
+  }
+
+  /// Hypotheses that weigh nothing are dropped.
+  void normalise() {
+    double most = -HUGE_VAL, sum = 0.0;
+    for (const auto& h : all_) most = std::max(most, h.weight);
+    for (auto& h : all_) sum += h.weight = std::exp(h.weight - most);
+    for (auto& h : all_) h.weight /= sum;
+    std::erase_if(all_, [](const Hypothesis& h) { return h.weight < kNegligible; });
+    double left = 0.0;
+    for (const auto& h : all_) left += h.weight;
+    for (auto& h : all_) h.weight /= left;
+  }
+
+  Earlier earlier_;
+  Shown shown_;
+  Eigen::VectorXd u0_;
+  std::vector<Eigen::Index> offsets_;
+  std::vector<Base> bases_;
+  std::vector<Hypothesis> all_;
+};
+
+Eigen::VectorXd where(const ArmState& at, const std::vector<Shared>& shared,
+                      const Earlier& earlier) {
+  Eigen::VectorXd out(earlier.x.size());
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out(i) = (value_of(at, shared[static_cast<std::size_t>(i)].parameter) - earlier.nominal(i)) /
+             earlier.built(i);
+  return out;
+}
+
+Likeness summary(const Mixture& mixture, const std::vector<Shared>& shared,
+                 const FitSettings& settings) {
+  Likeness out;
+  out.numbers = static_cast<int>(shared.size());
+  Eigen::VectorXd changed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(shared.size()));
+  double unlike = 0.0, variance = 0.0, r2 = 0.0, offsets = 0.0;
+  for (const auto& h : mixture.hypotheses()) {
+    if (h.spread <= kSame) out.same_chance += h.weight;
+    if (h.spread >= kUnlike) unlike += h.weight;
+    if (h.changed >= 0) changed(h.changed) += h.weight;
+    if (h.changed == kOffsets) offsets += h.weight;
+    r2 += h.weight * (1.0 - h.spread * h.spread);
+    variance += h.weight * std::pow(h.spread * h.scale, 2);
+  }
+  if (out.same_chance > kSure)
+    out.kind = Likeness::Kind::kSame;
+  else if (unlike > kSure)
+    out.kind = Likeness::Kind::kUnlike;
+  else if (out.same_chance + unlike < 1.0 - kSure)
+    out.kind = Likeness::Kind::kSister;
+  out.share = std::sqrt(r2);
+  const auto of = [](double stated) { return stated > 0.0 ? stated : kUnsetPrior; };
+  out.spread_m = std::sqrt(variance) * of(settings.prior_m);
+  out.spread_rad = std::sqrt(variance) * of(settings.prior_rad);
+  Eigen::Index likely = 0;
+  if (changed.maxCoeff(&likely) > kSure)
+    out.changed = shared[static_cast<std::size_t>(likely)].parameter.name;
+  if (offsets > kSure) out.changed = "offsets";
+  return out;
+}
+
+}  // namespace
+
+Judgement judge_likeness(const FitData& data, const ArmState& at,
+                         const std::vector<Parameter>& parameters, const EarlierArm& earlier) {
+  const auto shared = shared_numbers(data, at, parameters, earlier);
+  const Earlier known = scaled(data, shared, earlier);
+  std::vector<Eigen::Index> offsets;
+  for (std::size_t i = 0; i < shared.size(); ++i)
+    if (is_offset(data, shared[i].parameter)) offsets.push_back(static_cast<Eigen::Index>(i));
+  const Mixture mixture(known, shown(data, at, parameters, shared, known.built),
+                        where(at, shared, known), std::move(offsets));
+  Judgement out{.likeness = summary(mixture, shared, data.cell->fit), .arm = {}};
+  mixture.conclude(shared, out);
+  out.likeness.run = earlier.run.string();
+  return out;
+}
+
+KnownArm known_within(double spread, const FitData& data, const ArmState& at,
+                      const std::vector<Parameter>& parameters, const EarlierArm& earlier) {
+  const auto shared = shared_numbers(data, at, parameters, earlier);
+  const Earlier known = scaled(data, shared, earlier);
+  KnownArm out;
+  for (const auto& one : shared) out.names.push_back(one.parameter.name);
+  out.mean = known.nominal + known.built.cwiseProduct(known.x);
+  Eigen::MatrixXd P = known.C;
+  P.diagonal().array() += spread * spread;
+  out.covariance = known.built.asDiagonal() * P * known.built.asDiagonal();
+  return out;
+}
+
+void check_same_model(const Cell& cell, const EarlierArm& earlier) {
+  const auto& joints = cell.nominal.joints;
+  const bool modified = cell.nominal.convention == format::Convention::kModified;
+  if (earlier.modified != modified)
+    refuse(earlier, "is of an arm whose rows stand in the other convention");
+  if (earlier.rows.size() != joints.size())
+    refuse(earlier, fmt::format("is of an arm of {}, this one has {}",
+                                counted_words(static_cast<long long>(earlier.rows.size()), "joint",
+                                              "joints"),
+                                joints.size()));
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto& then = earlier.rows[i];
+    const auto& now = joints[i];
+    if (then.joint != now.name)
+      refuse(earlier, fmt::format("calls joint {} {}, not {}", i + 1, then.joint, now.name));
+    if (then.prismatic != (now.type == format::JointType::kPrismatic))
+      refuse(earlier, fmt::format("has another kind of joint {}", now.name));
+    const auto check = [&](const char* what, double calibrated, double nominal) {
+      const std::string name = now.name + "." + what;
+      const auto fitted = std::find_if(earlier.numbers.begin(), earlier.numbers.end(),
+                                       [&](const auto& n) { return n.name == name; });
+      const double before = fitted == earlier.numbers.end() ? calibrated : fitted->nominal;
+      if (std::abs(before - nominal) > kSameNominal)
+        refuse(earlier,
+               fmt::format("is of another model: its nominal {} is not that of this cell", name));
+    };
+    check("theta", then.theta, now.theta);
+    check("d", then.d, now.d);
+    check("a", then.a, now.a);
+    check("alpha", then.alpha, now.alpha);
+  }
+}
+
+}  // namespace plumb::offline
