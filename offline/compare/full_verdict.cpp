@@ -37,7 +37,8 @@ std::string full_verdict(const Cell& cell, const Measurements& measured, const F
   if (!excess || !excess->lack_of_fit() || fit.floor.inferred_m > 0.0 || !known) return out;
   const auto rows = without_outliers(
       without_outliers(fit_rows(fit.split), fit.calibration.outliers), fit.held_outliers);
-  const Repeatability scatter = repeatability(cell, measured, fit.calibration, rows);
+  const Repeatability scatter =
+      repeatability(cell, measured, fit.calibration.state, fit.calibration.parameters, rows);
   if (!scatter.supported() || depends_on_a_joint(measured, fit, rows)) return out;
   return fmt::format(
       "{} That, or the joints do not come back to the same place ({}); plumb diagnose tells which.",

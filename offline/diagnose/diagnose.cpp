@@ -324,8 +324,8 @@ void go_all_the_way(const Work& w, const Calibration& base, const WhitenedFit& w
     Cell with = w.cell;
     with.effects = out.effects;
     const Calibration& fitted = found.steps.back().calibration;
-    out.repeatability =
-        repeatability(with, w.measured, fitted, without_outliers(w.fit, fitted.outliers));
+    out.repeatability = repeatability(with, w.measured, fitted.state, fitted.parameters,
+                                      without_outliers(w.fit, fitted.outliers));
     // As long as more is supported, what is left is no repeatability.
     if (found.full) out.repeatability = {};
     out.floor =

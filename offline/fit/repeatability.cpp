@@ -52,10 +52,11 @@ constexpr std::size_t kReadingsInOneGo = 512;
 /// The lines of a calibrated model at some readings, as many at a time as fit into the cache.
 class ModelLines {
  public:
-  ModelLines(const Measurements& measured, const Calibration& calibration, Rows3 sigma_m,
-             const std::vector<int>& rows)
-      : calibration_(calibration),
-        offsets_(joint_offsets(calibration.state.arm.calibrated)),
+  ModelLines(const Measurements& measured, const ArmState& state,
+             const std::vector<Parameter>& fitted, Rows3 sigma_m, const std::vector<int>& rows)
+      : state_(state),
+        fitted_(fitted),
+        offsets_(joint_offsets(state.arm.calibrated)),
         rows_(rows),
         stops_(stops(measured, rows)) {
     data_.measured = &measured;
@@ -66,8 +67,8 @@ class ModelLines {
   ScatterLines readings(const std::vector<std::size_t>& chosen) {
     data_.rows.clear();
     for (const std::size_t i : chosen) data_.rows.push_back(rows_[i]);
-    Solution model = evaluate(data_, calibration_.state, calibration_.parameters);
-    const Solution joints = evaluate(data_, calibration_.state, offsets_);
+    Solution model = evaluate(data_, state_, fitted_);
+    const Solution joints = evaluate(data_, state_, offsets_);
     ScatterLines out{std::move(model.residual), std::move(model.jacobian), {}, data_.per_pose()};
     for (const auto motion : joints.jacobian.colwise()) out.joint.emplace_back(motion);
     return out;
@@ -122,7 +123,8 @@ class ModelLines {
   }
 
  private:
-  const Calibration& calibration_;
+  const ArmState& state_;
+  const std::vector<Parameter>& fitted_;
   const std::vector<Parameter> offsets_;
   const std::vector<int>& rows_;
   const std::vector<int> stops_;
@@ -169,16 +171,16 @@ Repeatability SquaredMotions::with(const JointScatter& scatter) const {
   return out;
 }
 
-Repeatability repeatability(const Cell& cell, const Measurements& measured,
-                            const Calibration& calibration, const std::vector<int>& rows) {
+Repeatability repeatability(const Cell& cell, const Measurements& measured, const ArmState& state,
+                            const std::vector<Parameter>& fitted, const std::vector<int>& rows) {
   if (rows.empty()) return {};
-  ModelLines model(measured, calibration, stated_sigma(cell, measured), rows);
+  ModelLines model(measured, state, fitted, stated_sigma(cell, measured), rows);
   SquaredMotions motions;
   const auto chosen = model.some();
   ScatterLines some = model.merged(model.readings(chosen), chosen);
   const Eigen::MatrixXd half = orthonormal(some.U, some.U.rows()).half;
   some.U *= half;
-  tell(noise_floor(cell, measured, calibration.state), model.mean_square_sigma(), some);
+  tell(noise_floor(cell, measured, state), model.mean_square_sigma(), some);
   const JointScatter scatter = noise_and_scatter(some);
   ScatterSums white, scattered;
   model.in_blocks([&](const std::vector<std::size_t>& block) {

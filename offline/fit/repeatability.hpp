@@ -6,9 +6,10 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/calibration.hpp"
+#include "fit/arm_state.hpp"
 #include "fit/joint_scatter.hpp"
 #include "fit/noise_floor.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 
@@ -46,8 +47,10 @@ class SquaredMotions {
 
 /// What a calibrated model leaves of the poses that it was fitted to, as if nothing but noise and
 /// the scatter of the joints were in it. What the model lacks looks like scatter too.
-Repeatability repeatability(const Cell& cell, const Measurements& measured,
-                            const Calibration& calibration, const std::vector<int>& rows);
+///
+/// @param fitted  The numbers of `state` that the readings were fitted with.
+Repeatability repeatability(const Cell& cell, const Measurements& measured, const ArmState& state,
+                            const std::vector<Parameter>& fitted, const std::vector<int>& rows);
 
 /// The noise floor, and beside it what the repeatability of the arm would make of it, where that is
 /// supported and the floor is known.
