@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "effects/registry.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/outlier.hpp"
 #include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"

@@ -5,6 +5,7 @@
 
 #include "check/spectrum.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/imagined_poses.hpp"
 #include "fit/thinned_rows.hpp"
 #include "fit/weights.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "check/arm_shape.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/imagined_poses.hpp"
 #include "fit/parameter_subset.hpp"
 #include "numbers/pivoted_qr.hpp"

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "cell/cell.hpp"
+#include "fit/arm_state.hpp"
 #include "fit/fit_data.hpp"
+#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 

@@ -8,6 +8,7 @@
 
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/evaluation.hpp"
 #include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {

@@ -9,6 +9,7 @@
 
 #include "check/spectrum.hpp"
 #include "fit/cell_data.hpp"
+#include "fit/evaluation.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {

@@ -8,8 +8,10 @@
 #include <set>
 
 #include "fit/calibrate.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/outliers.hpp"
 #include "fit/predicted_points.hpp"
+#include "fit/solver.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -8,8 +8,10 @@
 #include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/series_numbers.hpp"
 #include "fit/series_solver.hpp"
+#include "fit/solver.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::offline {

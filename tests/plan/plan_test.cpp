@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "fit/calibrate.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/predicted_points.hpp"
 #include "plan/planning.hpp"
