@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Jacobian too large to be kept: what is solved from sums over the rows is what all rows say.
 #include "fit/many_rows.hpp"
-#include "fit/evaluation.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -12,6 +11,7 @@
 #include <set>
 
 #include "fit/calibrate.hpp"
+#include "fit/evaluation.hpp"
 #include "fit/outliers.hpp"
 #include "fit/solver.hpp"
 #include "fit/weights.hpp"
