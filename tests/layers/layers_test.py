@@ -12,8 +12,6 @@ HALVES = ("model_format", "runtime", "drivers", "offline")
 # Where the build looks for the headers of our own.
 ROOTS = ("model_format/include", "runtime/include", "drivers/include", "drivers", "offline")
 OWN_PARTS = ("include", "src")  # of a room, no rooms of their own
-CIRCLES_LEFT = set()  # rooms whose circles of files are still to be cut
-CIRCLES_LEFT.add("offline/fit")
 GENERATED = {"model_generated.h": "model_format"}
 STANDARD_C = {"stdbool.h", "stddef.h", "stdint.h"}
 LIBRARIES = {"CLI": "CLI11", "Eigen": "Eigen", "boost": "Boost", "ceres": "Ceres", "console_bridge": "urdfdom", "fmt": "fmt",
@@ -146,7 +144,7 @@ def circles(source):
     included, named, out = included_units(source), set(), []
     ways = filter(None, (way_back(included, unit) for unit in sorted(included)))
     for way in sorted(ways, key=len):
-        if named.isdisjoint(way) and not any(way[0].startswith(room + "/") for room in CIRCLES_LEFT):
+        if named.isdisjoint(way):
             named.update(way)
             out.append(f"files include each other in a circle: {' -> '.join(way)}; move what they share, such as a plain "
                        "type or a helper, to a file of its own that both include")
@@ -171,11 +169,6 @@ class Layers(unittest.TestCase):
     def test_no_files_include_each_other_in_a_circle(self):
         found = circles(SOURCE)
         self.assertEqual(found, [], "\n" + "\n".join(found))
-
-    def test_rooms_are_excused_only_while_they_have_circles(self):
-        included = included_units(SOURCE)
-        for room in CIRCLES_LEFT:
-            self.assertTrue(any(way_back(included, unit) for unit in included if unit.startswith(room + "/")), room)
 
     def test_the_table_names_every_folder_once_and_nothing_else(self):
         named = [room.folder for room in table(SOURCE)]
