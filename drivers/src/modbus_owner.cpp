@@ -49,7 +49,8 @@ ModbusOwner::ModbusOwner(const BusLayout& layout, const ModbusCodec& codec,
   if (settings.self == Sender::kPlumb) token_register_ = layout.owner_register;
   if (token_register_) {
     token_ = words_of(settings.token, layout.word_order);
-    blocks.push_back(block_of_token(*token_register_));
+    tokens_.push_back(block_of_token(*token_register_));
+    blocks.push_back(tokens_.front());
     std::ranges::sort(blocks, {}, &ModbusBlock::first);
   }
   std::size_t registers = 0;
@@ -247,16 +248,28 @@ void ModbusOwner::watch() noexcept {
   quiet_since_ns_ = MonotonicTime::now_ns();
 }
 
-/// Writes the token, which the next round must find before anything else is written.
+/// Writes the token, which the next round must find before anything else is written. A refusal for
+/// the moment leaves the claim open: without a token two clients would both take themselves for the
+/// owner.
 bool ModbusOwner::claim() {
   state_ = token_held_ ? State::kClaims : State::kOwns;
   if (!token_held_) return true;
   write_begins(*token_register_, token_);
   const ModbusTalk::Result result = talk_.write(*token_register_, token_);
-  if (result == ModbusTalk::Result::kDone) write_done(*token_register_, token_);
+  if (result == ModbusTalk::Result::kDone) {
+    write_done(*token_register_, token_);
+    refusals_.taken(0);
+  }
   if (result == ModbusTalk::Result::kRefused) {
-    token_held_ = false;
-    state_ = State::kOwns;
+    const ModbusException why = talk_.exception();
+    if (why == ModbusException::kIllegalFunction || why == ModbusException::kIllegalAddress ||
+        why == ModbusException::kIllegalValue) {
+      token_held_ = false;
+      state_ = State::kOwns;
+    } else {
+      ++counters_.refused_writes;
+      refusals_.refused(0, static_cast<std::uint32_t>(why), MonotonicTime::now_ns());
+    }
   }
   return ModbusTalk::goes_on(result);
 }

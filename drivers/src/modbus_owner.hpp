@@ -9,6 +9,7 @@
 
 #include "modbus_spans.hpp"
 #include "modbus_talk.hpp"
+#include "write_refusals.hpp"
 
 namespace plumb::drivers {
 
@@ -23,7 +24,9 @@ namespace plumb::drivers {
 /// Where the layout has a register for it, the client writes a random number there, its token, and
 /// reads it back before it writes anything else. A client that finds registers in use at its first
 /// sight of them, or another token at a later one, only watches; it takes them when they have not
-/// changed for a while.
+/// changed for a while. A server that has no such register says so (illegal function, address or
+/// value), and the client goes on without a token; one that refuses it for the moment is asked
+/// again.
 ///
 /// Heap: in the constructor, and when a server refuses registers. Thread: one.
 class ModbusOwner {
@@ -39,6 +42,9 @@ class ModbusOwner {
 
   /// Compares the registers around these, unless round() did so just before.
   bool look_before(std::uint16_t first, std::uint16_t count, std::int64_t now_ns);
+
+  /// The token's registers, if the server has refused them for a while; else nothing.
+  WriteRefusal refusal(std::int64_t now_ns) noexcept { return refusals_.find(tokens_, now_ns); }
 
   /// False: the registers are not ours, or someone else has just written into them.
   bool may_write() const noexcept { return state_ == State::kOwns && sight_.foreign == 0; }
@@ -111,6 +117,8 @@ class ModbusOwner {
   std::vector<std::uint16_t> sent_;
   std::array<std::uint16_t, kMostRead> found_{};
   std::optional<std::uint16_t> token_register_;
+  std::vector<ModbusBlock> tokens_;  // the block of the token, if there is one
+  WriteRefusals refusals_{1};        // of it
   std::array<std::uint16_t, kOwnerRegisters> token_{};
   bool token_held_ = false;  // the server has the token's register
   bool known_ = false;       // the registers were seen before, on this connection or an earlier one

@@ -18,7 +18,9 @@ ModbusWriter::ModbusWriter(const BusLayout& layout, const ModbusCodec& codec,
       refusals_(blocks_.size()) {}
 
 bool ModbusWriter::round(std::int64_t now_ns) {
-  exchange_.refusal.store(refusals_.find(blocks_, now_ns), std::memory_order_relaxed);
+  WriteRefusal refusal = refusals_.find(blocks_, now_ns);
+  if (!refusal.any()) refusal = owner_.refusal(now_ns);
+  exchange_.refusal.store(refusal, std::memory_order_relaxed);
   if (!owner_.may_write()) return true;
   run_ = {};
   for (std::size_t i = 0; i < blocks_.size(); ++i) {

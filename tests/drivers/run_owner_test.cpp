@@ -335,6 +335,23 @@ TEST_F(RegistersOfOne, TwoThatBeginAtOnceAreNotBothInThem) {
   EXPECT_EQ(std::min(writes_by(1), writes_by(2)), 0) << "one alone has the token";
 }
 
+/// Whoever went on without a token would write beside the other one.
+TEST_F(RegistersOfOne, ATokenThatIsRefusedForTheMomentIsAskedForAgain) {
+  server.refuse(4);
+  ClientOf first(server, kWithOwner), second(server, kWithOwner);
+  for (const ClientOf* const plumb : {&first, &second}) expect_refused(*plumb, 4, "1288 to 1289");
+  server.refuse(0);
+  ASSERT_TRUE(becomes([&] {
+    return first.status()["fault"] == "foreign-sender" ||
+           second.status()["fault"] == "foreign-sender";
+  }));
+  std::this_thread::sleep_for(300ms);
+  server.forget_writes();
+  std::this_thread::sleep_for(300ms);
+  EXPECT_GT(writes_by(1) + writes_by(2), 5);
+  EXPECT_EQ(std::min(writes_by(1), writes_by(2)), 0) << "one alone has the token";
+}
+
 /// Without a place for a token the one that looks first finds what it did not write. As it then
 /// writes nothing more, the other may see nothing.
 TEST_F(RegistersOfOne, OfTwoThatBeginAtOnceWithoutATokenOneAtLeastIsInFault) {
