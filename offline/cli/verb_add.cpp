@@ -25,7 +25,7 @@
 #include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 #include "show/verdict_json.hpp"
 
@@ -40,8 +40,8 @@ struct AddArguments {
 std::string before_and_after(const MeasurementFiles& measured, const Fit& before,
                              const Fit& after) {
   namespace head = show::head;
-  show::TextTable table(
-      {head::kHeldOutError, head::kMean, head::kInterval, head::kRms, head::kP95, head::kMax});
+  show::Table table{.head = {head::kHeldOutError, head::kMean, head::kInterval, head::kRms,
+                             head::kP95, head::kMax}};
   const auto add = [&](const char* name, const Fit& fit) {
     const ErrorStats& e = fit.held;
     table.add({name, show::mm(e.mean), show::text_of(held_out_interval(measured, fit)),
@@ -49,7 +49,7 @@ std::string before_and_after(const MeasurementFiles& measured, const Fit& before
   };
   add("before", before);
   add("after", after);
-  return table.text();
+  return show::text_of(table);
 }
 
 std::string judged(const std::string& what, const Fit& before, const Fit& after) {

@@ -22,7 +22,7 @@
 #include "program/file.hpp"
 #include "program/output_files.hpp"
 #include "program/spool.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 
 namespace plumb::offline::cli {
 namespace {
@@ -135,11 +135,11 @@ Imported import_all(const ImportArguments& options, const std::optional<Cell>& c
 }
 
 std::string column_table(const Imported& data) {
-  show::TextTable table({"column", "becomes", "first", "last"});
+  show::Table table{.head = {"column", "becomes", "first", "last"}};
   for (const auto& column : data.columns)
     table.add({column.from.empty() ? "(derived)" : column.from, column.heading(),
                std::string(column.text.front()), std::string(column.text.back())});
-  return table.text();
+  return show::text_of(table);
 }
 
 Json columns_json(const Imported& data) {

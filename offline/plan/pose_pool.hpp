@@ -8,6 +8,7 @@
 #include "cell/cell.hpp"
 #include "cell/random.hpp"
 #include "fit/arm_state.hpp"
+#include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline {
 

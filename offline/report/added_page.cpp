@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kMostWorse = 10;
 constexpr double kWorse = 2.0;  // times the noise floor, as in the waterfall
 
-HtmlTable steps_table(const std::vector<figures::WaterfallStep>& steps) {
-  HtmlTable table{.caption = "Mean error of the same held-out readings as the model grows",
-                  .head = {"added", "mean [mm]", "change", "became worse"}};
+show::Table steps_table(const std::vector<figures::WaterfallStep>& steps) {
+  show::Table table{.caption = "Mean error of the same held-out readings as the model grows",
+                    .head = {"added", "mean [mm]", "change", "became worse"}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const double before = i > 0 ? steps[i - 1].mean_m : 0.0;
     table.rows.push_back(
@@ -45,8 +45,8 @@ void put_worse(const ReportData& data, Html& html) {
   html.paragraph(fmt::format(
       "{} of {} by more than before calibration, beyond noise.", worse.size(),
       counted_words(results.held.size(), "held-out reading misses", "held-out readings miss")));
-  HtmlTable table{.caption = "Held-out readings that became worse [mm], the most first",
-                  .head = {"pose", "before", "after"}};
+  show::Table table{.caption = "Held-out readings that became worse [mm], the most first",
+                    .head = {"pose", "before", "after"}};
   for (std::size_t i = 0; i < std::min(kMostWorse, worse.size()); ++i)
     table.rows.push_back({results.pose(worse[i]), show::mm(results.before(worse[i])),
                           show::mm(results.after(worse[i]))});

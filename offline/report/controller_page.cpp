@@ -60,7 +60,7 @@ void put_audit(const ReportData& data, Html& html) {
   std::vector<std::string> remarks;
   for (const auto& remark : audit.remarks) remarks.push_back(remark.message);
   html.list(remarks);
-  HtmlTable table{.caption = "What reaches the robot", .head = {"", "value"}, .left_from = 1};
+  show::Table table{.caption = "What reaches the robot", .head = {"", "value"}, .left_from = 1};
   table.rows = {
       {"corrects", show::corrected_text(model.guard)},
       {"cycle", fmt::format("{:.0f} us", model.guard.cycle_s * 1e6)},
@@ -82,9 +82,9 @@ void put_bus(const ReportData& data, Html& html) {
   if (!data.bus) return html.paragraph(data.why_no_bus);
   const auto& layout = *data.bus;
   std::size_t frames = 0;
-  HtmlTable table{.caption = "Messages on the bus",
-                  .head = {"message", "from", "CAN id", "register", "every [ms]", "values"},
-                  .left_from = 5};
+  show::Table table{.caption = "Messages on the bus",
+                    .head = {"message", "from", "CAN id", "register", "every [ms]", "values"},
+                    .left_from = 5};
   for (const auto& message : layout.messages) {
     frames += drivers::can_frames(layout, message);
     std::vector<std::string> values;

@@ -68,11 +68,11 @@ std::string repeats_words(const Measurements& measured) {
                      most);
 }
 
-HtmlTable excluded_table(const ReportData& data) {
+show::Table excluded_table(const ReportData& data) {
   const Fit& fit = data.run.fit;
-  HtmlTable table{.caption = "Readings that stand out or are not used",
-                  .head = {"pose", "row", "error [mm]", "what became of it"},
-                  .left_from = 3};
+  show::Table table{.caption = "Readings that stand out or are not used",
+                    .head = {"pose", "row", "error [mm]", "what became of it"},
+                    .left_from = 3};
   const auto add = [&](const Outlier& o, const char* fate) {
     table.rows.push_back(
         {data.results.pose(o.row), fmt::format("{}", o.row + 1), show::mm(o.error_m),
@@ -105,7 +105,7 @@ HtmlTable excluded_table(const ReportData& data) {
 
 void put_excluded(const ReportData& data, Html& html) {
   html.heading("Excluded readings, and why");
-  HtmlTable table = excluded_table(data);
+  show::Table table = excluded_table(data);
   if (table.rows.empty())
     return html.paragraph("None: no reading contradicts the others, and none is marked as ignore.");
   const std::size_t all = table.rows.size();
@@ -116,10 +116,10 @@ void put_excluded(const ReportData& data, Html& html) {
   html.table(table);
 }
 
-HtmlTable coverage_table(const Cell& cell, const Coverage& found) {
-  HtmlTable table{.caption = "How far each joint moves",
-                  .head = {"joint", "used", "limits", "unit", "share", "poses"},
-                  .left_from = 5};
+show::Table coverage_table(const Cell& cell, const Coverage& found) {
+  show::Table table{.caption = "How far each joint moves",
+                    .head = {"joint", "used", "limits", "unit", "share", "poses"},
+                    .left_from = 5};
   for (std::size_t j = 0; j < found.joints.size(); ++j) {
     const auto& c = found.joints[j];
     const bool length = show::slides(cell.nominal.joints[j]);
@@ -143,9 +143,9 @@ std::string box_words(const Coverage& found) {
 void put_testable(const std::vector<Testable>& effects, Html& html) {
   html.heading("What these data can show");
   std::vector<std::string> yes;
-  HtmlTable table{.caption = "What they can show only weakly, or not at all",
-                  .head = {"effect", "can show", "why", "to measure"},
-                  .left_from = 1};
+  show::Table table{.caption = "What they can show only weakly, or not at all",
+                    .head = {"effect", "can show", "why", "to measure"},
+                    .left_from = 1};
   for (const auto& e : effects)
     if (e.answer == Testable::Answer::kYes)
       yes.push_back(e.effect);

@@ -33,21 +33,16 @@ Html verdict_section(const Fleet& fleet) {
   Html html;
   html.paragraph(show::fleet_verdict(fleet));
   put_figure(html, [&](double width) { return fleet_errors_figure(fleet, width); });
-  HtmlTable effects{.caption = "Effects, and in how many of the arms",
-                    .head = {"effect", "modelled", "missing"}};
-  for (const auto& use : fleet::effect_uses(fleet))
-    effects.rows.push_back({use.effect, fmt::format("{}", use.modelled),
-                            use.diagnosed ? fmt::format("{}", use.missing) : "not asked"});
-  html.table(effects);
+  html.table(show::effects_table(fleet));
   return html;
 }
 
 Html cells_section(const Fleet& fleet) {
   Html html;
-  HtmlTable table{.caption = "Held-out errors, measured - predicted [mm]",
-                  .head = {"cell", "arm", show::head::kMean, show::head::kP95, show::head::kMax,
-                           show::head::kEffects, "verdict"},
-                  .left_from = 5};
+  show::Table table{.caption = "Held-out errors, measured - predicted [mm]",
+                    .head = {"cell", "arm", show::head::kMean, show::head::kP95, show::head::kMax,
+                             show::head::kEffects, "verdict"},
+                    .left_from = 5};
   std::size_t left_out = 0;
   for (const auto& cell : fleet.cells) {
     if (fleet.cells.size() > kAllListed && !show::needs_attention(fleet, cell)) {
@@ -75,10 +70,7 @@ Html model_section(const Fleet& fleet, const Model& model) {
     return html;
   }
   put_figure(html, [&](double width) { return sisters_figure(fleet, model, width); });
-  HtmlTable table{.caption = "What is typical: differences from nominal, and sizes of effects",
-                  .head = {"number", "mean", "from arm to arm", "unit", "arms", "shrinkage"}};
-  for (const auto& t : model.sisters.typical) table.rows.push_back(show::typical_row(t));
-  html.table(table);
+  html.table(show::typical_table(model));
   html.paragraph(
       "Shrinkage: how much of an arm's own estimate gives way to the mean of its sisters, 0 % "
       "where "

@@ -91,7 +91,7 @@ void Html::list(const std::vector<std::string>& items) {
   text_ += "</ul>\n";
 }
 
-void Html::table(const HtmlTable& table) {
+void Html::table(const show::Table& table) {
   if (table.rows.empty()) return;
   // A region that scrolls must be reachable by keyboard, and so needs a name.
   const std::string caption = draw::escaped(table.caption);

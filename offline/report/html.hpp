@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace plumb::offline::report {
+#include "show/table.hpp"
 
-/// A table: the first column flush left, the others flush right up to `left_from`.
-struct HtmlTable {
-  std::string caption;
-  std::vector<std::string> head;
-  std::vector<std::vector<std::string>> rows = {};
-  std::size_t left_from = std::numeric_limits<std::size_t>::max();  // from here on flush left
-  std::vector<std::string> last_class = {};  // of the last cell of each row; else none
-};
+namespace plumb::offline::report {
 
 /// The elements of one page, in their order. All words are escaped; only figures come as they are.
 class Html {
@@ -23,7 +15,7 @@ class Html {
   void heading(std::string_view words);
   void paragraph(std::string_view words);
   void list(const std::vector<std::string>& items);  // nothing if there are none
-  void table(const HtmlTable& table);                // nothing without rows
+  void table(const show::Table& table);              // nothing without rows
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
   void preformatted(std::string_view label, std::string_view text);
 

@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kPosesToCheck = 10;
 
-HtmlTable ranges_table(const ReportData& data) {
-  HtmlTable table{.caption = "Joint positions that the fit has seen",
-                  .head = {"joint", "from", "to", "limits of the cell", "unit"},
-                  .left_from = 4};
+show::Table ranges_table(const ReportData& data) {
+  show::Table table{.caption = "Joint positions that the fit has seen",
+                    .head = {"joint", "from", "to", "limits of the cell", "unit"},
+                    .left_from = 4};
   const auto& q = data.measured.q;
   for (int j = 0; j < data.cell.joints(); ++j) {
     const auto& row = data.cell.nominal.joints[static_cast<std::size_t>(j)];

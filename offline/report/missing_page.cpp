@@ -7,36 +7,23 @@
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/diagnose_view.hpp"
-#include "show/heads.hpp"
-#include "show/units.hpp"
 
 namespace plumb::offline::report {
 namespace {
 
 constexpr std::size_t kMostCandidates = 12;
 
-std::string mean_cell(const ErrorStats& stats) { return stats.n > 0 ? show::mm(stats.mean) : "-"; }
-
-HtmlTable candidates_table(const Cell& cell, const Diagnosis& d) {
-  namespace head = show::head;
-  HtmlTable table{
-      .caption = fmt::format("Candidates by evidence: held-out error [mm] alone, and together with "
-                             "the first; {} of {}",
-                             std::min(kMostCandidates, d.candidates.size()), d.candidates.size()),
-      .head = {head::kEffect, head::kLnBayes, head::kAlone, head::kWithFirst, head::kSupported},
-      .left_from = 4};
-  for (std::size_t i = 0; i < std::min(kMostCandidates, d.candidates.size()); ++i) {
-    const Candidate& c = d.candidates[i];
-    table.rows.push_back({in_words(cell, c.entry, c.cycles), fmt::format("{:.1f}", c.ln_bayes),
-                          mean_cell(c.alone), mean_cell(c.after), show::support_words(d, c)});
-  }
+show::Table candidates_table(const Cell& cell, const Diagnosis& d) {
+  show::Table table = show::candidates_table(cell, d, kMostCandidates);
+  if (d.candidates.size() > kMostCandidates)
+    table.caption += fmt::format("; {} of {}", kMostCandidates, d.candidates.size());
   return table;
 }
 
-HtmlTable untestable_table(const Diagnosis& d) {
-  HtmlTable table{.caption = "Effects that these data cannot show",
-                  .head = {"effect", "why", "to measure"},
-                  .left_from = 1};
+show::Table untestable_table(const Diagnosis& d) {
+  show::Table table{.caption = "Effects that these data cannot show",
+                    .head = {"effect", "why", "to measure"},
+                    .left_from = 1};
   for (const auto& t : d.not_testable) table.rows.push_back({t.effect, t.why, t.measure});
   return table;
 }

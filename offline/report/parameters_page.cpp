@@ -46,12 +46,12 @@ std::string parameters_sentence(const std::vector<Estimate>& estimates) {
   return out;
 }
 
-HtmlTable parameters_table(const std::vector<Estimate>& estimates) {
+show::Table parameters_table(const std::vector<Estimate>& estimates) {
   namespace head = show::head;
-  HtmlTable table{.caption = "Fitted numbers of the arm and its effects",
-                  .head = {head::kParameter, head::kNominal, head::kFitted, head::kChange,
-                           "95 % interval of the change", "unit"},
-                  .left_from = 5};
+  show::Table table{.caption = "Fitted numbers of the arm and its effects",
+                    .head = {head::kParameter, head::kNominal, head::kFitted, head::kChange,
+                             "95 % interval of the change", "unit"},
+                    .left_from = 5};
   for (const Estimate& e : estimates) {
     if (!e.of_robot) continue;
     const auto unit = show::unit_of(e);

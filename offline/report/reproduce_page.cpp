@@ -14,7 +14,7 @@ Html reproduce_page(const ReportData& data) {
       "held-out readings follows from the seed {}.",
       format::kVersion, data.cell.measurement.seed));
   html.preformatted("Commands", fmt::format("{}", fmt::join(data.commands, "\n")));
-  HtmlTable table{.caption = "Input files", .head = {"file", "sha256"}, .left_from = 1};
+  show::Table table{.caption = "Input files", .head = {"file", "sha256"}, .left_from = 1};
   const std::string cell_sum = sha256(data.cell.text);
   table.rows.push_back({"cell.toml", cell_sum});
   if (data.run.cell_sha256 != hash_of(data.cell))

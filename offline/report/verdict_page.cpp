@@ -5,7 +5,6 @@
 
 #include "compare/full_verdict.hpp"
 #include "draw/svg.hpp"
-#include "fit/mean_interval.hpp"
 #include "fit/verdict.hpp"
 #include "plumb/format/version.hpp"
 #include "program/counted_words.hpp"
@@ -15,7 +14,6 @@
 #include "show/compare_words.hpp"
 #include "show/counted.hpp"
 #include "show/error_table.hpp"
-#include "show/heads.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::report {
@@ -97,36 +95,10 @@ std::string floor_source_words(const NoiseFloor& floor) {
   }
 }
 
-std::vector<std::string> error_row(const std::string& name, const ErrorStats& s,
-                                   const MeanInterval& interval = {}) {
-  if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
-  return {
-      name,     fmt::format("{}", s.n), mm(s.mean), show::text_of(interval), mm(s.rms), mm(s.p95),
-      mm(s.max)};
-}
-
-HtmlTable errors(const ReportData& data) {
-  const Fit& fit = data.run.fit;
-  namespace head = show::head;
-  HtmlTable table{.caption = "Position errors, measured - predicted [mm]",
-                  .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
-                           head::kRms, head::kP95, head::kMax}};
-  table.rows.push_back(error_row(fit.base == Base::kArm
-                                     ? "before: held-out, nominal arm"
-                                     : "before: held-out, controller's own positions",
-                                 fit.nominal_held));
-  if (fit.tree) table.rows.push_back(error_row("held-out, without the tree", fit.geometry_held));
-  table.rows.push_back(
-      error_row("after: held-out, calibrated", fit.held, held_out_interval(data.measured, fit)));
-  if (!fit.held_outliers.empty())
-    table.rows.push_back(error_row("after, without its outliers", fit.held_without_outliers));
-  table.rows.push_back(error_row(show::fit_row_name(fit), fit.fit));
-  if (fit.floor.source != NoiseFloor::Source::kNone)
-    for (auto& row : show::floor_rows(fit.floor)) {
-      row.resize(table.head.size());
-      table.rows.push_back(std::move(row));
-    }
-  table.rows.push_back({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
+show::Table errors(const ReportData& data) {
+  show::Table table = show::error_table(data.measured, data.run.fit);
+  for (auto& row : table.rows) row.resize(table.head.size());
+  table.add({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
   return table;
 }
 

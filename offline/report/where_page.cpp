@@ -5,35 +5,26 @@
 
 #include "figures/worst_band.hpp"
 #include "report/pages.hpp"
+#include "show/compare_view.hpp"
 #include "show/compare_words.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::report {
 namespace {
 
-constexpr std::size_t kWorstListed = 10;
-
-HtmlTable worst_table(const ReportData& data) {
-  const bool held = data.comparison.set == compare::Comparison::Set::kHeldOut;
-  HtmlTable table{
-      .caption = fmt::format("Worst {} readings, measured - predicted in the measurement "
-                             "frame [mm], and where the joints were",
-                             held ? "held-out" : "fitted"),
-      .head = {"pose", "error", "dx", "dy", "dz"}};
-  for (const auto& row : data.cell.nominal.joints)
-    table.head.push_back(fmt::format("{} [{}]", row.name, show::unit(show::slides(row))));
-  const auto& poses = data.comparison.poses;
-  for (std::size_t i = 0; i < std::min(kWorstListed, poses.size()); ++i) {
-    const auto& pose = poses[i];
-    std::vector<std::string> row{pose.pose, show::mm(pose.error_M.norm())};
-    for (int k = 0; k < 3; ++k) row.push_back(fmt::format("{:+.3f}", show::to_mm(pose.error_M(k))));
-    for (int j = 0; j < data.cell.joints(); ++j)
-      row.push_back(fmt::format(
+/// With the positions of the joints.
+show::Table worst_table(const ReportData& data) {
+  show::Table table = show::worst_table(data.comparison);
+  table.caption += ", and where the joints were";
+  const auto& joints = data.cell.nominal.joints;
+  for (const auto& joint : joints)
+    table.head.push_back(fmt::format("{} [{}]", joint.name, show::unit(show::slides(joint))));
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      table.rows[i].push_back(fmt::format(
           "{:.1f}",
-          show::shown(data.measured.q(pose.row, j),
-                      show::slides(data.cell.nominal.joints[static_cast<std::size_t>(j)]))));
-    table.rows.push_back(std::move(row));
-  }
+          show::shown(data.measured.q(data.comparison.poses[i].row, static_cast<Eigen::Index>(j)),
+                      show::slides(joints[j]))));
   return table;
 }
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/joint_columns.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -76,7 +76,7 @@ Json audit_json(const Audit& audit, const format::Model& model) {
 }
 
 std::string audit_text(const Audit& audit, const format::Model& model) {
-  TextTable table({fmt::format("audit of {} poses in the domain", kAuditPoses), ""});
+  Table table{.head = {fmt::format("audit of {} poses in the domain", kAuditPoses), ""}};
   table.add({"largest correction at the tool",
              model.guard.corrects == format::Corrects::kPose
                  ? fmt::format("{} mm, {:.4f} deg", mm(audit.worst_correction_m),
@@ -94,7 +94,8 @@ std::string audit_text(const Audit& audit, const format::Model& model) {
     table.add({"largest step at a leaf border", mm(audit.worst_jump_m) + " mm"});
   }
   table.add({"size", fmt::format("{} bytes", audit.bytes)});
-  return table.left_from(1).text() + refusal_sentence(audit.refusals, model.nominal) + "\n";
+  table.left_from = 1;
+  return text_of(table) + refusal_sentence(audit.refusals, model.nominal) + "\n";
 }
 
 }  // namespace plumb::offline::show

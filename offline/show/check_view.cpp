@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "program/counted_words.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -22,8 +22,8 @@ std::string residual(double metres, double size) {
 std::string readings_text(const Cell& cell, const Detection& d) {
   if (!d.why_not.empty()) return "  conventions not checked: " + d.why_not + "\n";
   const Convention& labels = d.present.convention;
-  TextTable table({"placed [mm]", "fitted [mm]", "how the files are read"});
-  table.left_from(2);
+  Table table{.head = {"placed [mm]", "fitted [mm]", "how the files are read"}};
+  table.left_from = 2;
   std::vector<Reading> rows = d.table;
   const auto is_best = [&](const Reading& r) { return r.convention == d.best.convention; };
   std::stable_partition(rows.begin(), rows.end(), is_best);
@@ -46,17 +46,17 @@ std::string readings_text(const Cell& cell, const Detection& d) {
     table.add({residual(r.placed_m, r.size_m), residual(r.fitted_m, r.size_m),
                (is_best(r) ? "best: " : "") + name});
   }
-  return table.text() + fmt::format("  {} ways to read the files tried{}\n", d.tried,
-                                    hidden == 0
-                                        ? ""
-                                        : fmt::format("; {} more name the same arm, mirrored "
-                                                      "or counted otherwise",
-                                                      hidden));
+  return text_of(table) + fmt::format("  {} ways to read the files tried{}\n", d.tried,
+                                      hidden == 0
+                                          ? ""
+                                          : fmt::format("; {} more name the same arm, mirrored "
+                                                        "or counted otherwise",
+                                                        hidden));
 }
 
 std::string coverage_text(const Cell& cell, const Coverage& coverage) {
-  TextTable table({"joint", "used", "", "limits", "share", ""});
-  table.left_from(5);
+  Table table{.head = {"joint", "used", "", "limits", "share", ""}};
+  table.left_from = 5;
   for (std::size_t j = 0; j < coverage.joints.size(); ++j) {
     const auto& c = coverage.joints[j];
     const bool length = slides(cell.nominal.joints[j]);
@@ -70,9 +70,9 @@ std::string coverage_text(const Cell& cell, const Coverage& coverage) {
   for (int k = 0; k < 3; ++k)
     box += fmt::format("{}{} {:.0f} .. {:.0f}", k > 0 ? ", " : "", "xyz"[k],
                        to_mm(coverage.box_min[k]), to_mm(coverage.box_max[k]));
-  return table.text() + fmt::format("  {}, {}; reflector in the base frame: {} mm\n",
-                                    counted_words(coverage.poses, "pose", "poses"),
-                                    counted_words(coverage.readings, "reading", "readings"), box);
+  return text_of(table) + fmt::format("  {}, {}; reflector in the base frame: {} mm\n",
+                                      counted_words(coverage.poses, "pose", "poses"),
+                                      counted_words(coverage.readings, "reading", "readings"), box);
 }
 
 std::string noise_text(const Check& check) {

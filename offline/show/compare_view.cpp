@@ -12,7 +12,7 @@
 #include "show/compare_words.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -25,13 +25,6 @@ constexpr std::size_t kWorstListed = 10;
 constexpr std::size_t kProfilesShown = 4;
 constexpr int kBarWidth = 18;
 
-std::vector<std::string> stats_row(const std::string& name, const ErrorStats& s,
-                                   const MeanInterval& interval = {}) {
-  if (s.n == 0) return {name, "0", "-", "-", "-", "-", "-"};
-  return {name,     fmt::format("{}", s.n), mm(s.mean), text_of(interval), mm(s.rms), mm(s.p95),
-          mm(s.max)};
-}
-
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 std::string within_text(const Comparison& comparison, const Fit& fit, double tolerance_m) {
@@ -42,32 +35,6 @@ std::string within_text(const Comparison& comparison, const Fit& fit, double tol
       "Within the tolerance of {} mm: {} of the held-out readings, {} of the fitted.\n",
       mm(tolerance_m), percent(comparison.within_tolerance),
       percent(comparison.fit_within_tolerance));
-}
-
-std::string errors_text(const Measurements& measured, const Comparison& comparison, const Fit& fit,
-                        double tolerance_m) {
-  TextTable table({head::kPositionError, head::kReadings, head::kMean, head::kInterval, head::kRms,
-                   head::kP95, head::kMax});
-  table.add(stats_row("held-out, nominal arm", fit.nominal_held));
-  if (fit.tree) table.add(stats_row("held-out, without the tree", fit.geometry_held));
-  table.add(stats_row("held-out, calibrated", fit.held, held_out_interval(measured, fit)));
-  if (!fit.held_outliers.empty())
-    table.add(stats_row("  without its outliers", fit.held_without_outliers));
-  table.add(stats_row(fit_row_name(fit), fit.fit));
-  for (auto& row : floor_rows(fit.floor)) table.add(std::move(row));
-  return table.text() + folds_text(fit.split.folds, fit.fit.n) +
-         within_text(comparison, fit, tolerance_m);
-}
-
-std::string worst_text(const Comparison& comparison) {
-  TextTable table({"pose", "error", "dx", "dy", "dz"});
-  for (std::size_t i = 0; i < std::min(kWorstListed, comparison.poses.size()); ++i) {
-    const auto& pose = comparison.poses[i];
-    table.add({pose.pose, mm(pose.error_M.norm()), fmt::format("{:+.3f}", to_mm(pose.error_M(0))),
-               fmt::format("{:+.3f}", to_mm(pose.error_M(1))),
-               fmt::format("{:+.3f}", to_mm(pose.error_M(2)))});
-  }
-  return "\nWorst readings [mm], measured - predicted in the measurement frame\n" + table.text();
 }
 
 std::string title(const ErrorProfile& profile) {
@@ -92,8 +59,8 @@ std::string profile_text(const ErrorProfile& profile, Comparison::Set set) {
   const bool held = set == Comparison::Set::kHeldOut;
   std::vector<std::string> header{title(profile), held ? "held-out" : "fit", "mean", ""};
   if (held) header.insert(header.end() - 1, {"fit", "mean"});
-  TextTable table(header);
-  table.left_from(header.size() - 1);
+  Table table{.head = header};
+  table.left_from = header.size() - 1;
   const auto mean = [](int n, double value) { return n > 0 ? mm(value) : "-"; };
   for (const auto& bin : profile.bins) {
     const int bar = most > 0 ? static_cast<int>(std::lround(bin.mean_m / most * kBarWidth)) : 0;
@@ -106,7 +73,7 @@ std::string profile_text(const ErrorProfile& profile, Comparison::Set set) {
     row.emplace_back(static_cast<std::size_t>(bar), '#');
     table.add(std::move(row));
   }
-  return table.text();
+  return text_of(table);
 }
 
 /// The profiles that matter, the strongest first.
@@ -188,10 +155,26 @@ std::string after_comparison(const Cell& cell, const Comparison& comparison, con
 std::string compare_text(const Cell& cell, const Measurements& measured,
                          const Comparison& comparison, const Run& run) {
   const double tolerance_m = cell.tolerance_m;
-  return compare_verdict(cell, measured, comparison, run) + "\n\n" +
-         errors_text(measured, comparison, run.fit, tolerance_m) + setups_text(comparison) +
-         findings_text(cell, measured, comparison, run.fit) + worst_text(comparison) +
-         where_text(comparison);
+  const Table worst = worst_table(comparison);
+  return compare_verdict(cell, measured, comparison, run) + "\n\n" + error_text(measured, run.fit) +
+         within_text(comparison, run.fit, tolerance_m) + setups_text(comparison) +
+         findings_text(cell, measured, comparison, run.fit) + "\n" + worst.caption + "\n" +
+         text_of(worst) + where_text(comparison);
+}
+
+Table worst_table(const Comparison& comparison) {
+  const bool held = comparison.set == Comparison::Set::kHeldOut;
+  Table table{.caption = fmt::format("Worst {} readings [mm], measured - predicted in the "
+                                     "measurement frame",
+                                     held ? "held-out" : "fitted"),
+              .head = {"pose", "error", "dx", "dy", "dz"}};
+  for (std::size_t i = 0; i < std::min(kWorstListed, comparison.poses.size()); ++i) {
+    const auto& pose = comparison.poses[i];
+    std::vector<std::string> row{pose.pose, mm(pose.error_M.norm())};
+    for (int k = 0; k < 3; ++k) row.push_back(fmt::format("{:+.3f}", to_mm(pose.error_M(k))));
+    table.add(std::move(row));
+  }
+  return table;
 }
 
 }  // namespace plumb::offline::show

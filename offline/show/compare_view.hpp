@@ -6,6 +6,7 @@
 #include "compare/comparison.hpp"
 #include "fit/run.hpp"
 #include "show/json.hpp"
+#include "show/table.hpp"
 
 namespace plumb::offline::show {
 
@@ -16,6 +17,9 @@ Json compare_json(const Cell& cell, const Measurements& measured,
 /// Verdict, error table, worst poses, and where the error is large.
 std::string compare_text(const Cell& cell, const Measurements& measured,
                          const compare::Comparison& comparison, const Run& run);
+
+/// The ten readings with the largest errors, in the order of `comparison.poses`.
+Table worst_table(const compare::Comparison& comparison);
 
 /// The command to type next, without `plumb`.
 std::string after_comparison(const Cell& cell, const compare::Comparison& comparison,

@@ -13,7 +13,7 @@
 #include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -31,7 +31,7 @@ std::string choosing_text(const Diagnosis& d) {
 }
 
 std::string errors_text(const Cell& cell, const Diagnosis& d) {
-  TextTable table({head::kHeldOutError, head::kMean, head::kRms, head::kP95, head::kMax});
+  Table table{.head = {head::kHeldOutError, head::kMean, head::kRms, head::kP95, head::kMax}};
   const auto add = [&](const std::string& name, const ErrorStats& e) {
     table.add({name, mm(e.mean), mm(e.rms), mm(e.p95), mm(e.max)});
   };
@@ -40,19 +40,14 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   if (d.nested && !d.added.empty()) add("all, chosen anew in every fold", d.after);
   if (d.floor.source != NoiseFloor::Source::kNone)
     table.add({"noise floor", mm(d.floor.mean_m), mm(d.floor.rms_m)});
-  return table.text() + folds_text(d.folds, d.poses_fit) + choosing_text(d);
+  return text_of(table) + folds_text(d.folds, d.poses_fit) + choosing_text(d);
 }
+
+std::string error_cell(const ErrorStats& stats) { return stats.n > 0 ? mm(stats.mean) : "-"; }
 
 /// What most people need: which effect, and how far the error falls.
 std::string short_table(const Cell& cell, const Diagnosis& d) {
-  TextTable table({" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect});
-  table.left_from(3);
-  for (std::size_t i = 0; i < std::min(kShown, d.candidates.size()); ++i) {
-    const Candidate& c = d.candidates[i];
-    table.add({fmt::format("{:>2}", i + 1), mm(c.alone.mean), mm(c.after.mean), support_words(d, c),
-               in_words(cell, c)});
-  }
-  std::string out = table.text();
+  std::string out = text_of(candidates_table(cell, d, kShown));
   if (d.candidates.size() > kShown)
     out += fmt::format("  and {} more: --all\n", d.candidates.size() - kShown);
   return out;
@@ -60,16 +55,16 @@ std::string short_table(const Cell& cell, const Diagnosis& d) {
 
 /// Everything that is known of every candidate.
 std::string full_table(const Cell& cell, const Diagnosis& d) {
-  TextTable table({head::kLnBayes, head::kFall, head::kAlone, head::kWithFirst, head::kSize,
-                   head::kShare, head::kAbsorbed, head::kSupported, head::kEffect});
-  table.left_from(7);
+  Table table{.head = {head::kLnBayes, head::kFall, head::kAlone, head::kWithFirst, head::kSize,
+                       head::kShare, head::kAbsorbed, head::kSupported, head::kEffect}};
+  table.left_from = 7;
   for (const Candidate& c : d.candidates)
     table.add({fmt::format("{:8.1f}", c.ln_bayes), fmt::format("{:.0f} %", 100 * c.gain),
                mm(c.alone.mean), mm(c.after.mean), mm(c.largest_m),
                fmt::format("{:.0f} %", 100 * c.explained),
                fmt::format("{:.0f} %", 100 * c.absorbed), support_words(d, c),
                command_name(cell, c.entry)});
-  return table.text();
+  return text_of(table);
 }
 
 /// Whether an effect, known by its key, is one of what the first candidate may be instead.
@@ -80,10 +75,8 @@ bool is_alternative(const Cell& cell, const Diagnosis& d, const std::string& key
 
 std::string candidates_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
   if (d.candidates.empty()) return {};
-  std::string out =
-      std::string(d.added.empty() ? "\nCandidates" : "\nCandidates before any was added") +
-      ": held-out error [mm] alone, and together with the first one\n" +
-      (shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d));
+  std::string out = fmt::format("\n{}\n", candidates_table(cell, d, 0).caption) +
+                    (shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d));
   return d.candidates.front().supported ? out + "\n" + first_candidate_text(cell, d) : out;
 }
 
@@ -117,6 +110,20 @@ std::string support_words(const Diagnosis& d, const Candidate& c) {
   if (!falls(d.before.mean, c.alone.mean)) return "no gain";
   return either ? fmt::format("one of {}", 1 + d.alternatives.size() + (d.slow_motion ? 1 : 0))
                 : "yes";
+}
+
+Table candidates_table(const Cell& cell, const Diagnosis& d, std::size_t most) {
+  Table table{
+      .caption = std::string(d.added.empty() ? "Candidates" : "Candidates before any was added") +
+                 ": held-out error [mm] alone, and together with the first one",
+      .head = {" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect},
+      .left_from = 3};
+  for (std::size_t i = 0; i < std::min(most, d.candidates.size()); ++i) {
+    const Candidate& c = d.candidates[i];
+    table.add({fmt::format("{:>2}", i + 1), error_cell(c.alone), error_cell(c.after),
+               support_words(d, c), in_words(cell, c)});
+  }
+  return table;
 }
 
 std::string first_candidate_text(const Cell& cell, const Diagnosis& d) {

@@ -6,6 +6,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "show/json.hpp"
+#include "show/table.hpp"
 
 namespace plumb::offline::show {
 
@@ -21,6 +22,9 @@ std::string diagnose_text(const Cell& cell, const Diagnosis& diagnosis, Candidat
 
 /// Whether these poses support a candidate: "yes", "no", "no gain", "unlikely", "one of 2".
 std::string support_words(const Diagnosis& diagnosis, const Candidate& candidate);
+
+/// The first `most` candidates and how far the error falls with each of them.
+Table candidates_table(const Cell& cell, const Diagnosis& diagnosis, std::size_t most);
 
 /// How far the first candidate moves the measured point, and what it may be mistaken for; one
 /// sentence a line. There must be a candidate.

@@ -8,7 +8,7 @@
 
 #include "fit/orientation_words.hpp"
 #include "show/heads.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -23,12 +23,28 @@ std::vector<std::string> row(const std::string& name, const ErrorStats& s,
 
 std::string turn_table(const ErrorStats& s) {
   if (s.n == 0) return "";
-  TextTable table({"orientation error [deg]", head::kReadings, head::kMean, head::kRms, head::kP95,
-                   head::kMax});
+  Table table{.head = {"orientation error [deg]", head::kReadings, head::kMean, head::kRms,
+                       head::kP95, head::kMax}};
   const auto deg = [](double rad) { return fmt::format("{:.4f}", to_deg(rad)); };
   table.add({"held-out, calibrated", fmt::format("{}", s.n), deg(s.mean), deg(s.rms), deg(s.p95),
              deg(s.max)});
-  return "\n" + table.text();
+  return "\n" + text_of(table);
+}
+
+/// The row of the fitted readings says so if it counts outliers.
+const char* fit_row_name(const Fit& fit) {
+  return fit.calibration.outliers.empty() ? "fit (never accuracy)" : "fit, with its outliers";
+}
+
+/// The noise floor with its source, and what is only inferred.
+std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor) {
+  if (floor.source == NoiseFloor::Source::kNone) return {{"noise floor: unknown"}};
+  std::vector<std::vector<std::string>> out{
+      {floor.source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated" : "noise floor",
+       "", mm(floor.mean_m), "", mm(floor.rms_m)}};
+  if (floor.inferred_m > 0.0)
+    out.push_back({"  inferred, if the joints scatter", "", mm(floor.inferred_m)});
+  return out;
 }
 
 constexpr const char* kNoFloor = "neither repeats of a pose nor sigma_um are given";
@@ -47,16 +63,6 @@ void add_interval(const MeanInterval& interval, Json& out) {
   put(out, "mean_high_mm", to_mm(interval.high), kTooFew);
 }
 
-std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor) {
-  if (floor.source == NoiseFloor::Source::kNone) return {{"noise floor: unknown"}};
-  std::vector<std::vector<std::string>> out{
-      {floor.source == NoiseFloor::Source::kSigma ? "noise floor, sigma as stated" : "noise floor",
-       "", mm(floor.mean_m), "", mm(floor.rms_m)}};
-  if (floor.inferred_m > 0.0)
-    out.push_back({"  inferred, if the joints scatter", "", mm(floor.inferred_m)});
-  return out;
-}
-
 std::string folds_text(int folds, int readings) {
   if (folds == 0) return "";
   return fmt::format(
@@ -65,13 +71,10 @@ std::string folds_text(int folds, int readings) {
       folds, readings);
 }
 
-const char* fit_row_name(const Fit& fit) {
-  return fit.calibration.outliers.empty() ? "fit (never accuracy)" : "fit, with its outliers";
-}
-
-std::string error_table(const Measurements& measured, const Fit& fit) {
-  TextTable table({head::kPositionError, head::kReadings, head::kMean, head::kInterval, head::kRms,
-                   head::kP95, head::kMax});
+Table error_table(const Measurements& measured, const Fit& fit) {
+  Table table{.caption = "Position errors, measured - predicted [mm]",
+              .head = {head::kPositionError, head::kReadings, head::kMean, head::kInterval,
+                       head::kRms, head::kP95, head::kMax}};
   table.add(
       row(fit.base == Base::kArm ? "held-out, nominal arm" : "held-out, controller's own positions",
           fit.nominal_held));
@@ -81,7 +84,12 @@ std::string error_table(const Measurements& measured, const Fit& fit) {
     table.add(row("  without its outliers", fit.held_without_outliers));
   table.add(row(fit_row_name(fit), fit.fit));
   for (auto& one : floor_rows(fit.floor)) table.add(std::move(one));
-  return table.text() + folds_text(fit.split.folds, fit.fit.n) + turn_table(fit.turn_held);
+  return table;
+}
+
+std::string error_text(const Measurements& measured, const Fit& fit) {
+  return text_of(error_table(measured, fit)) + folds_text(fit.split.folds, fit.fit.n) +
+         turn_table(fit.turn_held);
 }
 
 void add_turns(const ErrorStats& turn_held, Json& out) {

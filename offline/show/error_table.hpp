@@ -7,6 +7,7 @@
 #include "fit/fit.hpp"
 #include "fit/mean_interval.hpp"
 #include "show/json.hpp"
+#include "show/table.hpp"
 
 namespace plumb::offline::show {
 
@@ -14,12 +15,12 @@ namespace plumb::offline::show {
 /// Empty without folds.
 std::string folds_text(int folds, int readings);
 
-/// Before and after on the held-out poses, the fit poses, and the noise floor [mm]; of orientations
-/// [deg], if they are fitted.
-std::string error_table(const Measurements& measured, const Fit& fit);
+/// Errors of the measured positions [mm]: before and after on the held-out readings, on the fitted
+/// ones, and the noise floor.
+Table error_table(const Measurements& measured, const Fit& fit);
 
-/// The name of the row of the fitted readings, which says so if it counts outliers.
-const char* fit_row_name(const Fit& fit);
+/// The same for a terminal, with a line on the folds and the errors of fitted orientations [deg].
+std::string error_text(const Measurements& measured, const Fit& fit);
 
 /// "0.141 .. 0.187"; empty if it is not known.
 std::string text_of(const MeanInterval& interval);
@@ -34,9 +35,6 @@ void add_turns(const ErrorStats& turn_held, Json& out);
 /// there are none.
 void add_orientation(const MeasuredOrientations& judged, const std::vector<std::string>& meant,
                      Json& out);
-
-/// Rows for below the errors: the noise floor with its source, and what is only inferred.
-std::vector<std::vector<std::string>> floor_rows(const NoiseFloor& floor);
 
 /// noise_floor_mm (mean) and noise_floor_rms_mm, null with reason if nothing is known;
 /// inferred_floor_mm where a diagnosis takes what is left for scatter of the joints.

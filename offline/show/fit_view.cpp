@@ -14,7 +14,7 @@
 #include "show/heads.hpp"
 #include "show/likeness_view.hpp"
 #include "show/parameter_unit.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 #include "show/verdict_json.hpp"
 
@@ -68,9 +68,9 @@ Json effects_json(const Cell& cell) {
 }
 
 std::string parameter_table(const std::vector<Estimate>& estimates) {
-  TextTable table(
-      {head::kParameter, head::kNominal, head::kFitted, head::kChange, head::kSigma, ""});
-  table.left_from(5);
+  Table table{
+      .head = {head::kParameter, head::kNominal, head::kFitted, head::kChange, head::kSigma, ""}};
+  table.left_from = 5;
   for (const auto& e : estimates) {
     if (!e.of_robot) continue;
     const ParameterUnit u = unit_of(e);
@@ -78,7 +78,7 @@ std::string parameter_table(const std::vector<Estimate>& estimates) {
                (e.value > e.nominal ? "+" : "") + u.text(e.value - e.nominal), u.text(e.std),
                u.name});
   }
-  return table.text();
+  return text_of(table);
 }
 
 Json setups_json(const MeasurementSettings& m, const ArmState& state) {
@@ -100,7 +100,7 @@ Json setups_json(const MeasurementSettings& m, const ArmState& state) {
 /// @param held  Names of parameters that the readings leave open.
 std::string setups_text(const MeasurementSettings& m, const ArmState& state,
                         const std::vector<std::string>& held) {
-  TextTable table({"set-up [mm]", "frame", "x", "y", "z", "target", "x", "y", "z"});
+  Table table{.head = {"set-up [mm]", "frame", "x", "y", "z", "target", "x", "y", "z"}};
   const auto how = [&](bool fitted, int root, int k) {
     return root != k ? "as " + setup_name(m, root) : std::string(fitted ? "fitted" : "given");
   };
@@ -116,7 +116,7 @@ std::string setups_text(const MeasurementSettings& m, const ArmState& state,
     table.add({setup_name(m, k), frame_how(k), mm(f[0]), mm(f[1]), mm(f[2]),
                how(rule.fit_target, target_root(m, k), k), mm(t[0]), mm(t[1]), mm(t[2])});
   }
-  return table.text() +
+  return text_of(table) +
          "  frame: base in the measurement frame; target: reflector in the tool frame\n";
 }
 
@@ -217,7 +217,7 @@ Json fit_json(const Cell& cell, const Measurements& measured, const Fit& fit) {
 std::string fit_text(const Cell& cell, const Measurements& measured, const Fit& fit) {
   const Calibration& c = fit.calibration;
   std::string out =
-      compare::full_verdict(cell, measured, fit) + "\n\n" + error_table(measured, fit) + "\n";
+      compare::full_verdict(cell, measured, fit) + "\n\n" + error_text(measured, fit) + "\n";
   out += parameter_table(c.estimates) + "\n" + held_text(c.held);
   out += likeness_text(c);
   out += series_text(cell, c.state) + measurement_text(cell, c.state, c.held) + tree_text(fit);

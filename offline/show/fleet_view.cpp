@@ -10,7 +10,7 @@
 #include "show/counted.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -109,8 +109,8 @@ Json shares_json(const std::vector<fleet::EffectShare>& shares) {
 }
 
 std::string cells_text(const Fleet& all) {
-  TextTable table({"cell", head::kMean, head::kP95, head::kEffects, "verdict"});
-  table.left_from(3);
+  Table table{.head = {"cell", head::kMean, head::kP95, head::kEffects, "verdict"}};
+  table.left_from = 3;
   std::size_t left_out = 0;
   for (const auto& cell : all.cells) {
     if (all.cells.size() > kAllShown && !needs_attention(all, cell)) {
@@ -121,7 +121,7 @@ std::string cells_text(const Fleet& all) {
                cell.ok ? mm(cell.held.p95) : "-", counted(cell.effects),
                printable_line(state_of(all, cell))});
   }
-  std::string out = "Held-out error in mm:\n\n" + table.text();
+  std::string out = "Held-out error in mm:\n\n" + text_of(table);
   if (left_out > 0)
     out += fmt::format("  and {}\n", counted_words(left_out, "good one", "good ones"));
   return out;
@@ -129,31 +129,46 @@ std::string cells_text(const Fleet& all) {
 
 std::string effects_text(const Fleet& all) {
   if (all.models.empty()) return {};
-  TextTable table({head::kEffect, "modelled in", "missing in"});
-  for (const auto& use : fleet::effect_uses(all))
-    table.add({use.effect, fmt::format("{}", use.modelled),
-               use.diagnosed > 0 ? fmt::format("{} of {}", use.missing, use.diagnosed) : "-"});
-  return "\nEffects, and in how many arms:\n\n" + table.text();
+  const Table table = effects_table(all);
+  return fmt::format("\n{}:\n\n", table.caption) + text_of(table);
 }
 
 std::string typical_text(const Model& model) {
   if (model.sisters.typical.empty()) return "\n" + too_few_words(model) + "\n";
-  std::vector<const Typical*> sorted;
-  for (const auto& t : model.sisters.typical) sorted.push_back(&t);
-  // What the arms themselves show best first.
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Typical* a, const Typical* b) { return a->shrinkage < b->shrinkage; });
-  TextTable table({"number", "mean", "from arm to arm", "unit", "arms", "shrinkage"});
-  const std::size_t shown = std::min(kTypicalShown, sorted.size());
-  for (std::size_t i = 0; i < shown; ++i) table.add(typical_row(*sorted[i]));
+  Table table = typical_table(model);
+  const std::size_t all = table.rows.size();
+  table.rows.resize(std::min(kTypicalShown, all));
   std::string out =
-      fmt::format("\n{}: differences from nominal\n\n", model_name(model)) + table.text();
-  if (sorted.size() > shown)
-    out += fmt::format("  and {} more in fleet.json\n", sorted.size() - shown);
+      fmt::format("\n{}: differences from nominal\n\n", model_name(model)) + text_of(table);
+  if (all > kTypicalShown) out += fmt::format("  and {} more in fleet.json\n", all - kTypicalShown);
   return out;
 }
 
 }  // namespace
+
+Table effects_table(const Fleet& all) {
+  Table table{.caption = "Effects, and in how many arms",
+              .head = {head::kEffect, "modelled in", "missing in"}};
+  for (const auto& use : fleet::effect_uses(all))
+    table.add({use.effect, fmt::format("{}", use.modelled),
+               use.diagnosed > 0 ? fmt::format("{} of {}", use.missing, use.diagnosed) : "-"});
+  return table;
+}
+
+Table typical_table(const Model& model) {
+  std::vector<const Typical*> sorted;
+  for (const auto& t : model.sisters.typical) sorted.push_back(&t);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Typical* a, const Typical* b) { return a->shrinkage < b->shrinkage; });
+  Table table{.caption = "What is typical: differences from nominal, and sizes of effects",
+              .head = {"number", "mean", "from arm to arm", "unit", "arms", "shrinkage"}};
+  for (const Typical* one : sorted) {
+    const ParameterUnit unit = unit_of_number(one->effect, one->unit);
+    table.add({one->name, unit.text(one->mean), unit.text(one->sd), unit.name,
+               fmt::format("{}", one->arms), fmt::format("{:.0f} %", 100.0 * one->shrinkage)});
+  }
+  return table;
+}
 
 const OddArm* odd_arm(const Fleet& all, const std::string& cell) {
   for (const Model& model : all.models)
@@ -201,12 +216,6 @@ std::string model_name(const Model& model) {
 std::string too_few_words(const Model& model) {
   return fmt::format("{}: too few to learn from, which takes {} of one model.", model_name(model),
                      fleet::kFewestArms);
-}
-
-std::vector<std::string> typical_row(const Typical& t) {
-  const ParameterUnit unit = unit_of_number(t.effect, t.unit);
-  return {t.name,    unit.text(t.mean),         unit.text(t.sd),
-          unit.name, fmt::format("{}", t.arms), fmt::format("{:.0f} %", 100.0 * t.shrinkage)};
 }
 
 Json fleet_json(const Fleet& all) {

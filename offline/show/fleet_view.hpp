@@ -6,6 +6,7 @@
 
 #include "fleet/fleet.hpp"
 #include "show/json.hpp"
+#include "show/table.hpp"
 
 namespace plumb::offline::show {
 
@@ -32,8 +33,11 @@ std::string model_name(const fleet::Model& model);
 /// Why nothing was learnt of a model.
 std::string too_few_words(const fleet::Model& model);
 
-/// A row of a table: number, mean, from arm to arm, unit, arms, shrinkage.
-std::vector<std::string> typical_row(const fleet::Typical& typical);
+/// In how many arms each effect is modelled, and in how many a diagnosis misses it.
+Table effects_table(const fleet::Fleet& fleet);
+
+/// The numbers that are typical of a model; first those that the arms themselves show best.
+Table typical_table(const fleet::Model& model);
 
 /// The verdict, a table of the cells (of many only those that need attention), what is typical.
 std::string fleet_text(const fleet::Fleet& fleet);

@@ -9,7 +9,7 @@
 #include "bench/cache_sweep.hpp"
 #include "draw/duration.hpp"
 #include "show/cost_view.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 
 namespace plumb::offline::show {
 namespace {
@@ -173,11 +173,11 @@ Json bench_json(const Benchmark& found) {
 }
 
 std::string bench_text(const Benchmark& found) {
-  TextTable table({"[ns] median", "warm", "chain", "cold", "cold 99 %", "cold worst"});
+  Table table{.head = {"[ns] median", "warm", "chain", "cold", "cold 99 %", "cold worst"}};
   for (std::size_t i = 0; i < found.timings.all.size() / 3; ++i) table.add(row(found.timings, i));
   return verdict(found) + bench::fitness_text(found.why_not_representative) + "\n" +
          instructions_text(found.instructions, found.baseline) + calls_text(found) + "\n" +
-         table.text() + "\n" + conditions_text(found);
+         text_of(table) + "\n" + conditions_text(found);
 }
 
 }  // namespace plumb::offline::show

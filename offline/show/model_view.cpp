@@ -5,7 +5,7 @@
 
 #include "cell/toml_text.hpp"
 #include "show/counted.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -137,8 +137,8 @@ Json provenance_json(const format::Provenance& p) {
 }
 
 std::string chain_text(const format::Model& model) {
-  TextTable table(
-      {"joint", "alpha [deg]", "a [mm]", "d [mm]", "theta [deg]", "beta [deg]", "q min", "q max"});
+  Table table{.head = {"joint", "alpha [deg]", "a [mm]", "d [mm]", "theta [deg]", "beta [deg]",
+                       "q min", "q max"}};
   const auto add = [&](const format::JointRow& row, const std::string& name) {
     table.add({name, fmt::format("{:.4f}", to_deg(row.alpha)), fmt::format("{:.4f}", to_mm(row.a)),
                fmt::format("{:.4f}", to_mm(row.d)), fmt::format("{:.4f}", to_deg(row.theta)),
@@ -150,8 +150,8 @@ std::string chain_text(const format::Model& model) {
     add(model.nominal.joints[i], model.nominal.joints[i].name + " nominal");
     if (i < model.calibrated.joints.size()) add(model.calibrated.joints[i], "   calibrated");
   }
-  if (model.nominal.coupling.empty()) return table.text();
-  return table.text() +
+  if (model.nominal.coupling.empty()) return text_of(table);
+  return text_of(table) +
          "coupling of the controller's joint values: " + toml_coupling(model.nominal) + "\n";
 }
 
@@ -163,7 +163,7 @@ std::string held_out_text(const format::Provenance& p) {
 }
 
 /// Three joints a line.
-void add_domain(const format::Model& model, TextTable& table) {
+void add_domain(const format::Model& model, Table& table) {
   std::string line;
   const std::size_t joints = model.domain.q_min.size();
   if (joints == 0) table.add({"trained domain", "none"});
@@ -241,7 +241,7 @@ std::string corrected_text(const format::GuardLimits& g) {
 std::string model_text(const format::Model& model) {
   const auto& p = model.provenance;
   const auto& g = model.guard;
-  TextTable table({"cell", model.cell_name});
+  Table table{.head = {"cell", model.cell_name}};
   table.add({"robot", fmt::format("{}, serial {}", model.robot_name, model.serial)});
   table.add({"arm", fmt::format("{} joints, {} DH", model.nominal.joints.size(),
                                 convention(model.nominal))});
@@ -257,7 +257,8 @@ std::string model_text(const format::Model& model) {
   for (const auto& input : p.inputs)
     table.add({"input",
                fmt::format("{} (sha256 {}...)", input.name, input.sha256.substr(0, kDigitsShown))});
-  return table.left_from(1).text() + "\n" + chain_text(model);
+  table.left_from = 1;
+  return text_of(table) + "\n" + chain_text(model);
 }
 
 }  // namespace plumb::offline::show

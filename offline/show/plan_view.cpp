@@ -9,7 +9,7 @@
 #include "cell/joint_columns.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/counted_words.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -115,7 +115,7 @@ Json numbers_json(const PosePlan& plan) {
 }
 
 std::string prediction_text(const PosePlan& plan) {
-  TextTable table({"1 sigma of a predicted point (3-D) [mm]", "mean", "worst"});
+  Table table{.head = {"1 sigma of a predicted point (3-D) [mm]", "mean", "worst"}};
   const auto row = [&](const std::string& name, const PredictionSigma& s) {
     table.add({name, mm(s.mean), mm(s.worst)});
   };
@@ -123,7 +123,7 @@ std::string prediction_text(const PosePlan& plan) {
   row(fmt::format("{}these {}", plan.measured > 0 ? "and " : "with ", plan.poses.size()),
       plan.after);
   std::string out =
-      table.text() +
+      text_of(table) +
       "\nThat comes from the uncertainty of the fitted numbers alone; the error of what "
       "the model lacks is added to it.\n";
   if (plan.measured > 0)
@@ -209,22 +209,22 @@ std::string expected_text(const PlanRequest& request, const PosePlan& plan) {
 }
 
 std::string numbers_text(const PosePlan& plan) {
-  TextTable table({"1 sigma of its numbers", "before", "after", ""});
-  table.left_from(3);
+  Table table{.head = {"1 sigma of its numbers", "before", "after", ""}};
+  table.left_from = 3;
   for (std::size_t i = 0; i < std::min(kNumbersShown, plan.numbers.size()); ++i) {
     const auto& n = plan.numbers[i];
     table.add({n.name, n.before ? fmt::format("{:.3g}", *n.before) : "unknown",
                fmt::format("{:.3g}", n.after), n.unit});
   }
-  std::string out = table.text();
+  std::string out = text_of(table);
   if (plan.numbers.size() > kNumbersShown)
     out += fmt::format("  and {} more\n", plan.numbers.size() - kNumbersShown);
   return out;
 }
 
 std::string apart_text(const PlanRequest& request, const PosePlan& plan) {
-  TextTable table({"share of its motion that the other imitates", request.separate[0].name,
-                   request.separate[1].name});
+  Table table{.head = {"share of its motion that the other imitates", request.separate[0].name,
+                       request.separate[1].name}};
   const auto share = [](const std::optional<double>& s) {
     return s ? fmt::format("{:.0f} %", 100.0 * *s) : std::string("not shown");
   };
@@ -233,7 +233,7 @@ std::string apart_text(const PlanRequest& request, const PosePlan& plan) {
   };
   if (plan.measured > 0) row(fmt::format("with the {} measured", plan.measured), plan.apart_before);
   row(plan.measured > 0 ? "and these" : "with these", plan.apart_after);
-  std::string out = table.text() + "\n" + numbers_text(plan);
+  std::string out = text_of(table) + "\n" + numbers_text(plan);
   return out;
 }
 

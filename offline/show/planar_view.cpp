@@ -4,7 +4,7 @@
 #include <array>
 
 #include "show/study_view.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -66,7 +66,7 @@ std::string headline(const PlanarStudy& study) {
 
 std::string links_text(const PlanarStudy& study) {
   const auto& d = study.links.d;
-  TextTable table({"calibration, eqs. (6) to (9)", "paper", "here"});
+  Table table{.head = {"calibration, eqs. (6) to (9)", "paper", "here"}};
   const auto add = [&](const char* name, const char* paper, const std::string& here) {
     table.add({name, paper, here});
   };
@@ -76,12 +76,12 @@ std::string links_text(const PlanarStudy& study) {
   add("v3 [mm]", "0.36", fmt::format("{:.4f}", to_mm(d[3])));
   add("calibrability", "1.78", fmt::format("{:.4f}", study.links.calibrability));
   add("converged in iteration", "2", fmt::format("{}", study.links.iterations));
-  return table.text();
+  return text_of(table);
 }
 
 std::string rows_text(const PlanarStudy& study) {
-  TextTable table({"total error e_t [mm], mean / max", "size", "paper", "its 5985 test positions",
-                   "20,000 unseen"});
+  Table table{.head = {"total error e_t [mm], mean / max", "size", "paper",
+                       "its 5985 test positions", "20,000 unseen"}};
   std::optional<RowKind> kind;
   for (const StudyRow& row : study.rows) {
     if (kind != row.kind) {
@@ -93,7 +93,7 @@ std::string rows_text(const PlanarStudy& study) {
          row.paper ? fmt::format("{:g} / {:g}", to_mm(row.paper->mean), to_mm(row.paper->max)) : "",
          pair_of(row.test), pair_of(row.disjoint)});
   }
-  return table.text();
+  return text_of(table);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "recheck/constants.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -124,21 +124,21 @@ std::string undecidable_sentence(const Cell& cell, const Recheck& found, const R
 }
 
 std::string recheck_errors_text(const Recheck& found, const Run& run) {
-  TextTable table(
-      {head::kPositionError, head::kReadings, head::kMean, head::kRms, head::kP95, head::kMax});
+  Table table{.head = {head::kPositionError, head::kReadings, head::kMean, head::kRms, head::kP95,
+                       head::kMax}};
   const auto row = [&](const std::string& name, const ErrorStats& s) {
     table.add({name, fmt::format("{}", s.n), mm(s.mean), mm(s.rms), mm(s.p95), mm(s.max)});
   };
   row(fmt::format("held-out, run {} when it was made", run.number), found.then);
   row(fmt::format("now, by run {} as it is", run.number), found.before);
   if (!found.found.empty()) row("now, refitted without the reading", found.after);
-  return table.text();
+  return text_of(table);
 }
 
 std::string changed_numbers_text(const Recheck& found) {
   if (found.found.empty()) return "";
-  TextTable table({head::kChange, "ln Bayes", head::kParameter, "was", "is", head::kSigma, ""});
-  table.left_from(6);
+  Table table{.head = {head::kChange, "ln Bayes", head::kParameter, "was", "is", head::kSigma, ""}};
+  table.left_from = 6;
   for (const auto& one : found.found)
     for (std::size_t k = 0; k < one.after.size(); ++k) {
       const Estimate &was = one.before[k], &now = one.after[k];
@@ -147,7 +147,7 @@ std::string changed_numbers_text(const Recheck& found) {
                  k == 0 ? fmt::format("{:.0f}", one.ln_bayes) : "", now.name, unit.text(was.value),
                  unit.text(now.value), unit.text(now.std), unit.name});
     }
-  return "\n" + table.text();
+  return "\n" + text_of(table);
 }
 
 std::string blind_text(const Cell& cell, const std::vector<Visibility>& blind) {
@@ -312,7 +312,7 @@ Json recheck_plan_json(const Cell& cell, const RecheckPlan& plan, const Run& run
 }
 
 std::string recheck_plan_text(const Cell& cell, const RecheckPlan& plan, const Run& run) {
-  TextTable table({"change that they show", "from [mm]"});
+  Table table{.head = {"change that they show", "from [mm]"}};
   for (const auto& v : plan.visible) table.add({words_of(v.change, cell), mm(v.unseen_m)});
   return fmt::format(
              "Planned {} best what has changed since run {}.\n"
@@ -321,7 +321,7 @@ std::string recheck_plan_text(const Cell& cell, const RecheckPlan& plan, const R
              counted_words(plan.rows.size(), "pose to measure again, which tells",
                            "poses to measure again, which tell"),
              run.number) +
-         table.text();
+         text_of(table);
 }
 
 std::string recheck_plan_csv(const Cell& cell, const RecheckPlan& plan, const Measurements& own) {

@@ -11,7 +11,7 @@
 #include "show/counted.hpp"
 #include "show/heads.hpp"
 #include "show/parameter_unit.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -135,9 +135,9 @@ Json runs_json(const std::vector<ListedRun>& runs) {
 
 std::string runs_text(const std::vector<ListedRun>& runs) {
   if (runs.empty()) return "No runs yet.\n";
-  TextTable table({head::kRun, head::kCreated, head::kReadings, head::kMean, head::kRms, head::kP95,
-                   head::kMax, head::kEffects});
-  table.left_from(7);
+  Table table{.head = {head::kRun, head::kCreated, head::kReadings, head::kMean, head::kRms,
+                       head::kP95, head::kMax, head::kEffects}};
+  table.left_from = 7;
   for (const auto& [run, state] : runs) {
     const auto& s = usual_held(run.fit);
     table.add({fmt::format("{:04}{}", run.number, state == ListedRun::State::kCurrent ? " *" : ""),
@@ -146,7 +146,7 @@ std::string runs_text(const std::vector<ListedRun>& runs) {
   }
   return fmt::format("{}, held-out error in mm (* of the present cell and data):\n\n",
                      counted_words(static_cast<long long>(runs.size()), "run", "runs")) +
-         table.text();
+         text_of(table);
 }
 
 Json diff_json(const Run& a, const Run& b) {
@@ -176,13 +176,13 @@ std::string diff_text(const Run& a, const Run& b) {
   if (!less.empty()) out += "  fewer effects: " + less + "\n";
   const auto all = changes(a, b);
   if (all.empty()) return out + "  No parameter differs.\n";
-  TextTable table({"parameter", fmt::format("run {}", a.number), fmt::format("run {}", b.number),
-                   "change", "1 sigma", ""});
-  table.left_from(5);
+  Table table{.head = {"parameter", fmt::format("run {}", a.number),
+                       fmt::format("run {}", b.number), "change", "1 sigma", ""}};
+  table.left_from = 5;
   for (const auto& c : all)
     table.add({c.name, number(c.a, c.unit, ""), number(c.b, c.unit, ""),
                number(c.b - c.a, c.unit, "+"), number(c.std, c.unit, ""), c.unit.name});
-  return out + table.text();
+  return out + text_of(table);
 }
 
 }  // namespace plumb::offline::show

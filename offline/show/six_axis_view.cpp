@@ -5,7 +5,7 @@
 #include <map>
 
 #include "show/study_view.hpp"
-#include "show/text_table.hpp"
+#include "show/table.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::show {
@@ -71,14 +71,14 @@ std::string six_axis_text(const SixAxisStudy& study) {
       to_mm(median_of(study, &SixAxisDraw::published_fresh)),
       worse(study, &SixAxisDraw::published_fresh), study.draws.size(),
       to_mm(median_of(study, &SixAxisDraw::ours_fresh)), worse(study, &SixAxisDraw::ours_fresh));
-  TextTable table({fmt::format("mean position error [mm] of {} arms, {} poses each",
-                               study.draws.size(), study.request.poses),
-                   "paper", "median", "worst"});
+  Table table{.head = {fmt::format("mean position error [mm] of {} arms, {} poses each",
+                                   study.draws.size(), study.request.poses),
+                       "paper", "median", "worst"}};
   for (const TableFigure& figure : kTableFigures)
     table.add({figure.words, figure.paper,
                fmt::format("{:.4f}", to_mm(median_of(study, figure.value))),
                fmt::format("{:.4f}", to_mm(worst_of(study, figure.value)))});
-  out += table.text() + "\n";
+  out += text_of(table) + "\n";
   std::map<std::string, int> added;
   for (const auto& draw : study.draws) ++added[draw.added];
   out += "What the diagnosis added, without having seen the truth:\n";
