@@ -2,6 +2,7 @@
 #include "rt/last_run.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/json.hpp"
+#include "program/key_file.hpp"
 #include "program/problem.hpp"
 #include "rt/control_path.hpp"
 #include "rt/standard_error.hpp"
@@ -18,7 +20,25 @@ namespace plumb::drivers::rt {
 namespace {
 
 constexpr char kLastRunSchema[] = "plumb-rt-last-run/1";
-constexpr std::uintmax_t kMostLastRunBytes = 4096;
+constexpr std::uintmax_t kMostMachineIdBytes = 4096;
+
+/// What others may have written.
+struct NotBelieved : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A folder of this machine, by what a copy of it does not have; the number of its device changes
+/// from boot to boot.
+std::string identity_of(const std::filesystem::path& folder) {
+  struct stat found {};
+  if (::stat(folder.c_str(), &found) != 0) return "";
+  std::string machine;
+  try {
+    machine = read_regular_file("/etc/machine-id", kMostMachineIdBytes);
+  } catch (const Failure&) {  // a container may have none
+  }
+  return sha256(fmt::format("{} {}", machine, found.st_ino)).substr(0, 16);
+}
 
 std::filesystem::path last_run_file(const std::filesystem::path& folder) {
   const char* const own = std::getenv("STATE_DIRECTORY");  // several are separated by colons
@@ -48,7 +68,8 @@ FaultCause fault_of(const std::string& word) {
 }  // namespace
 
 LastRun::LastRun(const std::filesystem::path& folder, const std::string& model)
-    : file_(last_run_file(folder)) {
+    : file_(last_run_file(folder)),
+      folder_(file_.parent_path() == folder ? identity_of(folder) : "") {
   std::error_code ignored;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file_, ignored))) {
     need("it is the first run");
@@ -59,6 +80,9 @@ LastRun::LastRun(const std::filesystem::path& folder, const std::string& model)
   } catch (const Failure& failure) {
     need(
         fmt::format("what the last run left is not known: {}", failure.problems().front().message));
+  } catch (const NotBelieved& why) {
+    believed_ = false;
+    need(fmt::format("{} is not believed: it {}", display_name(file_), why.what()));
   } catch (const std::exception& error) {
     need(fmt::format("{} is damaged: {}", display_name(file_), error.what()));
   }
@@ -70,8 +94,13 @@ void LastRun::need(const std::string& why) {
 }
 
 void LastRun::read(const std::string& model) {
-  const Json json = Json::parse(read_regular_file(file_, kMostLastRunBytes));
+  const OwnedText read = read_owned_text(file_);
+  if (const std::string fault = rights_fault(read.owner, read.mode); !fault.empty())
+    throw NotBelieved(fault);
+  const Json json = Json::parse(read.text);
   if (json.at("schema") != kLastRunSchema) throw std::invalid_argument("another schema");
+  if (json.value("folder", "") != folder_)
+    throw NotBelieved("was written in another folder, and came here as a copy");
   content_ = {.ended = json.at("ended").get<bool>(),
               .fault = fault_of(json.at("fault").get<std::string>()),
               .acknowledged = json.at("acknowledged").get<std::string>()};
@@ -90,6 +119,7 @@ void LastRun::read(const std::string& model) {
 bool LastRun::write(const Content& content) {
   if (failed_) return false;
   const Json json{{"schema", kLastRunSchema},
+                  {"folder", folder_},
                   {"ended", content.ended},
                   {"fault", to_string(content.fault)},
                   {"acknowledged", content.acknowledged}};
@@ -115,6 +145,8 @@ void LastRun::begin() {
   next.ended = false;
   next.fault = start_.fault;
   if (needed) next.acknowledged.clear();
+  std::error_code ignored;
+  if (!believed_) std::filesystem::remove(file_, ignored);  // its owner and mode shall not stay
   if (!write(next)) need("what the last run left is not known, since it cannot be written");
 }
 

@@ -13,7 +13,9 @@ namespace plumb::drivers::rt {
 /// stands in a small file in $STATE_DIRECTORY, which systemd sets, else in the folder.
 ///
 /// Whatever is not known counts as the worse: without the file, or if it cannot be read or written,
-/// an acknowledgement is needed.
+/// an acknowledgement is needed. So it is if others may have written it: its owner must be root or
+/// the user who runs, nobody else may write to it, and in the folder it must have been written by a
+/// run of this very folder on this machine, since a folder travels and this file is not signed.
 ///
 /// Slow, for a thread without real-time priority.
 class LastRun {
@@ -50,9 +52,11 @@ class LastRun {
   bool write(const Content& content);
 
   std::filesystem::path file_;
+  std::string folder_;  // which folder it is, if the file stands in it
   SessionStart start_;
   std::string why_;
-  Content content_;      // as the file holds it
+  Content content_;  // as the file holds it
+  bool believed_ = true;
   bool failed_ = false;  // it cannot be written, and is left as it is: the run has not ended well
 };
 

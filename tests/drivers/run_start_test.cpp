@@ -159,6 +159,42 @@ TEST_F(ARunAfterAnother, TakesADamagedNoteOfItForTheWorst) {
   end(SIGTERM);
 }
 
+/// The file is not signed, and a folder may have come from anywhere.
+TEST_F(ARunAfterAnother, DoesNotBelieveWhatOthersMayHaveWritten) {
+  start();
+  ASSERT_TRUE(comes(kShadow));
+  controller.press();
+  ASSERT_TRUE(comes(kActive));
+  end(SIGTERM);
+  const auto note = folder.folder / "plumb-rt.state";
+  const std::string acknowledged = folder.text("plumb-rt.state");
+  const auto again = [&](const char* why) {
+    start();
+    expect_to_wait(why);
+    end(SIGTERM);
+    EXPECT_EQ(std::filesystem::status(note).permissions() & std::filesystem::perms::group_write,
+              std::filesystem::perms::none);
+    std::ofstream(note) << acknowledged;
+  };
+  std::filesystem::permissions(note, std::filesystem::perms::all);
+  again("may be written by others");
+  if (::geteuid() == 0) {
+    ASSERT_EQ(::chown(note.c_str(), 65534, 65534), 0);
+    again("belongs to user 65534");
+  }
+  start();
+  EXPECT_TRUE(comes(kActive)) << "its own is believed";
+  end(SIGTERM);
+  const auto came = folder.folder.string() + "-copy";
+  std::filesystem::copy(folder.folder, came, std::filesystem::copy_options::recursive);
+  std::filesystem::rename(folder.folder, came + "-before");
+  std::filesystem::rename(came, folder.folder);
+  start();
+  expect_to_wait("came here as a copy");
+  end(SIGTERM);
+  std::filesystem::remove_all(came + "-before");
+}
+
 /// A stall, as of a debugger: it goes on without a correction, and begins anew.
 TEST_F(ARunAfterAnother, AStoppedRunGoesOnWithoutCorrectionAndIsNoSecondSenderToItself) {
   start();
