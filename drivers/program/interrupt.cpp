@@ -5,14 +5,16 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "program/problem.hpp"
+#include <atomic>
 
 namespace plumb {
 namespace {
 
+std::atomic<int> late_exit{0};
 std::string words;  // written once, before the handler is set
 
 void end(int) {
+  end_within_a_second(Exit::kInterrupted);
   const char message[] = "\ninterrupted: nothing more was written\n";
   [[maybe_unused]] const auto said = ::write(STDERR_FILENO, message, sizeof(message) - 1);
   [[maybe_unused]] const auto out = ::write(STDOUT_FILENO, words.data(), words.size());
@@ -35,6 +37,18 @@ void end_on_interrupt(const std::string& last_words) {
   action.sa_handler = end;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+void end_within_a_second(Exit exit) noexcept {
+  late_exit = static_cast<int>(exit);
+  struct sigaction action {};
+  action.sa_handler = [](int) { ::_exit(late_exit); };
+  sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm;
+  sigemptyset(&alarm);
+  sigaddset(&alarm, SIGALRM);
+  pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
+  ::alarm(1);
 }
 
 Writing::Writing() {

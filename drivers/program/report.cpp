@@ -2,7 +2,6 @@
 #include "program/report.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -11,6 +10,7 @@
 #include <cstring>
 
 #include "plumb/format/version.hpp"
+#include "program/interrupt.hpp"
 #include "program/printable.hpp"
 #include "program/screen.hpp"
 
@@ -18,8 +18,7 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t kShown = 20;  // problems of one kind
-constexpr unsigned kLongestWait_s = 1;
-std::atomic<int> exit_of_hurried{-1};  // -1: readers are waited for
+std::atomic<bool> hurried{false};
 
 Json error_json(const Outcome& outcome) {
   if (outcome.errors.empty()) return nullptr;
@@ -85,6 +84,7 @@ Json envelope(const Command& command, const Outcome& outcome) {
 }
 
 int report(const Command& command, const Globals& globals, const Outcome& outcome) {
+  if (hurried) end_within_a_second(outcome.exit);
   const bool json = globals.output == Globals::Output::kJson;
   const Screen messages = json ? Screen{} : screen_of(STDERR_FILENO);
   print_problems(outcome.remarks, messages);
@@ -95,20 +95,10 @@ int report(const Command& command, const Globals& globals, const Outcome& outcom
   const int reason = errno;
   print_problems(outcome.errors, messages);
   const int failed = printed ? 0 : cannot_print(reason);
-  return printed || exit_of_hurried >= 0 ? static_cast<int>(outcome.exit) : failed;
+  return printed || hurried ? static_cast<int>(outcome.exit) : failed;
 }
 
-void hurry_readers(Exit exit) {
-  exit_of_hurried = static_cast<int>(exit);
-  struct sigaction action {};
-  action.sa_handler = [](int) { ::_exit(exit_of_hurried); };
-  sigaction(SIGALRM, &action, nullptr);
-  sigset_t alarm;
-  sigemptyset(&alarm);
-  sigaddset(&alarm, SIGALRM);
-  pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
-  ::alarm(kLongestWait_s);
-}
+void hurry_readers() { hurried = true; }
 
 int print_verbatim(const std::string& text) {
   return print_out(text) ? static_cast<int>(Exit::kDone) : cannot_print(errno);

@@ -23,10 +23,9 @@ Json envelope(const Command& command, const Outcome& outcome);
 /// or kEnvironment if stdout cannot be written.
 int report(const Command& command, const Globals& globals, const Outcome& outcome);
 
-/// Of a program that was told to end and has ended everything: whoever does not read its last words
-/// within a second misses them, and what cannot be written does not change the exit code. To be
-/// called before report().
-void hurry_readers(Exit exit);
+/// For a program that others supervise: whoever does not read what report() says within a second
+/// misses it, and what cannot be written does not change the exit code.
+void hurry_readers();
 
 /// Text for another program, such as a shell, on stdout as it is. Returns kDone, or kEnvironment if
 /// stdout cannot be written.

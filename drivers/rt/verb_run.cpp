@@ -214,11 +214,11 @@ void run_folder(const RunOptions& options, Outcome& outcome) {
   outcome.result = status_json(service.snapshot(), service.facts());
   outcome.text = status_text(outcome.result);
   refuse_end(next, deployment, outcome);
-  hurry_readers(outcome.exit);
 }
 
 /// A run that is refused leaves its reason in the journal of the folder.
 void run(const RunOptions& options, Outcome& outcome) {
+  if (!options.check) hurry_readers();
   try {
     run_folder(options, outcome);
   } catch (const Failure& failure) {

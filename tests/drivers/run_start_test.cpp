@@ -159,6 +159,56 @@ TEST_F(ARunAfterAnother, TakesADamagedNoteOfItForTheWorst) {
   end(SIGTERM);
 }
 
+/// A pipe that holds no more.
+class FullPipe {
+ public:
+  FullPipe() {
+    EXPECT_EQ(::pipe2(ends_, O_NONBLOCK), 0);
+    while (::write(ends_[1], "x", 1) == 1) {
+    }
+    ::fcntl(ends_[1], F_SETFL, 0);
+  }
+  ~FullPipe() {
+    for (const int end : ends_) ::close(end);
+  }
+  void become_stderr() const { ::dup2(ends_[1], STDERR_FILENO); }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
+
+/// -2: it does not end, and was killed.
+int exit_soon(RtProgram& program) {
+  siginfo_t ended{};
+  const auto over = [&] {
+    return ::waitid(P_PID, static_cast<id_t>(program.pid()), &ended, WEXITED | WNOHANG | WNOWAIT) ==
+               0 &&
+           ended.si_pid != 0;
+  };
+  if (becomes(over)) return program.wait().exit;
+  program.kill(SIGKILL);
+  program.wait();
+  return -2;
+}
+
+TEST_F(ARunAfterAnother, EndsAtOnceAndIsRefusedThoughNobodyReadsItsWords) {
+  const FullPipe pipe;
+  const auto started = [&] {
+    return std::make_unique<RtProgram>(std::vector<std::string>{"run", folder.folder.string()},
+                                       folder.folder, [&] { pipe.become_stderr(); });
+  };
+  run = started();
+  ASSERT_TRUE(comes(kShadow));
+  run->kill(SIGSTOP);  // it hears both before it can have ended
+  run->kill(SIGINT);
+  run->kill(SIGTERM);
+  run->kill(SIGCONT);
+  EXPECT_EQ(exit_soon(*run), 130);
+  folder.write("rt.toml", "schema = \"rt/1\"\nunknown = 1\n");
+  run = started();
+  EXPECT_EQ(exit_soon(*run), 3);
+}
+
 /// The file is not signed, and a folder may have come from anywhere.
 TEST_F(ARunAfterAnother, DoesNotBelieveWhatOthersMayHaveWritten) {
   start();
