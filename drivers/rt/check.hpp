@@ -46,6 +46,10 @@ std::vector<Check> processor_checks(const MachineFiles& files, std::span<const R
 /// file of keys that is not used. `etc`: the folder of this machine's settings.
 std::vector<Check> signing_checks(const std::filesystem::path& etc);
 
+/// One check "packing" for each place below `store` that runs and whose controller packs its
+/// registers otherwise than the layout says. Asks each one that runs, for some seconds at most.
+std::vector<Check> packing_checks(const std::filesystem::path& store);
+
 /// One check "can:NAME" per interface: its state, frame format and bit rates. If there is no
 /// interface, a single check with Grant::kSkipped.
 std::vector<Check> can_checks(std::span<const CanInterface> interfaces);

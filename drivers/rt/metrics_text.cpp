@@ -126,6 +126,8 @@ std::string metrics_text(const RunSnapshot& snapshot, const RunFacts& facts) {
   out.counter("foreign_senders", "Our identifiers, sent by someone else", port.foreign_senders);
   out.counter("refused_writes", "Writes that the controller answered with an exception",
               port.refused_writes);
+  out.gauge("packing", "1: the controller packs its registers otherwise than the layout says",
+            facts.packing.empty() ? 0 : 1);
   out.counter("cycles", "Ticks of the clock", snapshot.clock.ticks);
   out.counter("cycles_missed", "Points of the grid skipped", snapshot.clock.missed);
   const RecordFacts& record = facts.record;

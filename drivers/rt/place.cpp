@@ -42,15 +42,6 @@ std::string link_target(const fs::path& link) noexcept {
   return n <= 0 ? "" : std::string(target.data(), static_cast<std::size_t>(n));
 }
 
-std::vector<std::string> places_below(const fs::path& store) {
-  std::vector<std::string> out;
-  std::error_code error;
-  for (fs::directory_iterator at(store, error), end; !error && at != end; at.increment(error))
-    if (is_place(at->path())) out.push_back(at->path().filename().string());
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 }  // namespace
 
 bool is_place_name(const std::string& name) {
@@ -158,6 +149,15 @@ Content find_content(const fs::path& folder) {
                  Exit::kInput,
                  "plumb-rt install DIR --to " + shell_word(fs::absolute(folder).string()));
   return {place.version(*id), *id};
+}
+
+std::vector<std::string> places_below(const fs::path& store) {
+  std::vector<std::string> out;
+  std::error_code error;
+  for (fs::directory_iterator at(store, error), end; !error && at != end; at.increment(error))
+    if (is_place(at->path())) out.push_back(at->path().filename().string());
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 Place find_place(const std::string& to, const fs::path& store) {

@@ -77,6 +77,9 @@ struct Content {
 /// Throws Failure (kInput, E-RT-PLACE) of a place that is not sound, or has nothing installed.
 Content find_content(const std::filesystem::path& folder);
 
+/// Their names, sorted.
+std::vector<std::string> places_below(const std::filesystem::path& store);
+
 /// The place that --to names: a folder if it contains '/', else a name below `store`; if it is
 /// empty the only place there. Throws Failure (kUsage, E-RT-PLACE).
 Place find_place(const std::string& to, const std::filesystem::path& store);

@@ -53,6 +53,7 @@ std::optional<RunningPlace> find_running(const Place& place) {
   RunningPlace out;
   const Json& result = (*json)["result"];
   if (result.contains("install")) out.version = result["install"].value("version", "");
+  if (result.contains("link")) out.packing = result["link"].value("packing", "");
   return out;
 }
 

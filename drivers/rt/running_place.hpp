@@ -12,6 +12,7 @@ namespace plumb::drivers::rt {
 /// The plumb-rt that runs a place, as another program sees it.
 struct RunningPlace {
   std::string version;  // whose model it runs; empty: another model was swapped in
+  std::string packing;  // of the controller's registers, and its remedy; empty: as laid out
 };
 
 /// Nothing if none runs the place. Throws Failure (kEnvironment, E-RT-CONTROL) if one does, which

@@ -101,6 +101,8 @@ void look(const DoctorOptions& options, Outcome& outcome) {
       this_machine ? read_firewall()
                    : FirewallInForce{.why_not = "another machine's firewall cannot be asked"};
   for (Check& check : firewall_checks(found, now)) seen.checks.push_back(std::move(check));
+  if (this_machine)
+    for (Check& check : packing_checks(kStore)) seen.checks.push_back(std::move(check));
   outcome.result = to_json(seen);
   outcome.text = to_text(seen);
   if (options.fix) fix(options, files, seen, found, outcome);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "rt/check.hpp"
 #include "tests/drivers/deployed.hpp"
 #include "tests/drivers/raw_controller.hpp"
 #include "tests/drivers/rt_program.hpp"
@@ -299,6 +300,31 @@ TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
     run.kill(SIGTERM);
     EXPECT_EQ(run.wait().exit, 0);
   }
+}
+
+TEST(RunPacking, IsToldByDoctorOfAPlaceThatRuns) {
+  const int port = 26'000 + static_cast<int>(::getpid() % 6'000);
+  const Deployed folder(
+      "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
+      "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
+      std::to_string(port) + "\n");
+  const auto store = std::filesystem::path(folder.folder.string() + "-store");
+  std::filesystem::create_directory(store);
+  const std::string place = (store / "cell4").string();
+  const RtRan ran = plumb_rt({"install", folder.folder.string(), "--to", place}, store);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(drivers::rt::packing_checks(store).empty()) << "nobody runs it";
+  const RawController controller(static_cast<std::uint16_t>(port), Deployed::arm().nominal,
+                                 drivers::fingerprint(Deployed::arm().serial), {.bytes = true});
+  RtProgram run({"run", place}, store);
+  std::vector<drivers::rt::Check> told;
+  EXPECT_TRUE(becomes([&] { return !(told = drivers::rt::packing_checks(store)).empty(); }));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].finding.grant, drivers::Grant::kDenied);
+  EXPECT_EQ(told[0].finding.why.rfind("cell4: the check sums", 0), 0U) << told[0].finding.why;
+  run.kill(SIGTERM);
+  EXPECT_EQ(run.wait().exit, 0);
+  std::filesystem::remove_all(store);
 }
 
 TEST(RunModel, WhatIsNoRegularFileIsRefusedAndHoldsNothingUp) {

@@ -159,6 +159,9 @@ TEST(ExampleAlerts, AskForMetricsThatThereAre) {
   EXPECT_NE(metrics.find("\nplumb_fault{cause=\"pose-mismatch\"} 1\n"), std::string::npos);
   EXPECT_NE(metrics.find("\nplumb_fault{cause=\"other-robot\"} 0\n"), std::string::npos);
   EXPECT_NE(metrics.find("\nplumb_lost{input=\"arm-away\"} 1\n"), std::string::npos);
+  EXPECT_NE(metrics.find("\nplumb_packing 0\n"), std::string::npos);
+  facts.packing = "the check sums hold with the two bytes of each register swapped";
+  EXPECT_NE(metrics_text(snapshot, facts).find("\nplumb_packing 1\n"), std::string::npos);
   EXPECT_NE(metrics.find("name=\"an \\\"arm\\\"\\\\\",file=\"\",sha256=\"ab12\""),
             std::string::npos)
       << metrics;
