@@ -29,7 +29,7 @@ class RawArm {
 
   RawArm(const format::Chain& arm, std::uint32_t robot) : RawArm(arm, robot, {}) {}
   RawArm(const format::Chain& arm, std::uint32_t robot, Packing packing)
-      : arm_(arm), robot_(robot), packing_(packing) {}
+      : arm_(arm), coupling_(arm.coupling), robot_(robot), packing_(packing) {}
 
   struct Buttons {
     bool acknowledge = false;
@@ -38,7 +38,7 @@ class RawArm {
 
   /// The blocks of one cycle: first register, and the registers as bytes.
   std::vector<std::pair<std::uint16_t, Bytes>> beat(const Buttons& buttons) {
-    const Transformd X_BA = arm_.forward(q_);
+    const Transformd X_BA = arm_.forward(angles());
     const Vector3 r = rotation_vector(X_BA.R);
     const std::vector<double> pose{X_BA.p(0), X_BA.p(1), X_BA.p(2), r(0), r(1), r(2)};
     std::vector<double> shown = pose;
@@ -122,7 +122,15 @@ class RawArm {
     return bytes;
   }
 
+  /// Of the links; what the controller shows as values is q_.
+  std::vector<double> angles() const {
+    std::vector<double> out = q_;
+    for (const format::JointCoupling& one : coupling_) out[one.joint] += one.ratio * q_[one.by];
+    return out;
+  }
+
   Chain arm_;
+  std::vector<format::JointCoupling> coupling_;
   std::uint32_t robot_;
   Packing packing_;
   std::uint16_t counter_ = 0;
