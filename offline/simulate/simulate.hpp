@@ -32,9 +32,4 @@ struct Demo {
 /// name.
 Demo make_demo(const std::string& name);
 
-/// A random arm of plausible shape with round nominal values, joint limits and a tool of 100 to 200
-/// mm. kRevolute has 4 to 7 joints, kScara has 4, of which the third slides.
-enum class ArmKind { kRevolute, kScara };
-Cell random_cell(std::uint64_t seed, int joints, format::Convention convention, ArmKind kind);
-
 }  // namespace plumb::offline

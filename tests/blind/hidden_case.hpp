@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "simulate/blind_case.hpp"
 #include "simulate/law.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::tests {

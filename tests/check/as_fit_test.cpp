@@ -8,6 +8,7 @@
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 /// What fit fits well, check calls usable; and each reason that it gives is the true one.
 namespace plumb::offline {

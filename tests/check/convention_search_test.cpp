@@ -15,6 +15,7 @@
 #include "fit/predicted_points.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 namespace plumb::offline {

@@ -9,6 +9,7 @@
 #include "check/check.hpp"
 #include "check/equal_repeats.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 /// Equal readings that are copies, and equal readings that rounding makes.

@@ -7,6 +7,7 @@
 
 #include "check/convention_search.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 namespace plumb::offline {

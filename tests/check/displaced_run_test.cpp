@@ -8,6 +8,7 @@
 #include "check/check.hpp"
 #include "check/row_lines.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 /// Neighbouring readings that lie off by one vector, and some that do not.

@@ -10,6 +10,7 @@
 #include "fit/held_out_excess.hpp"
 #include "fit/verdict.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 /// Where poses are few, check and fit must say the same, and few poses are no missing physics.
 namespace plumb::offline {

@@ -10,6 +10,7 @@
 #include "check/data_sense.hpp"
 #include "fit/cell_data.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 namespace plumb::offline {

@@ -11,6 +11,7 @@
 #include "fit/cell_data.hpp"
 #include "fit/evaluation.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -12,6 +12,7 @@
 #include "check/check.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 namespace plumb::offline {

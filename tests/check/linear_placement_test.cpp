@@ -8,6 +8,7 @@
 #include "cell/cell.hpp"
 #include "check/arm_sweep.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "check/check.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 /// What moved once while the arm was measured, and what only looks like it.
 namespace plumb::offline {

@@ -10,6 +10,7 @@
 
 #include "check/check.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/check/scrambled.hpp"
 
 /// Rows that were written otherwise than the others, from one line to another.

@@ -11,6 +11,7 @@
 #include "cell/measurement_reader.hpp"
 #include "fit/cell_data.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline::scrambled {
 namespace {

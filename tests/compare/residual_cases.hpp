@@ -9,7 +9,7 @@
 #include "fit/predicted_points.hpp"
 #include "fit/series.hpp"
 #include "fit/step_motions.hpp"
-#include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline::compare {

@@ -15,7 +15,7 @@
 #include "diagnose/effect_list.hpp"
 #include "diagnose/excluded_laws.hpp"
 #include "effects/registry.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/diagnose/hiding.hpp"
 
 namespace plumb::offline {

@@ -8,8 +8,8 @@
 #include "diagnose/diagnosis.hpp"
 #include "fit/fit_cell.hpp"
 #include "fit/verdict.hpp"
-#include "simulate/blind_case.hpp"
 #include "simulate/planar.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

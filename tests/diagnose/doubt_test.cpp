@@ -8,7 +8,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "effects/registry.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/diagnose/hiding.hpp"
 
 namespace plumb::offline {

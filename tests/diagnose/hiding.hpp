@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 

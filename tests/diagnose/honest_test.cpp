@@ -20,7 +20,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/held_out_excess.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/diagnosis.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

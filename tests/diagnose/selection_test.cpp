@@ -9,7 +9,7 @@
 
 #include "diagnose/revision.hpp"
 #include "diagnose/unless_refused.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

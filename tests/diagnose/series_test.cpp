@@ -11,7 +11,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/predicted_points.hpp"
 #include "fit/series_numbers.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

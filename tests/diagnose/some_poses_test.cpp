@@ -11,7 +11,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

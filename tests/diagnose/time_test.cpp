@@ -4,7 +4,7 @@
 #include <sys/resource.h>
 
 #include "diagnose/diagnosis.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/yardstick.hpp"
 
 namespace plumb::offline {

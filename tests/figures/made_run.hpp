@@ -7,7 +7,7 @@
 #include "figures/run_results.hpp"
 #include "fit/arm_state.hpp"
 #include "fit/predicted_points.hpp"
-#include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline::figures {

@@ -9,6 +9,7 @@
 #include "fit/fit_cell.hpp"
 #include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

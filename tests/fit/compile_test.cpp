@@ -12,6 +12,7 @@
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

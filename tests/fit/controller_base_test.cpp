@@ -8,6 +8,7 @@
 #include "fit/predicted_points.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

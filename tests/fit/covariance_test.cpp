@@ -11,6 +11,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/evaluation.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

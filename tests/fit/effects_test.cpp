@@ -14,6 +14,7 @@
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

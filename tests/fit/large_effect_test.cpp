@@ -8,7 +8,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/predicted_points.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -12,6 +12,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

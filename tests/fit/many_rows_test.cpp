@@ -16,6 +16,7 @@
 #include "fit/solver.hpp"
 #include "fit/weights.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -13,6 +13,7 @@
 #include "fit/predicted_points.hpp"
 #include "fit/solver.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

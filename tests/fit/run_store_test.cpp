@@ -16,6 +16,7 @@
 #include "fit/orientation_words.hpp"
 #include "program/file.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -13,6 +13,7 @@
 #include "fit/series_solver.hpp"
 #include "fit/solver.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -14,6 +14,7 @@
 #include "fit/run_json.hpp"
 #include "fit/weights.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 /// One arm measured from several stations, with several reflectors. The simulator knows of one
 /// tracker: what another would have seen is made here, by moving the points.

@@ -7,6 +7,7 @@
 #include "fit/predicted_points.hpp"
 #include "fit/repeatability.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

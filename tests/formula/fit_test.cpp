@@ -13,7 +13,7 @@
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -5,6 +5,7 @@
 #include "import/importer.hpp"
 #include "import/joining.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/import/temporary_file.hpp"
 
 namespace plumb::offline {

@@ -11,7 +11,7 @@
 
 #include "plan/design_space.hpp"
 #include "plan/pose_pool.hpp"
-#include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -12,8 +12,8 @@
 #include "cell/measurement_reader.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/scan.hpp"
-#include "simulate/blind_case.hpp"
 #include "simulate/law.hpp"
+#include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -10,6 +10,7 @@
 #include "fit/predicted_points.hpp"
 #include "plan/planning.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/blind_case.hpp"
 #include "cell/measurement_reader.hpp"
+#include "tests/cases/blind_case.hpp"
 
 #include <gtest/gtest.h>
 

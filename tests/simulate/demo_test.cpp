@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

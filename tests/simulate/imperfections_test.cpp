@@ -8,10 +8,10 @@
 #include <regex>
 
 #include "one_joint.hpp"
-#include "simulate/blind_case.hpp"
 #include "simulate/random.hpp"
 #include "simulate/statics.hpp"
 #include "simulate/study_arms.hpp"
+#include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
 namespace {

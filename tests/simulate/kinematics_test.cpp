@@ -9,6 +9,7 @@
 
 #include "simulate/arm.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/arm.hpp"
-#include "simulate/blind_case.hpp"
 #include "simulate/hidden_effect_reader.hpp"
+#include "tests/cases/blind_case.hpp"
+#include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

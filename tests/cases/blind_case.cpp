@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/blind_case.hpp"
+#include "tests/cases/blind_case.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/cases/random_cell.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
 #include "simulate/arm_rows.hpp"
 #include "simulate/random.hpp"
-#include "simulate/simulate.hpp"
 
 namespace plumb::offline {
 namespace {
