@@ -83,7 +83,7 @@ double formula_terms(const format::Formula& formula) {
 }
 
 double effect_terms(const format::Effect& effect) {
-  if (effect.name == "formula") return formula_terms(effect.formula);
+  if (!effect.formula.code.empty()) return formula_terms(effect.formula);
   const auto* found = std::find_if(std::begin(kLaws), std::end(kLaws),
                                    [&](const LawTerms& terms) { return terms.law == effect.name; });
   const LawTerms& terms = found == std::end(kLaws) ? kUnknownLaw : *found;

@@ -522,8 +522,8 @@ std::string verdict(const Check& check) {
     return fmt::format("Usable for positions alone: {}. Without the orientations {}",
                        in_words(check.orientations.judged, check.orientations.meant), numbers);
   if (check.moved.empty()) return "Usable: " + numbers;
-  return fmt::format("Usable only with the effect 'step', because {}. Without that effect {}",
-                     check.moved, numbers);
+  return fmt::format("Usable only with the effect '{}', because {}. Without that effect {}",
+                     change_point_effect(), check.moved, numbers);
 }
 
 }  // namespace plumb::offline

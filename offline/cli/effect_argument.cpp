@@ -49,7 +49,7 @@ EffectEntry one_effect(const Cell& cell, const std::string& text) {
       break;
     }
   for (std::size_t k = 1; k < numbers.size(); ++k) read_number(numbers[k], out);
-  if (out.name == "geometry" || out.name == "local_tree")
+  if (is_geometry(out.name) || is_local_tree(out.name))
     refuse(fmt::format("{} is no single effect, so nothing can be separated from it", out.name));
   if (const std::string fault = joints_fault(out, cell.nominal); !fault.empty())
     refuse(fmt::format("{} {}", out.name, fault),

@@ -15,6 +15,7 @@
 #include "diagnose/effect_list.hpp"
 #include "diagnose/effect_words.hpp"
 #include "effects/effect_option.hpp"
+#include "effects/registry.hpp"
 #include "figures/law_figures.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
@@ -134,7 +135,7 @@ void make(const Change& change, const AddArguments& options, const Globals& glob
   outcome.text = judged(change.what, before.fit, fitted) + "\n" + empty_tree_words(fitted) + "\n" +
                  before_and_after(measured, before.fit, fitted) + "\n" +
                  outcome.result["verdict"].get<std::string>() + "\n";
-  if (change.adds && outcome.result["effect"] == "formula" &&
+  if (change.adds && is_formula(outcome.result["effect"].get<std::string>()) &&
       globals.output == Globals::Output::kJson)
     outcome.result["figure"] = formula_figure(edited, measured, fitted);
   const std::string next = next_step(fitted, cell.tolerance_m);
@@ -195,10 +196,10 @@ void add(const AddArguments& options, const Globals& globals, Outcome& outcome) 
 [[noreturn]] void nothing_to_drop(const Cell& cell, const EffectEntry& entry) {
   std::vector<EffectEntry> there;
   for (const auto& e : cell.effects)
-    if (e.name != "geometry") there.push_back(e);
+    if (!is_geometry(e.name)) there.push_back(e);
   throw Failure(Exit::kInput,
                 {.code = "E-DROP-NONE",
-                 .message = entry.name == "geometry"
+                 .message = is_geometry(entry.name)
                                 ? "geometry cannot be dropped: every model has it"
                                 : fmt::format("the model has no {}", in_words(cell, entry)),
                  .place = Place{.file = cell.file.string()},
@@ -216,7 +217,7 @@ void drop(const AddArguments& options, const Globals& globals, Outcome& outcome)
   auto effects = cell.effects;
   for (const auto& entry : entries) {
     const auto less = without_effect(effects, entry);
-    if (entry.name == "geometry" || taken_out(effects, less).empty()) nothing_to_drop(cell, entry);
+    if (is_geometry(entry.name) || taken_out(effects, less).empty()) nothing_to_drop(cell, entry);
     effects = less;
   }
   std::vector<std::string> undo;

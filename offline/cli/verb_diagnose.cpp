@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "effects/registry.hpp"
 #include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "report/kept_diagnosis.hpp"
@@ -30,7 +31,7 @@ struct DiagnoseArguments {
 /// never adds one.
 std::vector<EffectEntry> with_tree_of(const Cell& cell, std::vector<EffectEntry> effects) {
   for (const auto& effect : cell.effects)
-    if (effect.name == "local_tree") effects.push_back(effect);
+    if (is_local_tree(effect.name)) effects.push_back(effect);
   return effects;
 }
 

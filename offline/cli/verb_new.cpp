@@ -10,6 +10,7 @@
 #include "cli/dh_file.hpp"
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
+#include "effects/registry.hpp"
 #include "program/bounded_file.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
@@ -140,7 +141,7 @@ Cell new_cell(const NewArguments& options, const fs::path& folder, Outcome& outc
   doubt_reach(options, cell, outcome);
   make_readable(cell, outcome);
   cell.measurement.files = {folder / "measurements.csv"};
-  cell.effects = {{.name = "geometry", .joints = {}, .options = {}, .place = {}}};
+  cell.effects = {{.name = geometry_effect(), .joints = {}, .options = {}, .place = {}}};
   return cell;
 }
 

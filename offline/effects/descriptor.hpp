@@ -96,6 +96,14 @@ enum class PriorTail { kHeavy, kNormal };
 /// Data of the cell that state the size of a parameter better than the law's typical size does.
 enum class StatedSize { kNone, kJointStiffness, kLinkStiffness };
 
+/// What of a joint may be different when the arm is measured again. It is looked for at every joint
+/// where the data allow it.
+struct LaterChange {
+  double chance;         // before anything is measured; only ratios to other changes count
+  const char* words;     // "the stiffness of {}", {} being the joint
+  const char* sentence;  // {0}: the joint; {1}, {2}: its number then and now; {3}: their unit
+};
+
 /// All that the offline half knows of one entry of [effects]. The law itself, with its parameters,
 /// their typical sizes and bounds, stands in runtime/include/plumb/runtime/detail/effects.
 ///
@@ -140,6 +148,12 @@ struct EffectDescriptor {
   double group_share = 0.0;
   bool joints_apart = false;  // a joint of several can be judged and taken out alone
   std::span<const std::string_view> same_motion = {};  // laws that cannot be told from it
+
+  /// The figure that shows it at work, if it lists no joint; otherwise that of its first joint
+  /// does.
+  std::string_view figure = "error-map";
+
+  const LaterChange* later_change = nullptr;  // null: it stays as it was calibrated
 
   // How it is bound to a cell and its measurements, and fitted.
   /// Fills in constants and context. Throws Failure (kInput) if the data do not allow it.

@@ -63,6 +63,7 @@ constexpr EffectDescriptor kDriftDescriptor{
     .search = Search::kGrid,
     .candidate_joints = CandidateJoints::kNone,
     .grid = kDriftGrid,
+    .figure = "order",
     .bind = bind_drift,
 };
 

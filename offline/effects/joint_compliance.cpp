@@ -7,6 +7,11 @@
 namespace plumb::offline {
 namespace {
 
+constexpr LaterChange kJointComplianceLater{
+    .chance = 0.2,
+    .words = "the stiffness of {}",
+    .sentence = "the stiffness of {0} changed: it now yields {2} instead of {1} {3}"};
+
 constexpr EffectDescriptor kJointComplianceDescriptor{
     .name = effects::JointCompliance::kInfo.name,
     .law = &effects::JointCompliance::kInfo,
@@ -25,6 +30,7 @@ constexpr EffectDescriptor kJointComplianceDescriptor{
     .stated_size = StatedSize::kJointStiffness,
     .group_share = 0.3,
     .joints_apart = true,
+    .later_change = &kJointComplianceLater,
 };
 
 }  // namespace

@@ -28,6 +28,7 @@ constexpr EffectDescriptor kPayloadComplianceDescriptor{
     .candidate_joints = CandidateJoints::kEach,
     .turns_listed_joint_only = true,
     .joints_apart = true,
+    .figure = "context-payload",
 };
 
 }  // namespace

@@ -100,6 +100,11 @@ void bind_reversal(const EffectEntry& entry, const ConstantsSource& source, form
         "columns dir_j1 …; if the rows are consecutive moves: plumb import --dir from-order");
 }
 
+constexpr LaterChange kReversalLater{
+    .chance = 0.2,
+    .words = "the backlash of {}",
+    .sentence = "the backlash of {0} is now {2} instead of {1} {3}"};
+
 constexpr EffectDescriptor kReversalDescriptor{
     .name = effects::Reversal::kInfo.name,
     .law = &effects::Reversal::kInfo,
@@ -123,6 +128,7 @@ constexpr EffectDescriptor kReversalDescriptor{
     .turns_listed_joint_only = true,
     .once_a_joint = true,
     .joints_apart = true,
+    .later_change = &kReversalLater,
     .bind = bind_reversal,
 };
 

@@ -72,6 +72,7 @@ constexpr EffectDescriptor kStepDescriptor{
     .entry_title = step_title,
     .search = Search::kChangePoint,
     .told_apart_by = &kStepToldApartBy,
+    .figure = "order",
     .bind = bind_step,
     .parameter_infix = step_infix,
 };

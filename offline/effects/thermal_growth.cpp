@@ -88,6 +88,7 @@ constexpr EffectDescriptor kThermalGrowthDescriptor{
     .search = Search::kGrid,
     .candidate_joints = CandidateJoints::kNone,
     .grid = kThermalGrowthGrid,
+    .figure = "context-temperature",
     .bind = bind_thermal_growth,
     .arm_parameters = kLean,
 };

@@ -9,6 +9,7 @@
 #include "cell/setups.hpp"
 #include "compare/full_verdict.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/effect_binding.hpp"
@@ -57,7 +58,8 @@ void put_numbers(const Calibration& c, CellSummary& out) {
     const Parameter& p = c.parameters[i];
     if (!e.of_robot || domain_of_parameter(c, p) != EffectDomain::kRobot) continue;
     of_arm.push_back(static_cast<Eigen::Index>(i));
-    ArmNumber number{.name = e.name, .effect = "geometry", .unit = e.is_length ? "m" : "rad"};
+    ArmNumber number{
+        .name = e.name, .effect = geometry_effect(), .unit = e.is_length ? "m" : "rad"};
     if (p.of_effect()) {
       number.effect = c.state.arm.effects[static_cast<std::size_t>(p.joint)].name;
       number.unit = e.unit;

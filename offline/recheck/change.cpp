@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/registry.hpp"
 #include "fit/arm_change.hpp"
 #include "fit/effect_binding.hpp"
 #include "fit/evaluation.hpp"
@@ -54,8 +55,8 @@ Change base_change() {
   return out;
 }
 
-Change joint_change(int joint, const char* effect) {
-  Change out{.part = Part::kJoint, .joint = joint, .effect = effect};
+Change joint_change(int joint, std::string_view effect) {
+  Change out{.part = Part::kJoint, .joint = joint, .effect = std::string(effect)};
   out.scales = scales(kScales);
   return out;
 }
@@ -81,8 +82,15 @@ Change bent_link(const Cell& cell, int joint) {
   return out;
 }
 
+std::vector<const EffectDescriptor*> effects_that_change() {
+  std::vector<const EffectDescriptor*> out;
+  for (const EffectDescriptor* effect : effect_descriptors())
+    if (effect->later_change != nullptr) out.push_back(effect);
+  return out;
+}
+
 /// The place of the effect of that name and joint in the model; -1: there is none.
-int effect_at(const ArmState& state, const std::string& name, int joint) {
+int effect_at(const ArmState& state, std::string_view name, int joint) {
   const auto& all = state.arm.effects;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i].name == name &&
@@ -91,10 +99,10 @@ int effect_at(const ArmState& state, const std::string& name, int joint) {
   return -1;
 }
 
-Change effect_change(const ArmState& state, const Measurements& poses, int joint, const char* name,
-                     double chance) {
-  Change out = joint_change(joint, name);
-  const int place = effect_at(state, name, joint);
+Change effect_change(const ArmState& state, const Measurements& poses, int joint,
+                     const EffectDescriptor& effect) {
+  Change out = joint_change(joint, effect.name);
+  const int place = effect_at(state, effect.name, joint);
   if (place < 0) return out;
   const auto& joints = state.arm.effects[static_cast<std::size_t>(place)].joints;
   const auto count = state.arm.effects[static_cast<std::size_t>(place)].parameters.size();
@@ -116,7 +124,7 @@ Change effect_change(const ArmState& state, const Measurements& poses, int joint
   }
   if (motion.cwiseAbs().maxCoeff() < kNoMotion) out.parameters.clear();
   out.scales = scales(kScalesOfEffect);
-  out.chance = chance;
+  out.chance = effect.later_change->chance;
   return out;
 }
 
@@ -149,8 +157,8 @@ std::string words_of(const Change& change, const Cell& cell) {
   if (change.part == Part::kOther) return "something else";
   const std::string& joint = cell.nominal.joints[static_cast<std::size_t>(change.joint)].name;
   if (change.effect == "offset") return fmt::format("the encoder offset of {}", joint);
-  if (change.effect == "joint_compliance") return fmt::format("the stiffness of {}", joint);
-  if (change.effect == "reversal") return fmt::format("the backlash of {}", joint);
+  if (const EffectDescriptor* effect = find_descriptor(change.effect))
+    return fmt::format(fmt::runtime(effect->later_change->words), joint);
   return fmt::format("the link behind {}", joint);
 }
 
@@ -159,12 +167,12 @@ ArmState with_room_for_changes(const Cell& cell, const Measurements& of_arm,
   ArmState out = state;
   const bool arrives = rows.context.has_direction() && of_arm.context.has_direction();
   for (int j = 0; j < cell.joints(); ++j)
-    for (const char* name : {"joint_compliance", "reversal"}) {
-      if (effect_at(out, name, j) >= 0) continue;
-      if (std::string_view(name) == "reversal" && !arrives) continue;
-      if (std::string_view(name) == "joint_compliance" && slides(cell, j)) continue;
+    for (const EffectDescriptor* effect : effects_that_change()) {
+      if (effect_at(out, effect->name, j) >= 0) continue;
+      if ((effect->law->needs & kNeedsDirection) != 0 && !arrives) continue;
+      if (effect->at_slide == nullptr && slides(cell, j)) continue;
       EffectEntry entry;
-      entry.name = name;
+      entry.name = effect->name;
       entry.joints = {j};
       out.arm.effects.push_back(bind_effect(cell, of_arm, entry));
     }
@@ -178,8 +186,8 @@ std::vector<Change> possible_changes(const Cell& cell, const ArmState& extended,
     joints.push_back(offset_change(cell, j));
     // A change of the last joint's link is a change of the tool.
     if (j + 1 < cell.joints()) joints.push_back(bent_link(cell, j));
-    joints.push_back(effect_change(extended, poses, j, "joint_compliance", kSpring));
-    joints.push_back(effect_change(extended, poses, j, "reversal", kBacklash));
+    for (const EffectDescriptor* effect : effects_that_change())
+      joints.push_back(effect_change(extended, poses, j, *effect));
   }
   std::erase_if(joints, [](const Change& change) { return change.parameters.empty(); });
   double sum = 0.0;

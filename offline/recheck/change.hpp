@@ -23,8 +23,8 @@ const char* name_of(Part part);
 struct Change {
   Part part = Part::kOther;
   int joint = -1;           // of kJoint
-  std::string effect = {};  // "target", "frame"; of a joint "offset", "joint_compliance",
-                            // "reversal", "link" (bent); empty: a reading, or something else
+  std::string effect = {};  // "target", "frame"; of a joint "offset", "link" (bent) or the name of
+                            // an effect; empty: a reading, or something else
   int row = -1;             // of kReading: a reading that contradicts all others
   std::vector<Parameter> parameters = {};  // none: of kReading and kOther
   Eigen::VectorXd typical = {};            // 1 sigma of how far each of them changes, SI
@@ -38,8 +38,8 @@ bool same(const Change& a, const Change& b);
 /// "the tool or the reflector", "the base or the tracker", "J3: encoder offset".
 std::string words_of(const Change& change, const Cell& cell);
 
-/// A model with every effect that a change could need: where the run has no stiffness or backlash
-/// of a joint, one of size zero.
+/// A model with every effect that a change could need (EffectDescriptor::later_change): where the
+/// run has none of a joint, one of size zero.
 ///
 /// @param state   Of the run, first set-up only.
 /// @param of_arm  The cell's own measurements, from which constants of effects are taken.

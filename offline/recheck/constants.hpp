@@ -36,8 +36,8 @@ inline constexpr double kEffect_m = 1e-4;
 inline constexpr double kEffectShare = 0.5;
 /// Prior probability that each part has changed. belief.
 inline constexpr double kTool = 0.25, kBase = 0.25, kJoints = 0.4, kReadings = 0.1;
-/// Shares of the kinds of change of one joint. belief.
-inline constexpr double kOffset = 0.4, kSpring = 0.2, kBacklash = 0.2, kBent = 0.2;
+/// Shares of the kinds of change of one joint; those of effects stand in their descriptors. belief.
+inline constexpr double kOffset = 0.4, kBent = 0.2;
 
 // Evidence.
 

@@ -8,6 +8,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
+#include "effects/registry.hpp"
 #include "figures/error_axis.hpp"
 #include "show/fleet_view.hpp"
 #include "show/parameter_unit.hpp"
@@ -73,7 +74,7 @@ std::string sisters_sentence(const Model& model) {
 std::vector<const Typical*> geometry_of(const Model& model, bool lengths) {
   std::vector<const Typical*> out;
   for (const auto& t : model.sisters.typical)
-    if (t.effect == "geometry" && (t.unit == "m") == lengths) out.push_back(&t);
+    if (is_geometry(t.effect) && (t.unit == "m") == lengths) out.push_back(&t);
   return out;
 }
 

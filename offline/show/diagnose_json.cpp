@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/registry.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/error_table.hpp"
 #include "show/units.hpp"
@@ -69,8 +70,17 @@ void put_moves(Json& out, const std::vector<Move>& moves) {
   }
 }
 
+/// Name of the figure of plumb plot that shows the effect at work.
+std::string figure_of(const Cell& cell, const EffectEntry& effect) {
+  if (effect.joints.empty()) return std::string(descriptor_of(effect.name).figure);
+  return "joint-" + cell.nominal.joints[static_cast<std::size_t>(effect.joints.front())].name;
+}
+
 Json candidate_json(const Cell& cell, const Candidate& c) {
-  Json out{{"effect", c.entry.name}, {"joints", joints_json(cell, c.entry)}, {"title", c.title}};
+  Json out{{"effect", c.entry.name},
+           {"joints", joints_json(cell, c.entry)},
+           {"title", c.title},
+           {"figure", figure_of(cell, c.entry)}};
   put(out, "ln_bayes", c.ln_bayes);
   put_error(out, "held_out_alone", c.alone);
   put_error(out, "held_out_after", c.after);

@@ -5,6 +5,7 @@
 
 #include "cell/effects_edit.hpp"
 #include "cell/formula_reader.hpp"
+#include "effects/registry.hpp"
 #include "program/shell_word.hpp"
 
 namespace plumb::offline::show {
@@ -42,7 +43,7 @@ bool differ_in_cycles_alone(const EffectEntry& a, const EffectEntry& b) {
 
 std::string adding_arguments(const Cell& cell, const EffectEntry& effect,
                              const std::vector<double>& cycles) {
-  if (effect.name == "formula" && effect.options.contains("target"))
+  if (is_formula(effect.name) && effect.options.contains("target"))
     return formula_arguments(effect);
   std::string out = effect.name;
   for (std::size_t i = 0; i < effect.joints.size(); ++i)
@@ -72,8 +73,8 @@ std::vector<std::string> adding_arguments(const Cell& cell,
 }
 
 std::string dropping_arguments(const Cell& cell, const std::vector<EffectEntry>& effects) {
-  if (effects.front().name == "formula")
-    return "formula --name " + formula_label(formula_text(effects.front()));
+  if (is_formula(effects.front().name))
+    return effects.front().name + " --name " + formula_label(formula_text(effects.front()));
   return fmt::format("{}", fmt::join(adding_arguments(cell, effects), " && plumb drop "));
 }
 

@@ -8,6 +8,7 @@
 #include "cell/formula_reader.hpp"
 #include "cell/setups.hpp"
 #include "compare/full_verdict.hpp"
+#include "effects/registry.hpp"
 #include "fit/series_numbers.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
@@ -62,7 +63,7 @@ Json effects_json(const Cell& cell) {
     Json joints = Json::array();
     for (int j : effect.joints) joints.push_back(cell.nominal.joints[j].name);
     out.push_back({{"effect", effect.name}, {"joints", joints}});
-    if (effect.name == "formula") out.back()["name"] = formula_label(formula_text(effect));
+    if (is_formula(effect.name)) out.back()["name"] = formula_label(formula_text(effect));
   }
   return out;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "effects/registry.hpp"
 #include "program/counted_words.hpp"
 #include "program/printable.hpp"
 #include "show/counted.hpp"
@@ -27,7 +28,7 @@ constexpr std::size_t kTypicalShown = 12;  // numbers of a model
 
 /// "mm", "deg", "um", "urad" of a number in SI.
 ParameterUnit unit_of_number(const std::string& effect, const std::string& si) {
-  const bool geometry = effect == "geometry";
+  const bool geometry = is_geometry(effect);
   return unit_of({.name = {}, .is_length = si == "m", .unit = geometry ? "" : si});
 }
 
@@ -35,7 +36,7 @@ std::string effect_of(const Fleet& all, const OddArm& odd) {
   for (const Model& model : all.models)
     for (const Typical& t : model.sisters.typical)
       if (t.name == odd.number) return t.effect;
-  return "geometry";
+  return geometry_effect();
 }
 
 std::string odd_words(const Fleet& all, const OddArm& odd) {

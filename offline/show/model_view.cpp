@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cell/toml_text.hpp"
+#include "effects/registry.hpp"
 #include "show/counted.hpp"
 #include "show/table.hpp"
 #include "show/units.hpp"
@@ -179,7 +180,7 @@ void add_domain(const format::Model& model, Table& table) {
 }
 
 std::string effects_text(const format::Model& model) {
-  std::vector<std::string> names{"geometry"};
+  std::vector<std::string> names{geometry_effect()};
   for (const auto& effect : model.effects)
     names.push_back(effect.formula.code.empty() ? effect.name : effect.formula.expression);
   return counted(names);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/registry.hpp"
 #include "fit/verdict.hpp"
 #include "program/counted_words.hpp"
 #include "recheck/constants.hpp"
@@ -46,12 +47,9 @@ std::string what_happened(const Cell& cell, const Found& found) {
   if (change.effect == "offset")
     return fmt::format("the encoder offset of {} changed by {} {}", joint,
                        signed_number(now.value - was.value, unit), unit.name);
-  if (change.effect == "joint_compliance")
-    return fmt::format("the stiffness of {} changed: it now yields {} instead of {} {}", joint,
-                       unit.text(now.value), unit.text(was.value), unit.name);
-  if (change.effect == "reversal")
-    return fmt::format("the backlash of {} is now {} instead of {} {}", joint, unit.text(now.value),
-                       unit.text(was.value), unit.name);
+  if (const EffectDescriptor* effect = find_descriptor(change.effect))
+    return fmt::format(fmt::runtime(effect->later_change->sentence), joint, unit.text(was.value),
+                       unit.text(now.value), unit.name);
   return fmt::format("the link behind {} is bent: {} mm at the measured point (RMS)", joint,
                      motion);
 }

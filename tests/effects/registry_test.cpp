@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -130,27 +131,60 @@ TEST(EffectRegistry, CandidatesAreMadeForJointsThatAnEntryMayList) {
   }
 }
 
-/// A string literal that is the name of an effect but means something else in that file.
+/// A file, or a folder, whose string literals may be names of effects. Of no literal: of all.
 struct OtherMeaning {
-  const char* file;
+  const char* place;
   const char* literal;
 };
 constexpr OtherMeaning kOtherMeanings[] = {
+    {"bench/step_instructions.cpp", nullptr},   // instructions that were counted of each law
+    {"catalogue/terms.cpp", "reversal"},        // a term that is explained
+    {"cell/effects_reader.cpp", "geometry"},    // a key of the cell file
+    {"check/convention_words.cpp", "tracker"},  // the end of a sentence
     {"check/data_sense.cpp", "tracker"},        // the value of a comment "# frame: tracker"
     {"check/row_pattern.cpp", "tracker"},       // the instrument, in a sentence
-    {"check/convention_words.cpp", "tracker"},  // the end of a sentence
+    {"cli/verb_export.cpp", "local_tree"},      // what a URDF file leaves out, in a sentence
     {"fit/model_json.cpp", "formula"},          // a key of the run's JSON file
+    {"formula/names.cpp", "step"},              // a function of formulas
+    {"import/words.cpp", "tracker"},            // a word of column names
+    {"show/check_json.cpp", "step"},            // keys of what the verbs print with --json
+    {"show/fit_view.cpp", "geometry"},
+    {"show/model_view.cpp", "formula"},
+    {"show/planar_view.cpp", "link_flexure"},  // a row of the study's table
+    {"simulate/", nullptr},                    // laws of its own that have the same names
+    {"study/", nullptr},                       // the effects of the published study
+    {"twin/", nullptr},                        // laws of the simulator
+    {"workbench/page/", "formula"},            // words of the command line, and the name of a task
+    {"workbench/page/", "geometry"},
 };
 
-/// String literals of a source text that are names of effects, outside of comments.
+bool means_something_else(const std::string& place, const std::string& name) {
+  return std::any_of(std::begin(kOtherMeanings), std::end(kOtherMeanings), [&](const auto& one) {
+    return place.starts_with(one.place) && (one.literal == nullptr || name == one.literal);
+  });
+}
+
+/// Names of effects that a source text compares with or has as values: its string literals, and in
+/// TypeScript the words of what is tested as a regular expression; outside of comments.
 std::vector<std::string> effect_names_in(const std::string& source) {
   std::vector<std::string> out;
   std::istringstream lines(source);
   const std::regex literal("\"((?:[^\"\\\\]|\\\\.)*)\"");
+  const std::regex comment("(^|[^:\"])//.*");
+  const std::regex tested("/([^/]+)/\\.test\\("), word("[a-z_]+");
+  const auto take = [&](const std::string& name) {
+    if (find_descriptor(name) != nullptr) out.push_back(name);
+  };
   for (std::string line; std::getline(lines, line);) {
-    const std::string code = std::regex_replace(line, std::regex("(^|[^:\"])//.*"), "$1");
+    if (line.find_first_of("\"/") == std::string::npos) continue;
+    const std::string code = std::regex_replace(line, comment, "$1");
     for (std::sregex_iterator it(code.begin(), code.end(), literal), end; it != end; ++it)
-      if (find_descriptor((*it)[1].str()) != nullptr) out.push_back((*it)[1].str());
+      take((*it)[1].str());
+    for (std::sregex_iterator it(code.begin(), code.end(), tested), end; it != end; ++it) {
+      const std::string pattern = (*it)[1].str();
+      for (std::sregex_iterator w(pattern.begin(), pattern.end(), word); w != end; ++w)
+        take(w->str());
+    }
   }
   return out;
 }
@@ -158,32 +192,55 @@ std::vector<std::string> effect_names_in(const std::string& source) {
 TEST(EffectRegistry, ASourceTextThatNamesAnEffectIsFound) {
   EXPECT_EQ(effect_names_in("if (entry.name == \"gear_ripple\") return; // \"step\""),
             std::vector<std::string>{"gear_ripple"});
+  EXPECT_EQ(effect_names_in("if (/^(drift|two_steps)/.test(effect)) return order;"),
+            std::vector<std::string>{"drift"});
   EXPECT_TRUE(
       effect_names_in("/// \"gear_ripple.J2\" and \"step\"\nf(\"a gear_ripple\");").empty());
 }
 
+/// Sources of every room but this one, of the programs and of the page.
+std::vector<fs::path> sources_of_other_rooms(const fs::path& offline) {
+  std::vector<fs::path> out;
+  for (fs::recursive_directory_iterator at(offline), end; at != end; ++at) {
+    const std::string name = at->path().filename().string(), type = at->path().extension();
+    if (name == "node_modules" || at->path() == offline / "effects") at.disable_recursion_pending();
+    if (type == ".cpp" || type == ".hpp" || type == ".ts" || type == ".tsx")
+      out.push_back(at->path());
+  }
+  return out;
+}
+
 TEST(EffectRegistry, NoOtherRoomNamesAnEffect) {
   const fs::path offline = PLUMB_OFFLINE_SOURCES;
-  int files = 0;
-  for (const char* room : {"check", "diagnose", "fit"}) {
-    for (const auto& file : fs::directory_iterator(offline / room)) {
-      const std::string end = file.path().extension();
-      if (end != ".cpp" && end != ".hpp") continue;
-      ++files;
-      const std::string place = fs::relative(file.path(), offline).generic_string();
-      std::ifstream in(file.path());
-      std::stringstream text;
-      text << in.rdbuf();
-      for (const std::string& name : effect_names_in(text.str())) {
-        bool other = false;
-        for (const auto& [allowed_in, literal] : kOtherMeanings)
-          other = other || (place == allowed_in && name == literal);
-        EXPECT_TRUE(other) << place << " names the effect \"" << name
-                           << "\": ask the registry (offline/effects/registry.hpp) instead";
-      }
-    }
+  const auto files = sources_of_other_rooms(offline);
+  EXPECT_GT(files.size(), 900U);
+  for (const fs::path& file : files) {
+    const std::string place = fs::relative(file, offline).generic_string();
+    std::ifstream in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    for (const std::string& name : effect_names_in(text.str()))
+      EXPECT_TRUE(means_something_else(place, name))
+          << place << " names the effect \"" << name
+          << "\": ask the registry (offline/effects/registry.hpp) instead";
   }
-  EXPECT_GT(files, 100);
+}
+
+TEST(EffectRegistry, AnEffectThatMayChangeLaterIsOneOfSingleJoints) {
+  int effects = 0;
+  for (const EffectDescriptor* effect : effect_descriptors()) {
+    EXPECT_FALSE(effect->figure.empty()) << effect->name;
+    if (effect->later_change == nullptr) continue;
+    ++effects;
+    ASSERT_NE(effect->law, nullptr) << effect->name;
+    EXPECT_EQ(effect->joints, JointList::kSet) << effect->name;
+    EXPECT_GT(effect->later_change->chance, 0.0) << effect->name;
+    EXPECT_NE(std::string(effect->later_change->words).find("{}"), std::string::npos);
+    for (const char* place : {"{0}", "{1}", "{2}", "{3}"})
+      EXPECT_NE(std::string(effect->later_change->sentence).find(place), std::string::npos)
+          << effect->name << " " << place;
+  }
+  EXPECT_GE(effects, 2);
 }
 
 }  // namespace

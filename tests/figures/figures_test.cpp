@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "effects/registry.hpp"
 #include "figures/bench_figures.hpp"
 #include "figures/data_figures.hpp"
 #include "figures/error_axis.hpp"
@@ -74,6 +76,13 @@ void expect_sound(const MadeRun& made) {
           << name;
       EXPECT_EQ(tests::xml_fault(svg), "") << name;
     }
+}
+
+TEST(Figures, OfEveryEffectThatListsNoJointAreThere) {
+  for (const EffectDescriptor* effect : effect_descriptors())
+    EXPECT_TRUE(std::any_of(figure_list().begin(), figure_list().end(), [&](const auto& row) {
+      return row.name == effect->figure;
+    })) << effect->name;
 }
 
 TEST(Figures, AreSoundForArmsOfTwoSixAndNineJoints) {

@@ -120,6 +120,7 @@ export interface Candidate {
   effect: string;
   joints: string[];
   title: string;
+  figure: string;
   ln_bayes: number | null;
   held_out_alone_mm: number | null;
   held_out_after_mm: number | null;

@@ -7,7 +7,6 @@ import { Action } from "../parts/action";
 import { Scroll } from "../parts/card";
 import { Command } from "../parts/command";
 import { Figure } from "../parts/figure";
-import { joints } from "../store";
 import type { Candidate } from "../types";
 import { evidenceWord, planName, titleOf, type Group } from "./groups";
 
@@ -51,15 +50,14 @@ function Folded({ summary, others, of, separate }: { summary: string; others: Ca
   );
 }
 
-/** The figure that shows a cause at work: over the angle of its joint, the order of measuring, the temperature, ... */
-function curveOf({ effect, joints: named }: Candidate, known: string[]): { name: string; words: string } {
-  const joint = named.find((name) => known.includes(name));
-  if (joint) return { name: `joint-${joint}`, words: `what is left as a deviation of ${joint}` };
-  if (/^(drift|step|two_steps)/.test(effect)) return { name: "order", words: "what is left in the order of measuring" };
-  if (/therm|temp|warm|room/.test(effect)) return { name: "context-temperature", words: "what is left over the temperature" };
-  if (/payload/.test(effect)) return { name: "context-payload", words: "what is left over the payload" };
-  return { name: "error-map", words: "what is left over the workspace" };
-}
+/** What the figure of a candidate shows. */
+const kFigureWords: Record<string, string> = {
+  order: "in the order of measuring",
+  "context-temperature": "over the temperature",
+  "context-payload": "over the payload",
+  "error-map": "over the workspace",
+};
+const figureWords = (name: string) => `what is left ${kFigureWords[name] ?? `as a deviation of ${name.replace("joint-", "")}`}`;
 
 export function AddButton({ of, first }: { of: Candidate; first?: boolean }) {
   const args = addArguments(of);
@@ -71,8 +69,6 @@ export function AddButton({ of, first }: { of: Candidate; first?: boolean }) {
 
 export function CandidateCard({ group, rank, before, addFirst }: { group: Group; rank: number; before: number | null; addFirst: boolean }) {
   const { first, others, variants } = group;
-  const known = joints.value.map(({ name }) => name);
-  const curve = curveOf(first, known);
   const [open, setOpen] = useState(rank === 1);
   const more = first.confounded.length > 0 && others.length === 0;
   return (
@@ -93,8 +89,8 @@ export function CandidateCard({ group, rank, before, addFirst }: { group: Group;
       <Folded others={variants} summary={`The same effect in ${variants.length === 1 ? "another form" : `${variants.length} other forms`}`} />
       {more && <p class="muted">Hard to tell from {first.confounded.join(", ")}.{first.separate_by && ` What would separate them: ${first.separate_by}`}</p>}
       <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-        <summary>The curve: {curve.words}</summary>
-        {open && <Figure name={curve.name} />}
+        <summary>The curve: {figureWords(first.figure)}</summary>
+        {open && <Figure name={first.figure} />}
       </details>
       <Numbers of={first} />
     </section>
