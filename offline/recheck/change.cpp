@@ -41,7 +41,7 @@ Change tool_change() {
     out.parameters.push_back(*placing_parameter(name));
   out.typical = filled(3, 0);
   out.scales = scales(kScalesOfPlacing);
-  out.chance = kTool;
+  out.chance = kToolChanged;
   return out;
 }
 
@@ -51,7 +51,7 @@ Change base_change() {
     out.parameters.push_back(*placing_parameter(name));
   out.typical = filled(3, 3);
   out.scales = scales(kScalesOfPlacing);
-  out.chance = kBase;
+  out.chance = kBaseChanged;
   return out;
 }
 
@@ -192,11 +192,11 @@ std::vector<Change> possible_changes(const Cell& cell, const ArmState& extended,
   std::erase_if(joints, [](const Change& change) { return change.parameters.empty(); });
   double sum = 0.0;
   for (const auto& change : joints) sum += change.chance;
-  for (auto& change : joints) change.chance *= kJoints / sum;
+  for (auto& change : joints) change.chance *= kJointsChanged / sum;
   std::vector<Change> out{tool_change(), base_change()};
   out.insert(out.end(), joints.begin(), joints.end());
   if (readings < 4)  // too few to say that one of them is wrong
-    for (auto& change : out) change.chance /= 1.0 - kReadings;
+    for (auto& change : out) change.chance /= 1.0 - kReadingsWrong;
   return out;
 }
 
@@ -218,7 +218,7 @@ Change odd_reading(int row, int readings, double sigma_m) {
   Change out{.part = Part::kReading, .row = row};
   out.typical = Eigen::VectorXd::Constant(3, sigma_m);
   out.scales = scales(kScalesOfReading);
-  out.chance = kReadings / readings;
+  out.chance = kReadingsWrong / readings;
   return out;
 }
 

@@ -35,7 +35,8 @@ inline constexpr double kEffect_m = 1e-4;
 /// A usual change of an effect, as a share of its present size. belief.
 inline constexpr double kEffectShare = 0.5;
 /// Prior probability that each part has changed. belief.
-inline constexpr double kTool = 0.25, kBase = 0.25, kJoints = 0.4, kReadings = 0.1;
+inline constexpr double kToolChanged = 0.25, kBaseChanged = 0.25, kJointsChanged = 0.4,
+                        kReadingsWrong = 0.1;
 /// Shares of the kinds of change of one joint; those of effects stand in their descriptors. belief.
 inline constexpr double kOffset = 0.4, kBent = 0.2;
 
