@@ -22,6 +22,15 @@ EvidenceGain evidence_gain(double ln_det, double before, double explained, doubl
   return out;
 }
 
+LinearPosterior posterior(const Cholesky& S, const Eigen::MatrixXd& B,
+                          const Eigen::VectorXd& prior) {
+  const Eigen::MatrixXd SB = S.solve(B);
+  Eigen::MatrixXd information = B.transpose() * SB;
+  information.diagonal() += prior.array().square().inverse().matrix();
+  const SymmetricSolver solver(information);
+  return {solver.solve(SB.transpose()), solver.inverse()};
+}
+
 double ln_sum(std::span<const double> ln) {
   if (ln.empty()) return -HUGE_VAL;
   const double most = *std::max_element(ln.begin(), ln.end());

@@ -23,6 +23,14 @@ struct EvidenceGain {
 /// included. explained: how much of it the model takes away. lines: degrees of freedom of `before`.
 EvidenceGain evidence_gain(double ln_det, double before, double explained, double lines);
 
+/// x of r = B x + noise with noise ~ N(0, S) and x ~ N(0, diag(prior)^2): its mean is gain r.
+struct LinearPosterior {
+  Eigen::MatrixXd gain;        // (numbers, lines)
+  Eigen::MatrixXd covariance;  // of x
+};
+LinearPosterior posterior(const Cholesky& S, const Eigen::MatrixXd& B,
+                          const Eigen::VectorXd& prior);
+
 /// ln of the sum of exp(ln), without overflow; -infinity for none.
 double ln_sum(std::span<const double> ln);
 

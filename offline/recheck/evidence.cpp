@@ -52,18 +52,19 @@ double ln_evidence(const Cholesky& S, const Eigen::VectorXd& r, const Eigen::Mat
   const Eigen::MatrixXd V = S.whitened(B);
   const Eigen::MatrixXd VV = V.transpose() * V;
   const Eigen::VectorXd Vw = V.transpose() * w;
-  const double n = static_cast<double>(r.size()), square = w.squaredNorm();
-  const double base = -0.5 * S.ln_det();
+  const double dof = kTrusted + static_cast<double>(r.size());
+  const double before = kTrusted + w.squaredNorm();
+  const double nothing = -0.5 * S.ln_det() - 0.5 * dof * std::log(before / kTrusted);
   std::vector<double> ln;
   std::vector<std::size_t> at(changes.size(), 0);
   do {
     const Eigen::VectorXd t = spread_of(changes, at);
-    const Eigen::MatrixXd A = t.asDiagonal() * VV * t.asDiagonal();
-    const Cholesky llt(A + Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+    Eigen::MatrixXd A = t.asDiagonal() * VV * t.asDiagonal();
+    A.diagonal().array() += 1.0;
+    const Cholesky llt(A);
     const Eigen::VectorXd tv = t.cwiseProduct(Vw);
-    const double Q = square - (t.size() > 0 ? tv.dot(llt.solve(tv)) : 0.0);
-    ln.push_back(base - (t.size() > 0 ? 0.5 * llt.ln_det() : 0.0) -
-                 0.5 * (kTrusted + n) * std::log1p(std::max(0.0, Q) / kTrusted));
+    ln.push_back(nothing +
+                 evidence_gain(llt.ln_det(), before, tv.dot(llt.solve(tv)), dof).ln_bayes);
   } while (advance(changes, at));
   return ln_sum(ln) - std::log(static_cast<double>(ln.size()));
 }
@@ -164,12 +165,9 @@ Judged Judge::judge(const std::vector<Change>& given) const {
   for (int step = 0;; ++step) {
     linearise(state, changes, in_state, out);
     const Cholesky S(out.S);
-    const Eigen::MatrixXd SB = S.solve(out.B);
-    Eigen::MatrixXd information = out.B.transpose() * SB;
-    information.diagonal() += out.prior.array().square().inverse().matrix();
-    const SymmetricSolver ldlt(information);
-    out.gain = ldlt.solve(SB.transpose());
-    out.x_covariance = ldlt.inverse();
+    auto [gain, x_covariance] = posterior(S, out.B, out.prior);
+    out.gain = std::move(gain);
+    out.x_covariance = std::move(x_covariance);
     out.change = out.gain * out.r;
     const Eigen::VectorXd left = out.r - out.B * out.change;
     out.chi2 = left.dot(S.solve(left)) + out.change.cwiseQuotient(out.prior).squaredNorm();

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -15,10 +15,7 @@ Eigen::VectorXd refitted_without(const Judged& judged, int reading, int axes) {
   for (Eigen::Index line = 0; line < judged.r.size(); ++line)
     if (line / axes != reading) kept.push_back(line);
   const Cholesky S(judged.S(kept, kept));
-  const Eigen::MatrixXd B = judged.B(kept, Eigen::all);
-  Eigen::MatrixXd information = B.transpose() * S.solve(B);
-  information.diagonal() += judged.prior.array().square().inverse().matrix();
-  return SymmetricSolver(information).solve(B.transpose() * S.solve(judged.r(kept)));
+  return posterior(S, judged.B(kept, Eigen::all), judged.prior).gain * judged.r(kept);
 }
 
 }  // namespace

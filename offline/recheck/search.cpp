@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/search.hpp"
 
-#include "recheck/constants.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "numbers/gaussian.hpp"
+#include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {
 namespace {
@@ -82,9 +83,7 @@ bool Search::add_best() {
     best = std::move(judged);
     which = &change;
   }
-  double sum = 0.0;
-  for (const double one : ln) sum += std::exp(one - most);
-  if (which == nullptr || most + std::log(sum) < kFound) return false;
+  if (which == nullptr || ln_sum(ln) < kFound) return false;
   found_.push_back(*which);
   last_ = std::move(*best);
   return true;

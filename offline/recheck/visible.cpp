@@ -8,8 +8,6 @@
 #include "recheck/constants.hpp"
 
 namespace plumb::offline::recheck {
-namespace {}  // namespace
-
 std::vector<Visibility> visibility(const std::vector<Change>& changes, const Measurements& rows,
                                    const Measurements& own, const ArmState& state,
                                    const Eigen::MatrixXd& S) {
