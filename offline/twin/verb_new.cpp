@@ -6,6 +6,7 @@
 #include "bus_text/bus_arm.hpp"
 #include "plumb/drivers/sensor_places.hpp"
 #include "program/output_files.hpp"
+#include "simulate/hidden_effect_reader.hpp"
 #include "twin/surroundings.hpp"
 #include "twin/twin_file.hpp"
 #include "twin/verbs.hpp"
