@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "diagnose/candidates.hpp"
-#include "diagnose/effect_domain.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/diagnosis_text.hpp"
+#include "diagnose/effect_domain.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/excluded_laws.hpp"
 #include "effects/registry.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against a recursive walk over random trees.
-#include "plumb/runtime/detail/trained_domain.hpp"
 #include "plumb/runtime/detail/tree.hpp"
+#include "plumb/runtime/detail/trained_domain.hpp"
 
 #include <gtest/gtest.h>
 
