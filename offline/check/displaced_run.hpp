@@ -6,6 +6,7 @@
 
 #include "fit/arm_state.hpp"
 #include "fit/outlier.hpp"
+#include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline {
 

@@ -12,6 +12,7 @@
 #include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
+#include "fit/run_store.hpp"
 #include "plan/planning.hpp"
 #include "program/output_files.hpp"
 #include "program/shell_word.hpp"

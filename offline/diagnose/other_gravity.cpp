@@ -13,6 +13,7 @@
 #include "diagnose/thinned_fit.hpp"
 #include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
+#include "fit/calibrate.hpp"
 #include "numbers/cholesky.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 

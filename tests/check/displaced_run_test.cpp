@@ -7,6 +7,7 @@
 
 #include "check/check.hpp"
 #include "check/row_lines.hpp"
+#include "plumb/runtime/chain.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"

@@ -15,6 +15,7 @@
 #include "diagnose/effect_list.hpp"
 #include "diagnose/excluded_laws.hpp"
 #include "effects/registry.hpp"
+#include "fit/calibrate.hpp"
 #include "tests/cases/blind_case.hpp"
 #include "tests/diagnose/hiding.hpp"
 

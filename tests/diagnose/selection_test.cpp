@@ -9,6 +9,7 @@
 
 #include "diagnose/revision.hpp"
 #include "diagnose/unless_refused.hpp"
+#include "fit/calibrate.hpp"
 #include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {
