@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "arm/predicted_points.hpp"
 #include "cell/earlier_arm.hpp"
 #include "cell/setups.hpp"
 #include "check/common_scale.hpp"
@@ -24,11 +25,10 @@
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
-#include "fit/main_jump.hpp"
 #include "fit/orientation_words.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/thinned_rows.hpp"
+#include "noise/main_jump.hpp"
 #include "program/counted_words.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -13,7 +13,7 @@
 #include "check/identifiability.hpp"
 #include "check/orientation_check.hpp"
 #include "check/rounding.hpp"
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 
 namespace plumb::offline {
 

@@ -9,10 +9,10 @@
 
 #include "cell/units.hpp"
 #include "check/linear_placement.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/thinned_rows.hpp"
 #include "numbers/pivoted_qr.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

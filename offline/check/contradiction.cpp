@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "cell/random.hpp"
 #include "cell/table_place.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/thinned_rows.hpp"
 #include "numbers/quantile.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "arm/parameter.hpp"
 #include "cell/random.hpp"
 #include "cell/setups.hpp"
 #include "cell/units.hpp"
@@ -19,7 +20,6 @@
 #include "check/regularised_fit.hpp"
 #include "check/unit_guess.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/parameter.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/counted_words.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cell/measurements.hpp"
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 
 namespace plumb::offline {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "arm/predicted_points.hpp"
 #include "check/arm_shape.hpp"
-#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

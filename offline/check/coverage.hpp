@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
 
 namespace plumb::offline {
 

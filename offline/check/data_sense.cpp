@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {

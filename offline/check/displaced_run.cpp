@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "arm/predicted_points.hpp"
 #include "check/row_lines.hpp"
 #include "check/tool_errors.hpp"
-#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

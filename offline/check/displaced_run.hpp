@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "fit/arm_state.hpp"
-#include "fit/outlier.hpp"
+#include "arm/arm_state.hpp"
 #include "plumb/runtime/transform.hpp"
+#include "solve/outlier.hpp"
 
 namespace plumb::offline {
 

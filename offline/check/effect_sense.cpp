@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/parameter.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/effect_option.hpp"
-#include "fit/parameter.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/thinned_rows.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

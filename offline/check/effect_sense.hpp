@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
 
 namespace plumb::offline {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cell/measurements.hpp"
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 
 namespace plumb::offline {
 

@@ -9,13 +9,13 @@
 #include <optional>
 
 #include "effects/registry.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/outlier.hpp"
-#include "fit/thinned_rows.hpp"
-#include "fit/weights.hpp"
+#include "noise/weights.hpp"
 #include "numbers/lu.hpp"
 #include "numbers/pivoted_qr.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/outlier.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

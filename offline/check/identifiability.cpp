@@ -5,10 +5,10 @@
 
 #include "check/spectrum.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/imagined_poses.hpp"
-#include "fit/thinned_rows.hpp"
-#include "fit/weights.hpp"
+#include "noise/weights.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/imagined_poses.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

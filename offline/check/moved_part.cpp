@@ -7,8 +7,8 @@
 
 #include "cell/table_place.hpp"
 #include "check/row_lines.hpp"
-#include "fit/main_jump.hpp"
-#include "fit/moving_part.hpp"
+#include "noise/main_jump.hpp"
+#include "noise/moving_part.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "effects/registry.hpp"
-#include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/predicted_points.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/rotation_fit.hpp"
+#include "solve/evaluation.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "cell/table_place.hpp"
 #include "cell/units.hpp"
-#include "fit/thinned_rows.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

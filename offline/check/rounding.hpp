@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 
 namespace plumb::offline {
 

@@ -8,14 +8,14 @@
 #include <string>
 #include <utility>
 
+#include "arm/parameter.hpp"
+#include "arm/predicted_points.hpp"
 #include "check/faulty_run.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/parameter.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/thinned_rows.hpp"
 #include "numbers/quantile.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <optional>
 
+#include "arm/predicted_points.hpp"
 #include "cell/table_place.hpp"
 #include "check/row_lines.hpp"
 #include "check/tool_errors.hpp"
-#include "fit/predicted_points.hpp"
 #include "numbers/quantile.hpp"
 
 namespace plumb::offline {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
 
 namespace plumb::offline {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "check/arm_shape.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/imagined_poses.hpp"
-#include "fit/parameter_subset.hpp"
 #include "numbers/pivoted_qr.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/imagined_poses.hpp"
+#include "solve/parameter_subset.hpp"
 
 namespace plumb::offline {
 namespace {

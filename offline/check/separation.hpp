@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
 #include "cell/cell.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/fit_data.hpp"
-#include "fit/parameter.hpp"
+#include "solve/fit_data.hpp"
 
 namespace plumb::offline {
 

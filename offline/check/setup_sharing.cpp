@@ -8,9 +8,9 @@
 #include <functional>
 #include <optional>
 
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/thinned_rows.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/tool_errors.hpp"
 
-#include "fit/predicted_points.hpp"
+#include "arm/predicted_points.hpp"
 
 namespace plumb::offline {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fit/arm_state.hpp"
+#include "arm/arm_state.hpp"
 
 namespace plumb::offline {
 

@@ -10,11 +10,11 @@
 #include "cli/progress.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/controller_base.hpp"
-#include "fit/earlier_runs.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/run_store.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
+#include "runs/earlier_runs.hpp"
+#include "runs/run_store.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {

@@ -6,8 +6,8 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/run.hpp"
 #include "program/outcome.hpp"
+#include "runs/run.hpp"
 #include "show/runs_view.hpp"
 
 /// From -C to a run: what most verbs begin with.

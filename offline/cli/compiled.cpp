@@ -9,10 +9,10 @@
 #include "cli/progress.hpp"
 #include "compile/compiler.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "program/shell_word.hpp"
+#include "runs/run_store.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "arm/known_inputs.hpp"
 #include "cell/targets.hpp"
-#include "fit/known_inputs.hpp"
 #include "plumb/runtime/corrector.hpp"
 
 namespace plumb::offline::cli {

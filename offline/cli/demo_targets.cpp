@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "arm/parameter.hpp"
 #include "cell/joint_columns.hpp"
 #include "cell/random.hpp"
-#include "fit/parameter.hpp"
 #include "numbers/spectrum.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "show/units.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "fit/effect_binding.hpp"
+#include "arm/effect_binding.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "program/file.hpp"

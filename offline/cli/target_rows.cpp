@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fit/effect_binding.hpp"
+#include "arm/effect_binding.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {

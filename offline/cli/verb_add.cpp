@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "arm/effect_binding.hpp"
 #include "cli/cell_writing.hpp"
 #include "cli/effect_options.hpp"
 #include "cli/model_limits.hpp"
@@ -18,10 +19,9 @@
 #include "effects/registry.hpp"
 #include "figures/law_figures.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
+#include "runs/run_store.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/effect_arguments.hpp"
 #include "show/error_table.hpp"

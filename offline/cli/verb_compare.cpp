@@ -8,8 +8,8 @@
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "compare/comparison.hpp"
-#include "fit/earlier_runs.hpp"
-#include "fit/run_store.hpp"
+#include "runs/earlier_runs.hpp"
+#include "runs/run_store.hpp"
 #include "show/compare_view.hpp"
 #include "show/runs_view.hpp"
 

@@ -12,9 +12,9 @@
 #include "cli/verbs.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "effects/registry.hpp"
-#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "report/kept_diagnosis.hpp"
+#include "runs/run_store.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/units.hpp"
 

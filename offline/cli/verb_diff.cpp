@@ -4,7 +4,7 @@
 #include "cli/cell_data.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
-#include "fit/run_store.hpp"
+#include "runs/run_store.hpp"
 #include "show/runs_view.hpp"
 
 namespace plumb::offline::cli {

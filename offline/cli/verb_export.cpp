@@ -6,8 +6,8 @@
 #include "cli/cell_data.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
-#include "fit/run_store.hpp"
 #include "program/output_files.hpp"
+#include "runs/run_store.hpp"
 #include "urdf/urdf_writer.hpp"
 
 namespace plumb::offline::cli {

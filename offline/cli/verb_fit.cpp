@@ -13,13 +13,13 @@
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
-#include "fit/main_jump.hpp"
-#include "fit/moving_part.hpp"
-#include "fit/run_store.hpp"
-#include "fit/thinned_rows.hpp"
 #include "fit/verdict.hpp"
+#include "noise/main_jump.hpp"
+#include "noise/moving_part.hpp"
+#include "runs/run_store.hpp"
 #include "show/fit_view.hpp"
 #include "show/units.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline::cli {
 namespace {

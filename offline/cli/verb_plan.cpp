@@ -12,11 +12,11 @@
 #include "cli/next_line.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
-#include "fit/run_store.hpp"
 #include "plan/planning.hpp"
 #include "program/output_files.hpp"
 #include "program/shell_word.hpp"
 #include "recheck/recheck_plan.hpp"
+#include "runs/run_store.hpp"
 #include "show/plan_view.hpp"
 #include "show/recheck_view.hpp"
 

@@ -16,11 +16,11 @@
 #include "figures/observability_figure.hpp"
 #include "figures/registry.hpp"
 #include "figures/run_figures.hpp"
-#include "fit/earlier_runs.hpp"
-#include "fit/run_store.hpp"
 #include "program/output_files.hpp"
 #include "program/problem.hpp"
 #include "report/kept_diagnosis.hpp"
+#include "runs/earlier_runs.hpp"
+#include "runs/run_store.hpp"
 
 namespace plumb::offline::cli {
 namespace {

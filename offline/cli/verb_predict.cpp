@@ -4,6 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "arm/effect_binding.hpp"
+#include "arm/known_inputs.hpp"
+#include "arm/measured_arm.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/measurement_reader.hpp"
 #include "cell/setups.hpp"
 #include "cli/cell_data.hpp"
@@ -14,13 +18,9 @@
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "fit/controller_base.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/known_inputs.hpp"
-#include "fit/measured_arm.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/run_store.hpp"
-#include "fit/series_place.hpp"
+#include "noise/series_place.hpp"
 #include "program/counted_words.hpp"
+#include "runs/run_store.hpp"
 #include "show/units.hpp"
 
 namespace plumb::offline::cli {

@@ -4,6 +4,8 @@
 #include <memory>
 #include <tuple>
 
+#include "arm/effect_binding.hpp"
+#include "arm/known_inputs.hpp"
 #include "cell/lost_points.hpp"
 #include "cell/measurement_reader.hpp"
 #include "cell/reading_digest.hpp"
@@ -14,12 +16,10 @@
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/known_inputs.hpp"
-#include "fit/run_store.hpp"
 #include "program/file.hpp"
 #include "program/interrupt.hpp"
 #include "recheck/recheck.hpp"
+#include "runs/run_store.hpp"
 #include "show/recheck_view.hpp"
 
 namespace plumb::offline::cli {

@@ -14,8 +14,6 @@
 #include "compare/comparison.hpp"
 #include "compile/compiler.hpp"
 #include "deploy/bus_of_cell.hpp"
-#include "fit/earlier_runs.hpp"
-#include "fit/run_store.hpp"
 #include "fit/verdict.hpp"
 #include "program/file.hpp"
 #include "program/output_files.hpp"
@@ -23,6 +21,8 @@
 #include "report/kept_diagnosis.hpp"
 #include "report/pdf.hpp"
 #include "report/report.hpp"
+#include "runs/earlier_runs.hpp"
+#include "runs/run_store.hpp"
 
 namespace plumb::offline::cli {
 namespace {

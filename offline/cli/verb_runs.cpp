@@ -7,7 +7,7 @@
 #include "cli/cell_data.hpp"
 #include "cli/next_line.hpp"
 #include "cli/verbs.hpp"
-#include "fit/run_store.hpp"
+#include "runs/run_store.hpp"
 #include "show/runs_view.hpp"
 
 namespace plumb::offline::cli {

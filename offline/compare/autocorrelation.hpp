@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fit/series.hpp"
+#include "noise/series.hpp"
 
 namespace plumb::offline::compare {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "arm/predicted_points.hpp"
 #include "cell/group_rows.hpp"
 #include "compare/profiles.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/step_motions.hpp"
+#include "noise/step_motions.hpp"
 
 namespace plumb::offline::compare {
 namespace {

@@ -10,8 +10,8 @@
 #include "compare/joint_shares.hpp"
 #include "compare/lack_of_fit.hpp"
 #include "compare/profile.hpp"
-#include "fit/change_points.hpp"
 #include "fit/fit.hpp"
+#include "noise/change_points.hpp"
 
 namespace plumb::offline::compare {
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
+#include "arm/predicted_points.hpp"
 #include "compare/joint_shares.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/repeatability.hpp"
-#include "fit/series.hpp"
-#include "fit/step_motions.hpp"
 #include "fit/verdict.hpp"
+#include "noise/repeatability.hpp"
+#include "noise/series.hpp"
+#include "noise/step_motions.hpp"
 
 namespace plumb::offline::compare {
 namespace {

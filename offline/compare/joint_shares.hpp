@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fit/step_motions.hpp"
+#include "noise/step_motions.hpp"
 
 namespace plumb::offline::compare {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "cell/group_rows.hpp"
-#include "fit/repeat_groups.hpp"
+#include "noise/repeat_groups.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {

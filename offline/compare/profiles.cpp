@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/effect_binding.hpp"
 #include "cell/setups.hpp"
-#include "fit/effect_binding.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "plumb/runtime/detail/loads.hpp"
 

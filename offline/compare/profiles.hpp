@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "compare/profile.hpp"
-#include "fit/arm_state.hpp"
 
 namespace plumb::offline::compare {
 

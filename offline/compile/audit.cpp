@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/geometry_derivative.hpp"
 #include "cell/random.hpp"
-#include "fit/geometry_derivative.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "tree/active_bound.hpp"

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <set>
 
-#include "fit/context_needs.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/parameter.hpp"
+#include "arm/context_needs.hpp"
+#include "arm/effect_binding.hpp"
+#include "arm/parameter.hpp"
 #include "plumb/format/version.hpp"
 
 namespace plumb::offline {

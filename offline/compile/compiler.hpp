@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cell/cell.hpp"
-#include "fit/run.hpp"
 #include "plumb/format/model.hpp"
+#include "runs/run.hpp"
 
 namespace plumb::offline {
 

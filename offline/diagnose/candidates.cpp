@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/effect_binding.hpp"
 #include "diagnose/confounding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_domain.hpp"
@@ -19,7 +20,6 @@
 #include "diagnose/thinned_fit.hpp"
 #include "effects/effect_option.hpp"
 #include "effects/registry.hpp"
-#include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -10,9 +10,9 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
 #include "effects/registry.hpp"
-#include "fit/cut_search.hpp"
-#include "fit/moving_part.hpp"
-#include "fit/running_sums.hpp"
+#include "noise/cut_search.hpp"
+#include "noise/moving_part.hpp"
+#include "noise/running_sums.hpp"
 #include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline {

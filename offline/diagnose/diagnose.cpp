@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "arm/predicted_points.hpp"
 #include "cell/effects_edit.hpp"
 #include "cell/replicates.hpp"
 #include "check/data_sense.hpp"
@@ -23,9 +24,8 @@
 #include "fit/calibrate.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/measured_orientations.hpp"
-#include "fit/predicted_points.hpp"
 #include "fit/split.hpp"
-#include "fit/usual_errors.hpp"
+#include "noise/usual_errors.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -13,10 +13,10 @@
 #include "diagnose/finding.hpp"
 #include "diagnose/move.hpp"
 #include "diagnose/regressor.hpp"
-#include "fit/error_stats.hpp"
 #include "fit/held_out_excess.hpp"
-#include "fit/noise_floor.hpp"
-#include "fit/repeatability.hpp"
+#include "noise/error_stats.hpp"
+#include "noise/noise_floor.hpp"
+#include "noise/repeatability.hpp"
 
 namespace plumb::offline {
 

@@ -8,7 +8,7 @@
 #include "diagnose/effect_list.hpp"
 #include "diagnose/effect_words.hpp"
 #include "effects/registry.hpp"
-#include "fit/moving_part.hpp"
+#include "noise/moving_part.hpp"
 
 namespace plumb::offline {
 namespace {

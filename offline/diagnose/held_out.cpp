@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/held_out.hpp"
 
-#include "fit/usual_errors.hpp"
+#include "noise/usual_errors.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "diagnose/regressor.hpp"
 #include "diagnose/regressor_score.hpp"
-#include "fit/error_stats.hpp"
+#include "noise/error_stats.hpp"
 
 namespace plumb::offline {
 

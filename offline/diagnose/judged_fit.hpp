@@ -6,7 +6,7 @@
 
 #include "diagnose/scan.hpp"
 #include "diagnose/whitened_fit.hpp"
-#include "fit/repeatability.hpp"
+#include "noise/repeatability.hpp"
 
 namespace plumb::offline {
 

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <span>
 
+#include "arm/dual.hpp"
+#include "arm/effect_binding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/few_digits.hpp"
 #include "diagnose/regressor.hpp"
 #include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
-#include "fit/dual.hpp"
-#include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
 #include "diagnose/evidence_scale.hpp"
 #include "diagnose/plausible.hpp"
 #include "effects/registry.hpp"
-#include "fit/arm_change.hpp"
-#include "fit/effect_binding.hpp"
 #include "fit/fit_judgement.hpp"
 #include "numbers/cholesky.hpp"
 

@@ -6,7 +6,7 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/regressor.hpp"
 #include "effects/effect_option.hpp"
-#include "fit/moving_part.hpp"
+#include "noise/moving_part.hpp"
 
 namespace plumb::offline {
 namespace {

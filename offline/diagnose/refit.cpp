@@ -3,9 +3,9 @@
 
 #include <map>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
 
 namespace plumb::offline {
 namespace {

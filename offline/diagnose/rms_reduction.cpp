@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/rms_reduction.hpp"
 
-#include "fit/evaluation.hpp"
-#include "fit/weights.hpp"
+#include "noise/weights.hpp"
+#include "solve/evaluation.hpp"
 
 namespace plumb::offline {
 

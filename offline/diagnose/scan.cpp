@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "arm/effect_binding.hpp"
 #include "diagnose/change_points.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/effect_list.hpp"
@@ -16,8 +17,7 @@
 #include "diagnose/ripple_scan.hpp"
 #include "diagnose/series_scan.hpp"
 #include "effects/registry.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/series_numbers.hpp"
+#include "solve/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "fit/repeatability.hpp"
+#include "noise/repeatability.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "diagnose/whitened_fit.hpp"
-#include "fit/joint_scatter.hpp"
-#include "fit/repeatability.hpp"
+#include "noise/joint_scatter.hpp"
+#include "noise/repeatability.hpp"
 
 namespace plumb::offline {
 

@@ -8,8 +8,8 @@
 #include "diagnose/constants.hpp"
 #include "diagnose/few_digits.hpp"
 #include "effects/registry.hpp"
-#include "fit/series_numbers.hpp"
 #include "numbers/gaussian.hpp"
+#include "solve/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "cell/replicates.hpp"
 #include "diagnose/constants.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/noise_floor.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/series_numbers.hpp"
 #include "fit/split.hpp"
-#include "fit/weights.hpp"
+#include "noise/noise_floor.hpp"
+#include "noise/weights.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/series_numbers.hpp"
 
 namespace plumb::offline {
 namespace {

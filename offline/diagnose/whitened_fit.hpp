@@ -7,8 +7,8 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/calibration.hpp"
-#include "fit/orthonormal.hpp"
 #include "plumb/runtime/detail/effect.hpp"
+#include "solve/orthonormal.hpp"
 
 namespace plumb::offline {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/predicted_points.hpp"
 #include "figures/error_figures.hpp"
 #include "figures/words.hpp"
 #include "figures/workspace_views.hpp"
 #include "figures/worst_band.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline::figures {

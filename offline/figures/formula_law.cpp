@@ -10,14 +10,14 @@
 #include <set>
 #include <utility>
 
+#include "arm/effect_binding.hpp"
+#include "arm/fitted_effects.hpp"
+#include "arm/predicted_points.hpp"
 #include "figures/joint_residual.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/fitted_effects.hpp"
-#include "fit/outlier.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/series.hpp"
+#include "noise/series.hpp"
 #include "plumb/format/formula.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "solve/outlier.hpp"
 
 namespace plumb::offline::figures {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "effects/registry.hpp"
 #include "figures/words.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/predicted_points.hpp"
 
 namespace plumb::offline::figures {
 namespace {

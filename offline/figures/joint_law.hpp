@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "arm/fitted_effects.hpp"
 #include "figures/run_results.hpp"
-#include "fit/fitted_effects.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline::figures {

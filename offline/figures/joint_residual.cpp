@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "fit/step_motions.hpp"
+#include "noise/step_motions.hpp"
 
 namespace plumb::offline::figures {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "arm/effect_binding.hpp"
 #include "cell/contexts.hpp"
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "figures/joint_law.hpp"
 #include "figures/law_figures.hpp"
 #include "figures/words.hpp"
-#include "fit/effect_binding.hpp"
 #include "plumb/runtime/detail/loads.hpp"
 
 namespace plumb::offline::figures {

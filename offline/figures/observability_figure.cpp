@@ -10,7 +10,7 @@
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "figures/words.hpp"
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 #include "numbers/cholesky.hpp"
 #include "plan/design_space.hpp"
 #include "plan/information.hpp"

@@ -12,7 +12,7 @@
 #include "draw/text_width.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
-#include "fit/change_points.hpp"
+#include "noise/change_points.hpp"
 
 namespace plumb::offline::figures {
 namespace {

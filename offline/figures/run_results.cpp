@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "fit/arm_state.hpp"
+#include "arm/arm_state.hpp"
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/earlier_runs.hpp"
 #include "fit/measured_orientations.hpp"
-#include "fit/predicted_points.hpp"
 #include "fit/verdict.hpp"
+#include "runs/earlier_runs.hpp"
 
 namespace plumb::offline::figures {
 

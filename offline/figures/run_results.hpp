@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "arm/parameter.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/parameter.hpp"
-#include "fit/run.hpp"
+#include "runs/run.hpp"
 
 namespace plumb::offline::figures {
 

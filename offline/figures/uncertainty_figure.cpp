@@ -6,14 +6,14 @@
 #include <cmath>
 #include <map>
 
+#include "arm/effect_binding.hpp"
+#include "arm/geometry_derivative.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/random.hpp"
 #include "compile/compiler.hpp"
 #include "figures/model_figures.hpp"
 #include "figures/words.hpp"
 #include "figures/workspace_views.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/geometry_derivative.hpp"
-#include "fit/predicted_points.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {

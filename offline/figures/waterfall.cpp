@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/predicted_points.hpp"
 #include "draw/panel.hpp"
 #include "draw/sheet.hpp"
 #include "draw/text_width.hpp"
 #include "figures/error_axis.hpp"
 #include "figures/run_figures.hpp"
 #include "figures/words.hpp"
-#include "fit/predicted_points.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline::figures {

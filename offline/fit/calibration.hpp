@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "fit/arm_state.hpp"
-#include "fit/known_arm.hpp"
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
 #include "fit/likeness.hpp"
-#include "fit/outlier.hpp"
-#include "fit/parameter.hpp"
 #include "program/problem.hpp"
+#include "solve/known_arm.hpp"
+#include "solve/outlier.hpp"
 
 namespace plumb::offline {
 

@@ -5,10 +5,10 @@
 
 #include <numeric>
 
+#include "arm/parameter.hpp"
+#include "arm/predicted_points.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/parameter.hpp"
-#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "arm/predicted_points.hpp"
 #include "cell/random.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
-#include "fit/predicted_points.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "cell/measurements.hpp"
 #include "fit/calibration.hpp"
-#include "fit/error_stats.hpp"
 #include "fit/measured_orientations.hpp"
-#include "fit/noise_floor.hpp"
 #include "fit/split.hpp"
+#include "noise/error_stats.hpp"
+#include "noise/noise_floor.hpp"
 #include "tree/choice.hpp"
 
 namespace plumb::offline {

@@ -7,19 +7,19 @@
 #include <cmath>
 #include <set>
 
+#include "arm/arm_state.hpp"
+#include "arm/context_needs.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/replicates.hpp"
 #include "cell/setups.hpp"
 #include "effects/registry.hpp"
-#include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/context_needs.hpp"
 #include "fit/few_poses.hpp"
-#include "fit/imagined_poses.hpp"
 #include "fit/orientation_words.hpp"
 #include "fit/pose_sense.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/usual_errors.hpp"
+#include "noise/usual_errors.hpp"
 #include "program/counted_words.hpp"
+#include "solve/imagined_poses.hpp"
 #include "tree/domain.hpp"
 
 namespace plumb::offline {

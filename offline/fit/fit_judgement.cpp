@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "fit/effect_binding.hpp"
+#include "arm/effect_binding.hpp"
 
 namespace plumb::offline {
 namespace {

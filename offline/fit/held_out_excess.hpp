@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 
 namespace plumb::offline {
 

@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
-#include "fit/arm_change.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/many_rows.hpp"
-#include "fit/thinned_rows.hpp"
 #include "numbers/gaussian.hpp"
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
 #include "program/counted_words.hpp"
 #include "program/file.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/many_rows.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <vector>
 
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
 #include "cell/cell.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/fit_data.hpp"
-#include "fit/known_arm.hpp"
 #include "fit/likeness.hpp"
-#include "fit/parameter.hpp"
+#include "solve/fit_data.hpp"
+#include "solve/known_arm.hpp"
 
 namespace plumb::offline {
 

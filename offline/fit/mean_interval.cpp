@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "fit/predicted_points.hpp"
+#include "arm/predicted_points.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline {

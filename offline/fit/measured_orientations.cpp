@@ -9,15 +9,15 @@
 #include <span>
 #include <utility>
 
+#include "arm/arm_state.hpp"
+#include "arm/effect_binding.hpp"
+#include "arm/measured_arm.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/group_rows.hpp"
-#include "fit/arm_state.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/measured_arm.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/thinned_rows.hpp"
 #include "numbers/quantile.hpp"
 #include "numbers/rotation_fit.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {

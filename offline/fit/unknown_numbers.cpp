@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "cell/earlier_arm.hpp"
-#include "fit/imagined_poses.hpp"
 #include "program/counted_words.hpp"
+#include "solve/imagined_poses.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "fit/arm_state.hpp"
-#include "fit/fit_data.hpp"
-#include "fit/identifiable.hpp"
-#include "fit/parameter.hpp"
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
+#include "solve/fit_data.hpp"
+#include "solve/identifiable.hpp"
 
 namespace plumb::offline {
 

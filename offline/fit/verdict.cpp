@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fit/usual_errors.hpp"
+#include "noise/usual_errors.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline {

@@ -2,7 +2,7 @@
 #include "fleet/cell_summary.hpp"
 
 #include "cell/packed_matrix.hpp"
-#include "fit/json_parts.hpp"
+#include "runs/json_parts.hpp"
 
 namespace plumb::offline::fleet {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/error_stats.hpp"
+#include "noise/error_stats.hpp"
 #include "program/json.hpp"
 
 namespace plumb::offline::fleet {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "arm/effect_binding.hpp"
 #include "cell/fleet_priors.hpp"
 #include "cell/setups.hpp"
 #include "compare/full_verdict.hpp"
@@ -12,7 +13,6 @@
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/effect_binding.hpp"
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
 #include "fit/verdict.hpp"

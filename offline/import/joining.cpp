@@ -10,9 +10,9 @@
 #include <numeric>
 #include <set>
 
+#include "arm/predicted_points.hpp"
 #include "cell/units.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
 #include "import/words.hpp"
 
 namespace plumb::offline {

@@ -6,7 +6,7 @@
 
 #include "cell/random.hpp"
 #include "effects/registry.hpp"
-#include "fit/evaluation.hpp"
+#include "solve/evaluation.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/parameter.hpp"
 
 namespace plumb::offline {
 

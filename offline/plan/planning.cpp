@@ -7,14 +7,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/effect_binding.hpp"
 #include "cell/setups.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/frame_start.hpp"
 #include "fit/measured_orientations.hpp"
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 #include "plan/plan_steps.hpp"
+#include "solve/frame_start.hpp"
 
 namespace plumb::offline {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "cell/random.hpp"
-#include "fit/arm_state.hpp"
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline {

@@ -5,17 +5,17 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/effect_binding.hpp"
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
 #include "diagnose/regressor_score.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/noise_floor.hpp"
 #include "fit/split.hpp"
-#include "fit/weights.hpp"
+#include "noise/noise_floor.hpp"
+#include "noise/weights.hpp"
 #include "numbers/cholesky.hpp"
+#include "solve/evaluation.hpp"
 
 namespace plumb::offline {
 namespace {

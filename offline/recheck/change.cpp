@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "effects/registry.hpp"
-#include "fit/arm_change.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/evaluation.hpp"
 #include "recheck/constants.hpp"
+#include "solve/evaluation.hpp"
 
 namespace plumb::offline::recheck {
 namespace {

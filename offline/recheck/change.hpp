@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/parameter.hpp"
-#include "fit/solution.hpp"
+#include "solve/solution.hpp"
 
 namespace plumb::offline::recheck {
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/arm_change.hpp"
-#include "fit/frame_start.hpp"
-#include "fit/predicted_points.hpp"
+#include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "numbers/gaussian.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "recheck/constants.hpp"
+#include "solve/frame_start.hpp"
 
 namespace plumb::offline::recheck {
 namespace {

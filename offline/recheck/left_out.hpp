@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fit/error_stats.hpp"
+#include "noise/error_stats.hpp"
 #include "recheck/evidence.hpp"
 
 namespace plumb::offline::recheck {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/outlier.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/series_solver.hpp"
+#include "arm/predicted_points.hpp"
 #include "fit/verdict.hpp"
-#include "fit/weights.hpp"
+#include "noise/weights.hpp"
 #include "recheck/constants.hpp"
 #include "recheck/misfit.hpp"
+#include "solve/outlier.hpp"
+#include "solve/series_solver.hpp"
 
 namespace plumb::offline::recheck {
 namespace {

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/run.hpp"
+#include "runs/run.hpp"
 
 namespace plumb::offline::recheck {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
 #include "fit/verdict.hpp"
 #include "numbers/tails.hpp"
 #include "recheck/constants.hpp"

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/outlier.hpp"
-#include "fit/thinned_rows.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/lu.hpp"
 #include "recheck/constants.hpp"
 #include "recheck/refit.hpp"
+#include "solve/outlier.hpp"
+#include "solve/thinned_rows.hpp"
 
 namespace plumb::offline::recheck {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
-#include "fit/run.hpp"
 #include "recheck/visible.hpp"
+#include "runs/run.hpp"
 
 namespace plumb::offline::recheck {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
 #include "fit/calibrate.hpp"
 #include "program/problem.hpp"
 

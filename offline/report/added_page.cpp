@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "figures/run_figures.hpp"
-#include "fit/series_numbers.hpp"
 #include "program/counted_words.hpp"
 #include "report/page_words.hpp"
 #include "report/pages.hpp"
 #include "show/units.hpp"
+#include "solve/series_numbers.hpp"
 
 namespace plumb::offline::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "diagnose/diagnosis.hpp"
-#include "fit/run.hpp"
+#include "runs/run.hpp"
 
 /// What `plumb diagnose` found of the cell and data of a run, in diagnosis.json beside its
 /// run.json, so that a report of the same run need not search again.

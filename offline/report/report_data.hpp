@@ -12,8 +12,8 @@
 #include "compile/audit.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "figures/run_results.hpp"
-#include "fit/run.hpp"
 #include "plumb/drivers/bus_layout.hpp"
+#include "runs/run.hpp"
 
 namespace plumb::offline::report {
 

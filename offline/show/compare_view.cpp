@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "compare/full_verdict.hpp"
-#include "fit/main_jump.hpp"
 #include "fit/verdict.hpp"
+#include "noise/main_jump.hpp"
 #include "show/compare_words.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"

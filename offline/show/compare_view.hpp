@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compare/comparison.hpp"
-#include "fit/run.hpp"
+#include "runs/run.hpp"
 #include "show/json.hpp"
 #include "show/table.hpp"
 

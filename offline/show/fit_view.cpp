@@ -9,7 +9,6 @@
 #include "cell/setups.hpp"
 #include "compare/full_verdict.hpp"
 #include "effects/registry.hpp"
-#include "fit/series_numbers.hpp"
 #include "fit/verdict.hpp"
 #include "show/error_table.hpp"
 #include "show/heads.hpp"
@@ -18,6 +17,7 @@
 #include "show/table.hpp"
 #include "show/units.hpp"
 #include "show/verdict_json.hpp"
+#include "solve/series_numbers.hpp"
 
 namespace plumb::offline::show {
 namespace {

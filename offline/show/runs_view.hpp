@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/run.hpp"
+#include "runs/run.hpp"
 #include "show/json.hpp"
 
 namespace plumb::offline::show {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fit/arm_state.hpp"
+#include "arm/arm_state.hpp"
 #include "study/planar_poses.hpp"
 
 /// The planar arm as an ordinary cell, so that the missing physics can be fitted instead of a tree.

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "simulate/arm_rows.hpp"
 #include "simulate/simulate.hpp"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
+#include "arm/predicted_points.hpp"
 #include "compare/comparison.hpp"
 #include "figures/worst_band.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/parameter.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/problem.hpp"
 #include "show/compare_words.hpp"

@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "diagnose/scan.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/effect_binding.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
 #include "program/file.hpp"
 #include "simulate/law.hpp"
 #include "tests/blind/answer.hpp"

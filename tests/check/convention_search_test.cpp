@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "check/check.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/runtime/transform.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"

@@ -6,11 +6,11 @@
 #include <random>
 #include <set>
 
+#include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "check/identifiability.hpp"
 #include "effects/fitted_laws.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/predicted_points.hpp"
 
 /// What a check says of a cell whose model holds an effect.
 namespace plumb::offline {

@@ -9,8 +9,8 @@
 
 #include "check/spectrum.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/evaluation.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
 #include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {

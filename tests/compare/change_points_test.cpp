@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/change_points.hpp"
+#include "noise/change_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "fit/predicted_points.hpp"
+#include "arm/predicted_points.hpp"
 #include "residual_cases.hpp"
 #include "tests/yardstick.hpp"
 

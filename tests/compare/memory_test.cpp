@@ -2,7 +2,7 @@
 // What a reading more costs in memory: a million of them must fit.
 #include <gtest/gtest.h>
 
-#include "fit/change_points.hpp"
+#include "noise/change_points.hpp"
 #include "residual_cases.hpp"
 #include "tests/heap_calls.hpp"
 

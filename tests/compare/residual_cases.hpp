@@ -4,11 +4,11 @@
 #include <cmath>
 #include <functional>
 
+#include "arm/arm_state.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/measurements.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/series.hpp"
-#include "fit/step_motions.hpp"
+#include "noise/series.hpp"
+#include "noise/step_motions.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -7,10 +7,10 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "diagnose/extension.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/predicted_points.hpp"
 #include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {

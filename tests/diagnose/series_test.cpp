@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/series_numbers.hpp"
+#include "solve/series_numbers.hpp"
 #include "tests/cases/blind_case.hpp"
 
 namespace plumb::offline {

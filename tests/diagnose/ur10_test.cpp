@@ -9,12 +9,12 @@
 #include <ctime>
 #include <filesystem>
 
+#include "arm/predicted_points.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "arm/dual.hpp"
 #include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
-#include "fit/dual.hpp"
 #include "plumb/runtime/forward_model.hpp"
 #include "tests/random_numbers.hpp"
 #include "tests/rt/every_effect.hpp"

@@ -144,7 +144,7 @@ constexpr OtherMeaning kOtherMeanings[] = {
     {"check/data_sense.cpp", "tracker"},        // the value of a comment "# frame: tracker"
     {"check/row_pattern.cpp", "tracker"},       // the instrument, in a sentence
     {"cli/verb_export.cpp", "local_tree"},      // what a URDF file leaves out, in a sentence
-    {"fit/model_json.cpp", "formula"},          // a key of the run's JSON file
+    {"runs/model_json.cpp", "formula"},         // a key of the run's JSON file
     {"formula/names.cpp", "step"},              // a function of formulas
     {"import/words.cpp", "tracker"},            // a word of column names
     {"show/check_json.cpp", "step"},            // keys of what the verbs print with --json

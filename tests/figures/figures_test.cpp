@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "arm/predicted_points.hpp"
 #include "effects/registry.hpp"
 #include "figures/bench_figures.hpp"
 #include "figures/data_figures.hpp"
@@ -26,7 +27,6 @@
 #include "figures/words.hpp"
 #include "figures/worst_band.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/format/formula.hpp"
 #include "tests/draw/text_boxes.hpp"
 #include "tests/draw/well_formed.hpp"

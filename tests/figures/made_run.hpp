@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "arm/arm_state.hpp"
+#include "arm/predicted_points.hpp"
 #include "figures/run_results.hpp"
-#include "fit/arm_state.hpp"
-#include "fit/predicted_points.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 

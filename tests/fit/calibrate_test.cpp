@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "arm/predicted_points.hpp"
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "arm/predicted_points.hpp"
 #include "compile/audit.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 

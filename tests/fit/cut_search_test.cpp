@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/cut_search.hpp"
+#include "noise/cut_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fit/moving_part.hpp"
-#include "fit/running_sums.hpp"
+#include "noise/moving_part.hpp"
+#include "noise/running_sums.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
 #include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
+#include "arm/geometry_derivative.hpp"
+#include "arm/predicted_points.hpp"
 #include "compile/compiler.hpp"
 #include "effects/fitted_laws.hpp"
-#include "fit/arm_change.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/geometry_derivative.hpp"
-#include "fit/predicted_points.hpp"
 #include "plumb/format/formula.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/geometry_derivative.hpp"
+#include "arm/geometry_derivative.hpp"
 
 #include <gtest/gtest.h>
 

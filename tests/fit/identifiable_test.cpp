@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/identifiable.hpp"
+#include "solve/identifiable.hpp"
 
 #include <gtest/gtest.h>
 

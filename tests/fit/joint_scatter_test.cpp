@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/joint_scatter.hpp"
+#include "noise/joint_scatter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/known_inputs.hpp"
+#include "arm/known_inputs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fit/series_place.hpp"
+#include "noise/series_place.hpp"
 #include "tests/rt/one_arm.hpp"
 
 namespace plumb::offline {

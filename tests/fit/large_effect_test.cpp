@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/predicted_points.hpp"
 #include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 

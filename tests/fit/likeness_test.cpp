@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/earlier_arm.hpp"
-#include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
 

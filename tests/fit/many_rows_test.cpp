@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Jacobian too large to be kept: what is solved from sums over the rows is what all rows say.
-#include "fit/many_rows.hpp"
+#include "solve/many_rows.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -11,11 +11,11 @@
 #include <set>
 
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/outliers.hpp"
-#include "fit/solver.hpp"
-#include "fit/weights.hpp"
+#include "noise/weights.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/outliers.hpp"
+#include "solve/solver.hpp"
 #include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {

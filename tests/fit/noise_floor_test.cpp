@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/noise_floor.hpp"
+#include "noise/noise_floor.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "cell/random.hpp"
-#include "fit/error_stats.hpp"
-#include "fit/weights.hpp"
+#include "noise/error_stats.hpp"
+#include "noise/weights.hpp"
 
 namespace plumb::offline {
 namespace {

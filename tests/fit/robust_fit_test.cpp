@@ -7,12 +7,12 @@
 #include <numeric>
 #include <set>
 
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/outliers.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/solver.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/outliers.hpp"
+#include "solve/solver.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 

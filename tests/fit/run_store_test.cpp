@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/run_store.hpp"
+#include "runs/run_store.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -11,10 +11,10 @@
 
 #include "cell/run_checksum.hpp"
 #include "fit/cell_data.hpp"
-#include "fit/earlier_runs.hpp"
 #include "fit/fit_cell.hpp"
 #include "fit/orientation_words.hpp"
 #include "program/file.hpp"
+#include "runs/earlier_runs.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
 

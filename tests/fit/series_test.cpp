@@ -5,14 +5,14 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
+#include "arm/effect_binding.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/evaluation.hpp"
-#include "fit/series_numbers.hpp"
-#include "fit/series_solver.hpp"
-#include "fit/solver.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/series_numbers.hpp"
+#include "solve/series_solver.hpp"
+#include "solve/solver.hpp"
 #include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {

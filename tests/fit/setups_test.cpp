@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "cell/setups.hpp"
-#include "fit/arm_change.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/run_json.hpp"
-#include "fit/weights.hpp"
+#include "noise/weights.hpp"
+#include "runs/run_json.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
 #include "tests/cases/random_cell.hpp"
 
 /// One arm measured from several stations, with several reflectors. The simulator knows of one

@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
 #include "fit/cell_data.hpp"
 #include "fit/fit.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
 #include "tests/yardstick.hpp"
 
 namespace plumb::offline {

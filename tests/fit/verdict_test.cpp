@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "arm/predicted_points.hpp"
 #include "fit/fit_cell.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/repeatability.hpp"
+#include "noise/repeatability.hpp"
 #include "simulate/simulate.hpp"
 #include "tests/cases/random_cell.hpp"
 

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <random>
 
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/weak_directions.hpp"
+#include "solve/weak_directions.hpp"
 
 /// Poses along a path or on a surface: sound data that say little of some numbers of the arm.
 namespace plumb::offline {

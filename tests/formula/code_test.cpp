@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "fit/dual.hpp"
+#include "arm/dual.hpp"
 #include "formula/compile_formula.hpp"
 #include "formula/degree.hpp"
 #include "plumb/format/formula.hpp"

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "compile/compiler.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/effect_binding.hpp"
-#include "fit/predicted_points.hpp"
-#include "fit/run_json.hpp"
 #include "plumb/format/reader.hpp"
 #include "plumb/format/writer.hpp"
 #include "plumb/runtime/corrector.hpp"
+#include "runs/run_json.hpp"
 #include "tests/cases/blind_case.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "fit/calibrate.hpp"
-#include "fit/evaluation.hpp"
 #include "fit/fit_judgement.hpp"
-#include "fit/predicted_points.hpp"
 #include "plan/planning.hpp"
 #include "simulate/simulate.hpp"
+#include "solve/evaluation.hpp"
 #include "tests/cases/random_cell.hpp"
 #include "tests/random_numbers.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fit/effect_binding.hpp"
+#include "arm/effect_binding.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
 

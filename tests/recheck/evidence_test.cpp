@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
 

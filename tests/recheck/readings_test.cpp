@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "fit/outliers.hpp"
 #include "small_arm.hpp"
+#include "solve/outliers.hpp"
 
 namespace plumb::offline::recheck {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
 #include "small_arm.hpp"
 
 namespace plumb::offline::recheck {

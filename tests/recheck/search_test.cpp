@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
 

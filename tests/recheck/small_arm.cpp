@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "fit/arm_change.hpp"
+#include "arm/arm_change.hpp"
 #include "tests/runtime/random_arm.hpp"
 
 namespace plumb::offline::recheck {

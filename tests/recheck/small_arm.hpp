@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fit/run_store.hpp"
 #include "recheck/evidence.hpp"
+#include "runs/run_store.hpp"
 #include "tests/random_numbers.hpp"
 
 namespace plumb::offline::recheck {

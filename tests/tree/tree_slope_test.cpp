@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "fit/dual.hpp"
+#include "arm/dual.hpp"
 #include "plumb/runtime/detail/tree.hpp"
 #include "tests/runtime/literal_tree.hpp"
 #include "tests/runtime/random_tree.hpp"

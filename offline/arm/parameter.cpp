@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arm/parameter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arm/effect_binding.hpp"
+#include "cell/link_frame.hpp"
+#include "cell/setups.hpp"
+#include "effects/registry.hpp"
+
+namespace plumb::offline {
+namespace {
+
+using Kind = Parameter::Kind;
+
+constexpr double kNearParallel_rad = 0.05;
+
+const char* const kTwistNames[] = {"dx", "dy", "dz", "ex", "ey", "ez"};
+const char* const kPoseNames[] = {"x", "y", "z", "rx", "ry", "rz"};
+
+bool near_parallel(const format::JointRow& link) {
+  return std::abs(std::sin(link.alpha)) < kNearParallel_rad;
+}
+
+/// The row whose link connects joint i and joint i + 1.
+int link_row(const format::Chain& chain, int joint) {
+  return chain.convention == format::Convention::kStandard ? joint : joint + 1;
+}
+
+void add_dh_candidates(const Cell& cell, std::vector<Parameter>& out) {
+  const auto& chain = cell.nominal;
+  const int n = cell.joints();
+  std::vector<bool> beta(n, false), hold_d(n, false);
+  for (int i = 0; i + 1 < n; ++i) {
+    const int row = link_row(chain, i);
+    if (!cell.mechanics[i].parallel_next && !near_parallel(chain.joints[row])) continue;
+    beta[row] = true;
+    // A sliding joint keeps its d: its own travel already carries the parallel shift.
+    if (chain.joints[i].type == format::JointType::kRevolute) hold_d[i] = true;
+  }
+  for (int i = 0; i < n; ++i) {
+    const auto add = [&](Kind kind, const char* name) {
+      out.push_back({kind, i, 0, chain.joints[i].name + "." + name});
+    };
+    add(Kind::kTheta, "theta");
+    if (!hold_d[i]) add(Kind::kD, "d");
+    add(Kind::kA, "a");
+    add(Kind::kAlpha, "alpha");
+    if (beta[i]) add(Kind::kBeta, "beta");
+  }
+}
+
+void add_twist_candidates(const Cell& cell, std::vector<Parameter>& out) {
+  for (int i = 0; i < cell.joints(); ++i)
+    for (int k = 0; k < 6; ++k)
+      out.push_back(
+          {Kind::kLinkTwist, i, k, cell.nominal.joints[i].name + ".post." + kTwistNames[k]});
+}
+
+/// ".", with several set-ups "[day 2].".
+std::string of_setup(const MeasurementSettings& m, int setup) {
+  const std::string name = setup_name(m, setup);
+  return name.empty() ? "." : "[" + name + "].";
+}
+
+/// "frame.x", with several set-ups "frame[day 2].x"; what is shared belongs to the first that has
+/// it.
+void add_placing_candidates(const MeasurementSettings& m, Orientation orientation,
+                            std::vector<Parameter>& out) {
+  for (int s = 0; s < setup_count(m); ++s) {
+    const Setup rule = setup_rule(m, s);
+    const std::string of = of_setup(m, s);
+    const auto add = [&](Kind kind, int component, const char* pose_name) {
+      const char* what = kind == Kind::kFrame ? "frame" : "target";
+      out.push_back({kind, 0, component, what + of + pose_name, s});
+    };
+    if (rule.fit_frame && frame_root(m, s) == s)
+      for (int k = 0; k < 6; ++k) add(Kind::kFrame, k, kPoseNames[k]);
+    if (!rule.fit_target || target_root(m, s) != s) continue;
+    for (int k = 0; k < 3; ++k) add(Kind::kTarget, k, kPoseNames[k]);
+    if (orientation == Orientation::kUsed)
+      for (int k = 0; k < 3; ++k) add(Kind::kTargetRotation, k, kPoseNames[k + 3]);
+  }
+}
+
+}  // namespace
+
+bool Parameter::is_length() const {
+  switch (kind) {
+    case Kind::kD:
+    case Kind::kA:
+    case Kind::kTarget:
+      return true;
+    case Kind::kLinkTwist:
+    case Kind::kFrame:
+      return component < 3;
+    default:
+      return false;
+  }
+}
+
+bool Parameter::of_robot() const {
+  return kind != Kind::kFrame && kind != Kind::kTarget && kind != Kind::kTargetRotation;
+}
+
+double reach(const format::Chain& chain) { return std::max(0.1, stretched_length(chain)); }
+
+std::string frame_prefix(const MeasurementSettings& settings, int setup) {
+  return "frame" + of_setup(settings, setup);
+}
+
+std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation) {
+  std::vector<Parameter> out;
+  add_placing_candidates(cell.measurement, orientation, out);
+  if (cell.effects.empty() || !is_geometry(cell.effects.front().name)) return out;
+  if (cell.fit.model == FitSettings::Model::kDh)
+    add_dh_candidates(cell, out);
+  else
+    add_twist_candidates(cell, out);
+  std::erase_if(out, [&](const Parameter& p) {
+    return std::find(cell.fit.fixed.begin(), cell.fit.fixed.end(), p.name) != cell.fit.fixed.end();
+  });
+  return out;
+}
+
+std::optional<Parameter> robot_parameter(const format::Chain& chain, const std::string& name) {
+  static const std::pair<const char*, Kind> kDh[] = {{"theta", Kind::kTheta},
+                                                     {"d", Kind::kD},
+                                                     {"a", Kind::kA},
+                                                     {"alpha", Kind::kAlpha},
+                                                     {"beta", Kind::kBeta}};
+  for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+    const std::string prefix = chain.joints[i].name + ".";
+    if (!name.starts_with(prefix)) continue;
+    const std::string rest = name.substr(prefix.size());
+    for (const auto& [text, kind] : kDh)
+      if (rest == text) return Parameter{kind, static_cast<int>(i), 0, name};
+    for (int k = 0; k < 6; ++k)
+      if (rest == std::string("post.") + kTwistNames[k])
+        return Parameter{Kind::kLinkTwist, static_cast<int>(i), k, name};
+  }
+  return std::nullopt;
+}
+
+std::optional<Parameter> placing_parameter(const std::string& name) {
+  for (int k = 0; k < 6; ++k)
+    if (name == std::string("frame.") + kPoseNames[k]) return Parameter{Kind::kFrame, 0, k, name};
+  for (int k = 0; k < 3; ++k)
+    if (name == std::string("target.") + kPoseNames[k]) return Parameter{Kind::kTarget, 0, k, name};
+  return std::nullopt;
+}
+
+std::vector<Parameter> effect_parameters(const format::Model& arm) {
+  std::vector<Parameter> out;
+  for (std::size_t e = 0; e < arm.effects.size(); ++e)
+    for (std::size_t k = 0; k < arm.effects[e].parameters.size(); ++k) {
+      const int effect = static_cast<int>(e), parameter = static_cast<int>(k);
+      out.push_back(
+          {Kind::kEffect, effect, parameter, effect_parameter_name(arm, effect, parameter)});
+    }
+  return out;
+}
+
+}  // namespace plumb::offline

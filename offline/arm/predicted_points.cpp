@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arm/predicted_points.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "arm/effect_binding.hpp"
+#include "arm/measured_arm.hpp"
+#include "numbers/jobs.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr Eigen::Index kBlock = 512;  // rows predicted by one thread in one go
+
+/// Calls one(row) for every row, on all processors where there are many.
+template <class One>
+void for_rows(Eigen::Index rows, const One& one) {
+  run_jobs(static_cast<int>((rows + kBlock - 1) / kBlock), [&](int block) {
+    const Eigen::Index first = block * kBlock, last = std::min(rows, first + kBlock);
+    for (Eigen::Index i = first; i < last; ++i) one(i);
+  });
+}
+
+std::span<const double> row_of(const RowsN& q, Eigen::Index i) {
+  return {q.row(i).data(), static_cast<std::size_t>(q.cols())};
+}
+
+}  // namespace
+
+MeasuredContext context_of(const Measurements& at, Eigen::Index row,
+                           const std::vector<std::string>& sensors, const Transformd& X_MB) {
+  MeasuredContext out = context_at(at.context, row, sensors);
+  const Transformd X_BM = X_MB.inverse();
+  for (int k = 0; k < 3; ++k) {
+    out.tracker_B[k] = X_BM.p(k);
+    out.tracker_up_B[k] = X_BM.R(k, 2);
+  }
+  return out;
+}
+
+namespace {
+
+/// Frame and reflector of every set-up.
+struct Placed {
+  std::vector<Transformd> X_MB, X_TG;
+  explicit Placed(const ArmState& state) {
+    for (int k = 0; k < state.setups(); ++k) {
+      X_MB.push_back(from_pose(state.frame(k)));
+      X_TG.push_back(from_pose(state.target(k)));
+    }
+  }
+};
+
+}  // namespace
+
+Rows3 predict_points(const ArmState& state, const Measurements& at) {
+  const MeasuredArm arm(state.arm);
+  const auto sensors = temperature_names(state.arm);
+  const Placed placed(state);
+  const bool departed = at.departure_B.rows() > 0;
+  const bool has_effects = !state.arm.effects.empty();
+  Rows3 out(at.q.rows(), 3);
+  for_rows(at.q.rows(), [&](Eigen::Index i) {
+    const auto setup = static_cast<std::size_t>(setup_of(at, i));
+    const Transformd& X_MB = placed.X_MB[setup];
+    const Prediction predicted =
+        has_effects ? arm.predict(row_of(at.q, i), context_of(at, i, sensors, X_MB))
+                    : arm.predict(row_of(at.q, i), {});
+    out.row(i) = (X_MB * (predicted.X_BT * placed.X_TG[setup].p)).transpose();
+    if (departed) out.row(i) += at.departure_B.row(i) * X_MB.R.transpose();
+  });
+  return out;
+}
+
+Rows3 predict_points(const ArmState& state, const RowsN& q) {
+  const MeasuredArm arm(state.arm);
+  const Transformd X_MB = from_pose(state.X_MB);
+  const Vector3 target_T(state.X_TG.p[0], state.X_TG.p[1], state.X_TG.p[2]);
+  Rows3 out(q.rows(), 3);
+  for_rows(q.rows(), [&](Eigen::Index i) {
+    out.row(i) = (X_MB * (arm.predict(row_of(q, i), {}).X_BT * target_T)).transpose();
+  });
+  return out;
+}
+
+Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured) {
+  const MeasuredArm arm(state.arm);
+  const auto sensors = temperature_names(state.arm);
+  const Placed placed(state);
+  Eigen::VectorXd out(measured.q.rows());
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const auto setup = static_cast<std::size_t>(setup_of(measured, i));
+    const Transformd& X_MB = placed.X_MB[setup];
+    const MeasuredContext context = context_of(measured, i, sensors, X_MB);
+    const Matrix3 R_MG =
+        X_MB.R * arm.predict(row_of(measured.q, i), context).X_BT.R * placed.X_TG[setup].R;
+    const auto quat = measured.quat_M.row(i);
+    const Matrix3 read = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
+    out(i) = rotation_vector(read * R_MG.transpose()).norm();
+  }
+  return out;
+}
+
+Rows3 residuals(const Measurements& measured, const Rows3& predicted) {
+  Rows3 out = measured.p_M - predicted;
+  for (int k = 0; k < 3; ++k)
+    if (!measured.has_axis[k]) out.col(k).setZero();
+  return out;
+}
+
+Rows3 to_base(const ArmState& state, const Measurements& at, const Rows3& v_M) {
+  std::vector<Matrix3> R_MB;
+  for (int k = 0; k < state.setups(); ++k) R_MB.push_back(from_pose(state.frame(k)).R);
+  Rows3 out(v_M.rows(), 3);
+  for (Eigen::Index i = 0; i < v_M.rows(); ++i)
+    out.row(i) = v_M.row(i) * R_MB[static_cast<std::size_t>(setup_of(at, i))];
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noise/weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kUnstatedSigma_m = 10e-6;
+constexpr double kSmallestSigma_m = 0.1e-6;
+
+}  // namespace
+
+Rows3 stated_sigma(const Cell& cell, const Measurements& measured) {
+  if (measured.sigma_m.rows() > 0) return measured.sigma_m.cwiseMax(kSmallestSigma_m);
+  const double sigma = cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
+  return Rows3::Constant(measured.size(), 3, std::max(sigma, kSmallestSigma_m));
+}
+
+double excess_sigma(const Rows3& residual, const Rows3& sigma, const std::array<bool, 3>& axis_used,
+                    int parameters) {
+  Eigen::Index used = 0;
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    if (!axis_used[k]) continue;
+    used += residual.rows();
+    largest = std::max(largest, residual.col(k).cwiseAbs().maxCoeff());
+  }
+  const double dof = std::max(1.0, static_cast<double>(used - parameters));
+  const auto chi2 = [&](double tau) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+      if (axis_used[k])
+        sum +=
+            (residual.col(k).array().square() / (sigma.col(k).array().square() + tau * tau)).sum();
+    return sum;
+  };
+  if (chi2(0.0) <= dof) return 0.0;
+  // chi2 falls with tau, and at sqrt(used / dof) times the largest residual it is below dof.
+  double low = 0.0, high = largest * std::sqrt(static_cast<double>(used) / dof);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (chi2(middle) > dof ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/leverage.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "numbers/cholesky.hpp"
+#include "numbers/triangle.hpp"
+#include "solve/jacobian_visit.hpp"
+
+namespace plumb::offline {
+namespace {
+
+/// J L^-T, L L^T = J^T J of scaled columns: its rows are those of an orthonormal basis of J.
+Eigen::MatrixXd orthonormal_rows(const Eigen::MatrixXd& J) {
+  const Eigen::VectorXd scale = per_norm(J);
+  const Eigen::MatrixXd scaled = J * scale.asDiagonal();
+  return Cholesky(scaled.transpose() * scaled).orthonormal(scaled);
+}
+
+/// The lines of one pose: at most six.
+using Lines = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using LinesSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+/// hat: block of the hat matrix. A pose that alone decides a parameter agrees with it always:
+/// nothing can be said of it, and it keeps its plain distance.
+double deletion_distance(const Lines& residual, const LinesSquare& hat, double plain) {
+  const LinesSquare left = LinesSquare::Identity(hat.rows(), hat.cols()) - hat;
+  const Eigen::LDLT<LinesSquare> ldlt(left);
+  if (ldlt.vectorD().minCoeff() <= 1e-6) return plain;
+  return std::sqrt(std::max(0.0, residual.dot(ldlt.solve(residual))));
+}
+
+}  // namespace
+
+/// Whitened distance of every row of `data` from the prediction.
+Eigen::VectorXd plain_distances(const FitData& data, const Solution& at) {
+  const Eigen::Index k = data.per_pose();
+  Eigen::VectorXd out(static_cast<Eigen::Index>(data.rows.size()));
+  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = at.residual.segment(k * i, k).norm();
+  return out;
+}
+
+Leverage::Leverage(const FitData& data) : rows_(data.rows), lines_(data.per_pose()) {
+  hat_.setZero(lines_ * lines_, static_cast<Eigen::Index>(rows_.size()));
+}
+
+Leverage::Leverage(const FitData& data, const Solution& at) : Leverage(data) { from_jacobian(at); }
+
+Leverage::Leverage(const FitData& data, const Solution& at,
+                   const std::vector<Parameter>& parameters)
+    : Leverage(data) {
+  if (!is_many(data, parameters)) {
+    from_jacobian(at);
+    return;
+  }
+  visit_jacobian(data, at.state, parameters, [&](int first, const RowMajorMatrix& J) {
+    const Eigen::MatrixXd Q =
+        upper_transposed_solved(at.jacobian, J.transpose());  // columns: lines
+    for (Eigen::Index i = 0; i < J.rows() / lines_; ++i)
+      put(first + i, Q.middleCols(lines_ * i, lines_).transpose());
+  });
+}
+
+void Leverage::from_jacobian(const Solution& at) {
+  if (at.jacobian.cols() == 0) return;
+  const Eigen::MatrixXd Q = orthonormal_rows(at.jacobian);
+  for (Eigen::Index i = 0; i < hat_.cols(); ++i) put(i, Q.middleRows(lines_ * i, lines_));
+}
+
+template <class Lines>
+void Leverage::put(Eigen::Index pose, const Lines& orthonormal) {
+  const LinesSquare hat = orthonormal * orthonormal.transpose();
+  hat_.col(pose) = hat.reshaped();
+}
+
+Eigen::VectorXd Leverage::distances(const FitData& data, const Solution& now) const {
+  Eigen::VectorXd out = plain_distances(data, now);
+  const bool same = data.rows == rows_;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < data.rows.size(); ++i) {
+    const int row = data.rows[i];
+    if (same) known = i;
+    while (known < rows_.size() && rows_[known] < row && !same) ++known;
+    if (known == rows_.size()) break;
+    if (rows_[known] != row) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    const LinesSquare hat = hat_.col(static_cast<Eigen::Index>(known)).reshaped(lines_, lines_);
+    out(at) = deletion_distance(now.residual.segment(lines_ * at, lines_), hat, out(at));
+  }
+  return out;
+}
+
+}  // namespace plumb::offline

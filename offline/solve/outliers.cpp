@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/outliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+#include <unordered_set>
+
+#include "arm/predicted_points.hpp"
+#include "numbers/quantile.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/leverage.hpp"
+#include "solve/many_rows.hpp"
+#include "solve/solver.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kFarOutlierTimes = 6.0;  // times the usual scatter: no reading of this tracker
+constexpr double kFarthestFirst = 0.3;  // of the farthest: the rest may only look far because of it
+constexpr double kMostShare = 0.125;    // of the poses: of one in ten a fold may see a few more
+constexpr double kMostOfSetup = 0.34;   // of the poses of one set-up
+constexpr double kLittle = 0.5;         // of the cost is theirs: they pulled the fit aside a little
+constexpr double kSolved = 1e-12;       // of the cost, in the last iteration
+constexpr double kOutliersRoughly = 1e-8;  // of the cost: near enough to tell outliers
+constexpr double kMedianChi[] = {0.0,    0.6745, 1.1774, 1.5382,
+                                 1.8321, 2.086,  2.3127};  // of the length of k unit normals
+
+int most_outliers(std::size_t poses) {
+  return static_cast<int>(kMostShare * static_cast<double>(poses));
+}
+
+struct Far {
+  std::vector<int> rows, rest;
+  double share = 0.0;  // of the cost
+};
+
+/// distance: deletion distances; plain: as the fit left them.
+Far far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance,
+                      const Eigen::VectorXd& plain) {
+  const double limit = std::max(kFarOutlierTimes * usual_scatter(distance, data.per_pose()),
+                                kFarthestFirst * distance.maxCoeff());
+  Far out;
+  double squares = 0.0;
+  for (Eigen::Index i = 0; i < distance.size(); ++i) {
+    const bool far = distance(i) > limit;
+    (far ? out.rows : out.rest).push_back(data.rows[static_cast<std::size_t>(i)]);
+    if (far) squares += plain(i) * plain(i);
+  }
+  out.share = squares / std::max(1e-300, plain.squaredNorm());
+  return out;
+}
+
+/// Set-ups that would lose more than a third of their poses. The few that are left would decide
+/// where tracker and reflector stand, and could no longer be contradicted.
+std::set<int> decimated_setups(const FitData& data, const std::vector<int>& all,
+                               const std::vector<int>& taken) {
+  std::map<int, int> poses, lost;
+  for (const int row : all) ++poses[setup_of(*data.measured, row)];
+  for (const int row : taken) ++lost[setup_of(*data.measured, row)];
+  std::set<int> out;
+  for (const auto& [setup, count] : lost)
+    if (count > 1 && count > kMostOfSetup * poses[setup]) out.insert(setup);
+  return out;
+}
+
+/// Leaves set-ups whole that would lose too much. True if what was taken of them before has come
+/// back to the rest.
+bool keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>& whole,
+                 std::vector<int>& taken, Far& far) {
+  std::vector<int> out = taken;
+  out.insert(out.end(), far.rows.begin(), far.rows.end());
+  whole.merge(decimated_setups(data, all, out));
+  if (whole.empty()) return false;
+  const std::size_t before = taken.size();
+  const auto stays = [&](int row) { return whole.contains(setup_of(*data.measured, row)); };
+  for (auto* rows : {&taken, &far.rows}) {
+    std::copy_if(rows->begin(), rows->end(), std::back_inserter(far.rest), stays);
+    std::erase_if(*rows, stays);
+  }
+  std::sort(far.rest.begin(), far.rest.end());
+  return taken.size() < before;
+}
+
+/// Those of `taken` that the fit without them agrees with after all.
+std::vector<int> agreeing(const FitData& data, const std::vector<int>& taken, const Solution& fit,
+                          double scatter) {
+  FitData others = data;
+  others.rows = taken;
+  const Eigen::VectorXd distance = plain_distances(others, evaluate(others, fit.state, {}));
+  std::vector<int> out;
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (distance(i) <= kFarOutlierTimes * scatter) out.push_back(taken[i]);
+  return out;
+}
+
+std::vector<Outlier> described(const FitData& data, const std::vector<int>& taken,
+                               const Solution& fit, double scatter) {
+  FitData others = data;
+  others.rows = taken;
+  const Eigen::VectorXd distance = plain_distances(others, evaluate(others, fit.state, {}));
+  const Measurements some = pick(*data.measured, taken);
+  const Rows3 error = residuals(some, predict_points(fit.state, some));
+  std::vector<Outlier> out;
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    out.push_back({.row = taken[i],
+                   .error_m = error.row(i).norm(),
+                   .times = distance(i) / scatter,
+                   .pose = some.pose.empty() ? "" : some.pose[i]});
+  std::sort(out.begin(), out.end(),
+            [](const Outlier& a, const Outlier& b) { return a.times > b.times; });
+  return out;
+}
+
+}  // namespace
+
+Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution) {
+  return Leverage(data, solution).distances(data, solution);
+}
+
+Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution,
+                                   const std::vector<Parameter>& parameters) {
+  return Leverage(data, solution, parameters).distances(data, solution);
+}
+
+double usual_scatter(const Eigen::VectorXd& distances, int per_pose) {
+  if (distances.size() == 0) return 1.0;
+  const double middle = median({distances.data(), distances.data() + distances.size()});
+  return std::max(1.0, middle / kMedianChi[per_pose]);
+}
+
+std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Parameter>& parameters,
+                                            Solution& solution) {
+  const std::vector<int> all = data.rows;
+  const ArmState start = solution.state;
+  // Many rows take their time, and it is the last solution that counts.
+  const bool many = is_many(data, parameters);
+  const double tolerance = many ? kOutliersRoughly : kSolved;
+  solution = solve(data, start, parameters, tolerance);
+  Leverage leverage(data, solution, parameters);
+  bool of_this = true;
+  std::vector<int> taken;
+  bool came_back = false;
+  double scatter = 1.0;
+  std::set<int> kept_whole;  // set-ups of which nothing is taken out
+  for (;;) {
+    if (!many && !of_this) leverage = Leverage(data, solution, parameters);
+    const Eigen::VectorXd distance = leverage.distances(data, solution);
+    scatter = usual_scatter(distance, data.per_pose());
+    Far far = far_from_the_rest(data, distance, plain_distances(data, solution));
+    const bool restored = keep_setups(data, all, kept_whole, taken, far);
+    if (many && far.rows.empty() && !restored && !of_this) {
+      // The leverage so far is from a fit with more rows: an approximation.
+      leverage = Leverage(data, solution, parameters);
+      of_this = true;
+      continue;
+    }
+    of_this = false;
+    if (!far.rows.empty() || restored) {
+      taken.insert(taken.end(), far.rows.begin(), far.rows.end());
+      data.rows = far.rest;
+      if (static_cast<int>(taken.size()) > most_outliers(all.size())) {
+        data.rows = all;
+        solution = solve(data, start, parameters, kSolved);
+        return {};
+      }
+    } else {
+      const auto back = came_back ? std::vector<int>{} : agreeing(data, taken, solution, scatter);
+      if (back.empty()) break;
+      came_back = true;
+      const std::unordered_set<int> returned(back.begin(), back.end());
+      std::erase_if(taken, [&](int row) { return returned.contains(row); });
+      data.rows.insert(data.rows.end(), back.begin(), back.end());
+      std::sort(data.rows.begin(), data.rows.end());
+    }
+    // Outliers may have pulled the solution far along a flat valley: begin again from the start,
+    // unless there are many rows and the outliers caused a small share of the cost.
+    const ArmState from = many && far.share < kLittle ? solution.state : start;
+    solution = solve(data, from, parameters, tolerance);
+  }
+  if (many) solution = solve(data, ArmState(solution.state), parameters, kSolved);
+  return described(data, taken, solution, scatter);
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/parameter_subset.hpp"
+
+#include <cmath>
+
+#include "solve/scaled_jacobian.hpp"
+#include "solve/thinned_rows.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kRankPoses = 4000;         // enough to tell parameters apart
+constexpr double kPlausible_m = 5e-3;    // ten typical errors of a DH length
+constexpr double kPlausible_rad = 5e-3;  // and angle
+
+/// Of an effect: what moves the points by 5 mm RMS, `length` being the norm of its column [1/SI].
+double plausible_size(const Parameter& p, double length) {
+  if (p.of_effect()) return length > 0.0 ? kPlausible_m / length : 1.0;
+  // Frame and target may be anywhere; only the arm is known beforehand.
+  if (!p.of_robot()) return 1.0;
+  return p.is_length() ? kPlausible_m : kPlausible_rad;
+}
+
+}  // namespace
+
+ParameterSubset identifiable_parameters(const FitData& data, const ArmState& state,
+                                        const std::vector<Parameter>& candidates,
+                                        const Identifiability& limits) {
+  FitData thin = data;
+  thin.weak = {};  // what the poses say is asked, not what nominal says
+  thin.rows = thinned(data, kRankPoses);
+  Eigen::MatrixXd J = jacobian_for_all(data, thin, state, candidates);
+  const double lines = std::sqrt(static_cast<double>(data.residual_count()));
+  const double sigma = data.sigma_m.row(thin.rows.front()).mean();
+  for (Eigen::Index k = 0; k < J.cols(); ++k) {
+    const double rms = J.col(k).norm() / lines * sigma;
+    J.col(k) *= plausible_size(candidates[static_cast<std::size_t>(k)], rms);
+  }
+  const Subset subset = identifiable(J, limits);
+  ParameterSubset out;
+  for (int i : subset.kept) out.kept.push_back(candidates[i]);
+  for (int i : subset.dropped) out.held.push_back(candidates[i].name);
+  return out;
+}
+
+}  // namespace plumb::offline

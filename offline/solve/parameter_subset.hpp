@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "arm/arm_state.hpp"
+#include "arm/parameter.hpp"
+#include "solve/fit_data.hpp"
+#include "solve/identifiable.hpp"
+
+namespace plumb::offline {
+
+/// Parameters that the poses can tell apart, in order of preference, and the names of the rest.
+struct ParameterSubset {
+  std::vector<Parameter> kept;
+  std::vector<std::string> held;
+};
+
+/// Rank analysis at `state` of the whitened derivatives, scaled so that 1 is a plausible error of a
+/// robot parameter (5 mm, 5 mrad): with max_std = 1 a number whose standard deviation exceeds that
+/// is held at nominal, because nominal is then the better guess.
+ParameterSubset identifiable_parameters(const FitData& data, const ArmState& state,
+                                        const std::vector<Parameter>& candidates,
+                                        const Identifiability& limits);
+
+}  // namespace plumb::offline

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/pose_lines.hpp"
+
+#include "arm/predicted_points.hpp"
+
+namespace plumb::offline {
+
+PoseLines::Undefined PoseLines::evaluate(const GeometryDerivative& geometry, int first, int last,
+                                         double* residual, double* jacobian) const {
+  const auto count = static_cast<Eigen::Index>(parameters_.size());
+  GeometryDerivative::Point point;
+  Eigen::Index row = 0;
+  const auto emit = [&](double error, double sigma, int column_row) {
+    residual[row] = error / sigma;
+    if (jacobian != nullptr)
+      Eigen::Map<Eigen::RowVectorXd>(jacobian + row * count, count) =
+          point.columns.row(column_row) * (-1.0 / sigma);
+    ++row;
+  };
+  const auto& m = *data_.measured;
+  const bool departed = m.departure_B.rows() > 0;
+  const bool has_effects = !geometry.state().arm.effects.empty();
+  for (int at = first; at < last; ++at) {
+    const int i = data_.rows[static_cast<std::size_t>(at)];
+    const int setup = setup_of(m, i);
+    geometry.evaluate({m.q.row(i).data(), static_cast<std::size_t>(m.q.cols())},
+                      has_effects ? context_of(m, i, geometry.sensors(), geometry.X_MB(setup))
+                                  : MeasuredContext{},
+                      point, departed ? Vector3(m.departure_B.row(i)) : Vector3::Zero(), setup);
+    if (point.undefined >= 0) return {i, point.undefined};
+    for (int k = 0; k < 3; ++k)
+      if (m.has_axis[k]) emit(m.p_M(i, k) - point.p_M(k), data_.sigma_m(i, k), k);
+    if (data_.sigma_rad <= 0.0) continue;
+    const auto quat = m.quat_M.row(i);
+    const Matrix3 R_MG = from_pose({{}, {quat(0), quat(1), quat(2), quat(3)}}).R;
+    const Vector3 turn = rotation_vector(R_MG * point.R_MG.transpose());
+    for (int k = 0; k < 3; ++k) emit(turn(k), data_.sigma_rad, 3 + k);
+  }
+  return {};
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "arm/geometry_derivative.hpp"
+#include "arm/parameter.hpp"
+#include "solve/fit_data.hpp"
+
+namespace plumb::offline {
+
+/// Rows that one thread evaluates in one go.
+inline constexpr int kRowsOfOneThread = 256;
+
+/// The measured poses as lines of a least squares problem: whitened residuals, pose by pose, and
+/// how they change.
+class PoseLines {
+ public:
+  /// Keeps references to both.
+  PoseLines(const FitData& data, const std::vector<Parameter>& parameters)
+      : data_(data), parameters_(parameters) {}
+
+  /// A row and the effect that has no value there; -1: all have.
+  struct Undefined {
+    int row = -1, effect = -1;
+  };
+
+  /// Residuals of data.rows[first] to before data.rows[last], and unless null how they change,
+  /// line by line. Any thread.
+  Undefined evaluate(const GeometryDerivative& geometry, int first, int last, double* residual,
+                     double* jacobian) const;
+
+ private:
+  const FitData& data_;
+  const std::vector<Parameter>& parameters_;
+};
+
+}  // namespace plumb::offline

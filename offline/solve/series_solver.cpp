@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/series_solver.hpp"
+
+#include <algorithm>
+
+#include "arm/arm_change.hpp"
+#include "effects/registry.hpp"
+#include "numbers/cholesky.hpp"
+#include "plumb/runtime/chain.hpp"
+#include "solve/descent.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/many_rows.hpp"
+#include "solve/series_numbers.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kMostSeriesSteps = 30;
+constexpr double kSeriesDamping = 1e-10, kFirstSeriesDamping = 1e-4, kMostSeriesDamping = 1e4;
+constexpr double kNoSeriesStep = 1e-6;  // of cost to be gained: nothing beside the noise
+constexpr double kAsPromised = 0.5;     // of the promised fall: below, the matrix is made anew
+
+/// One state: what it misses, and how its parameters and its joints move the points.
+struct SeriesPoint {
+  ArmState state;
+  Eigen::VectorXd residual;      // whitened, then the priors of `parameters`
+  Eigen::MatrixXd J = {};        // of the parameters, shape (lines and priors, parameters)
+  Eigen::MatrixXd joint = {};    // of the joints that have a series, shape (lines, series)
+  Eigen::VectorXd numbers = {};  // of all series
+  double cost = 0.0;
+};
+
+class SeriesProblem {
+ public:
+  SeriesProblem(const FitData& data, const ArmState& start,
+                const std::vector<Parameter>& parameters)
+      : data_(data),
+        parameters_(parameters),
+        with_joints_(parameters),
+        series_(series_numbers(start.arm)),
+        poses_(static_cast<Eigen::Index>(data.rows.size())),
+        lines_(data.per_pose()) {
+    data_.series = false;
+    Eigen::Index count = 0;
+    for (const auto& one : series_) count += one.count;
+    sigma_.resize(count);
+    Eigen::VectorXd q(poses_);
+    count = 0;
+    for (const auto& one : series_) {
+      with_joints_.push_back({Parameter::Kind::kTheta, one.joint, 0, ""});
+      for (Eigen::Index i = 0; i < poses_; ++i)
+        q(i) = data.measured->q(data.rows[static_cast<std::size_t>(i)], one.joint);
+      waves_.push_back(series_waves(q, one.count));
+      sigma_.segment(count, one.count) = one.sigma;
+      count += one.count;
+    }
+  }
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(parameters_.size()); }
+  Eigen::Index numbers() const { return sigma_.size(); }
+  const Eigen::VectorXd& sigma() const { return sigma_; }
+
+  SeriesPoint at(const ArmState& state) const {
+    Solution here = evaluate(data_, state, with_joints_);
+    SeriesPoint out{.state = state, .residual = std::move(here.residual)};
+    out.J = here.jacobian.leftCols(count());
+    out.joint =
+        here.jacobian.topRightCorner(poses_ * lines_, static_cast<Eigen::Index>(series_.size()));
+    const Chain chain(state.arm.calibrated);
+    for (std::size_t s = 0; s < series_.size(); ++s)
+      out.joint.col(static_cast<Eigen::Index>(s)) *= chain.scale(series_[s].joint);
+    out.numbers = numbers_of(state);
+    out.cost = 0.5 * (out.residual.squaredNorm() + out.numbers.cwiseQuotient(sigma_).squaredNorm());
+    return out;
+  }
+
+  /// J^T J of parameters and series, without the prior of the series.
+  Eigen::MatrixXd information(const SeriesPoint& at) const {
+    Eigen::MatrixXd out(count() + numbers(), count() + numbers());
+    out.topLeftCorner(count(), count()) = at.J.transpose() * at.J;
+    Eigen::Index column = count();
+    for (std::size_t s = 0; s < series_.size(); ++s) {
+      const Eigen::MatrixXd& waves = waves_[s];
+      const auto joint = at.joint.col(static_cast<Eigen::Index>(s));
+      const Eigen::MatrixXd by_pose = sums_by_pose(joint.asDiagonal() * at.J.topRows(joint.size()));
+      out.block(0, column, count(), waves.cols()) = by_pose.transpose() * waves;
+      Eigen::Index row = count();
+      for (std::size_t r = 0; r <= s; ++r) {
+        const Eigen::VectorXd both =
+            sums_by_pose(joint.cwiseProduct(at.joint.col(static_cast<Eigen::Index>(r))));
+        const Eigen::MatrixXd weighed = both.asDiagonal() * waves;
+        out.block(row, column, waves_[r].cols(), waves.cols()).noalias() =
+            waves_[r].transpose() * weighed;
+        row += waves_[r].cols();
+      }
+      column += waves.cols();
+    }
+    return out.selfadjointView<Eigen::Upper>();
+  }
+
+  /// How fast the cost falls with parameters and series.
+  Eigen::VectorXd descent(const SeriesPoint& at) const {
+    Eigen::VectorXd out(count() + numbers());
+    out.head(count()) = at.J.transpose() * at.residual;
+    Eigen::Index row = count();
+    for (std::size_t s = 0; s < series_.size(); ++s) {
+      const Eigen::VectorXd by_pose =
+          sums_by_pose(at.joint.col(static_cast<Eigen::Index>(s))
+                           .cwiseProduct(at.residual.head(at.joint.rows())));
+      out.segment(row, waves_[s].cols()) = waves_[s].transpose() * by_pose;
+      row += waves_[s].cols();
+    }
+    out.tail(numbers()) -= at.numbers.cwiseQuotient(sigma_.cwiseAbs2());
+    return out;
+  }
+
+  ArmState moved_by(const ArmState& from, const Eigen::VectorXd& step) const {
+    ArmState out = moved(from, parameters_, step.head(count()));
+    Eigen::Index row = count();
+    for (const auto& one : series_)
+      for (int k = 0; k < one.count; ++k)
+        out.arm.effects[static_cast<std::size_t>(one.effect)]
+            .parameters[static_cast<std::size_t>(one.first + k)] += step(row++);
+    return out;
+  }
+
+ private:
+  Eigen::VectorXd numbers_of(const ArmState& state) const {
+    Eigen::VectorXd out(numbers());
+    Eigen::Index row = 0;
+    for (const auto& one : series_)
+      for (int k = 0; k < one.count; ++k)
+        out(row++) = state.arm.effects[static_cast<std::size_t>(one.effect)]
+                         .parameters[static_cast<std::size_t>(one.first + k)];
+    return out;
+  }
+
+  template <class Lines>
+  Eigen::MatrixXd sums_by_pose(const Lines& of_lines) const {
+    const Eigen::MatrixXd lines = of_lines;
+    Eigen::MatrixXd out(poses_, lines.cols());
+    for (Eigen::Index c = 0; c < lines.cols(); ++c)
+      out.col(c) = lines.col(c).reshaped(lines_, poses_).colwise().sum().transpose();
+    return out;
+  }
+
+  FitData data_;
+  const std::vector<Parameter>& parameters_;
+  std::vector<Parameter> with_joints_;
+  std::vector<SeriesNumbers> series_;
+  Eigen::Index poses_, lines_;
+  std::vector<Eigen::MatrixXd> waves_;  // of each series, shape (poses, numbers)
+  Eigen::VectorXd sigma_;
+};
+
+/// Normal equations with the prior, scaled so that all columns are of length 1.
+class SeriesEquations {
+ public:
+  SeriesEquations(const Eigen::MatrixXd& information, const Eigen::VectorXd& sigma)
+      : matrix_(information) {
+    matrix_.diagonal().tail(sigma.size()) += sigma.cwiseAbs2().cwiseInverse();
+    scale_ = matrix_.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    matrix_ = (scale_.asDiagonal() * matrix_ * scale_.asDiagonal()).eval();
+    damp(kSeriesDamping);
+  }
+
+  void damp(double damping) {
+    matrix_.diagonal().setConstant(1.0 + damping);
+    llt_ = Cholesky(matrix_);
+  }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& descent) const {
+    return scale_.cwiseProduct(llt_.solve(scale_.cwiseProduct(descent)));
+  }
+
+  /// Diagonal of the inverse over the last `count` unknowns, and what information is left of the
+  /// first ones.
+  Eigen::VectorXd variances(Eigen::Index count) const {
+    const Eigen::MatrixXd half = llt_.whitened(
+        Eigen::MatrixXd(Eigen::MatrixXd::Identity(scale_.size(), scale_.size()).rightCols(count)));
+    return half.colwise().squaredNorm().transpose().cwiseProduct(scale_.tail(count).cwiseAbs2());
+  }
+  Eigen::MatrixXd marginal(Eigen::Index first) const {
+    const Eigen::Index last = scale_.size() - first;
+    const Cholesky of_last(matrix_.bottomRightCorner(last, last));
+    const Eigen::MatrixXd across = matrix_.bottomLeftCorner(last, first);
+    const Eigen::MatrixXd left =
+        matrix_.topLeftCorner(first, first) - across.transpose() * of_last.solve(across);
+    const auto size = scale_.head(first).cwiseInverse();
+    return size.asDiagonal() * left * size.asDiagonal();
+  }
+
+ private:
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd scale_;
+  Cholesky llt_;
+};
+
+}  // namespace
+
+bool has_series(const ArmState& state) {
+  return std::any_of(state.arm.effects.begin(), state.arm.effects.end(),
+                     [](const format::Effect& e) { return is_series(e.name); });
+}
+
+Solution solve_with_series(const FitData& data, const ArmState& start,
+                           const std::vector<Parameter>& parameters, double tolerance) {
+  const SeriesProblem problem(data, start, parameters);
+  Solution out;
+  SeriesPoint here = problem.at(start);
+  SeriesEquations equations(problem.information(here), problem.sigma());
+  bool fresh = true;  // whether the matrix is that of this point
+  double damping = kSeriesDamping;
+  for (; !out.converged && out.iterations < kMostSeriesSteps && damping < kMostSeriesDamping;
+       ++out.iterations) {
+    const Eigen::VectorXd descent = problem.descent(here);
+    const Eigen::VectorXd step = equations.solve(descent);
+    const double promised = 0.5 * step.dot(descent);
+    if (promised <= std::max(tolerance * here.cost, kNoSeriesStep)) {
+      out.converged = true;
+      break;
+    }
+    SeriesPoint there = problem.at(problem.moved_by(here.state, step));
+    const double fall = here.cost - there.cost;
+    const bool better = std::isfinite(there.cost) && fall > 0.0;
+    if (better) here = std::move(there);
+    if (better && fall > kAsPromised * promised) {
+      fresh = false;
+      continue;
+    }
+    if (!better && fresh) {
+      damping = std::max(10.0 * damping, kFirstSeriesDamping);
+      equations.damp(damping);
+      continue;
+    }
+    equations = SeriesEquations(problem.information(here), problem.sigma());
+    fresh = true;
+    damping = kSeriesDamping;
+  }
+  out.reason = "the residuals still change with every step";
+  out.cost = here.cost;
+  out.marginal = equations.marginal(problem.count());
+  out.series_dof =
+      static_cast<double>(problem.numbers()) -
+      equations.variances(problem.numbers()).cwiseQuotient(problem.sigma().cwiseAbs2()).sum();
+  out.jacobian =
+      is_many(data, parameters) ? triangle_of(here.J.transpose() * here.J) : std::move(here.J);
+  out.residual = std::move(here.residual);
+  out.state = std::move(here.state);
+  return out;
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/solver.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "arm/arm_change.hpp"
+#include "solve/descent.hpp"
+#include "solve/evaluation.hpp"
+#include "solve/fit_lines.hpp"
+#include "solve/many_rows.hpp"
+#include "solve/series_solver.hpp"
+#include "solve/solution_checks.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kNoChange = 1e-7;      // of the cost in the last iteration
+constexpr double kDenseQrUpTo = 2e5;    // numbers; beyond it the normal equations are much faster
+constexpr int kMostIterations = 300;    // weakly observable parameters converge slowly
+constexpr int kPatience = 50;           // iterations before predictions alone are judged
+constexpr int kLookBack = 10;           // iterations over which they are
+constexpr double kAtRest = 3e-3;        // of the noise: predictions that move no more have settled
+constexpr double kNearlyAtRest = 3e-2;  // the same, where the last iteration is reached
+
+/// RMS motion of the predictions, in standard deviations of the noise, that goes with a fall of
+/// the cost near its minimum, where cost - least cost = |J dx|^2 / 2.
+double motion_of(double cost_fall, double cost, int residuals) {
+  const double n = std::max(1, residuals);
+  const double scatter = std::max(1.0, std::sqrt(2.0 * cost / n));
+  return std::sqrt(2.0 * std::max(0.0, cost_fall) / n) / scatter;
+}
+
+/// Ends a solution whose predictions have come to rest.
+class PredictionsAtRest final : public ceres::IterationCallback {
+ public:
+  explicit PredictionsAtRest(int residuals) : residuals_(residuals) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    costs_.push_back(now.cost);
+    return now.iteration >= kPatience && recent_motion() < kAtRest
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
+  }
+
+  double recent_motion() const {
+    if (costs_.size() <= kLookBack) return std::numeric_limits<double>::infinity();
+    return motion_of(costs_[costs_.size() - 1 - kLookBack] - costs_.back(), costs_.back(),
+                     residuals_);
+  }
+
+ private:
+  int residuals_;
+  std::vector<double> costs_;
+};
+
+/// The lines of a fit as Ceres asks for them, in one block.
+class AllLines final : public ceres::CostFunction {
+ public:
+  AllLines(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters)
+      : lines_(data, start, parameters), parameters_(static_cast<int>(parameters.size())) {
+    set_num_residuals(lines_.count());
+    mutable_parameter_block_sizes()->push_back(parameters_);
+  }
+
+  bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
+    return lines_.evaluate(Eigen::Map<const Eigen::VectorXd>(x[0], parameters_), residual,
+                           jacobians == nullptr ? nullptr : jacobians[0]);
+  }
+
+ private:
+  FitLines lines_;
+  int parameters_;
+};
+
+}  // namespace
+
+Solution solve(const FitData& data, const ArmState& start, const std::vector<Parameter>& parameters,
+               double tolerance) {
+  if (data.series && has_series(start))
+    return solve_with_series(data, start, parameters, tolerance);
+  if (parameters.empty()) return evaluate(data, start, parameters);
+  if (is_many(data, parameters)) return solve_many(data, start, parameters, tolerance);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  AllLines cost(data, start, parameters);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, x.data());
+  ceres::Solver::Options options;
+  const double size = static_cast<double>(data.residual_count()) * static_cast<double>(x.size());
+  options.linear_solver_type = size > kDenseQrUpTo ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+  options.max_num_iterations = kMostIterations;
+  options.function_tolerance = tolerance;
+  options.parameter_tolerance = 1e-14;
+  options.gradient_tolerance = 1e-16;
+  options.logging_type = ceres::SILENT;
+  PredictionsAtRest at_rest(data.residual_count());
+  options.callbacks.push_back(&at_rest);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  // Where the start has no finite value there is nothing to climb from.
+  if (summary.iterations.empty()) {
+    Solution none;
+    none.reason = summary.message;
+    check_converged(none);
+  }
+  Solution out = evaluate(data, moved(start, parameters, x), parameters);
+  out.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  // Two parameters with nearly the same effect need not converge to the last digit.
+  const auto& last = summary.iterations.back();
+  out.converged = summary.termination_type == ceres::CONVERGENCE ||
+                  summary.termination_type == ceres::USER_SUCCESS ||
+                  std::abs(last.cost_change) < kNoChange * last.cost ||
+                  at_rest.recent_motion() < kNearlyAtRest;
+  out.reason = summary.message;
+  return out;
+}
+
+}  // namespace plumb::offline

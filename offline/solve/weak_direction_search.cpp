@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/weak_direction_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numbers/spectrum.hpp"
+#include "numbers/triangle.hpp"
+#include "solve/scaled_jacobian.hpp"
+#include "solve/thinned_rows.hpp"
+
+namespace plumb::offline {
+namespace {
+
+constexpr int kMostRows = 4000;
+constexpr double kWeak = 3.0;  // s: known worse than a third of the prior
+
+/// 1 sigma of a number about its nominal value [SI]; 0 where nothing is known, or more than that.
+double prior_of(const Parameter& p, const FitData& data) {
+  const FitSettings& settings = data.cell->fit;
+  if (!p.of_robot() || p.of_effect()) return 0.0;
+  for (const auto& own : settings.priors)
+    if (own.name == p.name) return 0.0;
+  for (const auto& earlier : data.arm.names)
+    if (earlier == p.name) return 0.0;
+  return p.is_length() ? settings.prior_m : settings.prior_rad;
+}
+
+/// Last columns of J, less what the first ones explain: the lower right block of R.
+Eigen::MatrixXd less_the_first(const Eigen::MatrixXd& J, Eigen::Index first) {
+  const Eigen::VectorXd scale = per_norm(J);
+  const Eigen::MatrixXd scaled = J * scale.asDiagonal();
+  const Eigen::Index rows = std::min(J.rows(), J.cols());
+  const Eigen::MatrixXd R = householder_triangle(scaled);
+  const Eigen::Index last = J.cols() - first;
+  return R.bottomRightCorner(std::max<Eigen::Index>(0, rows - first), last) *
+         scale.tail(last).cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+WeakDirections weak_directions(const FitData& data, const ArmState& state,
+                               const std::vector<Parameter>& parameters) {
+  WeakDirections out;
+  if (data.cell == nullptr) return out;
+  std::vector<Parameter> order;
+  std::vector<double> prior;
+  for (const auto& p : parameters) {
+    const double sigma = prior_of(p, data);
+    if (sigma > 0.0) {
+      out.parameters.push_back(p);
+      prior.push_back(sigma);
+    } else {
+      order.push_back(p);
+    }
+  }
+  if (out.parameters.empty()) return out;
+  const auto first = static_cast<Eigen::Index>(order.size());
+  order.insert(order.end(), out.parameters.begin(), out.parameters.end());
+  FitData thin = data;
+  thin.weak = {};
+  thin.rows = thinned(data, kMostRows);
+  const Eigen::Map<const Eigen::VectorXd> sigma(prior.data(),
+                                                static_cast<Eigen::Index>(prior.size()));
+  const Eigen::MatrixXd shown =
+      less_the_first(jacobian_for_all(data, thin, state, order), first) * sigma.asDiagonal();
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(sigma.size(), sigma.size());
+  square.topRows(std::min(shown.rows(), square.rows())) =
+      shown.topRows(std::min(shown.rows(), square.rows()));
+  const auto [s, every] = right_singular(square);
+  const auto strong = static_cast<Eigen::Index>((s.array() >= kWeak).count());
+  const Eigen::MatrixXd V = every.rightCols(sigma.size() - strong);
+  out.weights = V.transpose() * sigma.cwiseInverse().asDiagonal();
+  out.share = V.rowwise().squaredNorm();
+  return out;
+}
+
+}  // namespace plumb::offline

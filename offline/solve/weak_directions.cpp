@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solve/weak_directions.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace plumb::offline {
+namespace {
+
+constexpr double kPartOf = 0.25;  // of a number's square lies in the weak directions
+constexpr std::size_t kDirectionsListed = 6;
+
+}  // namespace
+
+std::vector<std::string> names_of(const WeakDirections& weak) {
+  std::vector<std::string> out;
+  if (weak.weights.rows() == 0) return out;
+  // Where a direction is made of many numbers, none has a large part: the largest is named.
+  const double least = std::min(kPartOf, weak.share.maxCoeff());
+  for (std::size_t i = 0; i < weak.parameters.size(); ++i)
+    if (weak.share(static_cast<Eigen::Index>(i)) >= least) out.push_back(weak.parameters[i].name);
+  return out;
+}
+
+Problem held_near_nominal(const WeakDirections& weak, const FitSettings& settings) {
+  auto names = names_of(weak);
+  std::string more;
+  if (names.size() > kDirectionsListed) {
+    more = fmt::format(" and {} more", names.size() - kDirectionsListed);
+    names.resize(kDirectionsListed);
+  }
+  return {.severity = Severity::kNote,
+          .code = "N-FIT-PRIOR",
+          .message = fmt::format("these poses say little of {}{}: they are held near nominal, give "
+                                 "or take {:g} mm and {:g} mrad",
+                                 fmt::join(names, ", "), more, settings.prior_m * 1e3,
+                                 settings.prior_rad * 1e3),
+          .help = "to know them, measure poses all over the joint limits: plumb plan --n 30"};
+}
+
+}  // namespace plumb::offline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "arm/parameter.hpp"
+#include "cell/cell.hpp"
+
+namespace plumb::offline {
+
+/// Combinations of the arm's numbers about which the poses say next to nothing: each row of
+/// `weights` times what the numbers are away from nominal is a distance in standard deviations.
+struct WeakDirections {
+  std::vector<Parameter> parameters;
+  Eigen::MatrixXd weights;  // shape (directions, parameters) [1/SI]
+  Eigen::VectorXd share;    // of each number that lies in these directions, 0 to 1
+};
+
+/// Names of the numbers that make up most of these directions, in their order.
+std::vector<std::string> names_of(const WeakDirections& weak);
+
+/// N-FIT-PRIOR: which numbers of the arm are held near nominal, in words. `weak` is not empty.
+Problem held_near_nominal(const WeakDirections& weak, const FitSettings& settings);
+
+}  // namespace plumb::offline
