@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "check/arm_shape.hpp"
 #include "check/coverage.hpp"
 #include "check/tool_errors.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 /// What is said of an arm and its poses before any fitting.
 namespace plumb::offline {

@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "check/regularised_fit.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {

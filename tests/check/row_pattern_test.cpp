@@ -5,8 +5,10 @@
 
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "check/tool_errors.hpp"
 #include "simulate/simulate.hpp"
+#include "tests/cases/random_cell.hpp"
 
 namespace plumb::offline {
 namespace {
