@@ -98,6 +98,7 @@ TEST_F(RecheckEvidence, LearntErrorsMoveWithTheNumbersThatTheyWereLearntWith) {
   tests::Random random(8);
   view.weights.resize(readings.rows.size(), 4);
   for (double& w : view.weights.reshaped()) w = random.uniform(-0.5, 0.5);
+  for (double& m : view.mean_B.reshaped()) m = random.uniform(-1e-4, 1e-4);
   const Judged judged = judge({});
   const Eigen::MatrixXd old = slopes(view.near, arm.state, known.parameters);
   Eigen::MatrixXd J = slopes(readings.rows, arm.state, known.parameters);
@@ -105,7 +106,11 @@ TEST_F(RecheckEvidence, LearntErrorsMoveWithTheNumbersThatTheyWereLearntWith) {
     for (Eigen::Index k = 0; k < 4; ++k)
       J.middleRows(3 * i, 3) -= view.weights(i, k) * old.middleRows(3 * k, 3);
   const Eigen::MatrixXd S = view.covariance + J * known.covariance * J.transpose();
-  EXPECT_NEAR(judged.ln_evidence, ln_student(missed_lines(readings.rows, arm.state), S), 1e-5);
+  const Eigen::Matrix3d R_MB = from_pose(arm.state.X_MB).R;
+  Eigen::VectorXd r = missed_lines(readings.rows, arm.state);
+  for (Eigen::Index i = 0; i < readings.rows.size(); ++i)
+    r.segment<3>(3 * i) -= R_MB * view.mean_B.row(i).transpose();
+  EXPECT_NEAR(judged.ln_evidence, ln_student(r, S), 1e-5);
 }
 
 TEST_F(RecheckEvidence, TwoViewsAreAveragedAndTheLikelierOneIsKept) {

@@ -84,6 +84,20 @@ TEST_F(RecheckSearch, TheChancesOfAllChangesCountTogether) {
   }
 }
 
+/// What nobody expects needs so much more of the evidence: its chance times the Bayes factor.
+TEST_F(RecheckSearch, AChangeIsFoundWhereItsChanceTimesItsBayesFactorIsFifty) {
+  ArmState now = arm.state;
+  now.X_TG.p[0] += 1e-4;
+  measure(now, 82);
+  const Judge judge(readings, arm.state, known);
+  Change tool = arm.tool();
+  const double bayes = std::exp(judge.judge({tool}).ln_evidence - judge.judge({}).ln_evidence);
+  for (const double times : {0.9, 1.1}) {
+    tool.chance = times / (kFalseAlarm * bayes);
+    EXPECT_EQ(found({tool}).empty(), times < 1.0);
+  }
+}
+
 TEST_F(RecheckSearch, ASingleWrongReadingIsFoundAndIsNoChange) {
   measure(arm.state, 91);
   readings.rows.p_M(6, 0) += 2e-3;
