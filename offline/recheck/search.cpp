@@ -26,6 +26,12 @@ std::vector<Change> without(std::vector<Change> all, std::size_t k) {
   return all;
 }
 
+bool is_among(const std::vector<std::vector<Change>>& all, const std::vector<Change>& changes) {
+  return std::any_of(all.begin(), all.end(), [&](const std::vector<Change>& one) {
+    return std::equal(one.begin(), one.end(), changes.begin(), changes.end(), same);
+  });
+}
+
 }  // namespace
 
 Search::Search(const Judge& judge, const Readings& readings, std::vector<Change> possible,
@@ -43,7 +49,12 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
 
 void Search::run() {
   last_ = nothing_ = judge_.judge(found_);
-  while (changes() < kMostChanges && add_best()) {
+  // What comes next depends on what was found alone: from a set that was there before it would go
+  // round for ever.
+  std::vector<std::vector<Change>> before;
+  while (changes() < kMostChanges && !is_among(before, found_)) {
+    before.push_back(found_);
+    if (!add_best()) return;
     exchange();
     drop_needless();
   }

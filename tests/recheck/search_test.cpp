@@ -98,6 +98,21 @@ TEST_F(RecheckSearch, AChangeIsFoundWhereItsChanceTimesItsBayesFactorIsFifty) {
   }
 }
 
+/// Beside a sure change, one that two ways explain is needed by both together and by neither alone:
+/// it is added and dropped, and the search ends.
+TEST_F(RecheckSearch, EndsWhereAChangeIsNeededOnlyByAllOfItsKindTogether) {
+  ArmState now = with_offset(1, 3e-3);
+  now.X_TG.p[0] += 1e-4;
+  measure(now, 83);
+  const Judge judge(readings, arm.state, known);
+  Change half = arm.tool(), other = arm.tool();
+  const double bayes = std::exp(judge.judge({arm.offset(1), half}).ln_evidence -
+                                judge.judge({arm.offset(1)}).ln_evidence);
+  half.chance = other.chance = 0.6 / (kFalseAlarm * bayes);
+  other.joint = 7;
+  EXPECT_TRUE(has(found({arm.offset(1), half, other}), arm.offset(1)));
+}
+
 TEST_F(RecheckSearch, ASingleWrongReadingIsFoundAndIsNoChange) {
   measure(arm.state, 91);
   readings.rows.p_M(6, 0) += 2e-3;
