@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/change.hpp"
+#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "arm/predicted_points.hpp"
 #include "small_arm.hpp"
 
 namespace plumb::offline::recheck {

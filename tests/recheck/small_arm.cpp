@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "small_arm.hpp"
+#include "arm/predicted_points.hpp"
+#include "fit/calibrate.hpp"
 
 #include <cmath>
 #include <string>
