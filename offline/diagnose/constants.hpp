@@ -100,8 +100,6 @@ inline constexpr double kTypicalStep = 300e-6;
 /// Below so many fit poses there are more folds, so that each leaves enough to fit. study.
 inline constexpr int kManyPoses = 100;
 inline constexpr int kFoldCount = 6, kManyFoldCount = 10;
-/// No tracker is better [m]. arms.
-inline constexpr double kSmallestSigma_m = 0.1e-6;
 /// Coordinates beyond the parameters below which nothing can be told. data.
 inline constexpr double kFewestFreeLines = 20.0;
 

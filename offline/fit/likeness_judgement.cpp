@@ -35,7 +35,7 @@ constexpr double kChangeChance = 0.1;    // that one number has changed
 constexpr double kChangeTimes = 4.0;     // as large as arms are built different
 constexpr double kSame = 0.04;           // spread up to which arms are as good as one
 constexpr double kUnlike = 0.85;         // spread from which on arms have little in common
-constexpr double kSure = 0.9;
+constexpr double kSureLikeness = 0.9;
 constexpr double kNegligible = 1e-7;  // weight of a hypothesis
 constexpr double kMostBuilt = 10e-3;  // m or rad: how far at most arms are built from nominal
 constexpr int kUnchanged = -1, kOffsets = -2;  // in the place of a number that has changed
@@ -183,7 +183,7 @@ struct Hypothesis {
   std::size_t base = 0;  // index of mean and covariance
 };
 
-struct Base {
+struct Gaussian {
   Eigen::VectorXd mean;
   Eigen::MatrixXd P;
 };
@@ -210,7 +210,7 @@ class Mixture {
     Eigen::MatrixXd second = Eigen::MatrixXd::Zero(count, count);  // E[u u^T]
     double noise = 0.0;
     for (const auto& h : all_) {
-      const Base posterior = posterior_of(h);
+      const Gaussian posterior = posterior_of(h);
       mean += h.weight * posterior.mean;
       second += h.weight * (posterior.P + posterior.mean * posterior.mean.transpose());
       noise += h.weight * h.noise * h.noise;
@@ -225,8 +225,8 @@ class Mixture {
 
  private:
   /// The shared numbers if this hypothesis is right, before the readings.
-  Base prior_of(const Hypothesis& h) const {
-    Base out = bases_[h.base];
+  Gaussian prior_of(const Hypothesis& h) const {
+    Gaussian out = bases_[h.base];
     const double variance = std::pow(kChangeTimes * h.scale, 2);
     if (h.changed >= 0) out.P(h.changed, h.changed) += variance;
     if (h.changed == kOffsets)
@@ -235,8 +235,8 @@ class Mixture {
   }
 
   /// The same with the readings.
-  Base posterior_of(const Hypothesis& h) const {
-    Base out = prior_of(h);
+  Gaussian posterior_of(const Hypothesis& h) const {
+    Gaussian out = prior_of(h);
     const Eigen::MatrixXd across = out.P * shown_.R.transpose();
     Eigen::MatrixXd S = shown_.R * across;
     S.diagonal().array() += h.noise * h.noise;
@@ -266,7 +266,7 @@ class Mixture {
 
   /// One spread at every noise, with and without a number that has changed.
   void weigh(double scale, double spread, double ln_before) {
-    const Base& base = bases_.back();
+    const Gaussian& base = bases_.back();
     const Eigen::VectorXd z = shown_.z - shown_.R * (base.mean - u0_);
     const Eigen::MatrixXd seen = shown_.R * base.P * shown_.R.transpose();
     const SymmetricEigen eigen = symmetric_eigen(seen);
@@ -327,7 +327,7 @@ class Mixture {
   Shown shown_;
   Eigen::VectorXd u0_;
   std::vector<Eigen::Index> offsets_;
-  std::vector<Base> bases_;
+  std::vector<Gaussian> bases_;
   std::vector<Hypothesis> all_;
 };
 
@@ -354,20 +354,20 @@ Likeness summary(const Mixture& mixture, const std::vector<Shared>& shared,
     r2 += h.weight * (1.0 - h.spread * h.spread);
     variance += h.weight * std::pow(h.spread * h.scale, 2);
   }
-  if (out.same_chance > kSure)
+  if (out.same_chance > kSureLikeness)
     out.kind = Likeness::Kind::kSame;
-  else if (unlike > kSure)
+  else if (unlike > kSureLikeness)
     out.kind = Likeness::Kind::kUnlike;
-  else if (out.same_chance + unlike < 1.0 - kSure)
+  else if (out.same_chance + unlike < 1.0 - kSureLikeness)
     out.kind = Likeness::Kind::kSister;
   out.share = std::sqrt(r2);
   const auto of = [](double stated) { return stated > 0.0 ? stated : kUnsetPrior; };
   out.spread_m = std::sqrt(variance) * of(settings.prior_m);
   out.spread_rad = std::sqrt(variance) * of(settings.prior_rad);
   Eigen::Index likely = 0;
-  if (changed.maxCoeff(&likely) > kSure)
+  if (changed.maxCoeff(&likely) > kSureLikeness)
     out.changed = shared[static_cast<std::size_t>(likely)].parameter.name;
-  if (offsets > kSure) out.changed = "offsets";
+  if (offsets > kSureLikeness) out.changed = "offsets";
   return out;
 }
 

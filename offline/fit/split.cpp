@@ -201,9 +201,8 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
   split.used.resize(m.size());
   for (int i = 0; i < m.size(); ++i) split.used[i] = m.set[i] != SetMark::kIgnore;
   Random random(seed);
-  using Kind = HeldOutRule::Kind;
   switch (rule.kind) {
-    case Kind::kAuto:
+    case HeldOutRule::Kind::kAuto:
       if (marks_held_rows(m))
         hold_marked(m, split);
       else if (static_cast<int>(representatives(m, split.used).size()) <= kFoldsUpTo)
@@ -211,16 +210,16 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
       else
         hold_share(m, 0.2, random, split);
       break;
-    case Kind::kShare:
+    case HeldOutRule::Kind::kShare:
       hold_share(m, rule.share, random, split);
       break;
-    case Kind::kFolds:
+    case HeldOutRule::Kind::kFolds:
       make_folds(m, rule.folds, random, split);
       break;
-    case Kind::kColumn:
+    case HeldOutRule::Kind::kColumn:
       hold_marked(m, split);
       break;
-    case Kind::kFile:
+    case HeldOutRule::Kind::kFile:
       hold_last_file(m, split);
       break;
   }

@@ -22,10 +22,10 @@ int order_of(const std::string& name) {
     return static_cast<int>(at - kFirst.begin());
   if (const int j = joint_number(name, "q"); j > 0) return 10 + j;
   if (const int j = joint_number(name, "qc"); j > 0) return 30 + j;
-  static const std::vector<std::string> kPoint{"x",  "y",  "z",  "qw", "qx", "qy", "qz",
-                                               "sx", "sy", "sz", "nx", "ny", "nz"};
-  const auto at = std::find(kPoint.begin(), kPoint.end(), name);
-  return at != kPoint.end() ? 50 + static_cast<int>(at - kPoint.begin()) : 100;
+  static const std::vector<std::string> kPointOrder{"x",  "y",  "z",  "qw", "qx", "qy", "qz",
+                                                    "sx", "sy", "sz", "nx", "ny", "nz"};
+  const auto at = std::find(kPointOrder.begin(), kPointOrder.end(), name);
+  return at != kPointOrder.end() ? 50 + static_cast<int>(at - kPointOrder.begin()) : 100;
 }
 
 struct WrittenColumn {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noise/usual_errors.hpp"
 
+#include "noise/weights.hpp"
+
 #include <Eigen/Core>
 #include <algorithm>
 
@@ -9,9 +11,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kFarOut = 6.0;              // the usual scatter
-constexpr double kSmallestSigma_m = 0.1e-6;  // of noise-free data
-constexpr double kMostSingle = 0.15;         // of the readings
+constexpr double kFarOut = 6.0;       // the usual scatter
+constexpr double kMostSingle = 0.15;  // of the readings
 
 }  // namespace
 

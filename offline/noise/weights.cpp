@@ -8,7 +8,6 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kUnstatedSigma_m = 10e-6;
-constexpr double kSmallestSigma_m = 0.1e-6;
 
 }  // namespace
 

@@ -6,6 +6,9 @@
 
 namespace plumb::offline {
 
+/// No tracker is better [m]: what is below counts as this, as in data without noise.
+inline constexpr double kSmallestSigma_m = 0.1e-6;
+
 /// 1 sigma of every measured coordinate, shape (n, 3) [m]: from the file's columns, else from the
 /// cell, else 10 um; never below 0.1 um.
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured);
