@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noise/usual_errors.hpp"
 
-#include "noise/weights.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "noise/weights.hpp"
 #include "solve/outliers.hpp"
 
 namespace plumb::offline {
