@@ -57,6 +57,26 @@ std::string statement(const std::string& match, const std::string& verdict) {
                      sha256(match + verdict).substr(0, 12));
 }
 
+/// On what goes to a controller, or leaves our port: all that the service sends, and to `others`
+/// what is said of everybody else's packets. The kernel sends without an owner what
+/// belongs to no open socket: a refusal, the end of a connection, and the unsent bytes of whoever
+/// has closed his socket. Of that passes what carries no byte and opens no connection: a TCP header
+/// of 20 bytes, or of 32 with time stamps.
+std::vector<std::string> by_the_service(const std::string& ours, const std::optional<Address>& at,
+                                        const std::string& user, const char* others) {
+  std::vector<std::string> out{
+      statement(fmt::format("{} meta skuid \"{}\"", ours, user), "accept")};
+  for (const auto& [family, header] : {std::pair{"ip", 20}, std::pair{"ip6", 0}}) {
+    if (at && at->family != family) continue;
+    for (const auto& [length, more] : {std::pair{20, ""}, std::pair{32, " tcp doff 8"}})
+      out.push_back(statement(fmt::format("{} tcp flags & syn == 0 {} length {}{}", ours, family,
+                                          header + length, more),
+                              "accept"));
+  }
+  out.push_back(statement(ours, others));
+  return out;
+}
+
 /// What is forwarded to the controller comes from a container, a virtual machine or a neighbouring
 /// network, and has no user.
 std::optional<FirewallRule> connecting(const std::string& place, const BusEndpoint& bus,
@@ -73,8 +93,7 @@ std::optional<FirewallRule> connecting(const std::string& place, const BusEndpoi
       .without = fmt::format("{}: every user of this machine, and every container, may connect to "
                              "{}, port {}",
                              place, to->number, bus.port),
-      .output = {statement(fmt::format("{} meta skuid != \"{}\"", there, user),
-                           "reject with tcp reset")},
+      .output = by_the_service(there, to, user, "reject with tcp reset"),
       .forward = {statement(there, "reject with tcp reset")}};
 }
 
@@ -106,25 +125,6 @@ std::string from_our_port(const BusEndpoint& bus, const std::optional<Address>& 
                      bus.port);
 }
 
-/// On what leaves our port: all that the service sends. The kernel sends without an owner what
-/// belongs to no open socket: a refusal, the end of a connection, and the unsent bytes of whoever
-/// has closed his socket. Of that passes what carries no byte and opens no connection: a TCP header
-/// of 20 bytes, or of 32 with time stamps.
-std::vector<std::string> by_the_service(const std::string& ours, const std::optional<Address>& at,
-                                        const std::string& user) {
-  std::vector<std::string> out{
-      statement(fmt::format("{} meta skuid \"{}\"", ours, user), "accept")};
-  for (const auto& [family, header] : {std::pair{"ip", 20}, std::pair{"ip6", 0}}) {
-    if (at && at->family != family) continue;
-    for (const auto& [length, more] : {std::pair{20, ""}, std::pair{32, " tcp doff 8"}})
-      out.push_back(statement(fmt::format("{} tcp flags & syn == 0 {} length {}{}", ours, family,
-                                          header + length, more),
-                              "accept"));
-  }
-  out.push_back(statement(ours, "drop"));
-  return out;
-}
-
 std::optional<FirewallRule> listening(const std::string& place, const BusEndpoint& bus,
                                       const std::string& user) {
   const auto at = bus.interface.empty() ? address_of(bus.address) : std::nullopt;
@@ -146,7 +146,7 @@ std::optional<FirewallRule> listening(const std::string& place, const BusEndpoin
       .without = fmt::format("{}: any user of this machine may answer at port {} of {} while "
                              "plumb-rt does not run",
                              place, bus.port, where),
-      .output = by_the_service(ours, at, user),
+      .output = by_the_service(ours, at, user, "drop"),
       .input = from_strangers(bus, at, peers),
       // A container that takes our address for its own.
       .forward = {statement(ours + (at ? "" : " fib saddr type local"), "drop")}};

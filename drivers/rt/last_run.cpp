@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/last_run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -27,25 +28,31 @@ struct NotBelieved : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A folder of this machine, by what a copy of it does not have; the number of its device changes
-/// from boot to boot.
+/// A folder of this machine, by what a copy of it does not have, which may get its number once it
+/// is removed; the number of its device changes from boot to boot. Empty if nothing is known of it.
 std::string identity_of(const std::filesystem::path& folder) {
-  struct stat found {};
-  if (::stat(folder.c_str(), &found) != 0) return "";
+  struct statx found {};
+  if (::statx(AT_FDCWD, folder.c_str(), 0, STATX_INO | STATX_BTIME, &found) != 0) return "";
   std::string machine;
   try {
     machine = read_regular_file("/etc/machine-id", kMostMachineIdBytes);
   } catch (const Failure&) {  // a container may have none
   }
-  return sha256(fmt::format("{} {}", machine, found.st_ino)).substr(0, 16);
+  return sha256(fmt::format("{} {} {}.{:09}", machine, found.stx_ino, found.stx_btime.tv_sec,
+                            found.stx_btime.tv_nsec))
+      .substr(0, 16);
+}
+
+/// Where systemd lets this service keep its files; empty: it runs by itself.
+std::filesystem::path state_directory() {
+  const char* const own = std::getenv("STATE_DIRECTORY");  // several are separated by colons
+  const std::string all = own == nullptr ? "" : own;
+  return all.substr(0, all.find(':'));
 }
 
 std::filesystem::path last_run_file(const std::filesystem::path& folder) {
-  const char* const own = std::getenv("STATE_DIRECTORY");  // several are separated by colons
-  std::string first = own == nullptr ? "" : own;
-  first = first.substr(0, first.find(':'));
-  if (first.empty()) return folder / "plumb-rt.state";
-  return std::filesystem::path(first) / (name_of_run(folder) + ".state");
+  const std::filesystem::path own = state_directory();
+  return own.empty() ? folder / "plumb-rt.state" : own / (name_of_run(folder) + ".state");
 }
 
 /// Writing to a pipe would wait for its reader.
@@ -69,7 +76,8 @@ FaultCause fault_of(const std::string& word) {
 
 LastRun::LastRun(const std::filesystem::path& folder, const std::string& model)
     : file_(last_run_file(folder)),
-      folder_(file_.parent_path() == folder ? identity_of(folder) : "") {
+      in_folder_(state_directory().empty()),
+      folder_(in_folder_ ? identity_of(folder) : "") {
   std::error_code ignored;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file_, ignored))) {
     need("it is the first run");
@@ -97,9 +105,13 @@ void LastRun::read(const std::string& model) {
   const OwnedText read = read_owned_text(file_);
   if (const std::string fault = rights_fault(read.owner, read.mode); !fault.empty())
     throw NotBelieved(fault);
+  struct stat around {};
+  if (::stat(file_.parent_path().c_str(), &around) == 0)
+    if (const std::string fault = rights_fault(around.st_uid, around.st_mode); !fault.empty())
+      throw NotBelieved("stands in a folder that " + fault);
   const Json json = Json::parse(read.text);
   if (json.at("schema") != kLastRunSchema) throw std::invalid_argument("another schema");
-  if (json.value("folder", "") != folder_)
+  if (json.value("folder", "") != folder_ || (in_folder_ && folder_.empty()))
     throw NotBelieved("was written in another folder, and came here as a copy");
   content_ = {.ended = json.at("ended").get<bool>(),
               .fault = fault_of(json.at("fault").get<std::string>()),

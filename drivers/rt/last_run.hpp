@@ -14,8 +14,9 @@ namespace plumb::drivers::rt {
 ///
 /// Whatever is not known counts as the worse: without the file, or if it cannot be read or written,
 /// an acknowledgement is needed. So it is if others may have written it: its owner must be root or
-/// the user who runs, nobody else may write to it, and in the folder it must have been written by a
-/// run of this very folder on this machine, since a folder travels and this file is not signed.
+/// the user who runs, nobody else may write to it or its folder, and in the folder it must have
+/// been written by a run of this very folder on this machine, since a folder travels and this file
+/// is not signed.
 ///
 /// Slow, for a thread without real-time priority.
 class LastRun {
@@ -52,7 +53,8 @@ class LastRun {
   bool write(const Content& content);
 
   std::filesystem::path file_;
-  std::string folder_;  // which folder it is, if the file stands in it
+  bool in_folder_;      // and not in $STATE_DIRECTORY
+  std::string folder_;  // then: which folder it is
   SessionStart start_;
   std::string why_;
   Content content_;  // as the file holds it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/modbus_source.hpp"
 
+#include "plumb/drivers/modbus_address.hpp"
 #include "plumb/drivers/modbus_client.hpp"
 #include "plumb/drivers/modbus_port.hpp"
 #include "plumb/drivers/modbus_server.hpp"
@@ -56,9 +57,12 @@ BusEndpoint ModbusSource::endpoint() const {
   using Kind = BusEndpoint::Kind;
   if (!device.empty()) return {};
   if (role == Role::kClient) return {.kind = Kind::kConnects, .address = address, .port = port};
+  // Either key may hold either kind of name.
+  const std::string& host = interface.empty() ? address : interface;
+  const bool numeric = socket_address(host, 0).has_value();
   return {.kind = Kind::kListens,
-          .address = interface.empty() ? address : "",
-          .interface = interface,
+          .address = numeric ? host : "",
+          .interface = numeric ? "" : host,
           .port = port,
           .peers = peers};
 }

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "rt/check.hpp"
+#include "rt/last_run.hpp"
 #include "tests/drivers/deployed.hpp"
 #include "tests/drivers/raw_controller.hpp"
 #include "tests/drivers/rt_program.hpp"
@@ -243,7 +244,25 @@ TEST_F(ARunAfterAnother, DoesNotBelieveWhatOthersMayHaveWritten) {
   start();
   expect_to_wait("came here as a copy");
   end(SIGTERM);
+  std::filesystem::permissions(folder.folder, std::filesystem::perms::others_write,
+                               std::filesystem::perm_options::add);
+  start();
+  expect_to_wait("stands in a folder that may be written by others");
+  end(SIGTERM);
   std::filesystem::remove_all(came + "-before");
+}
+
+/// A shell completes a name with a slash.
+TEST(WhatTheLastRunLeft, IsNotBelievedInACopyHoweverTheFolderIsNamed) {
+  const Deployed place("");
+  std::ofstream(place.folder / "plumb-rt.state") << Json{{"schema", "plumb-rt-last-run/1"},
+                                                         {"folder", ""},
+                                                         {"ended", true},
+                                                         {"fault", "none"},
+                                                         {"acknowledged", "m"}};
+  for (const auto& name : {place.folder, place.folder / ""})
+    EXPECT_NE(drivers::rt::LastRun(name, "m").why().find("came here as a copy"), std::string::npos)
+        << name << ": " << drivers::rt::LastRun(name, "m").why();
 }
 
 /// A stall, as of a debugger: it goes on without a correction, and begins anew.

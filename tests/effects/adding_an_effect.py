@@ -22,7 +22,7 @@ NUMBERS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "ei
            "eleven": 11, "twelve": 12}
 # All of the runtime that evaluates a model; its cycle, guard and corrector know no laws.
 RUNTIME = ("chain", "effect_library", "effect_set", "elementary", "fallbacks", "forward_model", "crisp_trees", "loads",
-           "status", "transform", "tree")
+           "status", "trained_domain", "transform", "tree")
 
 
 class Step:

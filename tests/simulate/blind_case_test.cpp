@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cell/measurement_reader.hpp"
 #include "tests/cases/blind_case.hpp"
+#include "cell/measurement_reader.hpp"
 
 #include <gtest/gtest.h>
 
