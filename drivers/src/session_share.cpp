@@ -54,9 +54,9 @@ Transformd CorrectionShare::step(const Transformd& X_BD, const Transformd& X_BG,
                                  double dt_s) noexcept {
   move_share(mode, limits.ramp_s > 0.0 ? dt_s / limits.ramp_s : 1.0);
   const Goal to = goal(X_BD, X_BG);
-  const bool there = slew(to.translation, limits.slew_m_per_s * dt_s, applied_.d) &
-                     slew(to.rotation, limits.slew_rad_per_s * dt_s, applied_.e);
-  if (scale_ == 1.0 && cap_ == 1.0 && there) return X_BG;
+  const bool shifted = slew(to.translation, limits.slew_m_per_s * dt_s, applied_.d);
+  const bool turned = slew(to.rotation, limits.slew_rad_per_s * dt_s, applied_.e);
+  if (scale_ == 1.0 && cap_ == 1.0 && shifted && turned) return X_BG;
   Transformd X_BC = exp(format::Twist{.d = {}, .e = applied_.e});
   X_BC.R = (X_BC * Transformd{.R = X_BD.R, .p = Vector3::Zero()}).R;
   X_BC.p = X_BD.p + Vector3(applied_.d.data());
