@@ -57,12 +57,10 @@ BusEndpoint ModbusSource::endpoint() const {
   using Kind = BusEndpoint::Kind;
   if (!device.empty()) return {};
   if (role == Role::kClient) return {.kind = Kind::kConnects, .address = address, .port = port};
-  // Either key may hold either kind of name.
-  const std::string& host = interface.empty() ? address : interface;
-  const bool numeric = socket_address(host, 0).has_value();
+  const bool numeric = socket_address(listens_at(), 0).has_value();
   return {.kind = Kind::kListens,
-          .address = numeric ? host : "",
-          .interface = numeric ? "" : host,
+          .address = numeric ? listens_at() : "",
+          .interface = numeric ? "" : listens_at(),
           .port = port,
           .peers = peers};
 }
@@ -72,10 +70,9 @@ std::unique_ptr<OpenBus> ModbusSource::open(const BusTask& task) const {
   if (role == Role::kClient)
     return std::make_unique<ModbusBus<ModbusClient>>(
         task.layout, ModbusClientSettings{.server = address_of(*this, address), .unit = own_unit});
-  const std::string& host = interface.empty() ? address : interface;
   return std::make_unique<ModbusBus<ModbusServer>>(
-      task.layout,
-      ModbusServerSettings{.at = address_of(*this, host), .peers = peers, .unit = own_unit});
+      task.layout, ModbusServerSettings{
+                       .at = address_of(*this, listens_at()), .peers = peers, .unit = own_unit});
 }
 
 }  // namespace plumb::drivers::rt

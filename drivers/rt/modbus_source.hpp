@@ -26,6 +26,10 @@ class ModbusSource final : public BusSource {
   std::string name() const override { return "modbus"; }
   BusEndpoint endpoint() const override;
   std::unique_ptr<OpenBus> open(const BusTask& task) const override;
+
+ private:
+  /// Of a server: an address or a network interface of this machine; either key may hold either.
+  const std::string& listens_at() const { return interface.empty() ? address : interface; }
 };
 
 }  // namespace plumb::drivers::rt

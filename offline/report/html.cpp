@@ -114,6 +114,7 @@ void Html::table(const show::Table& table) {
                    ? fmt::format("<td class=\"left {}\">{}</td>", table.last_class[k],
                                  draw::escaped(row[i]))
                    : fmt::format("<td{}>{}</td>", side(i), draw::escaped(row[i]));
+    for (std::size_t i = row.size(); i < table.head.size(); ++i) text_ += "<td></td>";
     text_ += "</tr>\n";
   }
   text_ += "</tbody></table></div>\n";

@@ -97,7 +97,6 @@ std::string floor_source_words(const NoiseFloor& floor) {
 
 show::Table errors(const ReportData& data) {
   show::Table table = show::error_table(data.measured, data.run.fit);
-  for (auto& row : table.rows) row.resize(table.head.size());
   table.add({"tolerance", "", "", "", "", mm(data.cell.tolerance_m), ""});
   return table;
 }

@@ -43,6 +43,11 @@ std::string errors_text(const Cell& cell, const Diagnosis& d) {
   return text_of(table) + folds_text(d.folds, d.poses_fit) + choosing_text(d);
 }
 
+std::string candidates_caption(const Diagnosis& d) {
+  return std::string(d.added.empty() ? "Candidates" : "Candidates before any was added") +
+         ": held-out error [mm] alone, and together with the first one";
+}
+
 std::string error_cell(const ErrorStats& stats) { return stats.n > 0 ? mm(stats.mean) : "-"; }
 
 /// What most people need: which effect, and how far the error falls.
@@ -75,7 +80,7 @@ bool is_alternative(const Cell& cell, const Diagnosis& d, const std::string& key
 
 std::string candidates_text(const Cell& cell, const Diagnosis& d, Candidates shown) {
   if (d.candidates.empty()) return {};
-  std::string out = fmt::format("\n{}\n", candidates_table(cell, d, 0).caption) +
+  std::string out = fmt::format("\n{}\n", candidates_caption(d)) +
                     (shown == Candidates::kAll ? full_table(cell, d) : short_table(cell, d));
   return d.candidates.front().supported ? out + "\n" + first_candidate_text(cell, d) : out;
 }
@@ -113,11 +118,9 @@ std::string support_words(const Diagnosis& d, const Candidate& c) {
 }
 
 Table candidates_table(const Cell& cell, const Diagnosis& d, std::size_t most) {
-  Table table{
-      .caption = std::string(d.added.empty() ? "Candidates" : "Candidates before any was added") +
-                 ": held-out error [mm] alone, and together with the first one",
-      .head = {" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect},
-      .left_from = 3};
+  Table table{.caption = candidates_caption(d),
+              .head = {" #", head::kAlone, head::kWithFirst, head::kSupported, head::kEffect},
+              .left_from = 3};
   for (std::size_t i = 0; i < std::min(most, d.candidates.size()); ++i) {
     const Candidate& c = d.candidates[i];
     table.add({fmt::format("{:>2}", i + 1), error_cell(c.alone), error_cell(c.after),

@@ -58,6 +58,13 @@ class Deployed {
            more;
   }
 
+  /// plumb-rt as a Modbus server for a controller on this machine.
+  static std::string modbus_server(int port) {
+    return "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
+           "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
+           std::to_string(port) + "\n";
+  }
+
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(folder / file) << text;
     if (file != kSums) seal();

@@ -212,10 +212,7 @@ TEST(RunConfig, APortInUseIsAnEnvironmentError) {
   const RtRan first = plumb_rt({"run", metrics.folder.string()}, metrics.folder);
   EXPECT_EQ(first.exit, 5);
   EXPECT_NE(first.err.find("error[E-RT-METRICS]"), std::string::npos) << first.err;
-  const Deployed server(
-      "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-      "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
-      port + "\n");
+  const Deployed server(Deployed::modbus_server(ntohs(address.sin_port)));
   const RtRan second = plumb_rt({"run", server.folder.string()}, server.folder);
   EXPECT_EQ(second.exit, 5);
   EXPECT_NE(second.err.find("error[E-RT-LINK]"), std::string::npos) << second.err;

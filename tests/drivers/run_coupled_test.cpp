@@ -136,10 +136,7 @@ TEST(RunCoupled, TheRealArmStandsWhereItShouldIfItIsSentTheAnswer) {
 
 TEST(RunCoupled, APoseIsComparedAtTheAnglesAndNotAtTheValues) {
   const int port = 26'000 + static_cast<int>(::getpid() % 6'000);
-  const Deployed folder(
-      "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-      "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
-      std::to_string(port) + "\n[limits]\nmode = \"full\"\n");
+  const Deployed folder(Deployed::modbus_server(port) + "[limits]\nmode = \"full\"\n");
   const format::Model arm = coupled_arm();
   folder.write_model("robot.plumb", arm);
   format::Chain planted = arm.nominal;

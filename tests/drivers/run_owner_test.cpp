@@ -83,6 +83,17 @@ class RegistersOfOne : public testing::Test {
     const auto writes = server.writes();
     return static_cast<int>(std::ranges::count(writes, client, &RawServer::Write::client));
   }
+  void expect_one_alone_in_them(const ClientOf& first, const ClientOf& second) {
+    ASSERT_TRUE(becomes([&] {
+      return first.status()["fault"] == "foreign-sender" ||
+             second.status()["fault"] == "foreign-sender";
+    }));
+    std::this_thread::sleep_for(300ms);
+    server.forget_writes();
+    std::this_thread::sleep_for(300ms);
+    EXPECT_GT(writes_by(1) + writes_by(2), 5);
+    EXPECT_EQ(std::min(writes_by(1), writes_by(2)), 0) << "one alone has the token";
+  }
   std::uint32_t token() {
     const auto words = server.registers(RawServer::kOwner, 2);
     return std::uint32_t{words[0]} << 16 | words[1];
@@ -324,15 +335,7 @@ TEST_F(RegistersOfOne, WhoReadsStderrNoMoreHoldsNothingUp) {
 
 TEST_F(RegistersOfOne, TwoThatBeginAtOnceAreNotBothInThem) {
   ClientOf first(server, kWithOwner), second(server, kWithOwner);
-  ASSERT_TRUE(becomes([&] {
-    return first.status()["fault"] == "foreign-sender" ||
-           second.status()["fault"] == "foreign-sender";
-  }));
-  std::this_thread::sleep_for(300ms);
-  server.forget_writes();
-  std::this_thread::sleep_for(300ms);
-  EXPECT_GT(writes_by(1) + writes_by(2), 5);
-  EXPECT_EQ(std::min(writes_by(1), writes_by(2)), 0) << "one alone has the token";
+  expect_one_alone_in_them(first, second);
 }
 
 /// Whoever went on without a token would write beside the other one.
@@ -341,15 +344,7 @@ TEST_F(RegistersOfOne, ATokenThatIsRefusedForTheMomentIsAskedForAgain) {
   ClientOf first(server, kWithOwner), second(server, kWithOwner);
   for (const ClientOf* const plumb : {&first, &second}) expect_refused(*plumb, 4, "1288 to 1289");
   server.refuse(0);
-  ASSERT_TRUE(becomes([&] {
-    return first.status()["fault"] == "foreign-sender" ||
-           second.status()["fault"] == "foreign-sender";
-  }));
-  std::this_thread::sleep_for(300ms);
-  server.forget_writes();
-  std::this_thread::sleep_for(300ms);
-  EXPECT_GT(writes_by(1) + writes_by(2), 5);
-  EXPECT_EQ(std::min(writes_by(1), writes_by(2)), 0) << "one alone has the token";
+  expect_one_alone_in_them(first, second);
 }
 
 /// Without a place for a token the one that looks first finds what it did not write. As it then

@@ -20,9 +20,8 @@ using namespace std::chrono_literals;
 class ARunAfterAnother : public testing::Test {
  protected:
   static std::string toml(int port) {
-    return "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-           "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
-           std::to_string(port) + "\n[limits]\nmode = \"full\"\n[log]\nrecord = \"record.log\"\n";
+    return Deployed::modbus_server(port) +
+           "[limits]\nmode = \"full\"\n[log]\nrecord = \"record.log\"\n";
   }
 
   void start() {
@@ -295,10 +294,7 @@ TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
       {{.shift = -1}, "with every register one further back"}};
   const int port = 26'000 + static_cast<int>(::getpid() % 6'000);
   for (const auto& [packing, says] : packings) {
-    const Deployed folder(
-        "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-        "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
-        std::to_string(port) + "\n");
+    const Deployed folder(Deployed::modbus_server(port));
     const RawController controller(static_cast<std::uint16_t>(port), Deployed::arm().nominal,
                                    drivers::fingerprint(Deployed::arm().serial), packing);
     RtProgram run({"run", folder.folder.string()}, folder.folder);
@@ -323,10 +319,7 @@ TEST(RunPacking, OfAControllerThatWritesIsToldByItsCheckSums) {
 
 TEST(RunPacking, IsToldByDoctorOfAPlaceThatRuns) {
   const int port = 26'000 + static_cast<int>(::getpid() % 6'000);
-  const Deployed folder(
-      "schema = \"rt/1\"\n[cycle]\npriority = 0\n[source]\nkind = \"modbus\"\n"
-      "role = \"server\"\npeers = [\"127.0.0.1\"]\nport = " +
-      std::to_string(port) + "\n");
+  const Deployed folder(Deployed::modbus_server(port));
   const auto store = std::filesystem::path(folder.folder.string() + "-store");
   std::filesystem::create_directory(store);
   const std::string place = (store / "cell4").string();

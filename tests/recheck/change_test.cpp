@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/change.hpp"
-#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "arm/effect_binding.hpp"
+#include "arm/predicted_points.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
 

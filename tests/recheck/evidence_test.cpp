@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/evidence.hpp"
-#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <cmath>
 
 #include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
 

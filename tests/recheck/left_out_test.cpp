@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/left_out.hpp"
-#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
+#include "arm/predicted_points.hpp"
 #include "small_arm.hpp"
 
 namespace plumb::offline::recheck {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/readings.hpp"
-#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "arm/predicted_points.hpp"
 #include "small_arm.hpp"
 #include "solve/outliers.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/recheck.hpp"
-#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "small_arm.hpp"
 
 namespace plumb::offline::recheck {

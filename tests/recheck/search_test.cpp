@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recheck/search.hpp"
-#include "arm/predicted_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
 #include "recheck/constants.hpp"
 #include "small_arm.hpp"
 

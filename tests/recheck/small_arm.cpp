@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "small_arm.hpp"
-#include "arm/predicted_points.hpp"
-#include "fit/calibrate.hpp"
 
 #include <cmath>
 #include <string>
 
 #include "arm/arm_change.hpp"
+#include "arm/predicted_points.hpp"
+#include "fit/calibrate.hpp"
 #include "tests/runtime/random_arm.hpp"
 
 namespace plumb::offline::recheck {
