@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utmp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -70,6 +72,9 @@ Ran finish(pid_t child, const Streams& streams) {
   return out;
 }
 
+/// No program prints this byte (ASCII "end of transmission").
+constexpr char kEndOfWords = '\x04';
+
 std::vector<std::string> cut(const std::string& line) {
   std::vector<std::string> out;
   std::istringstream in(line);
@@ -119,10 +124,14 @@ Ran Sandbox::plumb_on_terminal(unsigned short columns,
   size.ws_row = 25;
   std::vector<char*> argv = arguments(words);
   int leader = -1;
-  const pid_t child = ::forkpty(&leader, nullptr, nullptr, &size);
-  if (child < 0) throw std::runtime_error("no pseudo-terminal");
+  int follower = -1;
+  if (::openpty(&leader, &follower, nullptr, nullptr, &size) != 0)
+    throw std::runtime_error("no pseudo-terminal");
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no process");
   if (child == 0) {
-    if (::chdir(path_.c_str()) != 0) ::_exit(126);
+    ::close(leader);
+    if (::login_tty(follower) != 0 || ::chdir(path_.c_str()) != 0) ::_exit(126);
     redirect("/dev/null", STDERR_FILENO);
     ::unsetenv("COLUMNS");
     ::setenv("NO_COLOR", "1", 1);
@@ -130,12 +139,22 @@ Ran Sandbox::plumb_on_terminal(unsigned short columns,
     ::_exit(127);
   }
   Ran out;
+  // A terminal whose last writer has closed it may drop what was not read yet. So this process
+  // keeps it open and ends the words itself: what comes before the mark is all the child printed.
+  std::thread ends([&] {
+    out.exit = end_of(child);
+    if (::write(follower, &kEndOfWords, 1) != 1) ::close(std::exchange(follower, -1));
+  });
   char block[4096];
-  for (ssize_t n = 0; (n = ::read(leader, block, sizeof block)) > 0;)
+  for (ssize_t n = 0; (n = ::read(leader, block, sizeof block)) > 0;) {
     out.out.append(block, static_cast<std::size_t>(n));
-  out.exit = end_of(child);
+    if (out.out.back() == kEndOfWords) break;
+  }
+  ends.join();
+  ::close(follower);
   ::close(leader);
   std::erase(out.out, '\r');
+  std::erase(out.out, kEndOfWords);
   return out;
 }
 
