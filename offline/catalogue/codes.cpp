@@ -664,6 +664,10 @@ constexpr Explanation kCodes[] = {
     {"W-COMPILE-TOLERANCE",
      "The model was compiled, but its held-out error does not keep [cell] tolerance_mm: at 95 % of "
      "the poses, or three times over at the worst. With --gate nothing would have been written."},
+    {"N-FIT-LEFT",
+     "The readings of --data are another measurement than that of cell.toml. What happened to the "
+     "tracker, its base or its reflector then (drift, step, tracker) is not taken over; if the "
+     "same happened again, give the readings a cell of their own and add the effect there."},
     {"N-COMPILE-LEFT",
      "Effects of the measurement or of the procedure (drift, step, tracker, settling_lag) clean "
      "the other numbers of the fit. They are not the robot's, and are not compiled."},

@@ -12,6 +12,7 @@
 #include "cli/next_line.hpp"
 #include "cli/run_number.hpp"
 #include "cli/verbs.hpp"
+#include "effects/fitted_laws.hpp"
 #include "fit/controller_base.hpp"
 #include "fit/verdict.hpp"
 #include "noise/main_jump.hpp"
@@ -56,6 +57,25 @@ void read_instead(const std::string& file, Cell& cell) {
   cell.measurement.named_at.clear();
 }
 
+/// What happened while the cell's own readings were taken (a step, a drift) did not happen to
+/// others.
+void leave_measurement_effects(Cell& cell, Outcome& outcome) {
+  std::vector<std::string> left;
+  std::erase_if(cell.effects, [&](const EffectEntry& effect) {
+    const bool leaves = is_measurement_law(find_fitted_law(effect.name));
+    if (leaves) left.push_back(effect.name);
+    return leaves;
+  });
+  if (left.empty()) return;
+  outcome.remarks.push_back(
+      {.severity = Severity::kNote,
+       .code = "N-FIT-LEFT",
+       .message = fmt::format("--data is another measurement, so what belongs to that of cell.toml "
+                              "is left out: {}",
+                              fmt::join(left, ", ")),
+       .help = "once cell.toml names these readings: plumb drop " + left.front()});
+}
+
 /// --from and --data: an earlier arm instead of what the cell takes over, and other readings.
 void take_over(const FitArguments& options, Cell& cell, Outcome& outcome) {
   if (!options.from) {
@@ -75,7 +95,9 @@ void take_over(const FitArguments& options, Cell& cell, Outcome& outcome) {
   cell.fit.earlier = std::make_shared<EarlierArm>(earlier_arm(folder_of(*options.from, cell)));
   outcome.inputs.push_back(
       {(cell.fit.earlier->run / "run.json").string(), cell.fit.earlier->check_sum});
-  if (options.data) read_instead(*options.data, cell);
+  if (!options.data) return;
+  read_instead(*options.data, cell);
+  leave_measurement_effects(cell, outcome);
 }
 
 /// What cell.toml must say so that every verb goes on with these readings and that prior.

@@ -11,6 +11,7 @@
 #include "arm/effect_binding.hpp"
 #include "arm/predicted_points.hpp"
 #include "cell/earlier_arm.hpp"
+#include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/likeness_judgement.hpp"
@@ -329,10 +330,12 @@ Problem unlike_sisters(double times) {
 /// What an arm of the earlier run has and this cell does not list acts in this arm too.
 void note_effects(const EarlierArm& earlier, const KnownArm& known, std::vector<Problem>& remarks) {
   std::set<std::string> lacking;
-  for (const auto& number : earlier.numbers)
-    if (number.of_effect && !number.name.empty() &&
+  for (const auto& number : earlier.numbers) {
+    const std::string effect = number.name.substr(0, number.name.find('.'));
+    if (number.of_effect && !effect.empty() && !is_measurement_law(find_fitted_law(effect)) &&
         std::find(known.names.begin(), known.names.end(), number.name) == known.names.end())
-      lacking.insert(number.name.substr(0, number.name.find('.')));
+      lacking.insert(effect);
+  }
   if (lacking.empty()) return;
   remarks.push_back({.severity = Severity::kNote,
                      .code = "N-FIT-EARLIER",

@@ -52,6 +52,25 @@ TEST_F(FitFrom, TheSameArmMeasuredAgain) {
   EXPECT_NE(ran.out.find("prior_from = \"runs/0001\""), std::string::npos) << ran.out;
 }
 
+TEST_F(FitFrom, WhatHappenedToTheEarlierMeasurementIsNotTakenOver) {
+  fs::create_directories(box->path() / "moved");
+  box->write("moved/cell.toml", box->read("arm/cell.toml"));
+  box->write("moved/measurements.csv", box->read("arm/measurements.csv"));
+  // Row 150 is beyond the last of the later readings, whose number is some 40.
+  ASSERT_EQ(
+      box->plumb({"-C", "moved", "add", "step", "--set", "after_row=150", "--set", "of=base"}).exit,
+      0);
+  const Ran ran =
+      box->plumb({"-C", "moved", "fit", "--from", "1", "--data", "later.csv", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.err.find("N-FIT-LEFT"), std::string::npos) << ran.err;
+  EXPECT_EQ(ran.err.find("N-FIT-EARLIER"), std::string::npos) << ran.err;
+  const auto plain = from({"-C", "arm", "fit", "--from", "moved/runs/0001", "--data", "later.csv"});
+  EXPECT_EQ(ran.json()["result"]["from"]["alike"], "same");
+  EXPECT_NEAR(ran.json()["result"]["from"]["spread_mm"].get<double>(),
+              plain["spread_mm"].get<double>(), 1e-9);
+}
+
 TEST_F(FitFrom, NumberFolderAndCellFileSayTheSame) {
   fs::create_directories(box->path() / "arm2");
   const std::string cell = box->read("arm/cell.toml");
