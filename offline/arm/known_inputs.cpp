@@ -40,6 +40,10 @@ double turn_of(const Transformd& X_BD, const Transformd& X_BC) {
   return rotation_vector(X_BC.R * X_BD.R.transpose()).norm();
 }
 
+bool needs_place(const ContextWant& want) {
+  return want.kind == WantKind::kPlaceInSeries || want.kind == WantKind::kMoment;
+}
+
 }  // namespace
 
 KnownInputs::KnownInputs(const format::Model& model)
@@ -111,6 +115,13 @@ void KnownInputs::note(double value, double low, double high, Beyond& out) const
   out.value = value;
 }
 
+int KnownInputs::without_place() const {
+  int most = 0;
+  for (const auto& lack : lacks_)
+    if (needs_place(lack.want)) most = std::max(most, lack.rows);
+  return most;
+}
+
 void KnownInputs::add(const KnownInputs& more) {
   rows_ += more.rows_;
   outside_ += more.outside_;
@@ -163,11 +174,10 @@ Problem KnownInputs::of_lacks() const {
       columns.push_back(want.column);
     if (std::find(effects.begin(), effects.end(), want.effect) != effects.end()) continue;
     effects.push_back(want.effect);
-    const bool series = want.kind == WantKind::kPlaceInSeries || want.kind == WantKind::kMoment;
-    said.push_back(fmt::format("{} of {} rows {} '{}', which effect '{}' needs (assumed: {})", rows,
-                               rows_,
-                               series ? "have no place in the cell's own series by" : "do not say",
-                               want.column, want.effect, assumed(want)));
+    said.push_back(
+        fmt::format("{} of {} rows {} '{}', which effect '{}' needs (assumed: {})", rows, rows_,
+                    needs_place(want) ? "have no place in the cell's own series by" : "do not say",
+                    want.column, want.effect, assumed(want)));
   }
   const bool moves = std::any_of(lacks_.begin(), lacks_.end(), [](const Lack& lack) {
     return lack.rows > 0 && lack.want.kind == WantKind::kMove;

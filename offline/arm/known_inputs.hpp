@@ -29,6 +29,9 @@ class KnownInputs {
   /// faded to nothing.
   bool beyond_correction(const Context& at) const;
 
+  /// Rows whose place in the cell's own series an effect needs and nothing tells.
+  int without_place() const;
+
   /// Counts what another one of the same model has seen.
   void add(const KnownInputs& more);
 

@@ -209,24 +209,36 @@ Run chosen_run(const PredictArguments& options, const Cell& cell, const Measurem
   return run;
 }
 
+struct RowStatus {
+  std::vector<Status> rows;
+  int without_place = 0;  // an effect needs their place in the cell's own series, nothing tells it
+};
+
 /// `placed`: which rows have a place in the order of the cell's own measurements.
-std::vector<Status> domain_status(const Run& run, const MeasurementFiles& rows,
-                                  const std::vector<bool>& placed, Outcome& outcome) {
+RowStatus domain_status(const Run& run, const MeasurementFiles& rows,
+                        const std::vector<bool>& placed, Outcome& outcome) {
   const format::Model& model = run.fit.calibration.state.arm;
   const MeasuredArm arm(model);
   const auto sensors = temperature_names(model);
   KnownInputs inputs(model);
   JointUnits units(model);
   if (!rows.tables.empty()) units.name_column(rows.tables.front());
-  std::vector<Status> out;
+  RowStatus out;
   for (int i = 0; i < rows.size(); ++i) {
     units.add(joints(rows, i));
-    out.push_back(
+    out.rows.push_back(
         predicted_row(arm, rows, i, sensors, placed[static_cast<std::size_t>(i)], inputs).status);
   }
   outcome.remark(inputs.remarks());
   if (auto radians = units.remark()) outcome.remark({std::move(*radians)});
+  out.without_place = inputs.without_place();
   return out;
+}
+
+std::string place_words(int without_place) {
+  if (without_place == 0) return "";
+  return fmt::format("; {} as if measured after the cell's own last one, for nothing tells when",
+                     counted_words(without_place, "row", "rows"));
 }
 
 void finish(const PredictArguments& options, const std::vector<Status>& status,
@@ -263,10 +275,15 @@ void predict_as_measured(const PredictArguments& options, const Globals& globals
   show::CsvColumns columns(rows.tables);
   set_points(own ? run.fit.predicted_M : predict_points(run.fit.calibration.state, rows), columns);
   if (own) set_split(run.fit.split, columns);
-  outcome.result = {{"frame", "measurement"}, {"point", "target"}, {"run", run.number}};
-  finish(options, domain_status(run, rows, placed, outcome),
-         fmt::format("Predicted the measured point of {} in the measurement frame, run {}.",
-                     counted_words(rows.size(), "row", "rows"), run.number),
+  const RowStatus status = domain_status(run, rows, placed, outcome);
+  outcome.result = {{"frame", "measurement"},
+                    {"point", "target"},
+                    {"run", run.number},
+                    {"rows_without_place", status.without_place}};
+  finish(options, status.rows,
+         fmt::format("Predicted the measured point of {} in the measurement frame, run {}{}.",
+                     counted_words(rows.size(), "row", "rows"), run.number,
+                     place_words(status.without_place)),
          columns, outcome);
 }
 

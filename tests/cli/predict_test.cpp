@@ -267,8 +267,10 @@ TEST(PredictAsMeasured, StepsAndDriftGoByTimeOrPoseNotByTheRowsOfAnotherFile) {
     EXPECT_LT(arm.difference(order, {"t_s"}), 1e-6) << effects;
     EXPECT_EQ(arm.count("context-fallback"), 0u);
     EXPECT_EQ(arm.warning("W-PREDICT-INPUT"), "");
+    EXPECT_EQ(arm.ran.json().at("result").at("rows_without_place"), 0);
     arm.difference(order, {"pose", "t_s"});
     EXPECT_EQ(arm.count("ok"), 0u);
+    EXPECT_EQ(arm.ran.json().at("result").at("rows_without_place"), arm.csv.rows());
     EXPECT_NE(arm.warning("W-PREDICT-INPUT").find("t_s"), std::string::npos) << arm.ran.out;
   }
 }
