@@ -32,7 +32,7 @@ UnknownNumbers unknown_numbers(const EarlierArm& earlier, const Cell& cell, cons
     (p.of_effect() ? effects : knows(earlier, p) ? order : others).push_back(p);
   }
   order.insert(order.end(), others.begin(), others.end());
-  const Subset subset = identifiable(at_imagined_poses(cell, data, placed, order), kToldApart);
+  const ColumnSubset subset = identifiable(at_imagined_poses(cell, data, placed, order), kToldApart);
   std::vector<bool> kept(order.size(), false);
   for (const int k : subset.kept) kept[static_cast<std::size_t>(k)] = true;
   for (std::size_t k = 0; k < order.size(); ++k) {

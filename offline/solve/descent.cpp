@@ -5,6 +5,7 @@
 
 #include "arm/arm_change.hpp"
 #include "numbers/cholesky.hpp"
+#include "solve/constants.hpp"
 #include "solve/row_sums.hpp"
 #include "solve/solution_checks.hpp"
 #include "solve/thinned_rows.hpp"
@@ -12,17 +13,16 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kDescentNoChange = 1e-7;  // of the cost in the last iteration
-constexpr int kMostDescentSteps = 300;     // weakly observable parameters converge slowly
-constexpr std::size_t kFirstRows = 3000;   // rows on which a poor start is improved
+/// A start is poor if the first step promises to lower the cost by more than this share. It is then
+/// improved on so many rows, to this relative fall of the cost: only the time depends on these.
+constexpr double kFarFromRest = 0.01;
+constexpr std::size_t kFirstRows = 3000;
 constexpr double kFirstTolerance = 1e-6;
-constexpr double kFarFromRest = 0.01;  // share of the cost to be gained at a poor start
-constexpr double kNoStep = 1e-6;       // of cost to be gained: a thousandth of a standard deviation
 constexpr double kLeastDamping = 1e-10, kFirstDamping = 1e-4, kMostDamping = 1e8;
 
 /// The damped least-squares step of all parameters. Columns are scaled to unit length first, so
 /// that metres and radians are damped alike.
-Eigen::VectorXd step_of(const Sums& at, double damping) {
+Eigen::VectorXd step_of(const RowSums& at, double damping) {
   const Eigen::VectorXd length = at.information.diagonal().cwiseSqrt();
   const Eigen::VectorXd scale = (length.array() > 0.0).select(length.cwiseInverse(), 0.0);
   Eigen::MatrixXd unit = scale.asDiagonal() * at.information * scale.asDiagonal();
@@ -30,25 +30,26 @@ Eigen::VectorXd step_of(const Sums& at, double damping) {
   return -(scale.asDiagonal() * SymmetricSolver(unit).solve(scale.asDiagonal() * at.gradient));
 }
 
-/// Gauss-Newton steps from `state`, damped if they raise the cost (Levenberg-Marquardt).
+/// Where Gauss-Newton steps from `state` end, which are damped if they raise the cost
+/// (Levenberg-Marquardt).
 struct Descent {
   ArmState state;
-  Sums at;
+  RowSums at;
   int steps = 0;
   bool converged = false;
 };
-Descent descend(const FitData& data, const ArmState& state, Sums at,
+Descent descend(const FitData& data, const ArmState& state, RowSums at,
                 const std::vector<Parameter>& parameters, double tolerance) {
   Descent out{.state = state, .at = std::move(at)};
   double damping = kLeastDamping, share = 1.0;
-  for (; !out.converged && out.steps < kMostDescentSteps && damping < kMostDamping; ++out.steps) {
+  for (; !out.converged && out.steps < kMostIterations && damping < kMostDamping; ++out.steps) {
     const Eigen::VectorXd step = step_of(out.at, damping);
-    if (-0.5 * step.dot(out.at.gradient) <= std::max(tolerance * out.at.cost, kNoStep)) {
+    if (-0.5 * step.dot(out.at.gradient) <= std::max(tolerance * out.at.cost, kNoGain)) {
       out.converged = true;
       break;
     }
     const ArmState next = moved(out.state, parameters, step);
-    Sums there = sums_at(data, next, parameters);
+    RowSums there = sums_at(data, next, parameters);
     if (!there.finite() || there.cost > out.at.cost) {
       damping = std::max(10.0 * damping, kFirstDamping);
       continue;
@@ -59,8 +60,7 @@ Descent descend(const FitData& data, const ArmState& state, Sums at,
     out.at = std::move(there);
     damping = damping > kFirstDamping ? 0.1 * damping : kLeastDamping;
   }
-  // Two parameters with nearly the same effect need not converge to the last digit.
-  out.converged = out.converged || share < kDescentNoChange;
+  out.converged = out.converged || share < kNoChange;
   return out;
 }
 
@@ -76,15 +76,15 @@ Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& information) {
 
 namespace {
 
-/// Improves `state` by a solution on a part of the rows. Returns the sums over all rows there, or
-/// `here` if that is no better.
-Sums sums_nearer(const FitData& data, const std::vector<Parameter>& parameters, ArmState& state,
-                 Sums here) {
+/// Moves `state` to a solution on a part of the rows and returns the sums over all rows there. If
+/// the cost of all rows is no lower there, `state` stays and `here` is returned.
+RowSums sums_nearer(const FitData& data, const std::vector<Parameter>& parameters, ArmState& state,
+                    RowSums here) {
   FitData few = data;
   few.rows = thinned(data, static_cast<int>(kFirstRows));
   const Descent first =
       descend(few, state, sums_at(few, state, parameters), parameters, kFirstTolerance);
-  Sums there = sums_at(data, first.state, parameters);
+  RowSums there = sums_at(data, first.state, parameters);
   if (!there.finite() || there.cost > here.cost) return here;
   state = first.state;
   return there;
@@ -96,7 +96,7 @@ Solution solve_many(const FitData& data, const ArmState& start,
                     const std::vector<Parameter>& parameters, double tolerance) {
   Solution out;
   out.state = start;
-  Sums here = sums_at(data, start, parameters);
+  RowSums here = sums_at(data, start, parameters);
   if (const auto& [row, effect] = here.undefined; row >= 0)
     refuse_undefined(data, start.arm.effects[static_cast<std::size_t>(effect)], row);
   const double promised = -0.5 * step_of(here, kLeastDamping).dot(here.gradient);

@@ -10,16 +10,17 @@
 
 namespace plumb::offline {
 
-/// What a geometric fit is weighed with: rows used, and 1 sigma of each coordinate.
+/// The readings of a fit with the standard deviation of each coordinate, and what is known beside
+/// them.
 struct FitData {
   const Measurements* measured = nullptr;
   std::vector<int> rows;
   Rows3 sigma_m;               // shape (all poses, 3)
   double sigma_rad = 0.0;      // 0: orientation is not used
-  const Cell* cell = nullptr;  // with its priors, or null: none
-  WeakDirections weak = {};    // held near nominal; the parameters of a fit must contain theirs
-  KnownArm arm = {};           // what an earlier calibration says of the numbers fitted
-  bool series = false;         // solves for the numbers of series of waves as well
+  const Cell* cell = nullptr;  // gives the priors of the fit; null: there are none
+  WeakDirections weak = {};    // held near nominal; their parameters must be among those fitted
+  KnownArm arm = {};           // prior of the fitted numbers by an earlier calibration
+  bool series = false;         // the amplitudes of series of waves are fitted as well
 
   int per_pose() const;        // residuals of one pose
   int residual_count() const;  // of all poses, priors not counted

@@ -20,7 +20,7 @@ FitLines::FitLines(const FitData& data, const ArmState& start,
 
 bool FitLines::evaluate(const Eigen::VectorXd& change, double* residual, double* jacobian) const {
   const auto columns = static_cast<Eigen::Index>(parameters_.size());
-  // Values alone cost a fraction of the columns.
+  // Without a Jacobian no derivatives are computed, which saves most of the time.
   const GeometryDerivative geometry =
       jacobian != nullptr ? GeometryDerivative(start_, parameters_, change)
                           : GeometryDerivative(moved(start_, parameters_, change), {}, {});

@@ -10,8 +10,9 @@
 
 namespace plumb::offline {
 
-/// All lines of a least-squares problem: those of the poses, then those of the priors. The poses
-/// are evaluated together, so the chain is folded once.
+/// All lines of a least-squares problem: those of the poses, then those of the priors. All poses
+/// are evaluated in one call, so that the constant transforms of the chain are multiplied only
+/// once.
 class FitLines {
  public:
   /// Keeps references to all three.
@@ -19,11 +20,11 @@ class FitLines {
 
   int count() const { return data_.residual_count() + priors_.count(); }
 
-  /// residual: shape (count,); jacobian, unless null: how they change, line by line. Returns false
-  /// where a residual has no finite value.
+  /// residual: shape (count,); jacobian: derivatives of the residuals, row by row, or null if they
+  /// are not wanted. Returns false if a residual is not finite.
   bool evaluate(const Eigen::VectorXd& change, double* residual, double* jacobian) const;
 
-  /// Of the last evaluation.
+  /// The first row of the last evaluation at which an effect has no value.
   const PoseLines::Undefined& undefined() const { return undefined_; }
 
  private:

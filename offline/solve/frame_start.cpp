@@ -29,7 +29,7 @@ void place_as_given(const MeasurementSettings& settings, ArmState& state) {
 
 std::array<double, 4> align_target(const ArmState& state, const Measurements& measured,
                                    const std::vector<int>& rows) {
-  // Mean of quaternions as the leading eigenvector of sum q q^T [Markley 2007].
+  // The mean of quaternions is the leading eigenvector of sum q q^T [Markley 2007].
   const MeasuredArm arm(state.arm);
   const Transformd X_MB = from_pose(state.frame(rows.empty() ? 0 : setup_of(measured, rows[0])));
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();

@@ -5,13 +5,13 @@
 
 namespace plumb::offline {
 
-Subset identifiable(const Eigen::MatrixXd& J, const Identifiability& limits) {
+ColumnSubset identifiable(const Eigen::MatrixXd& J, const Identifiability& limits) {
   const Eigen::Index columns = J.cols();
   const Eigen::Index rows = std::min(J.rows(), columns);
   const Eigen::MatrixXd R = householder_triangle(J);
   Eigen::MatrixXd basis(rows, rows);
   Eigen::Index rank = 0;
-  Subset out;
+  ColumnSubset out;
   for (Eigen::Index k = 0; k < columns; ++k) {
     const double whole = R.col(k).norm();
     Eigen::VectorXd rest = R.col(k);

@@ -4,21 +4,16 @@
 #include <numeric>
 
 #include "cell/random.hpp"
+#include "solve/constants.hpp"
 #include "solve/evaluation.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr int kPoses = 120;
-
-}  // namespace
-
 Eigen::MatrixXd at_imagined_poses(const Cell& cell, const FitData& data, const ArmState& state,
                                   const std::vector<Parameter>& parameters) {
   Measurements imagined;
-  const int poses = kPoses * state.setups();  // as many in each
+  const int poses = kImaginedPoses * state.setups();
   imagined.q.resize(poses, cell.joints());
-  for (int i = 0; i < poses; ++i) imagined.setup.push_back(i / kPoses);
+  for (int i = 0; i < poses; ++i) imagined.setup.push_back(i / kImaginedPoses);
   Random random(1);
   for (Eigen::Index i = 0; i < poses; ++i)
     for (int j = 0; j < cell.joints(); ++j) {
@@ -33,12 +28,12 @@ Eigen::MatrixXd at_imagined_poses(const Cell& cell, const FitData& data, const A
   std::iota(everywhere.rows.begin(), everywhere.rows.end(), 0);
   everywhere.sigma_m = Rows3::Ones(poses, 3);
   if (data.sigma_rad > 0.0) {
-    // Radians weigh as if seen a metre away.
+    // One radian counts as much as one metre.
     imagined.quat_M = Rows4::Zero(poses, 4);
     imagined.quat_M.col(0).setOnes();
     everywhere.sigma_rad = 1.0;
   }
-  // Nothing is known there of what effects need: loads, temperatures, directions.
+  // Effects are left out: loads, temperatures and directions are not known at imagined poses.
   ArmState bare = state;
   bare.arm.effects.clear();
   return evaluate(everywhere, bare, parameters).jacobian;

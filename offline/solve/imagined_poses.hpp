@@ -10,9 +10,10 @@
 
 namespace plumb::offline {
 
-/// Derivatives by `parameters` of the measured axes at 120 random poses all over the joint limits,
-/// unweighted: what not even these tell apart is a matter of the arm, not of the poses. No
-/// parameter may be of an effect: nobody knows what acts on the arm there.
+/// Unweighted derivatives of the measured axes by `parameters` at 120 random poses of each set-up
+/// all over the joint limits. Parameters that even these poses cannot tell apart are redundant in
+/// the model of the arm; more poses would not help. No parameter may belong to an effect, because
+/// loads and temperatures are not known there.
 Eigen::MatrixXd at_imagined_poses(const Cell& cell, const FitData& data, const ArmState& state,
                                   const std::vector<Parameter>& parameters);
 

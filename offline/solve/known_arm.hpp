@@ -7,7 +7,7 @@
 
 namespace plumb::offline {
 
-/// What an earlier calibration says of an arm: normal, with a covariance.
+/// A normal prior of numbers of the arm, as an earlier calibration gives it.
 struct KnownArm {
   std::vector<std::string> names;  // "J2.d"
   Eigen::VectorXd mean;            // SI, shape (names,)

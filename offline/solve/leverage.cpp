@@ -7,34 +7,35 @@
 
 #include "numbers/cholesky.hpp"
 #include "numbers/triangle.hpp"
+#include "solve/constants.hpp"
 #include "solve/jacobian_visit.hpp"
 
 namespace plumb::offline {
 namespace {
 
-/// J L^-T, L L^T = J^T J of scaled columns: its rows are those of an orthonormal basis of J.
+/// An orthonormal basis Q = J L^-T of the columns of J, with L L^T = J^T J. The columns are scaled
+/// to unit length first.
 Eigen::MatrixXd orthonormal_rows(const Eigen::MatrixXd& J) {
   const Eigen::VectorXd scale = per_norm(J);
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
   return Cholesky(scaled.transpose() * scaled).orthonormal(scaled);
 }
 
-/// The lines of one pose: at most six.
+/// The lines of one pose, at most six.
 using Lines = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using LinesSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-/// hat: block of the hat matrix. A pose that alone decides a parameter agrees with it always:
-/// nothing can be said of it, and it keeps its plain distance.
+/// sqrt(r^T (I - H)^-1 r) of one pose with its block H of the hat matrix. A pose that alone decides
+/// a parameter has a singular I - H; the others cannot predict it, so it keeps its plain distance.
 double deletion_distance(const Lines& residual, const LinesSquare& hat, double plain) {
   const LinesSquare left = LinesSquare::Identity(hat.rows(), hat.cols()) - hat;
   const Eigen::LDLT<LinesSquare> ldlt(left);
-  if (ldlt.vectorD().minCoeff() <= 1e-6) return plain;
+  if (ldlt.vectorD().minCoeff() <= kDecidesAlone) return plain;
   return std::sqrt(std::max(0.0, residual.dot(ldlt.solve(residual))));
 }
 
 }  // namespace
 
-/// Whitened distance of every row of `data` from the prediction.
 Eigen::VectorXd plain_distances(const FitData& data, const Solution& at) {
   const Eigen::Index k = data.per_pose();
   Eigen::VectorXd out(static_cast<Eigen::Index>(data.rows.size()));
@@ -56,8 +57,7 @@ Leverage::Leverage(const FitData& data, const Solution& at,
     return;
   }
   visit_jacobian(data, at.state, parameters, [&](int first, const RowMajorMatrix& J) {
-    const Eigen::MatrixXd Q =
-        upper_transposed_solved(at.jacobian, J.transpose());  // columns: lines
+    const Eigen::MatrixXd Q = upper_transposed_solved(at.jacobian, J.transpose());
     for (Eigen::Index i = 0; i < J.rows() / lines_; ++i)
       put(first + i, Q.middleCols(lines_ * i, lines_).transpose());
   });

@@ -13,24 +13,24 @@ namespace plumb::offline {
 /// Whitened distance of every row of `data` from the prediction, shape (rows,).
 Eigen::VectorXd plain_distances(const FitData& data, const Solution& at);
 
-/// How much each pose decides its own prediction: its block of the hat matrix
+/// How strongly the reading of each pose pulls its own prediction: its block of the hat matrix
 ///
 ///   H = J (J^T J)^-1 J^T
 ///
-/// at a solution. Memory: the square of the lines of a pose, for every pose.
+/// at a solution. Memory: per_pose^2 numbers for every pose.
 /// [Cook & Weisberg 1982]
 class Leverage {
  public:
-  /// `at`: with its Jacobian, or with none: then nothing was fitted.
+  /// `at` holds its whole Jacobian. If that has no columns, nothing was fitted and H is 0.
   Leverage(const FitData& data, const Solution& at);
 
-  /// The same of a solution of `parameters`, whose Jacobian may be only its triangle (see is_many).
-  /// Cost: an evaluation, and poses * parameters^2.
+  /// The same of a solution of `parameters` that may hold only the triangle of its Jacobian (see
+  /// is_many). Cost: one evaluation, and poses * parameters^2.
   Leverage(const FitData& data, const Solution& at, const std::vector<Parameter>& parameters);
 
-  /// Deletion distances (see deletion_distances) of the rows of a later solution. Where that was
-  /// fitted without some of the rows that were there before, they are a close guess. Both lists of
-  /// rows ascend, or they are the same one; a row that was not there keeps its plain distance.
+  /// Deletion distances (see deletion_distances) of the rows of a later solution. They are
+  /// approximate if that solution was fitted to fewer rows than this one. The lists of rows must be
+  /// equal or both ascend; a row that this solution did not have keeps its plain distance.
   Eigen::VectorXd distances(const FitData& data, const Solution& now) const;
 
  private:
@@ -40,7 +40,7 @@ class Leverage {
   void put(Eigen::Index pose, const Lines& orthonormal);
 
   std::vector<int> rows_;
-  Eigen::Index lines_;   // of a pose
+  Eigen::Index lines_;   // per pose
   Eigen::MatrixXd hat_;  // shape (lines_^2, rows)
 };
 

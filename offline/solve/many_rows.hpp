@@ -9,14 +9,16 @@
 
 namespace plumb::offline {
 
-/// Beyond so many rows some of them tell a start, and the noise, as well as all do.
+/// A start of the fit and the scatter about it are found from at most so many rows: more would not
+/// make them better. Bounds the time only.
 inline constexpr int kManyRows = 20000;
 
-/// A Jacobian of more than 1.5 million numbers is never held as a whole: `solve` then works with
-/// sums over the rows, and returns as `jacobian` a triangle R with R^T R = J^T J.
+/// Whether the Jacobian has more than 1.5 million numbers. It is then never held as a whole:
+/// `solve` works with sums over the rows, and returns as `jacobian` a triangle R with
+/// R^T R = J^T J.
 bool is_many(const FitData& data, const std::vector<Parameter>& parameters);
 
-/// Lines of a Jacobian as the solver keeps them: line by line.
+/// A Jacobian stored row by row.
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace plumb::offline

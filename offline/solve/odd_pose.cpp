@@ -4,18 +4,12 @@
 #include <cmath>
 
 #include "numbers/lu.hpp"
+#include "solve/constants.hpp"
 #include "solve/orthonormal.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr double kFar = 6.0;          // times the scatter of the others
-constexpr double kFewestLines = 6.0;  // that are left to tell it
-
-}  // namespace
-
-/// With r the residuals and H the hat matrix of all lines, leaving out pose i makes those of the
-/// others r_j + H_ji e, and e = (I - H_ii)^-1 r_i is how far pose i is from their prediction
+/// Let r be the residuals and H the hat matrix of all lines. Without pose i the others predict it
+/// with an error of e = (I - H_ii)^-1 r_i, and their own residuals become r_j + H_ji e
 /// [Cook & Weisberg 1982].
 std::optional<std::size_t> odd_pose(const FitData& data, const Solution& solution) {
   const Eigen::Index lines = data.per_pose(), all = solution.residual.size();
@@ -23,13 +17,13 @@ std::optional<std::size_t> odd_pose(const FitData& data, const Solution& solutio
   const double left = static_cast<double>(all - lines - Q.cols());
   if (left < kFewestLines) return std::nullopt;
   std::optional<std::size_t> out;
-  double farthest = kFar;
+  double farthest = kOutlierTimes;
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
     const Eigen::Index at = lines * static_cast<Eigen::Index>(i);
     const Eigen::MatrixXd own = Q.middleRows(at, lines);
     const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(lines, lines) - own * own.transpose();
     const auto alone = solved_if_regular(rest, solution.residual.segment(at, lines));
-    if (!alone) continue;  // it alone decides something
+    if (!alone) continue;  // the other poses do not predict this one
     const Eigen::VectorXd& e = *alone;
     Eigen::VectorXd others = solution.residual + Q * (own.transpose() * e);
     others.segment(at, lines).setZero();

@@ -8,10 +8,11 @@
 
 namespace plumb::offline {
 
-/// The one row of `data.rows` that all others contradict, by its place there; nothing if there is
-/// none. For few poses, of which a wrong one draws the whole fit after it so that all look equally
-/// bad: each is left out once, and is odd if it lies six times as far from where the others predict
-/// it as these scatter then. Linearised at `solution`, a least-squares solution with its Jacobian.
+/// Index in `data.rows` of the one row that all others contradict; nothing if there is none. For
+/// few poses, of which a wrong one pulls the fit so far that all residuals look equally large. Each
+/// pose is left out once; it is odd if it lies more than six times the scatter of the others from
+/// where they predict it, per coordinate. Of several the farthest one is returned. Linearised at
+/// `solution`, a least-squares solution with its Jacobian.
 /// Cost: rows * lines * parameters.
 std::optional<std::size_t> odd_pose(const FitData& data, const Solution& solution);
 

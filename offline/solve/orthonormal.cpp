@@ -9,11 +9,10 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kIndependent = 1e-9;
-constexpr Eigen::Index kQrLines = 1024;
+constexpr double kIndependent = 1e-9;    // rank: diagonal of R over its largest one
+constexpr Eigen::Index kQrLines = 1024;  // fit into the processor's cache
 
-/// R of J = Q R, a part of the rows at a time: what does not fit into the processor's cache is
-/// slow.
+/// R of J = Q R. Rows are added in blocks that fit into the processor's cache.
 Eigen::MatrixXd triangle_by_parts(const Eigen::Ref<const Eigen::MatrixXd>& J) {
   const Eigen::Index count = J.cols(), part = std::max(kQrLines, 4 * count);
   Eigen::MatrixXd R(0, count);

@@ -5,7 +5,8 @@
 
 namespace plumb::offline {
 
-/// Independent columns of J, made orthonormal over the first `fit_lines`: U = J * half.
+/// The independent columns of J, combined so that U = J * half is orthonormal over the first
+/// `fit_lines` rows.
 struct Orthonormal {
   Eigen::MatrixXd U, half;  // (lines, rank), (columns of J, rank)
 };

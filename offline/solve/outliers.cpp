@@ -10,6 +10,7 @@
 
 #include "arm/predicted_points.hpp"
 #include "numbers/quantile.hpp"
+#include "solve/constants.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/leverage.hpp"
 #include "solve/many_rows.hpp"
@@ -18,31 +19,22 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kFarOutlierTimes = 6.0;  // times the usual scatter: no reading of this tracker
-constexpr double kFarthestFirst = 0.3;  // of the farthest: the rest may only look far because of it
-constexpr double kMostShare = 0.125;    // of the poses: of one in ten a fold may see a few more
-constexpr double kMostOfSetup = 0.34;   // of the poses of one set-up
-constexpr double kLittle = 0.5;         // of the cost is theirs: they pulled the fit aside a little
-constexpr double kSolved = 1e-12;       // of the cost, in the last iteration
-constexpr double kOutliersRoughly = 1e-8;  // of the cost: near enough to tell outliers
-constexpr double kMedianChi[] = {0.0,    0.6745, 1.1774, 1.5382,
-                                 1.8321, 2.086,  2.3127};  // of the length of k unit normals
-
 int most_outliers(std::size_t poses) {
-  return static_cast<int>(kMostShare * static_cast<double>(poses));
+  return static_cast<int>(kMostOutlierShare * static_cast<double>(poses));
 }
 
-struct Far {
+/// Rows that look like outliers, and the other rows.
+struct FarRows {
   std::vector<int> rows, rest;
-  double share = 0.0;  // of the cost
+  double share = 0.0;  // of the cost that is due to `rows`
 };
 
-/// distance: deletion distances; plain: as the fit left them.
-Far far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance,
-                      const Eigen::VectorXd& plain) {
-  const double limit = std::max(kFarOutlierTimes * usual_scatter(distance, data.per_pose()),
+/// distance: deletion distances of the rows of `data`; plain: their whitened residuals.
+FarRows far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance,
+                          const Eigen::VectorXd& plain) {
+  const double limit = std::max(kOutlierTimes * usual_scatter(distance, data.per_pose()),
                                 kFarthestFirst * distance.maxCoeff());
-  Far out;
+  FarRows out;
   double squares = 0.0;
   for (Eigen::Index i = 0; i < distance.size(); ++i) {
     const bool far = distance(i) > limit;
@@ -53,8 +45,8 @@ Far far_from_the_rest(const FitData& data, const Eigen::VectorXd& distance,
   return out;
 }
 
-/// Set-ups that would lose more than a third of their poses. The few that are left would decide
-/// where tracker and reflector stand, and could no longer be contradicted.
+/// Set-ups that would lose more than a third of their poses. The few poses left would determine
+/// where tracker and reflector stand, and no other reading could contradict them.
 std::set<int> decimated_setups(const FitData& data, const std::vector<int>& all,
                                const std::vector<int>& taken) {
   std::map<int, int> poses, lost;
@@ -66,10 +58,10 @@ std::set<int> decimated_setups(const FitData& data, const std::vector<int>& all,
   return out;
 }
 
-/// Leaves set-ups whole that would lose too much. True if what was taken of them before has come
-/// back to the rest.
+/// Adds to `whole` the set-ups that would lose too many poses, and puts all their rows back among
+/// the rest. Returns whether rows that had been taken out before came back.
 bool keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>& whole,
-                 std::vector<int>& taken, Far& far) {
+                 std::vector<int>& taken, FarRows& far) {
   std::vector<int> out = taken;
   out.insert(out.end(), far.rows.begin(), far.rows.end());
   whole.merge(decimated_setups(data, all, out));
@@ -84,7 +76,7 @@ bool keep_setups(const FitData& data, const std::vector<int>& all, std::set<int>
   return taken.size() < before;
 }
 
-/// Those of `taken` that the fit without them agrees with after all.
+/// Those rows of `taken` that a fit without them predicts within the limit of an outlier after all.
 std::vector<int> agreeing(const FitData& data, const std::vector<int>& taken, const Solution& fit,
                           double scatter) {
   FitData others = data;
@@ -92,7 +84,7 @@ std::vector<int> agreeing(const FitData& data, const std::vector<int>& taken, co
   const Eigen::VectorXd distance = plain_distances(others, evaluate(others, fit.state, {}));
   std::vector<int> out;
   for (std::size_t i = 0; i < taken.size(); ++i)
-    if (distance(i) <= kFarOutlierTimes * scatter) out.push_back(taken[i]);
+    if (distance(i) <= kOutlierTimes * scatter) out.push_back(taken[i]);
   return out;
 }
 
@@ -135,29 +127,30 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
                                             Solution& solution) {
   const std::vector<int> all = data.rows;
   const ArmState start = solution.state;
-  // Many rows take their time, and it is the last solution that counts.
+  // Of many rows, only the last solution is computed to the full tolerance.
   const bool many = is_many(data, parameters);
-  const double tolerance = many ? kOutliersRoughly : kSolved;
+  const double tolerance = many ? kSolvedRoughly : kSolved;
   solution = solve(data, start, parameters, tolerance);
   Leverage leverage(data, solution, parameters);
-  bool of_this = true;
+  bool leverage_is_current = true;  // it belongs to `solution`
   std::vector<int> taken;
   bool came_back = false;
   double scatter = 1.0;
   std::set<int> kept_whole;  // set-ups of which nothing is taken out
   for (;;) {
-    if (!many && !of_this) leverage = Leverage(data, solution, parameters);
+    if (!many && !leverage_is_current) leverage = Leverage(data, solution, parameters);
     const Eigen::VectorXd distance = leverage.distances(data, solution);
     scatter = usual_scatter(distance, data.per_pose());
-    Far far = far_from_the_rest(data, distance, plain_distances(data, solution));
+    FarRows far = far_from_the_rest(data, distance, plain_distances(data, solution));
     const bool restored = keep_setups(data, all, kept_whole, taken, far);
-    if (many && far.rows.empty() && !restored && !of_this) {
-      // The leverage so far is from a fit with more rows: an approximation.
+    if (many && far.rows.empty() && !restored && !leverage_is_current) {
+      // The leverage of a fit with more rows is an approximation; the last look needs the exact
+      // one.
       leverage = Leverage(data, solution, parameters);
-      of_this = true;
+      leverage_is_current = true;
       continue;
     }
-    of_this = false;
+    leverage_is_current = false;
     if (!far.rows.empty() || restored) {
       taken.insert(taken.end(), far.rows.begin(), far.rows.end());
       data.rows = far.rest;
@@ -175,9 +168,9 @@ std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Par
       data.rows.insert(data.rows.end(), back.begin(), back.end());
       std::sort(data.rows.begin(), data.rows.end());
     }
-    // Outliers may have pulled the solution far along a flat valley: begin again from the start,
-    // unless there are many rows and the outliers caused a small share of the cost.
-    const ArmState from = many && far.share < kLittle ? solution.state : start;
+    // Outliers may have pulled the solution far along a flat valley of the cost, so start anew;
+    // unless there are many rows and the outliers made only a small share of the cost.
+    const ArmState from = many && far.share < kLittleOfCost ? solution.state : start;
     solution = solve(data, from, parameters, tolerance);
   }
   if (many) solution = solve(data, ArmState(solution.state), parameters, kSolved);

@@ -17,18 +17,21 @@ namespace plumb::offline {
 /// [Cook & Weisberg 1982]
 Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution);
 
-/// The same of a solution of these parameters, whose Jacobian may be only its triangle (is_many).
+/// The same of a solution of these parameters that may hold only the triangle of its Jacobian (see
+/// is_many).
 Eigen::VectorXd deletion_distances(const FitData& data, const Solution& solution,
                                    const std::vector<Parameter>& parameters);
 
-/// Usual size of such distances: their median as a multiple of what noise alone gives, at least 1.
+/// Usual size of such distances: their median over the median that noise of the stated sigma gives,
+/// but at least 1.
 double usual_scatter(const Eigen::VectorXd& distances, int per_pose);
 
 /// Least squares without the poses that the others contradict: farther away than 6 times the usual
-/// scatter. The farthest go first, the fit is repeated, and who then agrees comes back. Takes them
-/// out of `data.rows` and returns them, farthest first. More than one pose in eight would be no
-/// outliers but a wrong model: then none is taken out. A set-up never loses more than one pose, or
-/// a third of them.
+/// scatter. The farthest ones are taken out first and the fit is repeated until none is left; poses
+/// that the final fit predicts well are then taken back once. Removes the outliers from `data.rows`
+/// and returns them, farthest first. If more than one pose in eight would go, the model is wrong
+/// rather than the poses, and none is taken out. A set-up never loses more than one pose, or a
+/// third of its poses.
 std::vector<Outlier> solve_without_outliers(FitData& data, const std::vector<Parameter>& parameters,
                                             Solution& solution);
 

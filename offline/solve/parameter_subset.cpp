@@ -3,20 +3,18 @@
 
 #include <cmath>
 
+#include "solve/constants.hpp"
 #include "solve/scaled_jacobian.hpp"
 #include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kRankPoses = 4000;         // enough to tell parameters apart
-constexpr double kPlausible_m = 5e-3;    // ten typical errors of a DH length
-constexpr double kPlausible_rad = 5e-3;  // and angle
-
-/// Of an effect: what moves the points by 5 mm RMS, `length` being the norm of its column [1/SI].
+/// Size [SI] by which a column is scaled. For a parameter of an effect it is the change that moves
+/// the points by 5 mm RMS; `length` is the RMS motion of the points per unit [m/SI].
 double plausible_size(const Parameter& p, double length) {
   if (p.of_effect()) return length > 0.0 ? kPlausible_m / length : 1.0;
-  // Frame and target may be anywhere; only the arm is known beforehand.
+  // Frame and target may be anywhere; only the arm is known beforehand to be near nominal.
   if (!p.of_robot()) return 1.0;
   return p.is_length() ? kPlausible_m : kPlausible_rad;
 }
@@ -27,8 +25,8 @@ ParameterSubset identifiable_parameters(const FitData& data, const ArmState& sta
                                         const std::vector<Parameter>& candidates,
                                         const Identifiability& limits) {
   FitData thin = data;
-  thin.weak = {};  // what the poses say is asked, not what nominal says
-  thin.rows = thinned(data, kRankPoses);
+  thin.weak = {};  // only the poses count here, not how near nominal an arm is built
+  thin.rows = thinned(data, kRankRows);
   Eigen::MatrixXd J = jacobian_for_all(data, thin, state, candidates);
   const double lines = std::sqrt(static_cast<double>(data.residual_count()));
   const double sigma = data.sigma_m.row(thin.rows.front()).mean();
@@ -36,7 +34,7 @@ ParameterSubset identifiable_parameters(const FitData& data, const ArmState& sta
     const double rms = J.col(k).norm() / lines * sigma;
     J.col(k) *= plausible_size(candidates[static_cast<std::size_t>(k)], rms);
   }
-  const Subset subset = identifiable(J, limits);
+  const ColumnSubset subset = identifiable(J, limits);
   ParameterSubset out;
   for (int i : subset.kept) out.kept.push_back(candidates[i]);
   for (int i : subset.dropped) out.held.push_back(candidates[i].name);

@@ -17,9 +17,9 @@ struct ParameterSubset {
   std::vector<std::string> held;
 };
 
-/// Rank analysis at `state` of the whitened derivatives, scaled so that 1 is a plausible error of a
-/// robot parameter (5 mm, 5 mrad): with max_std = 1 a number whose standard deviation exceeds that
-/// is held at nominal, because nominal is then the better guess.
+/// Rank analysis of the whitened derivatives at `state`, scaled so that 1 is the largest plausible
+/// error of a robot parameter (5 mm, 5 mrad). With max_std = 1, a parameter whose standard
+/// deviation exceeds that is held at nominal, because nominal is then the better estimate.
 ParameterSubset identifiable_parameters(const FitData& data, const ArmState& state,
                                         const std::vector<Parameter>& candidates,
                                         const Identifiability& limits);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "arm/predicted_points.hpp"
+#include "solve/constants.hpp"
 #include "solve/frame_start.hpp"
 #include "solve/parameter_subset.hpp"
 #include "solve/solver.hpp"
@@ -15,12 +16,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kStartPoses = 500;            // enough to judge a start
-constexpr int kTurnPoses = 60;              // enough to find one
-constexpr double kSuspiciousStart = 0.003;  // of the reach: the start may be wrong
-constexpr double kPlacingShare = 1e-9;  // frame and target are held only if truly without effect
-constexpr double kNotMuchWorse = 9.0;  // times the cost of the best: an arm's errors may reverse it
-constexpr std::size_t kMostPlacements = 4;
+/// Independent share of a column below which a number of frame or target is held: only if it has
+/// no effect beyond rounding.
+constexpr double kPlacingShare = 1e-9;
 
 double rms(const Eigen::VectorXd& v) {
   return v.size() > 0 ? std::sqrt(v.squaredNorm() / static_cast<double>(v.size())) : 0.0;
@@ -38,16 +36,16 @@ bool has_kind(const std::vector<Parameter>& placing, Parameter::Kind kind) {
                      [&](const Parameter& p) { return p.kind == kind; });
 }
 
-/// Frame and target of one set-up alone, from a given turn of the frame.
+/// Fits frame and target of one set-up alone, starting from the frame that `state` has.
 Solution place_from(const FitData& data, ArmState state, const std::vector<Parameter>& placing,
                     int setup) {
-  // What another set-up has turned already stays.
+  // Keep the target rotation if an earlier set-up has already estimated it.
   if (data.sigma_rad > 0.0 && state.target_of(setup) == setup)
     state.target(setup).q = align_target(state, *data.measured, data.rows);
   return solve_placing(data, state, placing);
 }
 
-/// Turns of a cube: starts that leave no frame farther than 63 degrees away.
+/// The 24 rotations of a cube. No rotation is farther than 63 degrees from the nearest of them.
 std::vector<Matrix3> cube_turns() {
   std::vector<Matrix3> out;
   for (int face = 0; face < 6; ++face)
@@ -71,11 +69,11 @@ FitData fewer(const FitData& data, int most) {
   return out;
 }
 
-struct Points {
+struct PointPairs {
   Rows3 p_B, p_M;  // predicted by the nominal arm, and measured
 };
 
-Points points_of(const FitData& data, ArmState state, int setup) {
+PointPairs points_of(const FitData& data, ArmState state, int setup) {
   const Measurements some = pick(*data.measured, data.rows);
   state.frame(setup) = format::Pose{};
   return {predict_points(state, some), some.p_M};
@@ -86,7 +84,7 @@ bool looks_wrong(const FitData& data, const Solution& solution, const ArmState& 
   return rms(solution.residual) * sigma > kSuspiciousStart * reach(nominal.arm.calibrated);
 }
 
-/// `more` joins `found` unless the same minimum is there already.
+/// Adds `more` to `found`; if that minimum is there already, the one of lower cost stays.
 void join(std::vector<Solution>& found, Solution more) {
   for (auto& one : found)
     if (turn_between(one.state, more.state) < kSameTurn_rad) {
@@ -96,10 +94,11 @@ void join(std::vector<Solution>& found, Solution more) {
   found.push_back(std::move(more));
 }
 
-/// Minima of frame and target from every turn of a cube, the centres of the points on each other.
+/// Minima of frame and target. The starts are the rotations of a cube, shifted so that the centroid
+/// of the predicted points falls on that of the measured ones.
 std::vector<Solution> turned_placements(const FitData& data, const ArmState& from,
-                                        const Points& points, const std::vector<Parameter>& placing,
-                                        int setup) {
+                                        const PointPairs& points,
+                                        const std::vector<Parameter>& placing, int setup) {
   const Vector3 mean_B = points.p_B.colwise().mean();
   const Vector3 mean_M = points.p_M.colwise().mean();
   std::vector<Solution> found;
@@ -111,7 +110,7 @@ std::vector<Solution> turned_placements(const FitData& data, const ArmState& fro
   return found;
 }
 
-/// The most likely first, and none that is much worse.
+/// Sorts by cost, and drops those that are much worse than the best or too many.
 void keep_likely(std::vector<Solution>& found) {
   std::sort(found.begin(), found.end(),
             [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
@@ -120,14 +119,14 @@ void keep_likely(std::vector<Solution>& found) {
   if (found.size() > kMostPlacements) found.resize(kMostPlacements);
 }
 
-/// Those of one set-up, to which all rows of `data` belong.
+/// The placements of one set-up, to which all rows of `data` belong.
 std::vector<Solution> placements_of(const FitData& data, const ArmState& nominal,
                                     const std::vector<Parameter>& placing, int setup) {
   if (!has_kind(placing, Parameter::Kind::kFrame))
     return {place_from(data, nominal, placing, setup)};
   const FitData thin = fewer(data, kStartPoses);
   ArmState start = nominal;
-  const Points points = points_of(thin, nominal, setup);
+  const PointPairs points = points_of(thin, nominal, setup);
   start.frame(setup) = align(points.p_B, points.p_M);
   std::vector<Solution> found;
   found.push_back(place_from(thin, start, placing, setup));
@@ -148,7 +147,8 @@ FitData rows_of(const FitData& data, int setup) {
   return out;
 }
 
-/// Set-up by set-up, each from what is known of those before it; then all together.
+/// Places set-up after set-up, each starting from every placement found of those before it, and
+/// then fits all of them together.
 std::vector<Solution> placements_of_all(const FitData& data, const ArmState& nominal,
                                         const std::vector<Parameter>& placing) {
   std::vector<Solution> found(1);

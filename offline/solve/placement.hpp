@@ -10,19 +10,21 @@
 
 namespace plumb::offline {
 
-/// Where tracker and reflector may stand: fits frame and target (those of `candidates` that belong
-/// to the measurement) with the arm of `nominal`, from a closed-form start and, if that does not
-/// look right, from 24 turns of the frame that leave no other farther than 63 degrees away. The
-/// distinct minima that are not much worse than the best, which comes first. Several set-ups are
-/// placed one after the other, and then together.
+/// Where tracker and reflector may stand. Fits frame and target (the parameters among `candidates`
+/// that belong to the measurement) with the arm of `nominal`, from a closed-form start and, if its
+/// residuals look too large, from the 24 rotations of a cube. Returns the distinct minima that are
+/// not much worse than the best, the best one first. Several set-ups are placed one after the
+/// other, and then together.
 std::vector<Solution> placements(const FitData& data, const ArmState& nominal,
                                  const std::vector<Parameter>& candidates);
 
-/// Largest angle between the tracker frames of two states [rad]; below kSameTurn_rad they are one.
+/// Largest angle between the tracker frames of two states [rad]. Below kSameTurn_rad, chosen far
+/// above the error of a placement and far below the angle between two minima, they are the same
+/// minimum.
 double turn_between(const ArmState& a, const ArmState& b);
 inline constexpr double kSameTurn_rad = 0.01;
 
-/// The best of them, on all of `data`.
+/// The best of these placements.
 Solution place(const FitData& data, const ArmState& nominal,
                const std::vector<Parameter>& candidates);
 

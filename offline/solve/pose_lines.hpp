@@ -9,24 +9,24 @@
 
 namespace plumb::offline {
 
-/// Rows that one thread evaluates in one go.
+/// Rows that one thread evaluates as one job.
 inline constexpr int kRowsOfOneThread = 256;
 
-/// The measured poses as lines of a least squares problem: whitened residuals, pose by pose, and
-/// how they change.
+/// The measured poses as lines of a least-squares problem: their whitened residuals, pose by pose,
+/// and the derivatives of these.
 class PoseLines {
  public:
   /// Keeps references to both.
   PoseLines(const FitData& data, const std::vector<Parameter>& parameters)
       : data_(data), parameters_(parameters) {}
 
-  /// A row and the effect that has no value there; -1: all have.
+  /// A row, and the effect that has no value there; -1 if all effects have one.
   struct Undefined {
     int row = -1, effect = -1;
   };
 
-  /// Residuals of data.rows[first] to before data.rows[last], and unless null how they change,
-  /// line by line. Any thread.
+  /// Writes the residuals of data.rows[first] up to but without data.rows[last], and unless
+  /// `jacobian` is null their derivatives, row by row. May be called from any thread.
   Undefined evaluate(const GeometryDerivative& geometry, int first, int last, double* residual,
                      double* jacobian) const;
 

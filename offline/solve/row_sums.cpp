@@ -9,29 +9,31 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kParts = 64;         // of the rows, whatever the threads
-constexpr int kRowsInOneGo = 256;  // rows evaluated in one go
+/// The rows are always summed in so many parts, so that the result does not depend on the number of
+/// threads.
+constexpr int kParts = 64;
 
 }  // namespace
 
-Sums sums_at(const FitData& data, const ArmState& state, const std::vector<Parameter>& parameters) {
+RowSums sums_at(const FitData& data, const ArmState& state,
+                const std::vector<Parameter>& parameters) {
   const PoseLines poses(data, parameters);
   const PriorLines priors(data, state, parameters);
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const GeometryDerivative geometry(state, parameters, Eigen::VectorXd::Zero(count));
   const int rows = static_cast<int>(data.rows.size()), lines = data.per_pose();
-  Sums none;
+  RowSums none;
   none.information.setZero(count, count);
   none.gradient.setZero(count);
-  Sums out = none;
+  RowSums out = none;
   out.residual.resize(data.residual_count() + priors.count());
-  std::vector<Sums> parts(kParts, none);
+  std::vector<RowSums> parts(kParts, none);
   const auto sum_part = [&](int part) {
-    Sums& sums = parts[static_cast<std::size_t>(part)];
+    RowSums& sums = parts[static_cast<std::size_t>(part)];
     const auto begin_of = [&](int p) { return static_cast<int>(std::int64_t{rows} * p / kParts); };
-    RowMajorMatrix J(kRowsInOneGo * lines, count);
-    for (int first = begin_of(part); first < begin_of(part + 1); first += kRowsInOneGo) {
-      const int last = std::min(begin_of(part + 1), first + kRowsInOneGo);
+    RowMajorMatrix J(kRowsOfOneThread * lines, count);
+    for (int first = begin_of(part); first < begin_of(part + 1); first += kRowsOfOneThread) {
+      const int last = std::min(begin_of(part + 1), first + kRowsOfOneThread);
       auto r =
           out.residual.segment(Eigen::Index{first} * lines, Eigen::Index{last - first} * lines);
       sums.undefined = poses.evaluate(geometry, first, last, r.data(), J.data());

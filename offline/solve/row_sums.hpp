@@ -11,8 +11,9 @@
 
 namespace plumb::offline {
 
-/// Sums over all rows at one state: all that a Gauss-Newton step needs, in little memory.
-struct Sums {
+/// Sums over all rows at one state. A Gauss-Newton step needs no more, and the Jacobian is not
+/// kept.
+struct RowSums {
   Eigen::MatrixXd information;  // J^T J
   Eigen::VectorXd gradient;     // J^T residual
   Eigen::VectorXd residual;
@@ -20,7 +21,7 @@ struct Sums {
   PoseLines::Undefined undefined;
 
   bool finite() const { return undefined.row < 0 && std::isfinite(cost); }
-  void add(const Sums& part) {
+  void add(const RowSums& part) {
     information += part.information;
     gradient += part.gradient;
     if (part.undefined.row >= 0 && undefined.row < 0) undefined = part.undefined;
@@ -34,6 +35,7 @@ struct Sums {
 
 /// Cost: an evaluation of all rows, and lines * parameters^2. The result does not depend on the
 /// number of threads.
-Sums sums_at(const FitData& data, const ArmState& state, const std::vector<Parameter>& parameters);
+RowSums sums_at(const FitData& data, const ArmState& state,
+                const std::vector<Parameter>& parameters);
 
 }  // namespace plumb::offline

@@ -10,8 +10,8 @@
 
 namespace plumb::offline {
 
-/// The whitened Jacobian of `some` rows of `all`, the lines of each set-up scaled so that it says
-/// as much as with all of its rows. Shape as `evaluate`'s.
+/// The whitened Jacobian of `some` rows of `all`. The lines of each set-up are scaled up so that
+/// their information J^T J is about that of all rows of the set-up. Shape as that of `evaluate`.
 Eigen::MatrixXd jacobian_for_all(const FitData& all, const FitData& some, const ArmState& state,
                                  const std::vector<Parameter>& parameters);
 

@@ -7,6 +7,7 @@
 #include "effects/registry.hpp"
 #include "numbers/cholesky.hpp"
 #include "plumb/runtime/chain.hpp"
+#include "solve/constants.hpp"
 #include "solve/descent.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/many_rows.hpp"
@@ -17,13 +18,14 @@ namespace {
 
 constexpr int kMostSeriesSteps = 30;
 constexpr double kSeriesDamping = 1e-10, kFirstSeriesDamping = 1e-4, kMostSeriesDamping = 1e4;
-constexpr double kNoSeriesStep = 1e-6;  // of cost to be gained: nothing beside the noise
-constexpr double kAsPromised = 0.5;     // of the promised fall: below, the matrix is made anew
+/// The normal equations are computed anew after a step that lowers the cost by less than this share
+/// of what it promised. Affects the time only.
+constexpr double kAsPromised = 0.5;
 
-/// One state: what it misses, and how its parameters and its joints move the points.
+/// One state with its residuals, and the derivatives by the parameters and by the joints.
 struct SeriesPoint {
   ArmState state;
-  Eigen::VectorXd residual;      // whitened, then the priors of `parameters`
+  Eigen::VectorXd residual;      // whitened residuals, then the priors of the parameters
   Eigen::MatrixXd J = {};        // of the parameters, shape (lines and priors, parameters)
   Eigen::MatrixXd joint = {};    // of the joints that have a series, shape (lines, series)
   Eigen::VectorXd numbers = {};  // of all series
@@ -98,7 +100,7 @@ class SeriesProblem {
     return out.selfadjointView<Eigen::Upper>();
   }
 
-  /// How fast the cost falls with parameters and series.
+  /// The negative gradient of the cost by parameters and series.
   Eigen::VectorXd descent(const SeriesPoint& at) const {
     Eigen::VectorXd out(count() + numbers());
     out.head(count()) = at.J.transpose() * at.residual;
@@ -153,7 +155,7 @@ class SeriesProblem {
   Eigen::VectorXd sigma_;
 };
 
-/// Normal equations with the prior, scaled so that all columns are of length 1.
+/// Normal equations with the prior of the series, scaled to a unit diagonal.
 class SeriesEquations {
  public:
   SeriesEquations(const Eigen::MatrixXd& information, const Eigen::VectorXd& sigma)
@@ -173,13 +175,13 @@ class SeriesEquations {
     return scale_.cwiseProduct(llt_.solve(scale_.cwiseProduct(descent)));
   }
 
-  /// Diagonal of the inverse over the last `count` unknowns, and what information is left of the
-  /// first ones.
+  /// Variances of the last `count` unknowns: the diagonal of the inverse.
   Eigen::VectorXd variances(Eigen::Index count) const {
     const Eigen::MatrixXd half = llt_.whitened(
         Eigen::MatrixXd(Eigen::MatrixXd::Identity(scale_.size(), scale_.size()).rightCols(count)));
     return half.colwise().squaredNorm().transpose().cwiseProduct(scale_.tail(count).cwiseAbs2());
   }
+  /// Information on the `first` unknowns with the others unknown: the Schur complement.
   Eigen::MatrixXd marginal(Eigen::Index first) const {
     const Eigen::Index last = scale_.size() - first;
     const Cholesky of_last(matrix_.bottomRightCorner(last, last));
@@ -209,14 +211,14 @@ Solution solve_with_series(const FitData& data, const ArmState& start,
   Solution out;
   SeriesPoint here = problem.at(start);
   SeriesEquations equations(problem.information(here), problem.sigma());
-  bool fresh = true;  // whether the matrix is that of this point
+  bool fresh = true;  // the equations are those of `here`, not of an earlier point
   double damping = kSeriesDamping;
   for (; !out.converged && out.iterations < kMostSeriesSteps && damping < kMostSeriesDamping;
        ++out.iterations) {
     const Eigen::VectorXd descent = problem.descent(here);
     const Eigen::VectorXd step = equations.solve(descent);
     const double promised = 0.5 * step.dot(descent);
-    if (promised <= std::max(tolerance * here.cost, kNoSeriesStep)) {
+    if (promised <= std::max(tolerance * here.cost, kNoGain)) {
       out.converged = true;
       break;
     }

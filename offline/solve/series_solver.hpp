@@ -12,12 +12,13 @@ namespace plumb::offline {
 /// Whether the state carries a series of waves.
 bool has_series(const ArmState& state);
 
-/// As `solve`, with the numbers of all series of waves found together with `parameters`. The motion
-/// is all but linear in them, so one matrix of normal equations serves all steps; a wave acts on
-/// one joint, so that its sums cost one line a pose. [Gauss-Newton; Nocedal & Wright 2006, 10.3]
+/// As `solve`, but fits the amplitudes of all series of waves together with `parameters`. The
+/// motion is nearly linear in the amplitudes, so the normal equations are reused for many steps. A
+/// wave moves one joint only, so its sums need one number a pose instead of one a coordinate.
+/// [Gauss-Newton; Nocedal & Wright 2006, 10.3]
 ///
-/// The Jacobian of the solution is that of `parameters` alone; `marginal` is their information
-/// with the series unknown as well.
+/// The Jacobian of the solution is that of `parameters` alone; `marginal` is the information on
+/// them with the amplitudes unknown as well.
 Solution solve_with_series(const FitData& data, const ArmState& start,
                            const std::vector<Parameter>& parameters, double tolerance);
 

@@ -8,13 +8,12 @@
 
 #include "arm/predicted_points.hpp"
 #include "cell/formula_reader.hpp"
+#include "solve/constants.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kMissedShare = 0.01;  // of the reach
-
-/// The parameters of effects, and the effect that has most of them.
+/// How many of the parameters belong to effects, and in words to which.
 std::pair<int, std::string> parameters_of_effects(const std::vector<Parameter>& parameters) {
   std::map<std::string, int> counts;
   int all = 0;
@@ -78,7 +77,7 @@ void check_meets(const Cell& cell, const FitData& data, const Solution& solution
   const Rows3 error = residuals(some, predict_points(solution.state, some));
   const double rms = std::sqrt(error.squaredNorm() / static_cast<double>(error.rows()));
   const double length = reach(cell.nominal);
-  if (rms <= kMissedShare * length) return;
+  if (rms <= kMostMissed * length) return;
   throw Failure(Exit::kNumbersSayNo,
                 {.code = "E-FIT-MISS",
                  .message = fmt::format("calibrated as well as possible, this arm still misses its "

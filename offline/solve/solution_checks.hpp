@@ -20,11 +20,10 @@ void check_enough(const FitData& data, std::size_t kept, const std::vector<Param
 /// E-FIT-FORMULA: a formula has no value, or no slope, at a row of the data.
 [[noreturn]] void refuse_undefined(const FitData& data, const format::Effect& effect, int row);
 
-/// E-FIT-CONVERGE: the solver gave up.
+/// E-FIT-CONVERGE: the solver did not converge.
 void check_converged(const Solution& solution);
 
-/// E-FIT-MISS: the points are still missed by more than 1 % of the reach, which no error of an
-/// arm explains.
+/// E-FIT-MISS: the RMS residual still exceeds 1 % of the reach, which no error of an arm explains.
 void check_meets(const Cell& cell, const FitData& data, const Solution& solution);
 
 }  // namespace plumb::offline

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "arm/arm_change.hpp"
+#include "solve/constants.hpp"
 #include "solve/descent.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/fit_lines.hpp"
@@ -18,23 +19,25 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kNoChange = 1e-7;      // of the cost in the last iteration
-constexpr double kDenseQrUpTo = 2e5;    // numbers; beyond it the normal equations are much faster
-constexpr int kMostIterations = 300;    // weakly observable parameters converge slowly
-constexpr int kPatience = 50;           // iterations before predictions alone are judged
-constexpr int kLookBack = 10;           // iterations over which they are
-constexpr double kAtRest = 3e-3;        // of the noise: predictions that move no more have settled
-constexpr double kNearlyAtRest = 3e-2;  // the same, where the last iteration is reached
+/// Numbers of a Jacobian up to which QR is used; beyond, the normal equations are much faster.
+constexpr double kDenseQrUpTo = 2e5;
+/// After so many iterations a fit ends if the predictions have come to rest over the last ones.
+/// Chosen; they bound the time of fits with parameters that the poses do not show.
+constexpr int kPatience = 50, kLookBack = 10;
+/// RMS motion of the predictions over these iterations, in standard deviations of the noise, below
+/// which they are at rest; and below which a fit that has used all its iterations still counts as
+/// converged. Chosen: both are far below what the noise does to the predictions.
+constexpr double kAtRest = 3e-3, kNearlyAtRest = 3e-2;
 
-/// RMS motion of the predictions, in standard deviations of the noise, that goes with a fall of
-/// the cost near its minimum, where cost - least cost = |J dx|^2 / 2.
+/// RMS motion of the predictions, in standard deviations of the noise, that corresponds to a fall
+/// of the cost near its minimum: there cost - least cost = |J dx|^2 / 2.
 double motion_of(double cost_fall, double cost, int residuals) {
   const double n = std::max(1, residuals);
   const double scatter = std::max(1.0, std::sqrt(2.0 * cost / n));
   return std::sqrt(2.0 * std::max(0.0, cost_fall) / n) / scatter;
 }
 
-/// Ends a solution whose predictions have come to rest.
+/// Ends a solution once its predictions have come to rest.
 class PredictionsAtRest final : public ceres::IterationCallback {
  public:
   explicit PredictionsAtRest(int residuals) : residuals_(residuals) {}
@@ -102,7 +105,7 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   options.callbacks.push_back(&at_rest);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  // Where the start has no finite value there is nothing to climb from.
+  // Ceres makes no iteration if a residual is not finite at the start.
   if (summary.iterations.empty()) {
     Solution none;
     none.reason = summary.message;
@@ -110,7 +113,6 @@ Solution solve(const FitData& data, const ArmState& start, const std::vector<Par
   }
   Solution out = evaluate(data, moved(start, parameters, x), parameters);
   out.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  // Two parameters with nearly the same effect need not converge to the last digit.
   const auto& last = summary.iterations.back();
   out.converged = summary.termination_type == ceres::CONVERGENCE ||
                   summary.termination_type == ceres::USER_SUCCESS ||

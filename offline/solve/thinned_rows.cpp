@@ -4,14 +4,9 @@
 #include <algorithm>
 
 #include "arm/arm_state.hpp"
+#include "solve/constants.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr int kFewOfSetup = 100;  // readings: a set-up with no more of them stays whole
-
-}  // namespace
-
 std::map<int, int> rows_by_setup(const Measurements& measured, const std::vector<int>& rows) {
   std::map<int, int> out;
   for (const int row : rows) ++out[setup_of(measured, row)];

@@ -8,14 +8,14 @@
 
 namespace plumb::offline {
 
-/// At most `most` of the rows, evenly picked. Set-ups of few readings stay whole, or what is left
-/// of them could no longer tell where their tracker stands; so there may be some more.
+/// About `most` of the rows, picked evenly. Set-ups of few readings keep all of them, since fewer
+/// might not tell where their tracker stands; the result may therefore be longer than `most`.
 std::vector<int> thinned(const Measurements& measured, const std::vector<int>& rows, int most);
 inline std::vector<int> thinned(const FitData& data, int most) {
   return thinned(*data.measured, data.rows, most);
 }
 
-/// How many of the rows are of each set-up.
+/// Number of rows of each set-up.
 std::map<int, int> rows_by_setup(const Measurements& measured, const std::vector<int>& rows);
 
 }  // namespace plumb::offline

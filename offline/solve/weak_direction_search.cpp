@@ -6,16 +6,15 @@
 
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
+#include "solve/constants.hpp"
 #include "solve/scaled_jacobian.hpp"
 #include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kMostRows = 4000;
-constexpr double kWeak = 3.0;  // s: known worse than a third of the prior
-
-/// 1 sigma of a number about its nominal value [SI]; 0 where nothing is known, or more than that.
+/// 1 sigma of the prior of a number about its nominal value [SI]; 0 if it has none, or if it has a
+/// prior of its own.
 double prior_of(const Parameter& p, const FitData& data) {
   const FitSettings& settings = data.cell->fit;
   if (!p.of_robot() || p.of_effect()) return 0.0;
@@ -26,7 +25,8 @@ double prior_of(const Parameter& p, const FitData& data) {
   return p.is_length() ? settings.prior_m : settings.prior_rad;
 }
 
-/// Last columns of J, less what the first ones explain: the lower right block of R.
+/// The lower right block of R in J = Q R: the columns of J from `first` on without the part that
+/// the columns before explain, up to an orthogonal factor.
 Eigen::MatrixXd less_the_first(const Eigen::MatrixXd& J, Eigen::Index first) {
   const Eigen::VectorXd scale = per_norm(J);
   const Eigen::MatrixXd scaled = J * scale.asDiagonal();
@@ -59,7 +59,7 @@ WeakDirections weak_directions(const FitData& data, const ArmState& state,
   order.insert(order.end(), out.parameters.begin(), out.parameters.end());
   FitData thin = data;
   thin.weak = {};
-  thin.rows = thinned(data, kMostRows);
+  thin.rows = thinned(data, kRankRows);
   const Eigen::Map<const Eigen::VectorXd> sigma(prior.data(),
                                                 static_cast<Eigen::Index>(prior.size()));
   const Eigen::MatrixXd shown =

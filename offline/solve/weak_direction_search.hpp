@@ -9,16 +9,17 @@
 
 namespace plumb::offline {
 
-/// Combinations of the arm's numbers among `parameters` that the poses of `data` show worse than a
-/// third of [fit] prior_mm and prior_mrad: those are held near nominal. With x the numbers of the
-/// arm in units of that prior, J_x their whitened derivatives less what frame, target and effects
-/// explain, and
+/// Directions in the space of the arm's numbers among `parameters` that the poses of `data` tell
+/// worse than a third of [fit] prior_mm and prior_mrad. Those are held near nominal. Let x be the
+/// numbers of the arm in units of that prior, J_x their whitened derivatives without the part that
+/// frame, target and effects explain, and
 ///
 ///   J_x = U diag(s) V^T
 ///
-/// the columns of V with s < 3. What the poses show clearly is thus left exactly as they show it.
-/// None without a cell, or where the cell sets the prior to 0. Numbers with a prior of their own in
-/// [fit] prior take no part. Cost: one evaluation on at most 4000 rows, and a QR decomposition.
+/// The directions are the columns of V with s < 3. All other directions have no prior, so that the
+/// poses alone decide them. There are none without a cell, or if the cell sets the prior to 0.
+/// Numbers with a prior of their own in [fit] prior are not included. Cost: one evaluation on at
+/// most 4000 rows, and a QR decomposition.
 WeakDirections weak_directions(const FitData& data, const ArmState& state,
                                const std::vector<Parameter>& parameters);
 

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "solve/constants.hpp"
+
 namespace plumb::offline {
 namespace {
 
-constexpr double kPartOf = 0.25;  // of a number's square lies in the weak directions
 constexpr std::size_t kDirectionsListed = 6;
 
 }  // namespace
@@ -15,8 +16,8 @@ constexpr std::size_t kDirectionsListed = 6;
 std::vector<std::string> names_of(const WeakDirections& weak) {
   std::vector<std::string> out;
   if (weak.weights.rows() == 0) return out;
-  // Where a direction is made of many numbers, none has a large part: the largest is named.
-  const double least = std::min(kPartOf, weak.share.maxCoeff());
+  // A direction made of many numbers has a small share of each; the largest is named at least.
+  const double least = std::min(kNamedShare, weak.share.maxCoeff());
   for (std::size_t i = 0; i < weak.parameters.size(); ++i)
     if (weak.share(static_cast<Eigen::Index>(i)) >= least) out.push_back(weak.parameters[i].name);
   return out;

@@ -10,15 +10,15 @@
 
 namespace plumb::offline {
 
-/// Combinations of the arm's numbers about which the poses say next to nothing: each row of
-/// `weights` times what the numbers are away from nominal is a distance in standard deviations.
+/// Combinations of the arm's numbers that the poses hardly determine. Each row of `weights` times
+/// the differences of the numbers from nominal is a distance in standard deviations of the prior.
 struct WeakDirections {
   std::vector<Parameter> parameters;
   Eigen::MatrixXd weights;  // shape (directions, parameters) [1/SI]
-  Eigen::VectorXd share;    // of each number that lies in these directions, 0 to 1
+  Eigen::VectorXd share;    // share of each number that lies in these directions, 0 to 1
 };
 
-/// Names of the numbers that make up most of these directions, in their order.
+/// Names of the numbers of which a clear share lies in these directions, in their order.
 std::vector<std::string> names_of(const WeakDirections& weak);
 
 /// N-FIT-PRIOR: which numbers of the arm are held near nominal, in words. `weak` is not empty.

@@ -15,7 +15,7 @@ Eigen::MatrixXd with_copies() {
 }
 
 TEST(Identifiable, KeepsTheEarlierOfDependentColumnsAndDropsColumnsOfZeros) {
-  const Subset subset = identifiable(with_copies(), {});
+  const ColumnSubset subset = identifiable(with_copies(), {});
   EXPECT_EQ(subset.kept, (std::vector<int>{0, 1, 2, 4}));
   EXPECT_EQ(subset.dropped, (std::vector<int>{3, 5}));
 }
