@@ -6,7 +6,7 @@
 namespace plumb::offline {
 
 /// Summary of 3-D position errors [m]; all zero if n == 0. p95 is the smallest error that at least
-/// 95 % of the poses do not exceed.
+/// 95 % of them do not exceed, which is what the tolerance of a cell is held against.
 struct ErrorStats {
   int n = 0;
   double mean = 0.0;

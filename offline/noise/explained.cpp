@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noise/constants.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kFewestInBin = 5;
-
 /// Factor by which the autocorrelation of a series inflates the variance of its mean: the sum of
 /// its autocorrelations with Bartlett weights, or that of a first-order autoregressive process if
-/// this is larger; at least 1. The weighted sum over the lags 0 ... L is the mean square of the
-/// sums of L + 1 successive values, so a long series need not be kept, nor each lag be looked at.
-class Memory {
+/// this is larger; at least 1. The weighted sum over the lags 0 ... L equals the mean square of the
+/// sums of L + 1 successive values, so that one pass over the series is enough. The last lag is
+/// 2 n^(1/3), at most n / 4. [Newey & West 1987]
+class VarianceInflation {
  public:
-  Memory(int visits, Eigen::Index numbers)
+  VarianceInflation(int visits, Eigen::Index numbers)
       : lags_(std::min(visits / 4, static_cast<int>(2.0 * std::cbrt(visits)))),
         window_(Eigen::MatrixXd::Zero(numbers, lags_ + 1)),
         sum_(Eigen::VectorXd::Zero(numbers)) {}
@@ -34,12 +34,12 @@ class Memory {
   double factor() {
     if (!(whole_ > 0.0)) return 1.0;
     for (int i = 0; i < lags_; ++i) shift(Eigen::VectorXd::Zero(sum_.size()));
-    const double first = lags_ > 0 ? std::clamp(next_ / whole_, 0.0, 0.95) : 0.0;
+    const double first = lags_ > 0 ? std::clamp(next_ / whole_, 0.0, kMostAutocorrelation) : 0.0;
     return std::max({1.0, sums_ / (lags_ + 1.0) / whole_, (1.0 + first) / (1.0 - first)});
   }
 
  private:
-  /// Begun anew each time round, the sum of the latest values cannot stray.
+  /// The sum of the window is computed anew once per round, so that rounding errors do not add up.
   void shift(const Eigen::Ref<const Eigen::VectorXd>& value) {
     sum_ += value - window_.col(place_);
     window_.col(place_) = value;
@@ -53,10 +53,12 @@ class Memory {
   Eigen::VectorXd sum_;
   double whole_ = 0.0, next_ = 0.0, sums_ = 0.0;
 };
-/// What is left of a segment when `e` is taken out, and what tells how far to trust it.
-class Rest {
+
+/// The residual of a segment after `e` was subtracted, and how much its correlations inflate the
+/// variance of what was fitted.
+class SegmentResidual {
  public:
-  Rest(const VisitRun& s, const Explained& e, const Eigen::Matrix3Xd& error)
+  SegmentResidual(const VisitRun& s, const Explained& e, const Eigen::Matrix3Xd& error)
       : e_(e),
         rest_(s.size(), 3),
         scores_(s.size(), e.sums->rank()),
@@ -68,10 +70,11 @@ class Rest {
 
   double squares() const { return rest_.whole(); }
 
-  /// Variance of the fitted numbers, over the variance that independent residuals of equal variance
-  /// would give them: a missing effect disturbs some directions more than others, and neighbouring
-  /// visits alike. From the scores X_i^T r_i of the visits, on average or along the jump found, and
-  /// their autocorrelation; at least 1. [White 1980; Newey & West 1987]
+  /// Variance of the fitted numbers over the variance that independent residuals of equal variance
+  /// would give them. A missing effect makes residuals larger in some directions than in others,
+  /// and alike at neighbouring visits. Computed from the scores X_i^T r_i of the visits, on average
+  /// and along the jump that was found, and from their autocorrelation; at least 1. [White 1980;
+  /// Newey & West 1987]
   double inflation() {
     const double variance = squares() / std::max(1.0, e_.free);
     if (!(variance > 0.0) || !(motion_ > 0.0)) return 1.0;
@@ -103,14 +106,14 @@ class Rest {
   }
 
   const Explained& e_;
-  Memory rest_, scores_, along_;
+  VarianceInflation rest_, scores_, along_;
   double left_, right_;  // visits on either side of a jump
   double motion_ = 0.0, weighted_ = 0.0, weights_ = 0.0, whole_ = 0.0;
 };
 
-/// Fills in the F test of `out`; tries: number of alternatives for the Bonferroni correction.
+/// Fills in the F test of `out`. tries: number of alternatives for the Bonferroni correction.
 void judge(const VisitRun& s, int numbers, double tries, const Unexplained& what, Explained& out) {
-  Rest rest(s, out, what.error);
+  SegmentResidual rest(s, out, what.error);
   out.inflation = rest.inflation();
   out.left = rest.squares();
   if (out.free < 1.0 || !(out.left > 0.0)) return;
@@ -118,7 +121,7 @@ void judge(const VisitRun& s, int numbers, double tries, const Unexplained& what
   out.ln_p = std::min(0.0, ln_f_tail(f, numbers, out.free) + std::log(tries));
 }
 
-/// Of a visit in the order of its segment, -1 to 1.
+/// Position of a visit within its segment, from -1 at the first to 1 at the last visit.
 double place_in(const VisitRun& s, int visit) {
   return 2.0 * (visit - s.first) / (s.size() - 1.0) - 1.0;
 }
@@ -133,7 +136,7 @@ Eigen::Vector3d Explained::at(int visit) const {
   return X * (drift.head(k) + t * drift.segment(k, k) + t * t * drift.tail(k));
 }
 
-int fewest_visits(const MotionSums& sums) { return std::max(kFewestInBin, sums.rank() + 2); }
+int fewest_visits(const MotionSums& sums) { return std::max(kFewestBesideJump, sums.rank() + 2); }
 
 std::optional<Explained> jump_of(const MotionSums& sums, const VisitRun& s,
                                  const Unexplained& what) {
@@ -160,7 +163,7 @@ std::optional<Explained> jump_of(const MotionSums& sums, const VisitRun& s,
 std::optional<Explained> drift_of(const MotionSums& sums, const VisitRun& s,
                                   const Unexplained& what) {
   const int k = sums.rank();
-  if (what.axes * s.size() < 6 * k) return std::nullopt;
+  if (what.axes * s.size() < kFewestOfDrift * k) return std::nullopt;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(3 * k, 3 * k);
   Eigen::VectorXd along = Eigen::VectorXd::Zero(3 * k);
   for (int i = s.first; i < s.last; ++i) {

@@ -9,23 +9,22 @@
 
 namespace plumb::offline {
 
-/// How much of the residual of a segment one motion source explains by a jump or by a drift, beyond
-/// a constant shift.
+/// How much of the residual of a segment the motion of one part of the set-up explains, by a jump
+/// or by a drift, beyond a constant shift.
 struct Explained {
   const MotionSums* sums = nullptr;
   int cut = 0;                    // first visit behind the jump; 0: a drift
   double gain = 0.0, left = 0.0;  // sums of squares explained and left [m^2]
-  double inflation = 1.0;         // of F, by unequal variances and autocorrelation
+  double inflation = 1.0;         // F is divided by it: unequal variances and autocorrelation
   double free = 1.0;              // degrees of freedom left
   double ln_p = 0.0;  // ln of the probability by chance, over all cuts and motion sources
   VisitRun segment{0, 0};
-  MotionSums::Numbers before,
-      behind;             // of a jump: the motion on either side of it
-  Eigen::VectorXd drift;  // of a drift: constant, linear and quadratic in order
+  MotionSums::Numbers before, behind;  // of a jump: the motion on either side of it
+  Eigen::VectorXd drift;  // of a drift: its constant, linear and quadratic coefficients
 
-  /// What is explained of the residual of this visit.
+  /// The explained part of the residual of this visit.
   Eigen::Vector3d at(int visit) const;
-  /// The residual less what is explained; `error`: of all visits.
+  /// Subtracts the explained part from the residuals `error` of all visits.
   void take_from(Eigen::Matrix3Xd& error) const {
     for (int i = segment.first; i < segment.last; ++i) error.col(i) -= at(i);
   }
@@ -46,7 +45,8 @@ int fewest_visits(const MotionSums& sums);
 std::optional<Explained> jump_of(const MotionSums& sums, const VisitRun& s,
                                  const Unexplained& what);
 
-/// Motion linear and quadratic in order.
+/// The best motion that is linear and quadratic in the order of the visits; nothing if the segment
+/// is too short.
 std::optional<Explained> drift_of(const MotionSums& sums, const VisitRun& s,
                                   const Unexplained& what);
 

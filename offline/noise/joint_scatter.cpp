@@ -4,32 +4,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noise/constants.hpp"
 #include "numbers/cholesky.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kFirstGuess_rad = 20e-6;  // of arms in good order; [m] of a sliding joint
-constexpr double kSmallestNoise = 1e-12;   // variance of a line: noise-free data
-constexpr double kSettled = 3e-3;          // relative change of the largest contribution
-constexpr double kNothing = 1e-4;          // of the noise: less is no scatter
-constexpr Eigen::Index kSomePoses = 400;
-constexpr int kIterations = 40, kMoreIterations = 4;
+// Numbers of the iteration; the estimate does not depend on them beyond its tolerance.
+constexpr double kFirstGuess_rad = 20e-6;  // start of every joint [rad], or [m] of a sliding one
+constexpr double kSmallestNoise = 1e-12;   // least variance of a whitened line: noise-free data
+constexpr double kScatterSettled = 3e-3;   // relative change of the variances at which it ends
 constexpr double kScatterRidge = 1e-9;
 
-/// Everything of one model of the noise: lines divided by the Cholesky factor of each pose's
-/// covariance, and the model's columns taken out.
+/// The lines under one model of the noise: divided by the Cholesky factor of each pose's
+/// covariance, and the residual made orthogonal to the columns of the model.
 struct Whitened {
   Eigen::VectorXd residual;            // (lines,)
   Eigen::MatrixXd model;               // (lines, rank) the model's columns, orthonormal
   std::vector<Eigen::VectorXd> joint;  // (lines,)
-  Eigen::MatrixXd unit;                // (lines, axes): the axes themselves
+  Eigen::MatrixXd unit;                // (lines, axes) the whitened unit vectors of each pose
 };
 
 constexpr int kMostAxes = 6;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostAxes, kMostAxes>;
 
-/// L of L L^T = covariance of the lines of one pose; they are whitened by L^-1.
+/// Cholesky factor L of the covariance L L^T of the lines of one pose. L^-1 whitens them.
 Square root_at(const ScatterLines& s, const JointScatter& at, Eigen::Index pose) {
   Square V = at.noise_variance * Square::Identity(s.axes, s.axes);
   for (std::size_t j = 0; j < s.joint.size(); ++j) {
@@ -40,7 +39,7 @@ Square root_at(const ScatterLines& s, const JointScatter& at, Eigen::Index pose)
   return V.llt().matrixL();
 }
 
-/// L^-1 of some lines of one pose, in place.
+/// Multiplies the lines of one pose by L^-1, in place.
 template <class Lines>
 void divide(const Square& root, Lines&& lines) {
   for (Eigen::Index i = 0; i < root.rows(); ++i) {
@@ -69,8 +68,9 @@ Whitened whitened_by(const ScatterLines& s, const JointScatter& at) {
   return out;
 }
 
-/// Trace of P G and y^T P G P y of a part of the covariance, given by its motions in each pose.
-struct Share {
+/// Traces tr(P G) and y^T P G P y for one part G of the covariance, given by its motions g in each
+/// pose. P projects out the columns of the model.
+struct VariancePart {
   double trace = 0.0, squares = 0.0;
 
   void add(const ScatterLines& s, const Whitened& w, const Eigen::Ref<const Eigen::VectorXd>& g) {
@@ -84,17 +84,17 @@ struct Share {
       squares += along * along;
     }
   }
-  /// The factor of the next variance.
+  /// Factor by which the next iteration multiplies the variance of this part.
   double factor() const { return trace > 0.0 ? std::sqrt(std::max(0.0, squares) / trace) : 0.0; }
 };
 
-/// Variance of a line that a joint's scatter makes on average.
+/// Variance that the scatter of a joint adds to a line, on average over the lines.
 double contribution(const ScatterLines& s, const JointScatter& at, std::size_t j) {
   return at.variance(static_cast<Eigen::Index>(j)) * s.joint[j].squaredNorm() /
          static_cast<double>(std::max<Eigen::Index>(1, s.y.size()));
 }
 
-/// Every so many poses.
+/// The lines of at most `most` poses, picked evenly.
 ScatterLines thinned(const ScatterLines& s, Eigen::Index most) {
   if (s.poses() <= most) return s;
   std::vector<Eigen::Index> line;
@@ -156,22 +156,22 @@ JointScatter estimated_scatter(const ScatterLines& s, const JointScatter& start,
     for (std::size_t j = 0; j < s.joint.size(); ++j) {
       double& variance = out.variance(static_cast<Eigen::Index>(j));
       if (!(variance > 0.0)) continue;
-      Share share;
+      VariancePart share;
       share.add(s, w, w.joint[j]);
       const double before = contribution(s, out, j);
       variance *= share.factor();
       const double after = contribution(s, out, j);
       change = std::max(change, std::abs(after - before) / (out.noise_variance + before));
     }
-    Share share{s.noise_dof / out.noise_variance,
-                s.noise_dof * s.noise_variance / (out.noise_variance * out.noise_variance)};
+    VariancePart share{s.noise_dof / out.noise_variance,
+                       s.noise_dof * s.noise_variance / (out.noise_variance * out.noise_variance)};
     for (int k = 0; k < s.axes; ++k) share.add(s, w, w.unit.col(k));
     const double factor = share.factor();
     out.noise_variance = std::max(kSmallestNoise, out.noise_variance * factor);
-    if (std::max(change, std::abs(factor - 1.0)) < kSettled) break;
+    if (std::max(change, std::abs(factor - 1.0)) < kScatterSettled) break;
   }
   for (std::size_t j = 0; j < s.joint.size(); ++j)
-    if (contribution(s, out, j) < kNothing * out.noise_variance)
+    if (contribution(s, out, j) < kNoScatter * out.noise_variance)
       out.variance(static_cast<Eigen::Index>(j)) = 0.0;
   return out;
 }
@@ -181,7 +181,7 @@ JointScatter unit_noise(const ScatterLines& s) {
 }
 
 JointScatter noise_alone(const ScatterSums& sums, const ScatterLines& some) {
-  // Without scatter the iterations have a closed end.
+  // Without scatter the estimate has a closed form.
   const Cholesky root(sums.information);
   const double left = sums.squares - root.whitened(sums.gradient).squaredNorm();
   const double free = std::max(1.0, sums.lines - static_cast<double>(sums.gradient.size()));
@@ -204,9 +204,9 @@ JointScatter noise_and_scatter(const ScatterLines& s) {
   for (Eigen::Index j = 0; j < start.variance.size(); ++j)
     if (some.joint[static_cast<std::size_t>(j)].squaredNorm() > 0.0)
       start.variance(j) = kFirstGuess_rad * kFirstGuess_rad;
-  JointScatter out = estimated_scatter(some, start, kIterations);
+  JointScatter out = estimated_scatter(some, start, kScatterIterations);
   if (s.poses() <= kSomePoses) return out;
-  return estimated_scatter(thinned(s, kPosesOfScatter), out, kMoreIterations);
+  return estimated_scatter(thinned(s, kPosesOfScatter), out, kMoreScatterIterations);
 }
 
 }  // namespace plumb::offline

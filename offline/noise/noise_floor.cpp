@@ -10,17 +10,13 @@
 
 #include "arm/predicted_points.hpp"
 #include "cell/group_rows.hpp"
+#include "noise/constants.hpp"
 #include "noise/repeat_groups.hpp"
 #include "numbers/quantile.hpp"
+#include "solve/constants.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kBadReadingTimes = 6.0;  // the usual scatter: a bad reading
-constexpr double kStatedDof = 4.0;
-constexpr double kNextTo = 10.0;                     // rows
-constexpr std::array kNear = {0.1, 0.25, 0.5, 1.0};  // shares of all rows
-constexpr double kNormalMedian = 1.4826;             // sigma / median of a normal distance
 
 /// Mean of the chi distribution: E|x| of an isotropic normal vector with unit sigma.
 double mean_norm(int axes) {
@@ -36,7 +32,7 @@ double mean_norm(int axes) {
 
 using Readings = std::vector<Eigen::RowVector3d>;
 
-/// Readings that are equal to the last digit are copies of one.
+/// Keeps one of the readings that are equal to the last digit: they are copies.
 void take_copies_once(const Rows3& p_M, std::vector<int>& rows) {
   const auto number = [&](int row) { return std::array{p_M(row, 0), p_M(row, 1), p_M(row, 2)}; };
   std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return number(a) < number(b); });
@@ -44,8 +40,8 @@ void take_copies_once(const Rows3& p_M, std::vector<int>& rows) {
   rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
 }
 
-/// Rows of each group of repeats, cut where more than `far` rows lie between two of them: what
-/// changes in between is a drift or a step, and no noise.
+/// Rows of each group of repeats. A group is cut where more than `far` rows lie between two
+/// repeats, because a drift or a step in between is no noise.
 std::vector<std::vector<int>> near_rows(const Measurements& m, const std::vector<int>& group,
                                         double far) {
   std::vector<int> used;
@@ -61,7 +57,7 @@ std::vector<std::vector<int>> near_rows(const Measurements& m, const std::vector
   return out;
 }
 
-/// What is left of the readings of every repeated pose.
+/// The rows of left_M of every repeated pose.
 std::vector<Readings> repeated(const Measurements& m, const std::vector<int>& group,
                                const Rows3& left_M, double far) {
   std::vector<Readings> out;
@@ -111,7 +107,8 @@ double usual_sigma(const std::vector<Readings>& poses, const std::array<bool, 3>
   return kNormalMedian * median(std::move(distances));
 }
 
-/// Leaves out bad readings, which are no noise. If only two contradict each other, both go.
+/// Removes bad readings, which are no noise. Where two readings of a pose contradict each other,
+/// both are removed.
 void drop_contradicted(std::vector<Readings>& poses, double far) {
   for (auto& readings : poses) {
     const Eigen::RowVector3d centre = centre_of(readings);
@@ -121,18 +118,18 @@ void drop_contradicted(std::vector<Readings>& poses, double far) {
   std::erase_if(poses, [](const Readings& readings) { return readings.size() < 2; });
 }
 
-struct Pooled {
+struct PooledScatter {
   double squares = 0.0;
   int dof = 0;  // poses, not coordinates
 };
 
-Pooled pooled(const Measurements& m, const std::vector<int>& group, const Rows3& left_M, int axes,
-              double far) {
+PooledScatter pooled(const Measurements& m, const std::vector<int>& group, const Rows3& left_M,
+                     int axes, double far) {
   std::vector<Readings> poses = repeated(m, group, left_M, far);
   if (poses.empty()) return {};
   const double usual = usual_sigma(poses, m.has_axis);
-  if (usual > 0.0) drop_contradicted(poses, kBadReadingTimes * std::sqrt(axes) * usual);
-  Pooled out;
+  if (usual > 0.0) drop_contradicted(poses, kOutlierTimes * std::sqrt(axes) * usual);
+  PooledScatter out;
   for (const auto& readings : poses) {
     const Eigen::RowVector3d mean = mean_of(readings);
     for (const auto& p : readings) out.squares += (p - mean).squaredNorm();
@@ -141,29 +138,30 @@ Pooled pooled(const Measurements& m, const std::vector<int>& group, const Rows3&
   return out;
 }
 
-/// The nearest repeats of which there are enough; of all if there are too few.
-Pooled pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
+/// Scatter of repeats that lie near to each other in the file: as near as possible with enough of
+/// them, else of all repeats.
+PooledScatter pooled_repeats(const Measurements& m, const Rows3& left_M, int axes) {
   const std::vector<int> group = repeat_groups(m);
-  Pooled out;
-  for (const double share : kNear) {
+  PooledScatter out;
+  for (const double share : kNearShares) {
     out = pooled(m, group, left_M, axes, std::max(kNextTo, share * static_cast<double>(m.size())));
     if (out.dof >= kEnoughRepeats) break;
   }
   return out;
 }
 
-/// left_M: readings, or what a model leaves of them.
+/// left_M: the readings, or their residuals from a model.
 NoiseFloor floor_of(const Cell& cell, const Measurements& measured, const Rows3& left_M) {
   int axes = 0;
   for (bool has : measured.has_axis) axes += has ? 1 : 0;
   NoiseFloor out;
-  const Pooled repeats = pooled_repeats(measured, left_M, axes);
+  const PooledScatter repeats = pooled_repeats(measured, left_M, axes);
   if (repeats.dof >= kEnoughRepeats) {
     out.sigma_m = std::sqrt(repeats.squares / (repeats.dof * axes));
     out.source = NoiseFloor::Source::kRepeats;
     out.dof = repeats.dof * axes;
   } else if (measured.sigma_m.rows() > 0) {
-    // Columns of axes that were not measured hold zeros.
+    // The columns of axes that were not measured hold zeros, so the sum is over `axes` columns.
     out.sigma_m = std::sqrt(measured.sigma_m.squaredNorm() /
                             (static_cast<double>(measured.sigma_m.rows()) * axes));
     out.source = NoiseFloor::Source::kSigma;

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "noise/constants.hpp"
+
 namespace plumb::offline {
 namespace {
-
-constexpr double kSameTemperature_K = 0.5;  // 6 um on a metre of steel
-constexpr double kSameLoad = 1e-3;          // [kg] or [m]: stated, not measured
-constexpr double kSameForce = 1.0;          // [N] or [N m]: sensors are noisy
-constexpr double kStill = 1e-3;             // of the largest move: it did not come from a side
 
 enum class Side { kAsMoved, kAsStated };
 
@@ -26,7 +23,7 @@ bool within(const RowsN& values, int a, int b, double tolerance) {
   return true;
 }
 
-int sign_of(double move) { return move > kStill ? 1 : move < -kStill ? -1 : 0; }
+int sign_of(double move) { return move > kStillShare ? 1 : move < -kStillShare ? -1 : 0; }
 
 bool same_side(const RowsN& moves, int a, int b) {
   if (moves.rows() == 0) return true;
@@ -47,11 +44,11 @@ struct Groups {
 };
 
 Groups groups_by(const Measurements& measured, Side side) {
-  std::map<int, std::vector<int>> firsts;  // of a pose: the first row of each group
+  std::map<int, std::vector<int>> firsts;  // for each pose, the first row of each of its groups
   Groups out;
   for (int i = 0; i < measured.size(); ++i) {
     auto& known = firsts[measured.replicate_group[static_cast<std::size_t>(i)]];
-    // The latest first: rows that follow each other are mostly alike.
+    // The latest group is tried first, because successive rows mostly share their context.
     const auto mine = std::find_if(known.rbegin(), known.rend(), [&](int first) {
       return alike(measured.context, side, first, i);
     });

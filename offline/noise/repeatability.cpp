@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arm/arm_change.hpp"
+#include "noise/constants.hpp"
 #include "noise/weights.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/orthonormal.hpp"
@@ -16,12 +17,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kSupported_nats = 3.0;  // 20 to 1
-constexpr double kUsual_rad = 60e-6;     // [m] of a joint that slides
-constexpr double kMostOfJoint = 200e-6;  // [rad or m] no industrial arm has more
-constexpr double kWorthSaying = 0.3;     // of the largest
-
-/// The offset of each joint, whose derivative is the motion of the joint.
+/// The offset of each joint: the derivatives by the offsets are the motions of the joints.
 std::vector<Parameter> joint_offsets(const format::Chain& chain) {
   std::vector<Parameter> out;
   for (const auto& joint : chain.joints) {
@@ -49,7 +45,7 @@ bool stood_still(const Measurements& m, int a, int b) {
 
 constexpr std::size_t kReadingsInOneGo = 512;
 
-/// The lines of a calibrated model at some readings, as many at a time as fit into the cache.
+/// The lines of a calibrated model at some readings, computed in blocks that fit into the cache.
 class ModelLines {
  public:
   ModelLines(const Measurements& measured, const ArmState& state,
@@ -63,7 +59,7 @@ class ModelLines {
     data_.sigma_m = std::move(sigma_m);
   }
 
-  /// Reading by reading.
+  /// Lines of the chosen readings, reading by reading.
   ScatterLines readings(const std::vector<std::size_t>& chosen) {
     data_.rows.clear();
     for (const std::size_t i : chosen) data_.rows.push_back(rows_[i]);
@@ -83,7 +79,7 @@ class ModelLines {
     return by_stop(lines, stop);
   }
 
-  /// The stops from which the scatter is estimated.
+  /// The readings of the stops from which the scatter is estimated.
   std::vector<std::size_t> some() const {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -91,7 +87,7 @@ class ModelLines {
     return out;
   }
 
-  /// Calls visit(numbers of readings) for all of them, whole stops at a time.
+  /// Calls visit(indices of readings) for blocks of readings; a stop is never split.
   template <class Visit>
   void in_blocks(const Visit& visit) const {
     std::vector<std::size_t> block;
@@ -131,7 +127,8 @@ class ModelLines {
   FitData data_;
 };
 
-/// What the floor says of the variance of a line that was divided by such sigmas.
+/// Sets the prior of the variance of the lines from the noise floor; mean_square_m2: of the sigmas
+/// by which the lines were divided.
 void tell(const NoiseFloor& floor, double mean_square_m2, ScatterLines& lines) {
   if (floor.source == NoiseFloor::Source::kNone) return;
   lines.noise_variance = floor.sigma_m * floor.sigma_m / mean_square_m2;
@@ -140,7 +137,7 @@ void tell(const NoiseFloor& floor, double mean_square_m2, ScatterLines& lines) {
 
 }  // namespace
 
-bool Repeatability::supported() const { return nats > kSupported_nats && usual(); }
+bool Repeatability::supported() const { return nats > kScatterSupported_nats && usual(); }
 
 bool Repeatability::usual() const {
   return sigma_m <= usual_sigma_m &&
@@ -164,7 +161,7 @@ Repeatability SquaredMotions::with(const JointScatter& scatter) const {
     const double joint = scatter.variance(static_cast<Eigen::Index>(j));
     out.std.push_back(std::sqrt(joint));
     variance += joint * joint_[j] / lines;
-    usual += kUsual_rad * kUsual_rad * joint_[j] / lines;
+    usual += kUsualScatter_rad * kUsualScatter_rad * joint_[j] / lines;
   }
   out.usual_sigma_m = std::sqrt(usual);
   out.sigma_m = std::sqrt(variance);

@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noise/constants.hpp"
+
 namespace plumb::offline {
 namespace {
-
-/// Of the length of the series: so long before or after it a row may still be said to belong to it.
-constexpr double kBeyondSeries = 0.1;
-
-constexpr double kSameJoints = 1e-5;  // [rad] or [m]: files are rounded
 
 std::string repeat_of(const Column& column, int row) {
   const auto at = static_cast<std::size_t>(row);
@@ -33,13 +30,13 @@ SeriesPlace::SeriesPlace(const MeasurementFiles& own) : own_(own), clock_(clock_
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!names[i].empty()) {
       rows_named_[names[i]].push_back(static_cast<int>(i));
-      // A file without a column `repeat` may still name the pose.
+      // Another file may name the pose but have no column `repeat`.
       if (!names[i].ends_with('\n'))
         rows_named_[names[i].substr(0, names[i].find('\n') + 1)].push_back(static_cast<int>(i));
     }
 }
 
-/// The one that all files have.
+/// The kind of time stamps that all files have.
 SeriesPlace::Clock SeriesPlace::clock_of(const std::vector<Table>& tables) {
   const auto all = [&](const char* name, bool text) {
     return !tables.empty() && std::all_of(tables.begin(), tables.end(), [&](const Table& table) {
@@ -68,7 +65,7 @@ std::vector<std::string> SeriesPlace::names_of(const MeasurementFiles& rows) {
   return out;
 }
 
-/// Between two rows of the series the order runs on evenly.
+/// Order at a time between two rows of the series, by linear interpolation.
 double SeriesPlace::order_at(double time_s) const {
   const auto after =
       std::lower_bound(by_time_.begin(), by_time_.end(), std::pair(time_s, -HUGE_VAL));
@@ -80,8 +77,8 @@ double SeriesPlace::order_at(double time_s) const {
   return before->second + share * (after->second - before->second);
 }
 
-/// The own row of that name at those joints; of several the one that comes as often as `times`
-/// says.
+/// The own row of that name at the same joint positions, or -1. Of several, the one that has
+/// `times` others before it, or the last one.
 int SeriesPlace::named(const std::string& name, const MeasurementFiles& rows, int row,
                        int times) const {
   const auto found = rows_named_.find(name);

@@ -9,23 +9,23 @@
 
 namespace plumb::offline {
 
-/// Where the rows of another file stand in the series of the cell's own measurements: what drift
-/// and step depend on. A row is placed, in this order,
-///   as in the cell, if the file is one of the cell's own, bit by bit;
-///   by time, if both have time stamps of one clock: t_s in both, or ISO times in both;
-///   by the name of its pose (and its `repeat`), if the cell has one of that name at its joints; of
-///   repeats the first belongs to the first, and so on.
-/// Before the first and after the last row time stands still: no drift is extrapolated, and rows
-/// farther away than a tenth of the series have no place in it. Other rows are taken as if measured
-/// right after the cell's own last one: what has moved stays moved, and a drift has come to its
-/// end. That is the best guess for what is measured next.
+/// Where the rows of another file belong in the series of the cell's own measurements, on which
+/// drifts and steps depend. A row is placed by the first of these rules that applies:
+///   as in the cell, if the file is bit for bit one of the cell's own;
+///   by time, if both have time stamps of the same kind: t_s in both, or ISO times in both;
+///   by the name of its pose (and its `repeat`), if the cell has a row of that name at the same
+///   joint positions; the first of several repeats is matched with the first, and so on.
+/// Times before the first or after the last row are set to that row's time, so that no drift is
+/// extrapolated. Rows farther outside than a tenth of the series have no place in it. Rows without
+/// a place are treated as if measured right after the cell's own last row: steps have happened, and
+/// drifts have reached their last value. That is the best estimate for what is measured next.
 class SeriesPlace {
  public:
   /// Keeps a reference to `own`.
   explicit SeriesPlace(const MeasurementFiles& own);
 
-  /// Sets order and time of `rows`, all of one or several whole files; in one of the cell's own
-  /// files the last moves too. Which of the rows have a place of their own.
+  /// Sets order and time of `rows`, which must be all rows of one or several files; for rows of the
+  /// cell's own files also their last moves. Returns which of the rows have a place in the series.
   std::vector<bool> place(MeasurementFiles& rows) const;
 
  private:
@@ -37,7 +37,7 @@ class SeriesPlace {
 
   const MeasurementFiles& own_;
   Clock clock_;
-  double last_s_ = kUnknown;                            // the end of the series
+  double last_s_ = kUnknown;                            // time of the end of the series
   std::vector<std::pair<double, double>> by_time_;      // time [s] and order, sorted
   std::map<std::string, std::vector<int>> rows_named_;  // own rows
 };

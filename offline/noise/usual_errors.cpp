@@ -4,17 +4,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "noise/constants.hpp"
 #include "noise/weights.hpp"
+#include "solve/constants.hpp"
 #include "solve/outliers.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr double kFarOut = 6.0;       // the usual scatter
-constexpr double kMostSingle = 0.15;  // of the readings
-
-}  // namespace
-
 StandingOut standing_out(const std::vector<double>& errors_m, int axes, double sigma_m) {
   const double sigma = std::max(sigma_m, kSmallestSigma_m);
   const Eigen::Map<const Eigen::VectorXd> errors(errors_m.data(),
@@ -23,7 +18,7 @@ StandingOut standing_out(const std::vector<double>& errors_m, int axes, double s
   StandingOut out;
   for (std::size_t i = 0; i < errors_m.size(); ++i) {
     out.times.push_back(errors_m[i] / sigma / scatter);
-    if (out.times.back() > kFarOut) out.which.push_back(i);
+    if (out.times.back() > kOutlierTimes) out.which.push_back(i);
   }
   return out;
 }

@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noise/constants.hpp"
+
 namespace plumb::offline {
-namespace {
-
-constexpr double kUnstatedSigma_m = 10e-6;
-
-}  // namespace
-
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured) {
   if (measured.sigma_m.rows() > 0) return measured.sigma_m.cwiseMax(kSmallestSigma_m);
   const double sigma = cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
@@ -36,7 +32,7 @@ double excess_sigma(const Rows3& residual, const Rows3& sigma, const std::array<
     return sum;
   };
   if (chi2(0.0) <= dof) return 0.0;
-  // chi2 falls with tau, and at sqrt(used / dof) times the largest residual it is below dof.
+  // chi2 falls with tau, and at tau = sqrt(used / dof) times the largest residual it is below dof.
   double low = 0.0, high = largest * std::sqrt(static_cast<double>(used) / dof);
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
