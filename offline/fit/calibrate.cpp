@@ -13,6 +13,7 @@
 #include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
 #include "effects/registry.hpp"
+#include "fit/constants.hpp"
 #include "fit/fit_judgement.hpp"
 #include "fit/likeness_judgement.hpp"
 #include "fit/pose_sense.hpp"
@@ -21,6 +22,7 @@
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
 #include "program/file.hpp"
+#include "solve/constants.hpp"
 #include "solve/descent.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/frame_start.hpp"
@@ -40,18 +42,12 @@
 namespace plumb::offline {
 namespace {
 
-// Independence asked for before the noise is known, and after.
-constexpr Identifiability kCoarse{.min_independent_share = 1e-3, .max_std = 1.0};
-constexpr Identifiability kFine{.min_independent_share = 1e-7, .max_std = 1.0};
-constexpr double kRoughly = 1e-8;                      // of the cost, in one iteration
-constexpr int kEnoughRows = 4000;                      // tell the scatter of a model, and a start
-constexpr double kNearlyAsGood = 1.5;                  // times the scatter of the best start
-constexpr double kPinned = 1e-3;                       // of 1 sigma
-constexpr double kHardlyLike = 1.0, kMuchLike = 0.05;  // spread of two arms, of what is built
-constexpr double kUnlikeSisters = 2.0;  // mean square of the distances; sisters have less than 1
-constexpr Identifiability kRank{.min_independent_share = 1e-7};
+// Identifiability that is asked for before the noise is known, and after.
+constexpr Identifiability kCoarse{.min_independent_share = kCoarseIndependence, .max_std = 1.0};
+constexpr Identifiability kFine{.min_independent_share = kIndependence, .max_std = 1.0};
+constexpr Identifiability kRank{.min_independent_share = kIndependence};
 
-/// (J^T J)^-1 by QR of the scaled Jacobian.
+/// (J^T J)^-1, computed by QR of the Jacobian with columns of unit length.
 Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
   const Eigen::VectorXd scale = per_norm(J);
   const Eigen::MatrixXd R_inverse = upper_solved(householder_triangle(J * scale.asDiagonal()),
@@ -60,7 +56,7 @@ Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& J) {
   return (half * half.transpose()).selfadjointView<Eigen::Lower>();
 }
 
-/// cond_2(J^T J) in SI columns, robot parameters only.
+/// cond_2(J^T J) of the robot parameters, in SI.
 double calibrability(const Eigen::MatrixXd& information, const std::vector<Parameter>& parameters) {
   std::vector<Eigen::Index> robot;
   for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -87,7 +83,7 @@ FitData fit_data(const Cell& cell, const Measurements& measured, const std::vect
   data.measured = &measured;
   data.rows = rows;
   data.sigma_m = stated_sigma(cell, measured);
-  // What the model of an earlier run leaves, it leaves here as well.
+  // Readings scatter at least by the residual of the earlier run's model.
   if (cell.fit.earlier) data.sigma_m = data.sigma_m.cwiseMax(cell.fit.earlier->left_m);
   if (measured.has_orientation()) data.sigma_rad = cell.measurement.sigma_rad.value_or(0.0);
   return data;
@@ -99,7 +95,7 @@ void widen(FitData& data, double tau) {
   data.sigma_m = (data.sigma_m.array().square() + tau * tau).sqrt().matrix();
 }
 
-/// What is held of the arm goes back to nominal.
+/// `state` with the arm's parameters that are held set back to nominal.
 ArmState with_held_at_nominal(const ArmState& state, const ArmState& nominal,
                               const std::vector<Parameter>& candidates,
                               const std::vector<std::string>& held) {
@@ -117,8 +113,9 @@ bool holds(const std::vector<Parameter>& all, const std::string& name) {
   return std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
 }
 
-/// `first`, then the rest of `all`. Parameters with a strong effect are thus preferred to those
-/// that act only through a small error of another one, as target.z of a SCARA does through a tilt.
+/// `first`, then the other parameters of `all`. The parameters of the coarse fit are thus preferred
+/// to parameters that act only through a small error of another one, as target.z of a SCARA acts
+/// only through a tilt.
 std::vector<Parameter> led_by(const std::vector<Parameter>& first,
                               const std::vector<Parameter>& all) {
   std::vector<Parameter> out = first;
@@ -127,7 +124,7 @@ std::vector<Parameter> led_by(const std::vector<Parameter>& first,
   return out;
 }
 
-/// What the residuals scatter beyond the stated sigma, by a model of so many parameters.
+/// Scatter of the residuals beyond the stated sigma, for a model with this number of parameters.
 double excess_of(const FitData& data, const Solution& solution, std::size_t parameters) {
   const Measurements some = pick(*data.measured, data.rows);
   const Rows3 residual = residuals(some, predict_points(solution.state, some));
@@ -135,9 +132,9 @@ double excess_of(const FitData& data, const Solution& solution, std::size_t para
                       static_cast<int>(parameters + std::lround(solution.series_dof)));
 }
 
-/// `stated` with its sigma widened by what the residuals scatter beyond it. The prior of a series
-/// weighs against that scatter, which is known only once the series is there: so `solution` becomes
-/// a rough one on some of the rows first, twice.
+/// `stated` with its sigma widened by the scatter of the residuals beyond it. The prior of a series
+/// of waves is weighed against that scatter, which in turn depends on the fitted series. So
+/// `solution` is first replaced twice by a rough solution with the series on some of the rows.
 FitData weighed_for_series(const FitData& stated, const ParameterSubset& subset,
                            Solution& solution) {
   const auto widened = [&] {
@@ -148,8 +145,8 @@ FitData weighed_for_series(const FitData& stated, const ParameterSubset& subset,
   };
   for (int pass = 0; pass < 2; ++pass) {
     FitData some = widened();
-    some.rows = thinned(stated, kEnoughRows);
-    solution = solve(some, ArmState(solution.state), subset.kept, kRoughly);
+    some.rows = thinned(stated, kScatterRows);
+    solution = solve(some, ArmState(solution.state), subset.kept, kSolvedRoughly);
   }
   return widened();
 }
@@ -158,14 +155,14 @@ std::vector<Parameter> candidates_of(const Cell& cell, const FitData& data) {
   return calibration_candidates(cell, *data.measured, nominal_state(cell, *data.measured));
 }
 
-/// Holds the shared numbers where the readings and the earlier run together put them.
+/// `arm` with so small a covariance that a fit keeps the numbers both arms share at their mean.
 KnownArm pinned(KnownArm arm) {
   arm.covariance *= kPinned * kPinned;
   return arm;
 }
 
-/// Covariance of all numbers: of the shared ones as it was concluded; of the others as the readings
-/// give it for each value of those.
+/// Covariance of all parameters. That of the numbers in `arm` is given. The others are estimated
+/// from the readings for each value of these, so that their covariance follows by propagation.
 Eigen::MatrixXd covariance_with(const KnownArm& arm, const Eigen::MatrixXd& J,
                                 const std::vector<Parameter>& parameters) {
   std::vector<Eigen::Index> known, in_arm, others;
@@ -197,7 +194,7 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
                     const ParameterSubset& subset) {
   const auto count = static_cast<Eigen::Index>(subset.kept.size());
   const Eigen::Index without_weak = solution.residual.size() - data.weak.weights.rows();
-  // A weak direction uses up none of the measured coordinates: nominal holds it.
+  // Directions that are held near nominal do not use up degrees of freedom of the readings.
   const auto dof = std::max<Eigen::Index>(
       1, solution.residual.size() - count - std::lround(solution.series_dof));
   const double sigma = data.sigma_m(data.rows.front(), 0);
@@ -217,9 +214,9 @@ Calibration summary(const FitData& data, const ArmState& nominal, const Solution
   return out;
 }
 
-/// A first fit, its noise not judged yet.
-struct Coarse {
-  FitData data;  // without outliers
+/// A first fit, before the scatter of the readings is known.
+struct CoarseFit {
+  FitData data;  // its rows are without the outliers
   ParameterSubset subset;
   Solution solution;
   std::vector<Outlier> outliers;
@@ -229,7 +226,7 @@ struct Coarse {
   }
 };
 
-/// How many of the numbers no earlier run knows.
+/// How many of the parameters have no prior from an earlier run.
 std::size_t unknown_before(const FitData& data, const std::vector<Parameter>& parameters) {
   const auto& known = data.arm.names;
   return static_cast<std::size_t>(
@@ -238,16 +235,16 @@ std::size_t unknown_before(const FitData& data, const std::vector<Parameter>& pa
       }));
 }
 
-/// Few poses and all numbers free would hide a bad reading; as readings of the earlier arm, or of
-/// one much like it, it stands out. Takes it out of the data.
-std::vector<Outlier> outliers_of_known_arm(Coarse& coarse) {
+/// With few poses, a fit of all parameters adapts to a bad reading and so hides it. With the
+/// numbers held near those of the earlier arm it stands out. Takes such readings out of the data.
+std::vector<Outlier> outliers_of_known_arm(CoarseFit& coarse) {
   const auto& earlier = coarse.data.cell->fit.earlier;
-  // Among many rows the usual search sees them.
+  // With many rows the usual search for outliers finds them.
   if (!earlier || is_many(coarse.data, coarse.subset.kept)) return {};
   FitData alike = coarse.data;
   alike.arm =
       known_within(kMuchLike, coarse.data, coarse.solution.state, coarse.subset.kept, *earlier);
-  const std::size_t most = std::max<std::size_t>(1, alike.rows.size() / 10);
+  const std::size_t most = std::max<std::size_t>(1, alike.rows.size() / kOneOddOf);
   std::vector<Outlier> out;
   while (out.size() < most) {
     const Solution solution = solve(alike, coarse.solution.state, coarse.subset.kept);
@@ -263,9 +260,9 @@ std::vector<Outlier> outliers_of_known_arm(Coarse& coarse) {
   return out;
 }
 
-Coarse coarse_from(const FitData& data, const ArmState& start,
-                   const std::vector<Parameter>& candidates) {
-  Coarse out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
+CoarseFit coarse_from(const FitData& data, const ArmState& start,
+                      const std::vector<Parameter>& candidates) {
+  CoarseFit out{.data = data, .subset = {}, .solution = {}, .outliers = {}};
   const ArmState nominal = nominal_state(*data.cell, *data.measured);
   ArmState placed = nominal;
   placed.X_MB = start.X_MB;
@@ -281,14 +278,15 @@ Coarse coarse_from(const FitData& data, const ArmState& start,
   return out;
 }
 
-/// The best of all starts. Adds W-FIT-AMBIGUOUS if a start with another frame is nearly as good.
-Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
-                       const std::vector<Parameter>& candidates, std::vector<Problem>& remarks) {
-  std::vector<Coarse> all;
+/// The best of the fits from all starts. Adds W-FIT-AMBIGUOUS if one with another frame is nearly
+/// as good.
+CoarseFit coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
+                          const std::vector<Parameter>& candidates, std::vector<Problem>& remarks) {
+  std::vector<CoarseFit> all;
   for (const auto& start : starts) all.push_back(coarse_from(data, start, candidates));
   if (all.size() == 1) return std::move(all.front());
   std::sort(all.begin(), all.end(),
-            [](const Coarse& a, const Coarse& b) { return a.scatter() < b.scatter(); });
+            [](const CoarseFit& a, const CoarseFit& b) { return a.scatter() < b.scatter(); });
   const auto& [best, other] = std::pair(all[0].solution.state, all[1].solution.state);
   if (all[1].scatter() < kNearlyAsGood * all[0].scatter() &&
       turn_between(best, other) > kSameTurn_rad)
@@ -296,10 +294,11 @@ Coarse coarse_from_any(const FitData& data, const std::vector<ArmState>& starts,
   return std::move(all.front());
 }
 
-/// What can be told apart at that state; but of frame, target and arm only what the arm alone
-/// shows. The small motion of an effect shows more (a leaning column tells how high the reflector
-/// of a SCARA is, a bumped tracker where its axes point), but so weakly that the product of both
-/// runs away, and that the corrected tool would inherit the uncertainty of where the base begins.
+/// The parameters that the poses tell apart at `state`; of frame, target and arm only those that
+/// they tell apart without effects. Effects make more of them observable in principle (a leaning
+/// column shows the height of the reflector of a SCARA, a bumped tracker the direction of its
+/// axes), but so weakly that the estimate may diverge along the product of both, and that the
+/// uncertainty of the base frame would enter the corrected tool pose.
 ParameterSubset fine_subset(const FitData& data, const ArmState& state,
                             const std::vector<Parameter>& candidates) {
   if (state.arm.effects.empty()) return identifiable_parameters(data, state, candidates, kFine);
@@ -327,7 +326,8 @@ Problem unlike_sisters(double times) {
       .help = "is it an arm of this model and batch? Else take prior_from out of cell.toml"};
 }
 
-/// What an arm of the earlier run has and this cell does not list acts in this arm too.
+/// N-FIT-EARLIER: names effects that the earlier run fitted and this cell does not list as it does.
+/// They probably act in this arm, too.
 void note_effects(const EarlierArm& earlier, const KnownArm& known, std::vector<Problem>& remarks) {
   std::set<std::string> lacking;
   for (const auto& number : earlier.numbers) {
@@ -354,9 +354,10 @@ Problem has_little_in_common(const EarlierArm& earlier) {
           .help = "is it that arm, or one of its model and batch? Else fit without it"};
 }
 
-/// What is concluded from an earlier arm, in place of what the pinned fit says of itself.
-void add_judgement(const Judgement& judged, const EarlierArm& earlier, const FitData& data,
-                   const Solution& solution, Calibration& out) {
+/// Replaces the uncertainty of the final fit, which held the shared numbers, by what was concluded
+/// about them from both arms.
+void add_likeness(const LikenessJudgement& judged, const EarlierArm& earlier, const FitData& data,
+                  const Solution& solution, Calibration& out) {
   out.likeness = judged.likeness;
   out.known = judged.arm;
   out.decided += judged.decided - static_cast<double>(judged.arm.names.size());
@@ -375,12 +376,12 @@ void add_judgement(const Judgement& judged, const EarlierArm& earlier, const Fit
     out.remarks.push_back(has_little_in_common(earlier));
 }
 
-Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
+Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
                     const std::vector<Parameter>& candidates) {
   FitData data = whole;  // with the stated sigma
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
-  std::optional<Judgement> judged;
+  std::optional<LikenessJudgement> judged;
   if (cell.fit.earlier) {
     judged = judge_likeness(data, coarse.solution.state, coarse.subset.kept, *cell.fit.earlier);
     data.arm = pinned(judged->arm);
@@ -388,14 +389,14 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   } else {
     widen(data, excess_of(data, coarse.solution, coarse.subset.kept.size()));
   }
-  if (whole.rows.size() > std::size_t{kManyRows})
-    data.rows = whole.rows;  // they tell more apart than some do
+  // The coarse fit used only some of many rows; all of them tell more parameters apart.
+  if (whole.rows.size() > std::size_t{kManyRows}) data.rows = whole.rows;
   const auto fine =
       fine_subset(data, coarse.solution.state, led_by(coarse.subset.kept, candidates));
   data.rows = whole.rows;
   Solution solution = std::move(coarse.solution);
   solution.state = with_held_at_nominal(solution.state, nominal, candidates, fine.held);
-  // What poses say is a matter of the instrument, not of what the model still lacks.
+  // Weak directions depend on the noise of the instrument, not on effects that the model lacks.
   FitData stated = whole;
   stated.arm = data.arm;
   data.weak = weak_directions(stated, solution.state, fine.kept);
@@ -409,7 +410,7 @@ Calibration refined(const Cell& cell, const FitData& whole, Coarse coarse,
   check_meets(cell, data, solution);
   Calibration out = summary(data, nominal, solution, fine);
   out.outliers = outliers;
-  if (judged) add_judgement(*judged, *cell.fit.earlier, data, solution, out);
+  if (judged) add_likeness(*judged, *cell.fit.earlier, data, solution, out);
   if (data.weak.weights.rows() > 0) out.remarks.push_back(held_near_nominal(data.weak, cell.fit));
   const double unlike =
       PriorLines(data, solution.state, fine.kept).distance_from_sisters(solution.state);
@@ -426,10 +427,10 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
   FitData data = fit_data(cell, measured, rows);
   auto candidates = candidates_of(cell, data);
   check_enough(data, 0, candidates);
-  // Before the model fits, no reading deserves more trust than another.
+  // As long as the errors of the model exceed the noise, all readings have the same weight.
   FitData even = data;
   even.sigma_m.setConstant(picked(data.sigma_m, rows).mean());
-  // Some of many rows tell the noise and a start as well as all do; outliers among them are found.
+  // Of many rows, some are enough for a start and for the scatter.
   even.rows = thinned(even, kManyRows);
   std::vector<ArmState> starts;
   if (start != nullptr)
@@ -446,7 +447,7 @@ Calibration calibrated(const Cell& cell, const Measurements& measured, const std
         known_within(kHardlyLike, data, starts.front(), candidates, *cell.fit.earlier);
   }
   std::vector<Problem> remarks;
-  Coarse coarse = coarse_from_any(even, starts, candidates, remarks);
+  CoarseFit coarse = coarse_from_any(even, starts, candidates, remarks);
   check_placed_by_poses(data, unknown, coarse.subset.held);
   Calibration out = refined(cell, data, std::move(coarse), candidates);
   out.held.insert(out.held.end(), unknown.redundant.begin(), unknown.redundant.end());
@@ -487,9 +488,9 @@ Calibration calibrate_near(const Cell& cell, const Measurements& measured,
   if (has_series(solution.state)) {
     data = weighed_for_series(weakly_held, subset, solution);
   } else {
-    // This tells only what the model still lacks, and a start.
-    data.rows = thinned(stated, kEnoughRows);
-    solution = solve(data, ArmState(solution.state), subset.kept, kRoughly);
+    // This solution only gives the scatter of the model and a start for all rows.
+    data.rows = thinned(stated, kScatterRows);
+    solution = solve(data, ArmState(solution.state), subset.kept, kSolvedRoughly);
     data = weakly_held;
     widen(data, excess_of(data, solution, subset.kept.size()));
   }
@@ -525,7 +526,7 @@ std::vector<Parameter> calibration_candidates(const Cell& cell, const Measuremen
                                               const ArmState& state) {
   const bool turns = measured.has_orientation() && cell.measurement.sigma_rad.value_or(0.0) > 0.0;
   auto out = candidate_parameters(cell, turns ? Orientation::kUsed : Orientation::kIgnored);
-  // The numbers of a series of waves are found beside the parameters.
+  // The amplitudes of a series of waves are fitted as well, but are not listed as parameters.
   for (const auto& p : effect_parameters(state.arm))
     if (!is_series(state.arm.effects[static_cast<std::size_t>(p.joint)].name)) out.push_back(p);
   return out;

@@ -19,9 +19,9 @@ namespace plumb::offline {
 struct Estimate {
   std::string name;  // "J2.d", "frame.x", "target.z"
   bool is_length = false;
-  bool of_robot = false;  // false: of the measurement, thrown away
+  bool of_robot = false;  // false: of frame or target, which are not compiled
   std::string unit = {};  // SI, of an effect's parameter; else empty
-  double value = 0.0;     // frame: change from the start, so 0 is not meaningful
+  double value = 0.0;     // of the frame: its place or turn in the measurement frame
   double nominal = 0.0;
   double std = 0.0;  // 1 sigma
 };
@@ -29,17 +29,18 @@ struct Estimate {
 struct Calibration {
   ArmState state;
   std::vector<Outlier> outliers;    // poses that the others contradict: not fitted, farthest first
-  std::vector<Problem> remarks;     // what the numbers look like
+  std::vector<Problem> remarks;     // warnings and notes about the fit
   std::vector<Estimate> estimates;  // the identifiable subset, in covariance order
-  std::vector<Parameter> parameters;  // the same ones
-  std::vector<std::string> held;      // kept at nominal: these poses say less about them
+  std::vector<Parameter> parameters;  // those of the estimates, in the same order
+  std::vector<std::string> held;      // kept at nominal: these poses do not determine them
   Eigen::MatrixXd covariance;         // SI
-  int rank = 0;                       // independent columns, of all candidates
+  int rank = 0;                       // number of independent columns of all candidates
   double calibrability = 0.0;         // cond_2(J^T J), SI columns
-  double series_dof = 0.0;            // of series of waves, see Solution
-  double decided = 0.0;               // numbers, each by how much the readings decide it
-  std::optional<Likeness> likeness;   // with an earlier arm, if the cell names one
-  KnownArm known;                     // what that one says of this
+  double series_dof = 0.0;            // of the series of waves, as in Solution
+  double decided = 0.0;               // effective number of parameters: each counts as the share
+                                      // of it that the readings decide rather than a prior
+  std::optional<Likeness> likeness;   // to an earlier arm, if the cell names one
+  KnownArm known;                     // what follows from both for the numbers they share
   double sigma0 = 0.0;                // sqrt(chi^2 / dof) of the weighted residuals
   int iterations = 0;
 };

@@ -15,6 +15,7 @@
 #include "cell/setups.hpp"
 #include "cell/table_place.hpp"
 #include "effects/effect_option.hpp"
+#include "fit/constants.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "program/file.hpp"
 
@@ -23,10 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSeenShare = 0.1;  // of the readings: so many are no chance
-constexpr double kParallel = 1e-3;  // [rad] between two axes
-
-/// True unless all turning joints have parallel axes and all sliding ones move across them.
+/// False if the tool point stays in one plane: all turning joints have parallel axes, and all
+/// sliding joints move perpendicular to these.
 bool moves_in_space(const Cell& cell) {
   const Chain chain(cell.nominal);
   const std::vector<double> zero(static_cast<std::size_t>(chain.joints()), 0.0);
@@ -43,13 +42,14 @@ bool moves_in_space(const Cell& cell) {
   for (int j = 0; j < chain.joints(); ++j) {
     const double along = dot(*turning, axis(j));
     const double across = 1.0 - along * along;
-    if (chain.revolute(j) ? across > kParallel * kParallel : std::abs(along) > kParallel)
+    if (chain.revolute(j) ? across > kParallel_rad * kParallel_rad
+                          : std::abs(along) > kParallel_rad)
       return true;
   }
   return false;
 }
 
-/// W-CSV-AXES: errors of fewer axes look smaller than those of the point in space.
+/// W-CSV-AXES: the error of two axes, say, looks smaller than that of the point in space.
 void warn_of_missing_axes(const Cell& cell, MeasurementFiles& measured) {
   std::string missing, given;
   for (int k = 0; k < 3; ++k) {
@@ -68,7 +68,7 @@ void warn_of_missing_axes(const Cell& cell, MeasurementFiles& measured) {
                    table.file, first)});
 }
 
-/// The name of a file in the folder of `file` that it was perhaps meant to be.
+/// A file in the folder of `file` whose name is similar.
 std::optional<std::string> neighbour_like(const fs::path& file) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -91,7 +91,8 @@ Problem no_such_file(const Cell& cell, const fs::path& file, Place place) {
                         : "see what is there: ls -l " + file.parent_path().string()};
 }
 
-/// Files that the cell names and that are not there, each with its place in cell.toml.
+/// Throws E-READ for every file that the cell names and that does not exist, with the line of
+/// cell.toml that names it.
 void check_files(const Cell& cell) {
   std::vector<Problem> problems;
   std::error_code ignored;
@@ -112,7 +113,8 @@ void check_files(const Cell& cell) {
 
 }  // namespace
 
-/// Readings that an earlier run was fitted to would count twice.
+/// Throws E-FIT-EARLIER if the earlier run was fitted to readings of this fit, which would count
+/// twice.
 void check_earlier(const Cell& cell, const MeasurementFiles& measured) {
   if (!cell.fit.earlier) return;
   const EarlierArm& earlier = *cell.fit.earlier;

@@ -6,7 +6,8 @@
 
 namespace plumb::offline {
 
-/// The measurements of a cell, the held-out file of its rule last; rows checked as below.
+/// Reads the measurements of a cell, the file of held-out poses last. Throws Failure (kInput) if a
+/// file is missing, if an earlier run has seen these readings, or as `check_rows`.
 MeasurementFiles read_cell_measurements(const Cell& cell);
 
 /// Throws Failure (kInput, E-EFFECT-DATA) if an effect begins behind the last row.

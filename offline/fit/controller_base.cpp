@@ -9,17 +9,16 @@
 #include "arm/predicted_points.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
+#include "solve/constants.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kOtherArm = 0.01;  // of the reach
 
 std::string file_of(const MeasurementFiles& measured) {
   return measured.tables.empty() ? std::string() : measured.tables.front().file;
 }
 
-/// As if a tracker had read what the controller says.
+/// The controller's positions in the form of measured points.
 Measurements said_by_controller(const MeasurementFiles& measured) {
   if (measured.nominal_B.rows() == 0)
     throw Failure(Exit::kInput,
@@ -34,7 +33,7 @@ Measurements said_by_controller(const MeasurementFiles& measured) {
   out.sigma_m.resize(0, 3);
   out.quat_M.resize(0, 4);
   out.departure_B.resize(0, 3);
-  out.setup.clear();  // whatever the tracker did, the controller has one frame and one tool
+  out.setup.clear();  // the controller has one frame and one tool, whatever moved the tracker
   return out;
 }
 
@@ -51,7 +50,7 @@ ArmState placed_by_controller(const Cell& cell, const Measurements& said) {
 
 void check_same_arm(const Cell& cell, const MeasurementFiles& measured) {
   const double mean = departure_of(measured).mean;
-  if (mean < kOtherArm * reach(cell.nominal)) return;
+  if (mean < kMostMissed * reach(cell.nominal)) return;
   throw Failure(
       Exit::kInput,
       {.code = "E-FIT-BASE-FAR",

@@ -8,22 +8,20 @@
 #include "arm/predicted_points.hpp"
 #include "cell/random.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/constants.hpp"
 #include "fit/measured_orientations.hpp"
 
 namespace plumb::offline {
 namespace {
 
 constexpr int kSizes[] = {8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
-constexpr double kMostShare = 0.8;  // of the poses: the others judge
-constexpr int kDraws = 5;
-
 Cell without_others(Cell cell) {
   cell.fit.earlier.reset();
   std::erase_if(cell.fit.priors, [](const Prior& prior) { return prior.of_fleet; });
   return cell;
 }
 
-/// Repeats of a pose stay together.
+/// The rows of each pose with its repeats, which must not be split.
 std::vector<std::vector<int>> poses_of(const Measurements& measured, const std::vector<int>& rows) {
   std::map<int, std::vector<int>> groups;
   for (const int row : rows)
@@ -33,17 +31,17 @@ std::vector<std::vector<int>> poses_of(const Measurements& measured, const std::
   return out;
 }
 
-struct Choice {
-  std::vector<int> fitted, judged;
+struct PoseChoice {
+  std::vector<int> fitted, judged;  // rows
 };
 
-Choice chosen(std::vector<std::vector<int>> poses, int count, std::uint64_t seed) {
+PoseChoice chosen(std::vector<std::vector<int>> poses, int count, std::uint64_t seed) {
   Random random(seed);
   for (int i = 0; i < count; ++i)
     std::swap(
         poses[static_cast<std::size_t>(i)],
         poses[static_cast<std::size_t>(i + random.below(static_cast<int>(poses.size()) - i))]);
-  Choice out;
+  PoseChoice out;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     auto& rows = static_cast<int>(i) < count ? out.fitted : out.judged;
     rows.insert(rows.end(), poses[i].begin(), poses[i].end());
@@ -53,9 +51,9 @@ Choice chosen(std::vector<std::vector<int>> poses, int count, std::uint64_t seed
   return out;
 }
 
-/// Mean error at the judged readings; nothing if these poses are too few, or no fit converges.
+/// Mean error at the judged readings; nothing if the fitted poses are too few or the fit fails.
 std::optional<double> error_of(const Cell& cell, const Measurements& measured,
-                               const Choice& choice) {
+                               const PoseChoice& choice) {
   try {
     const Calibration found = calibrate(cell, measured, choice.fitted);
     const Measurements others = pick(measured, choice.judged);
@@ -66,7 +64,7 @@ std::optional<double> error_of(const Cell& cell, const Measurements& measured,
   }
 }
 
-/// The mean over all choices; nothing unless most of them could be fitted.
+/// Mean over all choices; nothing unless more than half of them could be fitted.
 std::optional<double> mean_of(const std::vector<double>& errors) {
   if (static_cast<int>(errors.size()) <= kDraws / 2) return std::nullopt;
   double sum = 0.0;
@@ -90,10 +88,10 @@ std::vector<PosesAndError> error_by_poses(const Cell& stated, const Measurements
   const bool both = takes_over(cell);
   std::vector<PosesAndError> out;
   for (const int size : kSizes) {
-    if (size > kMostShare * static_cast<double>(poses.size())) break;
+    if (size > kMostFittedShare * static_cast<double>(poses.size())) break;
     std::vector<double> of_alone, of_both;
     for (int draw = 0; draw < kDraws; ++draw) {
-      const Choice choice =
+      const PoseChoice choice =
           chosen(poses, size, cell.measurement.seed + static_cast<std::uint64_t>(draw));
       if (const auto e = error_of(alone, measured, choice)) of_alone.push_back(*e);
       if (!both) continue;

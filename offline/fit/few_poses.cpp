@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "fit/constants.hpp"
+
 namespace plumb::offline {
 namespace {
 
@@ -34,7 +36,8 @@ double error_growth(double coordinates, double parameters) {
 }
 
 double unavoidable_ratio(double coordinates, double parameters) {
-  const double by_chance = 2.0 * std::sqrt(2.0 / free_coordinates(coordinates, parameters));
+  const double by_chance =
+      kAllowedSigma * std::sqrt(2.0 / free_coordinates(coordinates, parameters));
   return error_growth(coordinates, parameters) * std::sqrt(1.0 + by_chance);
 }
 

@@ -15,28 +15,28 @@
 
 namespace plumb::offline {
 
-/// What the fitted numbers are added to: the nominal arm of the cell, or what the controller itself
-/// says where it is.
+/// What the fitted numbers are relative to: the nominal arm of the cell, or the positions that the
+/// controller itself reports.
 enum class Base { kArm, kController };
 constexpr const char* name_of(Base base) { return base == Base::kArm ? "arm" : "controller"; }
 
-/// One calibration with its evidence: what `plumb fit` makes and a run keeps.
+/// One calibration with its held-out errors: the result of `plumb fit`, which a run keeps.
 struct Fit {
   Calibration calibration;         // on the fit poses
   std::optional<TreeChoice> tree;  // if [effects.local_tree] is listed
   Split split;
   Base base = Base::kArm;
-  Rows3 predicted_M;                  // per pose: by the final model, or out of fold where held out
-  ErrorStats nominal_held;            // before: only frame and target fitted, same held-out poses
-  ErrorStats held;                    // after
-  ErrorStats geometry_held;           // geometry without the tree
-  ErrorStats turn_held;               // of orientations [rad]; none if these are not fitted
-  MeasuredOrientations orientations;  // as they were judged before the fit
-  std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` counts them
-  ErrorStats held_without_outliers;    // the second figure
+  Rows3 predicted_M;         // per row: out of fold if it was held out, else the final model's
+  ErrorStats nominal_held;   // of the nominal arm, frame and target fitted; same poses
+  ErrorStats held;           // of the calibrated model at the held-out poses
+  ErrorStats geometry_held;  // of the calibrated model without its tree
+  ErrorStats turn_held;      // of orientations [rad]; n = 0 if these are not fitted
+  MeasuredOrientations orientations;   // as they were judged before the fit
+  std::vector<Outlier> held_outliers;  // held-out poses that stand out; `held` includes them
+  ErrorStats held_without_outliers;    // of the other held-out poses
   ErrorStats fit;                      // in-sample: never accuracy
   NoiseFloor floor;
-  double unavoidable_ratio = 1.0;  // times the noise floor, of an arm that is right: few poses
+  double unavoidable_ratio = 1.0;  // error of a correct model fitted to so few poses [noise floors]
   std::vector<std::string> still;  // joints that never moved
   std::vector<Problem> remarks;
 };

@@ -14,6 +14,7 @@
 #include "cell/setups.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/constants.hpp"
 #include "fit/few_poses.hpp"
 #include "fit/orientation_words.hpp"
 #include "fit/pose_sense.hpp"
@@ -26,8 +27,6 @@ namespace plumb::offline {
 namespace {
 
 constexpr std::size_t kListed = 5;
-constexpr int kSpareOfSetup = 6;   // coordinates beyond its own numbers: two readings
-constexpr double kAnyError = 1e3;  // noise floors, which few poses may leave
 
 const EffectEntry* find_local_tree(const Cell& cell) {
   const auto it = std::find_if(cell.effects.begin(), cell.effects.end(),
@@ -38,7 +37,7 @@ const EffectEntry* find_local_tree(const Cell& cell) {
 TreeSettings tree_settings(const Cell& cell, const EffectEntry& entry) {
   TreeSettings out;
   out.seed = cell.measurement.seed;
-  // A share that is given as "2%" was made a number when the cell was read.
+  // The reader of the cell has already turned a share like "2%" into a number.
   out.min_gain = number_option(entry, OptionKey::kMinGain, out.min_gain);
   const std::string form = text_option(entry, OptionKey::kForm, "");
   if (form == "crisp") out.form = TreeForm::kCrisp;
@@ -48,7 +47,8 @@ TreeSettings tree_settings(const Cell& cell, const EffectEntry& entry) {
   return out;
 }
 
-/// Held-out poses of a set-up that is not fitted would be judged by a frame that nobody knows.
+/// Throws E-SPLIT if the frame or target of a held-out pose is to be fitted but no fitted pose has
+/// it.
 void check_placed(const Cell& cell, const Measurements& measured, const std::vector<int>& fit,
                   const std::vector<int>& held) {
   const MeasurementSettings& m = cell.measurement;
@@ -72,16 +72,17 @@ void check_placed(const Cell& cell, const Measurements& measured, const std::vec
   }
 }
 
-struct Fitted {
+struct FittedModel {
   Calibration calibration;
   std::optional<TreeChoice> tree;
   ArmState geometry_only;
 };
 
-/// `start` of a fold: where tracker and reflector stand is known by then.
-Fitted fit_on(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
-              const ArmState* start = nullptr) {
-  Fitted out;
+/// start: of the fit of a fold, which knows from the fit of all poses where tracker and reflector
+/// stand.
+FittedModel fit_on(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
+                   const ArmState* start = nullptr) {
+  FittedModel out;
   out.calibration = start == nullptr ? calibrate(cell, measured, rows)
                                      : calibrate_from(cell, measured, rows, *start);
   const Measurements some = pick(measured, without_outliers(rows, out.calibration.outliers));
@@ -110,14 +111,14 @@ Rows3 predicted_at(const ArmState& state, const Measurements& measured,
   return predict_points(state, pick(measured, rows));
 }
 
-/// Out-of-fold predictions of the three models compared, for one set of held-out rows.
-struct Prediction3 {
+/// Predictions of the three models that are compared, out of fold where a pose is held out.
+struct HeldPredictions {
   Rows3 nominal, geometry, full;
-  Eigen::VectorXd turn_errors;  // of the full one, if orientations are fitted
+  Eigen::VectorXd turn_errors;  // of the full model, if orientations are fitted
 };
 
-void predict_held(const Cell& cell, const Measurements& measured, const Fitted& fitted,
-                  const std::vector<int>& fit, const std::vector<int>& held, Prediction3& out) {
+void predict_held(const Cell& cell, const Measurements& measured, const FittedModel& fitted,
+                  const std::vector<int>& fit, const std::vector<int>& held, HeldPredictions& out) {
   const ArmState nominal = place_nominal(cell, measured, fit);
   overwrite(out.nominal, held, predicted_at(nominal, measured, held));
   overwrite(out.geometry, held, predicted_at(fitted.geometry_only, measured, held));
@@ -135,8 +136,9 @@ ErrorStats stats_of(const Measurements& measured, const Rows3& predicted,
   return summarise(std::move(norms));
 }
 
-/// What the readings and an earlier run leave open of the geometry, as the mean variance of a
-/// coordinate at poses anywhere [m^2]; 0 without an earlier run.
+/// Mean variance [m^2] of a predicted coordinate at poses all over the joint limits, due to the
+/// uncertainty of the geometry that the readings and an earlier run leave; 0 without an earlier
+/// run.
 double left_open(const Cell& cell, const Measurements& measured, const Calibration& c) {
   if (!c.likeness) return 0.0;
   std::vector<Parameter> geometry;
@@ -153,21 +155,21 @@ double left_open(const Cell& cell, const Measurements& measured, const Calibrati
   return open.cwiseProduct(J).sum() / static_cast<double>(J.rows());
 }
 
-/// The error to expect at new poses of an arm that is right, in noise floors, if so much is open.
+/// The error of a correct model at new poses, in noise floors, if its predictions have this
+/// variance.
 double open_ratio(double variance_m2, const NoiseFloor& floor) {
-  constexpr double kByChance = 1.3;
   if (variance_m2 <= 0.0 || floor.sigma_m <= 0.0) return 1.0;
-  return kByChance * std::sqrt(1.0 + variance_m2 / (floor.sigma_m * floor.sigma_m));
+  return kOpenByChance * std::sqrt(1.0 + variance_m2 / (floor.sigma_m * floor.sigma_m));
 }
 
-/// Fewer coordinates than numbers, of an arm that may share none of them with the earlier one: no
-/// error says anything then.
+/// Whether the held-out error cannot be judged: there are fewer coordinates than numbers, and the
+/// arm may share none of these with the earlier one.
 bool says_nothing(const Calibration& c, double coordinates) {
   return c.likeness && c.likeness->kind != Likeness::Kind::kSame &&
          coordinates < static_cast<double>(c.estimates.size());
 }
 
-/// Held-out poses far outside the scatter of the others. They stay in the figure.
+/// Finds held-out poses far outside the scatter of the others. They still count in `held`.
 void find_held_outliers(const Measurements& measured, const std::vector<int>& held, Fit& out) {
   const Rows3 error = residuals(measured, out.predicted_M);
   std::vector<double> norms;
@@ -206,7 +208,7 @@ void remark_on_outliers(const Measurements& measured, Fit& out) {
                                                   "were not fitted: {}",
                                                   fitted.size(), named(measured, fitted)),
                            .help = kHelp});
-  // With folds a pose is both, and named already.
+  // With folds every held-out pose is also fitted, so W-FIT-OUTLIERS names it already.
   if (!out.held_outliers.empty() && out.split.folds == 0)
     out.remarks.push_back(
         {.severity = Severity::kWarning,
@@ -217,7 +219,7 @@ void remark_on_outliers(const Measurements& measured, Fit& out) {
          .help = kHelp});
 }
 
-/// Set-ups of so few poses that all of them are fitted: their own accuracy is not known.
+/// W-FIT-SETUP: set-ups of so few poses that none is held out; their accuracy is not known.
 void remark_on_setups_without_held(const Cell& cell, const Measurements& measured, Fit& out) {
   if (measured.setup.empty()) return;
   std::set<int> judged;
@@ -236,14 +238,15 @@ void remark_on_setups_without_held(const Cell& cell, const Measurements& measure
        .help = "measure at least 10 poses in each set-up"});
 }
 
-/// Numbers of frame and target that a set-up has for itself.
+/// Number of parameters of frame and target that a set-up does not share with an earlier one.
 int own_numbers(const MeasurementSettings& settings, int setup) {
   const Setup rule = setup_rule(settings, setup);
   return (rule.fit_frame && frame_root(settings, setup) == setup ? 6 : 0) +
          (rule.fit_target && target_root(settings, setup) == setup ? 3 : 0);
 }
 
-/// Set-ups with hardly more readings than numbers of their own: these fit whatever was read.
+/// W-FIT-SETUP-TIGHT: set-ups with hardly more coordinates than parameters of their own, which
+/// adapt to any error of the readings.
 void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit& out) {
   if (measured.setup.empty()) return;
   const auto axes = std::count(measured.has_axis.begin(), measured.has_axis.end(), true);
@@ -263,7 +266,8 @@ void remark_on_tight_setups(const Cell& cell, const Measurements& measured, Fit&
   }
 }
 
-/// Set-ups whose readings leave open where their tracker stands: two of them, or all in line.
+/// W-FIT-SETUP-OPEN: set-ups whose readings do not determine where their tracker stands, because
+/// there are only two of them or all lie in one line.
 void remark_on_open_setups(const Cell& cell, const Measurements& measured, Fit& out) {
   if (measured.setup.empty()) return;
   for (int k = 0; k < setup_count(cell.measurement); ++k) {
@@ -330,9 +334,9 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
   if (several && out.split.folds == 0) check_placed(cell, measured, fit, held_rows(out.split));
   if (tell && out.split.folds > 0)
     tell(fmt::format("step 1 of {}, all poses", out.split.folds + 1));
-  Fitted final_model = fit_on(cell, measured, fit);
+  FittedModel final_model = fit_on(cell, measured, fit);
   const Rows3 final_points = predict_points(final_model.calibration.state, measured);
-  Prediction3 predicted{final_points, final_points, final_points, {}};
+  HeldPredictions predicted{final_points, final_points, final_points, {}};
   if (measured.has_orientation() && cell.measurement.sigma_rad)
     predicted.turn_errors = Eigen::VectorXd::Zero(measured.size());
   const ArmState start = final_model.geometry_only;
@@ -341,7 +345,7 @@ Fit assemble(const Cell& stated, const Measurements& measured, Split split,
     if (tell) tell(fmt::format("step {} of {}, fold {}", k + 2, out.split.folds + 1, k + 1));
     const auto inside = fit_rows(out.split, k);
     if (several) check_placed(cell, measured, inside, held_rows(out.split, k));
-    const Fitted fitted = fit_on(cell, measured, inside, &start);
+    const FittedModel fitted = fit_on(cell, measured, inside, &start);
     open += left_open(cell, measured, fitted.calibration) / out.split.folds;
     predict_held(cell, measured, fitted, inside, held_rows(out.split, k), predicted);
   }

@@ -6,15 +6,10 @@
 #include <cmath>
 
 #include "arm/effect_binding.hpp"
+#include "fit/constants.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kFar_m = 20e-3;
-constexpr double kFar_rad = 2.0 * M_PI / 180.0;
-constexpr double kAnotherArm_m = 100e-3;
-constexpr double kAnotherArm_rad = 10.0 * M_PI / 180.0;
-constexpr double kSure = 3.0;  // sigma
 
 bool beyond(const Estimate& e, double limit_m, double limit_rad) {
   return e.of_robot && e.unit.empty() &&
@@ -53,7 +48,7 @@ void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<
 }
 
 bool possible(double value, double std, const EffectParameter& info) {
-  const double margin = kSure * std;
+  const double margin = kSureBeyond_sigma * std;
   return info.low == info.high || (value >= info.low - margin && value <= info.high + margin);
 }
 

@@ -9,21 +9,21 @@
 
 namespace plumb::offline {
 
-/// Whether the numbers of a calibration can be believed. A check throws Failure (kNumbersSayNo).
+// Whether the numbers of a calibration are plausible.
 
-/// E-FIT-FAR: a parameter of the arm more than 100 mm or 10 deg from nominal: the fit has turned
-/// it into another arm.
+/// Throws Failure (kNumbersSayNo, E-FIT-FAR) if a parameter of the arm is more than 100 mm or 10
+/// deg from nominal: the cell then describes another arm.
 void check_same_arm(const std::vector<Estimate>& estimates);
 
-/// W-FIT-FAR: a parameter of the arm more than 20 mm or 2 deg from nominal; then the nominal value
-/// is probably wrong.
+/// W-FIT-FAR: a parameter of the arm is more than 20 mm or 2 deg from nominal, so that the nominal
+/// value is probably wrong.
 void warn_of_far_parameters(const std::vector<Estimate>& estimates, std::vector<Problem>& remarks);
 
-/// Whether a parameter may be within the bounds of its law, three sigma allowed.
+/// Whether a parameter is within the bounds of its law or less than three sigma outside.
 bool possible(double value, double std, const EffectParameter& info);
 
-/// W-FIT-IMPOSSIBLE: a parameter of an effect outside the bounds of its law, for example a spring
-/// that pushes the wrong way.
+/// W-FIT-IMPOSSIBLE: a parameter of an effect is outside the bounds of its law, like the stiffness
+/// of a spring that pushes the wrong way.
 void warn_of_impossible_effects(const Calibration& calibration, std::vector<Problem>& remarks);
 
 }  // namespace plumb::offline

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/held_out_excess.hpp"
 
+#include "fit/constants.hpp"
+
 namespace plumb::offline {
-namespace {
-
-constexpr double kAtTheFloor = 1.3;  // noise floors
-constexpr double kFew = 1.15;        // times the noise
-
-}  // namespace
-
-bool HeldOutExcess::few_poses() const { return unavoidable > kFew; }
+bool HeldOutExcess::few_poses() const { return unavoidable > kFewPoses; }
 
 HeldOutExcess::Level HeldOutExcess::level() const {
   const double right = kAtTheFloor * (few_poses() ? unavoidable : 1.0);

@@ -10,6 +10,7 @@
 #include "arm/effect_binding.hpp"
 #include "cell/earlier_arm.hpp"
 #include "effects/fitted_laws.hpp"
+#include "fit/constants.hpp"
 #include "numbers/gaussian.hpp"
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
@@ -22,30 +23,14 @@
 namespace plumb::offline {
 namespace {
 
-// Of what arms are built with: the difference between the two, and its whole scale.
-constexpr double kSpreads[] = {0.0, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0};
-constexpr double kScales[] = {0.25, 0.5, 1.0, 2.0, 4.0};
-constexpr double kNoises[] = {0.5, 0.6, 0.7, 0.8, 0.9, 1.0,  1.1,  1.2,  1.4,   1.7,   2.0,
-                              2.5, 3.0, 4.0, 6.0, 9.0, 14.0, 25.0, 50.0, 100.0, 250.0, 1000.0};
-// The earlier run has seen the noise; but another instrument may be far worse: a t distribution of
-// the logarithm, with that scale and 2 degrees of freedom.
-constexpr double kNoiseKnown = 0.2;
-constexpr double kMostWithChange = 0.1;  // spread of arms in which a single change can be seen
-constexpr double kChangeChance = 0.1;    // that one number has changed
-constexpr double kChangeTimes = 4.0;     // as large as arms are built different
-constexpr double kSame = 0.04;           // spread up to which arms are as good as one
-constexpr double kUnlike = 0.85;         // spread from which on arms have little in common
-constexpr double kSureLikeness = 0.9;
-constexpr double kNegligible = 1e-7;  // weight of a hypothesis
-constexpr double kMostBuilt = 10e-3;  // m or rad: how far at most arms are built from nominal
-constexpr int kUnchanged = -1, kOffsets = -2;  // in the place of a number that has changed
-constexpr double kSameNominal = 1e-9;          // SI
-constexpr double kUnsetPrior = 0.5e-3;         // m or rad, where the cell sets its own to 0
+/// Values of Hypothesis::changed that are no index of a number.
+constexpr int kUnchanged = -1, kOffsets = -2;
 
-struct Shared {
+/// A number that both arms have.
+struct SharedNumber {
   Parameter parameter;
   Eigen::Index in_earlier;
-  double built = 0.0;  // 1 sigma of the number from arm to arm of any model, SI
+  double built = 0.0;  // 1 sigma of its difference from nominal among arms, SI
 };
 
 bool of_measurement(const ArmState& at, const Parameter& p) {
@@ -61,7 +46,7 @@ double built_within(const FitData& data, const ArmState& at, const Parameter& p,
   return stated > 0.0 ? std::min(stated, kMostBuilt) : kUnsetPrior;
 }
 
-/// Whether the number adds to what the encoder of the joint says.
+/// Whether the number is a constant that adds to the position of its joint.
 bool is_offset(const FitData& data, const Parameter& p) {
   if (p.of_effect()) return false;
   const auto& row = data.cell->nominal.joints[static_cast<std::size_t>(p.joint)];
@@ -82,10 +67,10 @@ double nominal_of(const FitData& data, const Parameter& p) {
                                .help = "name a run of this arm, or of one of the same model"});
 }
 
-std::vector<Shared> shared_numbers(const FitData& data, const ArmState& at,
-                                   const std::vector<Parameter>& parameters,
-                                   const EarlierArm& earlier) {
-  std::vector<Shared> out;
+std::vector<SharedNumber> shared_numbers(const FitData& data, const ArmState& at,
+                                         const std::vector<Parameter>& parameters,
+                                         const EarlierArm& earlier) {
+  std::vector<SharedNumber> out;
   const auto& own = data.cell->fit.priors;
   for (const auto& p : parameters) {
     const auto found = std::find_if(earlier.numbers.begin(), earlier.numbers.end(),
@@ -103,22 +88,23 @@ std::vector<Shared> shared_numbers(const FitData& data, const ArmState& at,
   return out;
 }
 
-/// The earlier arm in the units in which arms are built, about nominal.
-struct Earlier {
+/// The shared numbers of the earlier arm as differences from nominal, in units of `built`.
+struct ScaledEarlierArm {
   Eigen::VectorXd nominal, built;  // SI
   Eigen::VectorXd x;               // its differences from nominal
   Eigen::MatrixXd C;               // their covariance
 };
 
-Earlier scaled(const FitData& data, const std::vector<Shared>& shared, const EarlierArm& earlier) {
+ScaledEarlierArm scaled(const FitData& data, const std::vector<SharedNumber>& shared,
+                        const EarlierArm& earlier) {
   const auto count = static_cast<Eigen::Index>(shared.size());
-  Earlier out;
+  ScaledEarlierArm out;
   out.nominal.resize(count);
   out.built.resize(count);
   out.x.resize(count);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Shared& one = shared[static_cast<std::size_t>(i)];
+    const SharedNumber& one = shared[static_cast<std::size_t>(i)];
     rows.push_back(one.in_earlier);
     out.nominal(i) = nominal_of(data, one.parameter);
     out.built(i) = one.built;
@@ -131,21 +117,23 @@ Earlier scaled(const FitData& data, const std::vector<Shared>& shared, const Ear
   return out;
 }
 
-/// What the readings say of the shared numbers u, everything else being free:
-/// z = R (u - u0) + unit noise, and `rest`, the sum of squares of `rest_lines` that no number
-/// moves.
-struct Shown {
+/// The readings reduced by QR to equations for the shared numbers u, with all other parameters
+/// free: z = R (u - u0) + noise of variance 1. `rest` is the sum of squares of the `rest_lines`
+/// remaining lines, on which no parameter has an effect.
+struct SharedEquations {
   Eigen::MatrixXd R;
   Eigen::VectorXd z;
   double rest = 0.0;
   double rest_lines = 0.0;
 };
 
-Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter>& parameters,
-            const std::vector<Shared>& shared, const Eigen::VectorXd& built) {
+SharedEquations shared_equations(const FitData& data, const ArmState& at,
+                                 const std::vector<Parameter>& parameters,
+                                 const std::vector<SharedNumber>& shared,
+                                 const Eigen::VectorXd& built) {
   const auto is_shared = [&](const Parameter& p) {
     return std::any_of(shared.begin(), shared.end(),
-                       [&](const Shared& one) { return one.parameter.name == p.name; });
+                       [&](const SharedNumber& one) { return one.parameter.name == p.name; });
   };
   std::vector<Parameter> order;
   for (const auto& p : parameters)
@@ -165,7 +153,7 @@ Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter
   for (Eigen::Index k = 0; k < free; ++k) A.col(k) /= std::max(A.col(k).norm(), 1e-300);
   const Eigen::MatrixXd triangle = householder_triangle(A);
   const Eigen::Index told = std::max<Eigen::Index>(0, std::min(lines, columns) - free);
-  Shown out;
+  SharedEquations out;
   out.R = triangle.block(free, free, told, built.size());
   out.z = triangle.block(free, columns, told, 1);
   if (lines > columns) {
@@ -175,12 +163,13 @@ Shown shown(const FitData& data, const ArmState& at, const std::vector<Parameter
   return out;
 }
 
-/// One degree of likeness: this arm is N(mean, P), in which the number `changed` may be anything.
+/// One hypothesis: the shared numbers are normal about those of the earlier arm with this spread,
+/// and the number `changed` may have any value.
 struct Hypothesis {
-  double weight = 0.0;  // of the posterior; its logarithm, not normalised, until all are weighed
+  double weight = 0.0;  // posterior probability; until `normalise` its logarithm plus a constant
   double scale = 1.0, spread = 0.0, noise = 1.0;
   int changed = kUnchanged;
-  std::size_t base = 0;  // index of mean and covariance
+  std::size_t base = 0;  // index of its mean and covariance without a change
 };
 
 struct Gaussian {
@@ -188,12 +177,14 @@ struct Gaussian {
   Eigen::MatrixXd P;
 };
 
-class Mixture {
+/// All hypotheses with their posterior probabilities.
+class LikenessMixture {
  public:
-  /// offsets: places of the encoder offsets among the shared numbers.
-  Mixture(Earlier earlier, Shown shown, Eigen::VectorXd u0, std::vector<Eigen::Index> offsets)
+  /// offsets: indices of the joint offsets among the shared numbers.
+  LikenessMixture(ScaledEarlierArm earlier, SharedEquations equations, Eigen::VectorXd u0,
+                  std::vector<Eigen::Index> offsets)
       : earlier_(std::move(earlier)),
-        shown_(std::move(shown)),
+        equations_(std::move(equations)),
         u0_(std::move(u0)),
         offsets_(std::move(offsets)) {
     for (const double scale : kScales) weigh(scale);
@@ -202,10 +193,10 @@ class Mixture {
 
   const std::vector<Hypothesis>& hypotheses() const { return all_; }
 
-  /// Fills in the numbers and how much of them the readings decide.
-  void conclude(const std::vector<Shared>& shared, Judgement& out) const {
+  /// Fills in mean and covariance of the mixture, and how many of the numbers the readings decide.
+  void conclude(const std::vector<SharedNumber>& shared, LikenessJudgement& out) const {
     const Eigen::Index count = earlier_.x.size();
-    const Eigen::MatrixXd information = shown_.R.transpose() * shown_.R;
+    const Eigen::MatrixXd information = equations_.R.transpose() * equations_.R;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(count);
     Eigen::MatrixXd second = Eigen::MatrixXd::Zero(count, count);  // E[u u^T]
     double noise = 0.0;
@@ -224,7 +215,7 @@ class Mixture {
   }
 
  private:
-  /// The shared numbers if this hypothesis is right, before the readings.
+  /// Distribution of the shared numbers under this hypothesis, before the readings.
   Gaussian prior_of(const Hypothesis& h) const {
     Gaussian out = bases_[h.base];
     const double variance = std::pow(kChangeTimes * h.scale, 2);
@@ -234,14 +225,14 @@ class Mixture {
     return out;
   }
 
-  /// The same with the readings.
+  /// Distribution of the shared numbers under this hypothesis, given the readings.
   Gaussian posterior_of(const Hypothesis& h) const {
     Gaussian out = prior_of(h);
-    const Eigen::MatrixXd across = out.P * shown_.R.transpose();
-    Eigen::MatrixXd S = shown_.R * across;
+    const Eigen::MatrixXd across = out.P * equations_.R.transpose();
+    Eigen::MatrixXd S = equations_.R * across;
     S.diagonal().array() += h.noise * h.noise;
     const Cholesky llt(S);
-    const Eigen::VectorXd off = shown_.z - shown_.R * (out.mean - u0_);
+    const Eigen::VectorXd off = equations_.z - equations_.R * (out.mean - u0_);
     out.mean += across * llt.solve(off);
     out.P -= across * llt.solve(across.transpose());
     return out;
@@ -259,27 +250,29 @@ class Mixture {
       const double r2 = 1.0 - spread * spread;
       bases_.push_back({std::sqrt(r2) * d, r2 * V + spread * spread * T});
       const double chance =
-          spread == 0.0 ? 0.5 : 0.5 / static_cast<double>(std::size(kSpreads) - 1);
+          spread == 0.0 ? kSameArmPrior
+                        : (1.0 - kSameArmPrior) / static_cast<double>(std::size(kSpreads) - 1);
       weigh(scale, spread, ln_earlier + std::log(chance));
     }
   }
 
-  /// One spread at every noise, with and without a number that has changed.
+  /// Weighs one spread at every noise, with and without a number that has changed.
   void weigh(double scale, double spread, double ln_before) {
     const Gaussian& base = bases_.back();
-    const Eigen::VectorXd z = shown_.z - shown_.R * (base.mean - u0_);
-    const Eigen::MatrixXd seen = shown_.R * base.P * shown_.R.transpose();
+    const Eigen::VectorXd z = equations_.z - equations_.R * (base.mean - u0_);
+    const Eigen::MatrixXd seen = equations_.R * base.P * equations_.R.transpose();
     const SymmetricEigen eigen = symmetric_eigen(seen);
     const Eigen::MatrixXd Ut = eigen.vectors.transpose();
     const Eigen::ArrayXd w = Ut * z;
-    const Eigen::MatrixXd moved = Ut * shown_.R * (kChangeTimes * scale);
+    const Eigen::MatrixXd moved = Ut * equations_.R * (kChangeTimes * scale);
     const bool may_change = spread <= kMostWithChange;
     for (const double noise : kNoises) {
       const Eigen::ArrayXd S = eigen.values.array().max(0.0) + noise * noise;
       const Eigen::ArrayXd Sw = w / S;
       const double ln = ln_before - 0.5 * ((w * Sw).sum() + S.log().sum()) -
-                        0.5 * shown_.rest / (noise * noise) - shown_.rest_lines * std::log(noise) -
-                        1.5 * std::log1p(0.5 * std::pow(std::log(noise) / kNoiseKnown, 2));
+                        0.5 * equations_.rest / (noise * noise) -
+                        equations_.rest_lines * std::log(noise) -
+                        1.5 * std::log1p(0.5 * std::pow(std::log(noise) / kNoiseScale, 2));
       Hypothesis one{ln, scale, spread, noise, kUnchanged, bases_.size() - 1};
       if (may_change) one.weight += std::log(1.0 - 2.0 * kChangeChance);
       all_.push_back(one);
@@ -298,12 +291,12 @@ class Mixture {
     }
   }
 
-  /// What it adds to ln of the evidence if the offsets of all joints may have changed, by the
-  /// Woodbury identity.
+  /// Change of the log evidence if the offsets of all joints may have changed, by the Woodbury
+  /// identity.
   double ln_of_offsets(const Hypothesis& h, const Eigen::ArrayXd& S, const Eigen::ArrayXd& Sw,
                        const Eigen::MatrixXd& Ut) const {
     if (offsets_.empty()) return 0.0;
-    const Eigen::MatrixXd V = Ut * shown_.R(Eigen::all, offsets_) * (kChangeTimes * h.scale);
+    const Eigen::MatrixXd V = Ut * equations_.R(Eigen::all, offsets_) * (kChangeTimes * h.scale);
     Eigen::MatrixXd more = V.transpose() * S.inverse().matrix().asDiagonal() * V;
     more.diagonal().array() += 1.0;
     const Cholesky llt(more);
@@ -311,7 +304,7 @@ class Mixture {
     return 0.5 * towards.dot(llt.solve(towards)) - 0.5 * llt.ln_det();
   }
 
-  /// Hypotheses that weigh nothing are dropped.
+  /// Turns log weights into probabilities, and drops negligible hypotheses.
   void normalise() {
     double most = -HUGE_VAL, sum = 0.0;
     for (const auto& h : all_) most = std::max(most, h.weight);
@@ -323,16 +316,17 @@ class Mixture {
     for (auto& h : all_) h.weight /= left;
   }
 
-  Earlier earlier_;
-  Shown shown_;
+  ScaledEarlierArm earlier_;
+  SharedEquations equations_;
   Eigen::VectorXd u0_;
   std::vector<Eigen::Index> offsets_;
   std::vector<Gaussian> bases_;
   std::vector<Hypothesis> all_;
 };
 
-Eigen::VectorXd where(const ArmState& at, const std::vector<Shared>& shared,
-                      const Earlier& earlier) {
+/// The shared numbers of `at` as differences from nominal, in units of `built`.
+Eigen::VectorXd scaled_numbers(const ArmState& at, const std::vector<SharedNumber>& shared,
+                               const ScaledEarlierArm& earlier) {
   Eigen::VectorXd out(earlier.x.size());
   for (Eigen::Index i = 0; i < out.size(); ++i)
     out(i) = (value_of(at, shared[static_cast<std::size_t>(i)].parameter) - earlier.nominal(i)) /
@@ -340,15 +334,15 @@ Eigen::VectorXd where(const ArmState& at, const std::vector<Shared>& shared,
   return out;
 }
 
-Likeness summary(const Mixture& mixture, const std::vector<Shared>& shared,
+Likeness summary(const LikenessMixture& mixture, const std::vector<SharedNumber>& shared,
                  const FitSettings& settings) {
   Likeness out;
   out.numbers = static_cast<int>(shared.size());
   Eigen::VectorXd changed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(shared.size()));
   double unlike = 0.0, variance = 0.0, r2 = 0.0, offsets = 0.0;
   for (const auto& h : mixture.hypotheses()) {
-    if (h.spread <= kSame) out.same_chance += h.weight;
-    if (h.spread >= kUnlike) unlike += h.weight;
+    if (h.spread <= kSameSpread) out.same_chance += h.weight;
+    if (h.spread >= kUnlikeSpread) unlike += h.weight;
     if (h.changed >= 0) changed(h.changed) += h.weight;
     if (h.changed == kOffsets) offsets += h.weight;
     r2 += h.weight * (1.0 - h.spread * h.spread);
@@ -373,16 +367,17 @@ Likeness summary(const Mixture& mixture, const std::vector<Shared>& shared,
 
 }  // namespace
 
-Judgement judge_likeness(const FitData& data, const ArmState& at,
-                         const std::vector<Parameter>& parameters, const EarlierArm& earlier) {
+LikenessJudgement judge_likeness(const FitData& data, const ArmState& at,
+                                 const std::vector<Parameter>& parameters,
+                                 const EarlierArm& earlier) {
   const auto shared = shared_numbers(data, at, parameters, earlier);
-  const Earlier known = scaled(data, shared, earlier);
+  const ScaledEarlierArm known = scaled(data, shared, earlier);
   std::vector<Eigen::Index> offsets;
   for (std::size_t i = 0; i < shared.size(); ++i)
     if (is_offset(data, shared[i].parameter)) offsets.push_back(static_cast<Eigen::Index>(i));
-  const Mixture mixture(known, shown(data, at, parameters, shared, known.built),
-                        where(at, shared, known), std::move(offsets));
-  Judgement out{.likeness = summary(mixture, shared, data.cell->fit), .arm = {}};
+  const LikenessMixture mixture(known, shared_equations(data, at, parameters, shared, known.built),
+                                scaled_numbers(at, shared, known), std::move(offsets));
+  LikenessJudgement out{.likeness = summary(mixture, shared, data.cell->fit), .arm = {}};
   mixture.conclude(shared, out);
   out.likeness.run = earlier.run.string();
   return out;
@@ -391,7 +386,7 @@ Judgement judge_likeness(const FitData& data, const ArmState& at,
 KnownArm known_within(double spread, const FitData& data, const ArmState& at,
                       const std::vector<Parameter>& parameters, const EarlierArm& earlier) {
   const auto shared = shared_numbers(data, at, parameters, earlier);
-  const Earlier known = scaled(data, shared, earlier);
+  const ScaledEarlierArm known = scaled(data, shared, earlier);
   KnownArm out;
   for (const auto& one : shared) out.names.push_back(one.parameter.name);
   out.mean = known.nominal + known.built.cwiseProduct(known.x);

@@ -14,39 +14,41 @@ namespace plumb::offline {
 
 struct EarlierArm;
 
-struct Judgement {
+/// What follows from an earlier arm and the readings of this one.
+struct LikenessJudgement {
   Likeness likeness;
-  KnownArm arm;              // the shared numbers as both say them together
-  double noise_times = 1.0;  // what the readings scatter, in units of data.sigma_m
-  double decided = 0.0;      // of the shared numbers, each by how much the readings decide it
+  KnownArm arm;              // posterior of the numbers that both arms have
+  double noise_times = 1.0;  // scatter of the readings over data.sigma_m
+  double decided = 0.0;      // effective number of these that the readings decide, not the prior
 };
 
-/// What an earlier arm and the readings say together of the numbers that both have. With d the true
-/// differences from nominal of the earlier arm, of which its run knows x = d + error of covariance
-/// C, and T the variance with which arms are built, times a factor that the readings choose:
+/// The posterior, from an earlier arm and the readings of this one, of the numbers that both have.
+/// Let d be the true differences of the earlier arm from nominal, which its run estimates as x with
+/// covariance C, and T the variance with which arms are built, times a factor with a prior:
 ///
 ///   d ~ N(0, T),   this arm ~ N(r d, (1 - r^2) T)
 ///
-/// r = 1 is the same arm, in which one number or the offsets may have changed, r = 0 an arm that
-/// has nothing in common with it but the model. Every r, factor and noise is weighed by what the
-/// readings say of it [Bayesian model averaging, Hoeting et al. 1999]: mean and covariance of the
-/// mixture of what each of them concludes. So where the readings cannot tell, the result claims no
-/// more.
+/// r = 1 is the same arm, in which one number or the offsets of all joints may have changed; r = 0
+/// is an arm that shares only the model with it. Every r, factor and noise is a hypothesis that is
+/// weighted by its posterior probability, and the result is mean and covariance of the mixture
+/// [Bayesian model averaging, Hoeting et al. 1999]. If the readings cannot decide between
+/// hypotheses, the covariance is accordingly large.
 ///
-/// @param data  With sigmas about as large as the model misses the readings; `arm` plays no part.
+/// @param data  Its sigmas should be about the RMS residual of the model; its `arm` is not used.
 /// @param at    Where the fit is linearised; `parameters` are those that it fits.
-/// Throws Failure (kInput, E-FIT-EARLIER) if the arms have no number in common, or other nominal
-/// ones. Cost: 60 eigenvalue decompositions of the size of the shared numbers, 50 ms.
-Judgement judge_likeness(const FitData& data, const ArmState& at,
-                         const std::vector<Parameter>& parameters, const EarlierArm& earlier);
+/// Throws Failure (kInput, E-FIT-EARLIER) if the arms have no number in common. Cost: 60 eigenvalue
+/// decompositions of the size of the shared numbers, 50 ms.
+LikenessJudgement judge_likeness(const FitData& data, const ArmState& at,
+                                 const std::vector<Parameter>& parameters,
+                                 const EarlierArm& earlier);
 
-/// What is known before any reading is looked at, if this arm differs from the earlier one by
-/// `spread` times what arms differ from nominal.
+/// The prior from the earlier arm alone, if this arm differs from it by `spread` times the standard
+/// deviation of arms from nominal.
 KnownArm known_within(double spread, const FitData& data, const ArmState& at,
                       const std::vector<Parameter>& parameters, const EarlierArm& earlier);
 
 /// Throws Failure (kInput, E-FIT-EARLIER) with the reason if the earlier arm is not of the model of
-/// this cell: convention, joints, nominal rows.
+/// this cell: if its convention, its joints or its nominal rows differ.
 void check_same_model(const Cell& cell, const EarlierArm& earlier);
 
 }  // namespace plumb::offline

@@ -7,27 +7,22 @@
 #include <numeric>
 
 #include "arm/predicted_points.hpp"
+#include "fit/constants.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr std::size_t kFewestPoses = 3;
-
-}  // namespace
-
 // se^2 = G / (G - 1) sum_g (sum_i (e_gi - mean))^2 / n^2.
 MeanInterval mean_interval(const std::vector<double>& errors_m, const std::vector<int>& pose) {
   const auto n = static_cast<double>(errors_m.size());
   const double mean = std::accumulate(errors_m.begin(), errors_m.end(), 0.0) / std::max(1.0, n);
   std::map<int, double> sums;
   for (std::size_t i = 0; i < errors_m.size(); ++i) sums[pose[i]] += errors_m[i] - mean;
-  if (sums.size() < kFewestPoses) return {};
+  if (sums.size() < kFewestForInterval) return {};
   const auto poses = static_cast<double>(sums.size());
   double squares = 0.0;
   for (const auto& [group, sum] : sums) squares += sum * sum;
   const double se = std::sqrt(poses / (poses - 1.0) * squares) / n;
-  const double half = student_quantile(0.975, poses - 1.0) * se;
+  const double half = student_quantile(kTwoSided95, poses - 1.0) * se;
   return {std::max(0.0, mean - half), mean + half, se};
 }
 

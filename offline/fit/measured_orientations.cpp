@@ -15,8 +15,10 @@
 #include "arm/predicted_points.hpp"
 #include "cell/group_rows.hpp"
 #include "fit/calibrate.hpp"
+#include "fit/constants.hpp"
 #include "numbers/quantile.hpp"
 #include "numbers/rotation_fit.hpp"
+#include "solve/constants.hpp"
 #include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
@@ -24,25 +26,12 @@ namespace {
 
 using Kind = MeasuredOrientations::Kind;
 
-constexpr int kJudgedRows = 500;  // tell a scatter to 4 %, and cost less than the fit itself
-constexpr int kFewestRows = 6;
-constexpr double kMedianOf3 = 1.5382;       // of the length of three unit normals
-constexpr double kAsStatedTimes = 2.0;      // the stated error: not worth a word
-constexpr double kClearlyLess = 0.2;        // of the error as labelled: another reading explains it
-constexpr double kMeant_rad = 20e-3;        // the most that a right reading leaves
-constexpr double kMisread_rad = 5e-3;       // the least that a wrong one does
-constexpr double kNoMeasurement_rad = 0.1;  // more than any instrument errs by
-constexpr double kAlike = 1.5;              // times the best: as good
-constexpr double kCopied = 0.1;             // of the error against the arm that the points give
-constexpr double kRounding_rad = 5e-6;
-constexpr double kStill_rad = 1e-5;  // between orientations that are the same
-constexpr double kMoves_rad = 0.02;  // between orientations of an arm that turns its tool
-constexpr double kHarm = 1.5;        // times the error of the points without orientations
-constexpr double kSettled = 0.1;     // relative change of the scatter
+/// The scatter about a fit of both is found by at most so many fits, until its relative change is
+/// this small.
+constexpr double kScatterSettled = 0.1;
 constexpr int kPasses = 5;
-constexpr std::size_t kFewestRepeats = 5;
 
-/// Where an arm says that the reflector points, in parts: frame * of_tool * target.
+/// The orientations of the reflector by a model of the arm, as products frame * of_tool * target.
 struct ToolTurns {
   std::vector<Matrix3> of_tool;          // per row, in the base frame
   std::vector<Matrix3> frame, target;    // per set-up
@@ -84,14 +73,15 @@ std::vector<double> distances(const ToolTurns& turns, const std::vector<Matrix3>
   return out;
 }
 
-/// Usual error per axis, which a few wrong rows do not change.
+/// Robust standard deviation of the error per axis, from the median.
 double scatter(const ToolTurns& turns, const std::vector<Matrix3>& read) {
-  return median(distances(turns, read)) / kMedianOf3;
+  return median(distances(turns, read)) / kMedianChi[3];
 }
 
-/// The targets turned so that they agree best, without the rows that are far from the rest.
+/// Fits the rotations of the targets to the readings, in the second round without rows that are far
+/// from the others.
 void turn_targets(ToolTurns& turns, const std::vector<Matrix3>& read) {
-  constexpr double kFar = 4.0;
+  constexpr double kFar = 4.0;  // medians; normal errors do not reach it
   for (int round = 0; round < 2; ++round) {
     const auto off = distances(turns, read);
     const double most = round == 0 ? M_PI : kFar * median(off);
@@ -106,7 +96,7 @@ void turn_targets(ToolTurns& turns, const std::vector<Matrix3>& read) {
   }
 }
 
-/// The same of the frames.
+/// Fits the rotations of the frames to the readings.
 void turn_frames(ToolTurns& turns, const std::vector<Matrix3>& read) {
   std::map<int, Matrix3> sum;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -116,7 +106,7 @@ void turn_frames(ToolTurns& turns, const std::vector<Matrix3>& read) {
   for (const auto& [frame, total] : sum) turns.frame[frame] = nearest_rotation(total);
 }
 
-/// Usual error where any constant turn before and behind is allowed.
+/// Usual error per axis if the rotations of frames and targets are fitted to the readings.
 double freely_turned(ToolTurns turns, const std::vector<Matrix3>& read) {
   constexpr int kRounds = 20;
   double out = M_PI;
@@ -140,7 +130,7 @@ double largest_turn(const std::vector<Matrix3>& all) {
   return out;
 }
 
-/// Usual difference per axis between repeats of a pose; none if there are few.
+/// Robust standard deviation per axis between repeats of a pose; nothing if there are few.
 std::optional<double> scatter_of_repeats(const Measurements& measured,
                                          const std::vector<Matrix3>& read) {
   std::vector<int> all(read.size());
@@ -151,8 +141,8 @@ std::optional<double> scatter_of_repeats(const Measurements& measured,
       off.push_back(rotation_vector(read[rows[k]] * read[rows[k - 1]].transpose()).norm() /
                     M_SQRT2);
   });
-  if (off.size() < kFewestRepeats) return std::nullopt;
-  return median(off) / kMedianOf3;
+  if (off.size() < kFewestOrientationRepeats) return std::nullopt;
+  return median(off) / kMedianChi[3];
 }
 
 Cell weighing(const Cell& cell, std::optional<double> sigma_rad) {
@@ -167,10 +157,10 @@ double points_error(const ArmState& state, const Measurements& measured) {
   return median({each.begin(), each.end()});
 }
 
-class Judge {
+class OrientationJudge {
  public:
-  Judge(const Cell& cell, const Measurements& measured,
-        const std::vector<OrientationReading>& others)
+  OrientationJudge(const Cell& cell, const Measurements& measured,
+                   const std::vector<OrientationReading>& others)
       : cell_(cell),
         measured_(measured),
         others_(others),
@@ -204,23 +194,25 @@ class Judge {
     }
   }
 
-  /// As a fit has them: a reflector that is given does not turn in the tool.
+  /// Error per axis that a fit would leave. The rotation of a reflector whose place is given is not
+  /// fitted.
   double left(ToolTurns turns, const std::vector<Matrix3>& read) const {
     if (cell_.measurement.fit_target) turn_targets(turns, read);
     return scatter(turns, read);
   }
 
   bool is_constant() const {
-    return largest_turn(labelled_) < kStill_rad && largest_turn(arm_.of_tool) > kMoves_rad;
+    return largest_turn(labelled_) < kSameOrientation_rad &&
+           largest_turn(arm_.of_tool) > kTurns_rad;
   }
 
-  /// They follow the nominal arm, and the points do not.
+  /// Whether the orientations follow the nominal arm although the points do not.
   bool is_nominal(const Measurements& measured) {
     const std::vector<Matrix3> read = rotations_of(measured.quat_M);
     const double against_nominal = freely_turned(nominal_turns(), read);
     const double against_arm = freely_turned(arm_, read);
     if (against_arm < kRounding_rad || against_nominal > kCopied * against_arm) return false;
-    // So far off, they harm without a trial.
+    // If they are far off, they are known to harm a fit without trying it.
     if (left(arm_, read) < kMeant_rad && !harms(measured, std::max(against_nominal, kRounding_rad)))
       return false;
     out_.kind = Kind::kNominal;
@@ -238,13 +230,13 @@ class Judge {
     return out;
   }
 
-  /// With orientations of that weight the arm misses its points.
+  /// Whether a fit with orientations of this sigma misses the points by far more than one without.
   bool harms(const Measurements& measured, double sigma_rad) const {
     const auto both = fitted(measured, sigma_rad);
     return !both || points_error(*both, measured) > kHarm * points_error_;
   }
 
-  /// Another reading of the columns, or another frame, explains them.
+  /// Whether another reading of the columns or another frame explains them, or nothing does.
   bool is_meant_otherwise() {
     const double stated = cell_.measurement.sigma_rad.value_or(0.0);
     if (out_.labelled_rad < std::max(kMisread_rad, kAsStatedTimes * stated)) return false;
@@ -280,23 +272,23 @@ class Judge {
     out_.left_rad = about_both(meant, best, kRounding_rad).scatter_rad;
   }
 
-  struct Both {
-    double scatter_rad;
-    double points_m;
+  struct FitOfBoth {
+    double scatter_rad;  // of the orientations
+    double points_m;     // error of the points
   };
 
-  /// How much they scatter about an arm that fits both, if not by less than `enough`. The points
-  /// alone may leave a wrist open that orientations show, so the scatter about theirs is the most
-  /// that it can be.
-  Both about_both(const Measurements& measured, double sigma, double enough) const {
+  /// Scatter of the orientations about an arm that is fitted to points and orientations, until it
+  /// is below `enough`. Starts from `sigma`, the scatter about the arm of the points alone; that is
+  /// an upper bound, because the points may not determine a wrist that orientations show.
+  FitOfBoth about_both(const Measurements& measured, double sigma, double enough) const {
     const std::vector<Matrix3> read = rotations_of(measured.quat_M);
-    Both out{sigma, points_error_};
+    FitOfBoth out{sigma, points_error_};
     for (int pass = 0; pass < kPasses && out.scatter_rad > enough; ++pass) {
       const auto both = fitted(measured, out.scatter_rad);
       if (!both) break;
       const double before = std::exchange(out.scatter_rad, left(tool_turns(*both, measured), read));
       out.points_m = points_error(*both, measured);
-      if (std::abs(out.scatter_rad - before) < kSettled * before) break;
+      if (std::abs(out.scatter_rad - before) < kScatterSettled * before) break;
     }
     return out;
   }
@@ -306,7 +298,7 @@ class Judge {
     const double enough = std::max(kAsStatedTimes * stated, kRounding_rad);
     out_.kind = Kind::kGood;
     if (out_.stated && out_.labelled_rad <= enough) return;
-    const Both both = about_both(measured_, out_.labelled_rad, enough);
+    const FitOfBoth both = about_both(measured_, out_.labelled_rad, enough);
     out_.left_rad = both.scatter_rad;
     if (out_.stated && both.scatter_rad <= enough) return;
     if (both.points_m > kHarm * points_error_) out_.kind = Kind::kContradict;
@@ -346,8 +338,8 @@ MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& me
   MeasuredOrientations unjudged;
   unjudged.kind = Kind::kUnjudged;
   unjudged.stated = cell.measurement.sigma_rad.has_value();
-  if (measured.size() < kFewestRows) return unjudged;
-  return Judge(cell, measured, others).judge();
+  if (measured.size() < kFewestJudged) return unjudged;
+  return OrientationJudge(cell, measured, others).judge();
 }
 
 MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& measured) {

@@ -9,17 +9,17 @@
 
 namespace plumb::offline {
 
-/// "scattered", for JSON.
+/// The kind as JSON has it: "scattered".
 const char* name_of(MeasuredOrientations::Kind kind);
 
 /// What the measured orientations are, in one sentence without full stop; empty if there is nothing
-/// to say. `meant`: the readings that fit, in words.
+/// to say. meant: descriptions of the readings that fit.
 std::string in_words(const MeasuredOrientations& judged, const std::vector<std::string>& meant);
 
-/// What to do about it.
+/// What the user can do about it; empty if nothing.
 std::string remedy(const MeasuredOrientations& judged);
 
-/// The value to state as sigma_urad, in two digits.
+/// The value that sigma_urad should have, with two digits.
 std::string sigma_urad_to_state(const MeasuredOrientations& judged);
 
 /// W-FIT-ORIENTATION or N-FIT-ORIENTATION; nothing where they are fitted as stated.

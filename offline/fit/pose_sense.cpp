@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/pose_sense.hpp"
+#include "fit/constants.hpp"
 #include "program/counted_words.hpp"
 
 #include <fmt/format.h>
@@ -8,10 +9,6 @@
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kStill = 1e-3;    // [rad] or [m]
-constexpr double kOnePose = 5e-3;  // [rad] or [m]: a joint that uses less does not move
-constexpr double kArmMoved = 0.2;  // [m]: joints that hardly move take no arm's tool so far
 
 double range_of(const Measurements& measured, const std::vector<int>& rows, Eigen::Index joint) {
   const auto [low, high] = std::minmax_element(rows.begin(), rows.end(), [&](int a, int b) {
@@ -39,7 +36,7 @@ double spread_of_points(const Measurements& measured, const std::vector<int>& ro
 
 Problem one_pose(const Measurements& measured, const std::vector<int>& rows) {
   const double spread = spread_of_points(measured, rows);
-  if (spread > kArmMoved)
+  if (spread > kArmMoved_m)
     return {
         .code = "E-FIT-ONE-POSE",
         .message = fmt::format(

@@ -9,11 +9,11 @@
 
 namespace plumb::offline {
 
-/// Throws Failure (kNumbersSayNo) before a fit that no solver can save: E-FIT-FEW if every row is
-/// held out, E-FIT-ONE-POSE if the poses of `rows` are nearly all one pose.
+/// Throws Failure (kNumbersSayNo) if no fit is possible: E-FIT-FEW if every row is held out,
+/// E-FIT-ONE-POSE if the poses of `rows` are nearly all the same.
 void check_poses(const Measurements& measured, const std::vector<int>& rows);
 
-/// Names of the joints that stand where they are in all of these rows.
+/// Names of the joints that have the same position in all of these rows.
 std::vector<std::string> still_joints(const Cell& cell, const Measurements& measured,
                                       const std::vector<int>& rows);
 

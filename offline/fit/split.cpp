@@ -12,13 +12,11 @@
 #include "cell/group_rows.hpp"
 #include "cell/random.hpp"
 #include "cell/replicates.hpp"
+#include "fit/constants.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr int kFolds = 5;        // of "auto"
-constexpr int kFoldsUpTo = 500;  // poses; from there on a fifth is no loss, and folds take time
 
 /// One row of each replicate group that is used.
 std::vector<int> representatives(const Measurements& m, const std::vector<bool>& used) {
@@ -29,8 +27,8 @@ std::vector<int> representatives(const Measurements& m, const std::vector<bool>&
   return first;
 }
 
-/// Orders rows so that neighbours in the list are neighbours in joint space: halves along the
-/// widest joint, again and again.
+/// Orders rows so that neighbours in the list are neighbours in joint space (k-d order): splits
+/// them at the median of the joint with the widest range, recursively.
 void order_by_joints(const RowsN& q, std::vector<int>::iterator begin,
                      std::vector<int>::iterator end) {
   const auto count = end - begin;
@@ -59,7 +57,7 @@ std::vector<int> strata_order(const Measurements& m, const std::vector<bool>& us
     order_by_joints(m.q, rows.begin(), rows.end());
     return rows;
   }
-  // Set-up by set-up, so that each gives its share.
+  // Set-up by set-up, so that the same share of each is held out.
   const auto setup = [&](int row) { return m.setup[static_cast<std::size_t>(row)]; };
   std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return setup(a) < setup(b); });
   for (auto begin = rows.begin(); begin != rows.end();) {
@@ -71,7 +69,7 @@ std::vector<int> strata_order(const Measurements& m, const std::vector<bool>& us
   return rows;
 }
 
-/// Gives every row the mark of its replicate group.
+/// Copies the value of each replicate group to its rows.
 template <class T>
 void spread(const Measurements& m, const std::map<int, T>& by_group, std::vector<T>& out) {
   for (int i = 0; i < m.size(); ++i)
@@ -141,7 +139,8 @@ void hold_last_file(const Measurements& m, Split& split) {
     if (m.file[static_cast<std::size_t>(i)] == m.file.back()) split.held[i] = split.used[i];
 }
 
-/// Held out wins: a pose that is fitted as well would vouch for itself.
+/// Rows that repeat a held-out pose are not used at all: fitted, they would make its error look
+/// smaller than that of a new pose.
 void leave_out_repeats_of_held(const Measurements& m, Split& split) {
   std::vector<bool> held(count_groups(m.replicate_group), false);
   for (int i = 0; i < m.size(); ++i)
@@ -158,8 +157,8 @@ void leave_out_repeats_of_held(const Measurements& m, Split& split) {
          "hold out other poses than those fitted, or let plumb choose: plumb fit --held-out 20%");
 }
 
-/// What a split looks at. The same pose in two set-ups is one here: fitted in one, it would vouch
-/// for itself in the other.
+/// The columns that a split reads, with replicate groups that treat the same pose in two set-ups as
+/// one: held out in one of them, it must not be fitted in the other.
 Measurements by_pose(const Measurements& m) {
   Measurements out;
   out.q = m.q;
@@ -170,9 +169,7 @@ Measurements by_pose(const Measurements& m) {
   return out;
 }
 
-constexpr std::size_t kFewestOfASetup = 8;  // poses: fewer hardly tell a frame of six numbers
-
-/// Rows of set-ups of few poses, shape (n,).
+/// Which rows belong to a set-up of few poses, shape (n,).
 std::vector<bool> in_small_setup(const Measurements& m, const std::vector<bool>& used) {
   std::vector<bool> out(used.size(), false);
   if (m.setup.empty()) return out;
@@ -180,11 +177,11 @@ std::vector<bool> in_small_setup(const Measurements& m, const std::vector<bool>&
   for (int i = 0; i < m.size(); ++i)
     if (used[i]) poses[m.setup[static_cast<std::size_t>(i)]].insert(m.replicate_group[i]);
   for (int i = 0; i < m.size(); ++i)
-    out[i] = poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfASetup;
+    out[i] = poses[m.setup[static_cast<std::size_t>(i)]].size() < kFewestOfSetup;
   return out;
 }
 
-/// A set-up of a few poses needs all of them for its own frame and reflector: none is held out.
+/// A set-up of few poses needs all of them for its frame and reflector, so none is held out.
 void fit_all_of_small_setups(const Measurements& m, Split& split) {
   const std::vector<bool> small = in_small_setup(m, split.used);
   for (int i = 0; i < m.size(); ++i) {
@@ -208,7 +205,7 @@ Split split_of(const Measurements& m, const HeldOutRule& rule, std::uint64_t see
       else if (static_cast<int>(representatives(m, split.used).size()) <= kFoldsUpTo)
         make_folds(m, kFolds, random, split);
       else
-        hold_share(m, 0.2, random, split);
+        hold_share(m, kHeldShare, random, split);
       break;
     case HeldOutRule::Kind::kShare:
       hold_share(m, rule.share, random, split);

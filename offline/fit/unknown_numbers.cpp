@@ -6,13 +6,14 @@
 #include <algorithm>
 
 #include "cell/earlier_arm.hpp"
+#include "fit/constants.hpp"
 #include "program/counted_words.hpp"
 #include "solve/imagined_poses.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr Identifiability kToldApart{.min_independent_share = 1e-7};
+constexpr Identifiability kToldApart{.min_independent_share = kIndependence};
 
 bool knows(const EarlierArm& earlier, const Parameter& p) {
   return std::any_of(earlier.numbers.begin(), earlier.numbers.end(),
@@ -32,7 +33,8 @@ UnknownNumbers unknown_numbers(const EarlierArm& earlier, const Cell& cell, cons
     (p.of_effect() ? effects : knows(earlier, p) ? order : others).push_back(p);
   }
   order.insert(order.end(), others.begin(), others.end());
-  const ColumnSubset subset = identifiable(at_imagined_poses(cell, data, placed, order), kToldApart);
+  const ColumnSubset subset =
+      identifiable(at_imagined_poses(cell, data, placed, order), kToldApart);
   std::vector<bool> kept(order.size(), false);
   for (const int k : subset.kept) kept[static_cast<std::size_t>(k)] = true;
   for (std::size_t k = 0; k < order.size(); ++k) {

@@ -13,21 +13,22 @@ namespace plumb::offline {
 
 struct EarlierArm;
 
-/// Candidates of a fit beside what an earlier arm knows.
+/// The candidates of a fit that also has the numbers of an earlier arm.
 struct UnknownNumbers {
-  std::vector<Parameter> candidates;   // the known numbers before other ones of the arm
-  std::vector<std::string> redundant;  // no pose tells them from others: held at nominal
-  std::vector<std::string> placing;    // where tracker and reflector are: poses must show it
+  std::vector<Parameter> candidates;   // the arm's numbers that the earlier one knows come first
+  std::vector<std::string> redundant;  // no pose can tell these from others: held at nominal
+  std::vector<std::string> placing;    // of tracker and reflector; the poses must determine them
 };
 
-/// What the earlier arm knows makes a number look independent that acts as another one does, the
-/// offset of J1 as a turn of the tracker, say; so poses all over the joint limits are asked.
-/// placed: with tracker and reflector about where they are. Cost: that of `at_imagined_poses`.
+/// With a prior from the earlier arm, a number that is redundant in the model looks independent:
+/// the offset of J1, say, acts as a turn of the tracker. So redundancy is decided without readings,
+/// at imagined poses all over the joint limits. placed: a state in which tracker and reflector are
+/// about where they stand. Cost: that of `at_imagined_poses`.
 UnknownNumbers unknown_numbers(const EarlierArm& earlier, const Cell& cell, const FitData& data,
                                const ArmState& placed, const std::vector<Parameter>& candidates);
 
-/// However well the arm is known, too few poses do not show where it stands: throws Failure
-/// (kNumbersSayNo, E-FIT-FEW) if one of these numbers is among those held.
+/// Throws Failure (kNumbersSayNo, E-FIT-FEW) if a number of `unknown.placing` is among those held:
+/// however well the arm is known, too few poses do not tell where tracker and reflector stand.
 void check_placed_by_poses(const FitData& data, const UnknownNumbers& unknown,
                            const std::vector<std::string>& held);
 

@@ -5,15 +5,14 @@
 
 #include <algorithm>
 
+#include "fit/constants.hpp"
 #include "noise/usual_errors.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kBelowTheFloor = 0.75;  // times the noise floor: the floor is not only noise
-constexpr double kFarBeyond = 3.0;       // tolerances
-constexpr std::size_t kNamed = 3;        // readings, in the head
+constexpr std::size_t kNamed = 3;  // readings that stand out, in a headline
 
 std::string mm(double m) { return fmt::format("{:.3f} mm", m * 1e3); }
 
@@ -21,7 +20,7 @@ std::string readings(int n) { return counted_words(n, "reading", "readings"); }
 
 bool leaves_out(const Fit& fit) { return !single_bad(fit).empty(); }
 
-/// Those of a pose that stands out several times are named once. Empty: no names are known.
+/// Names of the poses of the outliers, each once; empty if a name is missing.
 std::vector<std::string> names_of(const std::vector<Outlier>& outliers) {
   std::vector<std::string> out;
   for (const auto& one : outliers) {
@@ -50,7 +49,7 @@ std::string outlier_words(const Fit& fit) {
                      mm(most->error_m));
 }
 
-/// "held-out error 0.164 mm mean, 0.384 mm at 95 % of 48 readings", and which are left out.
+/// "held-out error 0.164 mm mean, 0.384 mm at 95 % of 48 readings", and the readings left out.
 std::string size_words(const Fit& fit) {
   const ErrorStats& held = usual_held(fit);
   std::string out = fmt::format("held-out error {} mean, {} at 95 % of {}", mm(held.mean),
@@ -63,7 +62,7 @@ std::string size_words(const Fit& fit) {
 
 std::string floor_words(const Fit& fit) { return offline::floor_words(fit.floor); }
 
-/// Of a fit with a noise floor.
+/// The excess of a fit; without a noise floor or held-out poses that of an error of 0.
 HeldOutExcess left(const Fit& fit) { return held_out_excess_of(fit).value_or(HeldOutExcess{}); }
 double times_floor(const Fit& fit) { return left(fit).times; }
 
@@ -72,7 +71,7 @@ std::string times_words(const Fit& fit) {
   return fmt::format("{:.1f} times the {}", times_floor(fit), floor_words(fit));
 }
 
-/// What a diagnosis takes for scatter of the joints is inferred from what the model leaves.
+/// Says that the error may be scatter of the joints, which a diagnosis has inferred from residuals.
 std::string scatter_words(const Fit& fit) {
   return fmt::format(
       "{}, no more than joints would leave that do not come back to exactly the same place ({}, "
@@ -104,12 +103,12 @@ Quality quality_beyond(const Fit& fit) {
   }
 }
 
-/// Whether readings that stand out are all that keeps the tolerance from being kept.
+/// Whether the tolerance is kept only without the readings that stand out.
 bool good_but_for_some(const Fit& fit, double tolerance_m) {
   return leaves_out(fit) && keeps(usual_held(fit), tolerance_m) && !keeps(fit.held, tolerance_m);
 }
 
-/// Of joints that never moved nothing is known.
+/// "Good", restricted to what the poses show: nothing is known of joints that never moved.
 std::string good(const Fit& fit, double tolerance_m) {
   const std::string but =
       good_but_for_some(fit, tolerance_m) ? " but for " + who_stands_out(fit) : "";
@@ -136,7 +135,8 @@ std::string good_words(const Fit& fit, const std::string& size, double tolerance
   }
 }
 
-/// Of readings that stand out: bad ones, or poses where the model fails; nobody can tell from here.
+/// The readings that stand out may be bad, or the model may fail at their poses; this cannot be
+/// told from the errors.
 std::string but_for_words(const Fit& fit, const std::string& size, double tolerance_m) {
   const std::string kept =
       fmt::format("{}: {}, within {}", good(fit, tolerance_m), size, mm(tolerance_m));
@@ -182,7 +182,7 @@ std::optional<HeldOutExcess> held_out_excess_of(const Fit& fit) {
 }
 
 bool keeps(const ErrorStats& held, double tolerance_m) {
-  return held.p95 <= tolerance_m && held.max <= kFarBeyond * tolerance_m;
+  return held.p95 <= tolerance_m && held.max <= kWorstPose * tolerance_m;
 }
 
 Quality quality(const Fit& fit, double tolerance_m) {
