@@ -12,16 +12,16 @@ namespace plumb::offline {
 /// Everything that turns joint positions into a measured point: the arm, and the measurement's own
 /// frame and target, which belong to the measurement and are never compiled.
 ///
-/// With several set-ups (cell/setups.hpp), X_MB and X_TG are those of the first and `more` holds
-/// the others. A set-up may stand where an earlier one stands, or carry its reflector.
+/// With several set-ups (cell/setups.hpp), X_MB and X_TG are those of the first, and `more` holds
+/// those of the others. A set-up may share the frame or the reflector of an earlier one.
 struct ArmState {
   format::Model arm;  // calibrated chain, trees, domain; the rest may be empty
   format::Pose X_MB;  // base in the measurement frame
   format::Pose X_TG;  // reflector (gauge) in the tool frame
 
   struct Placing {
-    int frame_of = 0;   // the set-up whose frame this is: its own, or an earlier one
-    int target_of = 0;  // the same of the reflector
+    int frame_of = 0;   // index of the set-up whose frame it uses: its own, or an earlier one
+    int target_of = 0;  // the same for the reflector
     format::Pose X_MB;  // used if frame_of is this set-up
     format::Pose X_TG;  // used if target_of is this set-up
     bool operator==(const Placing&) const = default;

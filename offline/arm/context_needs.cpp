@@ -20,7 +20,7 @@ std::string numbered(const char* prefix, std::size_t joint) {
   return prefix + std::to_string(joint + 1);
 }
 
-/// Operands of an operation in the code of a formula, each once.
+/// The different operands of an operation in the code of a formula.
 std::vector<std::size_t> operands(const format::Formula& formula, FormulaOp op) {
   std::vector<std::size_t> out;
   for (const auto code : formula.code)
@@ -49,10 +49,10 @@ bool reads_wrench(const format::Effect& effect) {
          formula_reads(effect, FormulaOp::kTorque);
 }
 
-/// Gathers what one effect wants.
-class Wants {
+/// Collects the inputs of the effects of a model.
+class WantCollector {
  public:
-  Wants(const format::Model& model, std::vector<ContextWant>& out)
+  WantCollector(const format::Model& model, std::vector<ContextWant>& out)
       : out_(out), sensors_(temperature_names(model)), load_varied_(varied(model)) {}
 
   void add(const format::Effect& effect) {
@@ -111,7 +111,7 @@ class Wants {
   std::string name_;
 };
 
-/// Lowest and highest of what is known of the values.
+/// Range of the values, with `where_unknown` in place of NaN; nothing if none is known.
 template <class Values>
 std::optional<format::ContextRange> range_of(ContextInput input, std::string name,
                                              const Values& values, double where_unknown) {
@@ -151,7 +151,7 @@ void add_wrench(const ContextRows& rows, std::vector<format::ContextRange>& out)
 
 std::vector<ContextWant> context_wants(const format::Model& model) {
   std::vector<ContextWant> out;
-  Wants wants(model, out);
+  WantCollector wants(model, out);
   for (const auto& effect : model.effects) wants.add(effect);
   return out;
 }

@@ -7,7 +7,7 @@
 #include "cell/contexts.hpp"
 #include "plumb/format/model.hpp"
 
-/// What the effects of a model must be told of a pose besides its joint positions.
+/// What the effects of a model must know of a pose besides its joint positions.
 namespace plumb::offline {
 
 /// One input of one effect.
@@ -17,10 +17,10 @@ struct ContextWant {
   std::string effect;     // "reversal", or the name of the formula
   std::string column;     // of a measurement file: "dir_j2", "temp_arm_degC"
   std::size_t index = 0;  // the joint, or the place among temperature_names(model)
-  double fallback = 0.0;  // what is taken where it is unknown, SI, temperatures in [degC]
+  double fallback = 0.0;  // replaces an unknown value; SI, temperatures in [degC]
 };
 
-/// In the order of the effects. The load is wanted only where the poses of the fit carried several.
+/// In the order of the effects. The load is listed only if the poses of the fit carried several.
 std::vector<ContextWant> context_wants(const format::Model& model);
 
 /// Ranges of what the effects of `model` were told in these rows: load, wrench, temperatures. A row

@@ -33,7 +33,7 @@ std::vector<std::uint8_t> joints_of(const Cell& cell, const EffectEntry& entry,
   return out;
 }
 
-/// Largest load on each joint at the measured poses.
+/// Largest torque of gravity on each joint at the measured poses.
 std::vector<double> largest_torques(const Cell& cell, const Measurements& measured) {
   const Chain chain(cell.nominal);
   const format::Mechanics mechanics = mechanics_of(cell);
@@ -51,7 +51,7 @@ std::vector<double> largest_torques(const Cell& cell, const Measurements& measur
   return out;
 }
 
-/// The cell and the measurements as the descriptors of the laws ask for them.
+/// Answers what the descriptors of the laws ask of the cell and the measurements.
 class DataSource : public ConstantsSource {
  public:
   DataSource(const Cell& cell, const Measurements& measured) : cell_(cell), measured_(measured) {}
@@ -107,7 +107,7 @@ format::Effect bind_effect(const Cell& cell, const Measurements& measured,
 std::vector<format::Effect> bind_effects(const Cell& cell, const Measurements& measured) {
   std::vector<format::Effect> out;
   for (const auto& entry : cell.effects)
-    if (descriptor_of(entry.name).law != nullptr)  // not geometry, local_tree
+    if (descriptor_of(entry.name).law != nullptr)  // geometry and local_tree are no laws
       out.push_back(bind_effect(cell, measured, entry));
   if (out.size() > static_cast<std::size_t>(format::kMaxEffects))
     throw Failure(Exit::kInput,
@@ -148,7 +148,8 @@ std::vector<std::string> temperature_names(const format::Model& model) {
 
 namespace {
 
-/// Of every link, from its joint to the next one or to the tip, in the frame behind its joint.
+/// Vector of every link from its joint to the next one, or to the tip, in the frame after its
+/// joint.
 std::vector<Vector3> link_vectors(const Cell& cell) {
   const Chain chain(cell.nominal);
   const std::vector<double> zero(static_cast<std::size_t>(chain.joints()), 0.0);
@@ -162,7 +163,7 @@ std::vector<Vector3> link_vectors(const Cell& cell) {
   return out;
 }
 
-/// A mass of its own, or that of an even bar.
+/// Mass of a link as the cell gives it, or that of a uniform bar along the link.
 format::LinkMass mass_of(const JointMechanics& m, const Vector3& along) {
   format::LinkMass out;
   if (m.link_com_m) out.com_m = *m.link_com_m;
@@ -197,13 +198,14 @@ EffectDomain domain_of(const format::Effect& effect) {
 
 namespace {
 
-/// A parameter of a law: that of a joint, or one behind those of all joints.
+/// Where a parameter of a law belongs: to a joint, or to the arm, whose parameters follow those of
+/// all joints.
 struct ParameterPlace {
-  int joint = -1;  // place among the joints of the effect; -1: it belongs to the arm
-  int place = 0;   // among the parameters of that joint, or of the arm
+  int joint = -1;  // index among the joints of the effect; -1: it belongs to the arm
+  int place = 0;   // index among the parameters of that joint, or of the arm
 };
 
-/// Parameters of one of the joints that the effect lists.
+/// Number of parameters of one of the joints that the effect lists.
 int parameters_of_joint(const format::Model& model, const format::Effect& effect,
                         const EffectDescriptor& law, std::size_t joint) {
   if (law.parameters_of_joint == nullptr)
@@ -226,14 +228,14 @@ ParameterPlace place_of(const format::Model& model, const format::Effect& effect
   return {-1, parameter - first};
 }
 
-/// The unit of a share of one joint's position that moves another one.
+/// The unit of a factor by which the position of one joint moves another one.
 const char* unit_of_ratio(const format::Model& model, const format::Effect& effect) {
   const bool first = slides(model.calibrated, effect.joints[0]);
   const bool second = slides(model.calibrated, effect.joints[1]);
   return first == second ? "1" : first ? "m/rad" : "rad/m";
 }
 
-/// The unit and size that a parameter has at a joint that slides.
+/// Replaces unit and typical size of a parameter by those at a joint that slides.
 void fit_to_slide(const format::Model& model, const format::Effect& effect,
                   const EffectDescriptor& law, std::size_t place, EffectParameter& out) {
   if (law.law->per_joint && law.at_slide != nullptr) {
@@ -246,7 +248,7 @@ void fit_to_slide(const format::Model& model, const format::Effect& effect,
     out.unit = unit_of_ratio(model, effect);
 }
 
-/// The name of a parameter within its joint.
+/// The name of a parameter without effect and joint.
 std::string own_name(const EffectDescriptor& law, const ParameterPlace& at) {
   const auto place = static_cast<std::size_t>(at.place);
   if (law.law->per_joint && at.joint < 0) return law.arm_parameters[place].name;

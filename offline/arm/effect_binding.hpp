@@ -23,19 +23,21 @@ format::Effect bind_effect(const Cell& cell, const Measurements& measured,
 /// Masses and payload of the cell.
 format::Mechanics mechanics_of(const Cell& cell);
 
-/// Why this version cannot evaluate the effects of a model, in words, or empty.
+/// Why this version cannot evaluate the effects of a model, in words; empty if it can.
 std::string unusable_effects(const format::Model& model);
 
 /// Temperature sensors the effects read, in the order of Context::temperature_degC.
 std::vector<std::string> temperature_names(const format::Model& model);
 
-/// "gear_ripple.J2.k20.sin": the effect, its joint, what tells it from its like, the parameter.
+/// "gear_ripple.J2.k20.sin": the effect, its joint, what distinguishes it from others at this
+/// joint, and the parameter.
 std::string effect_parameter_name(const format::Model& model, int effect, int parameter);
 
-/// Whom an effect belongs to: as its law says, or the formula.
+/// Whether an effect belongs to the robot or to the measurement, as its law or formula says.
 EffectDomain domain_of(const format::Effect& effect);
 
-/// The catalogue's line for that parameter, or the formula's. Its texts are the model's.
+/// Name, unit, typical size and bounds of a parameter, from the catalogue or from the formula. Its
+/// texts refer to the memory of the model.
 EffectParameter effect_parameter(const format::Model& model, int effect, int parameter);
 
 }  // namespace plumb::offline

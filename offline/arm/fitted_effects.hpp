@@ -11,8 +11,8 @@
 namespace plumb::offline {
 
 /// The effects of a model as a fit evaluates them: one at a time, with the parameters of the fit,
-/// and including effects of the measurement, which the runtime lacks. Refers to the model's memory.
-/// Precondition: every effect of the model is a law that a fit knows (find_fitted_law).
+/// and including effects of the measurement, which the runtime lacks. Refers to the memory of the
+/// model. Precondition: find_fitted_law knows every effect of the model.
 class FittedEffects {
  public:
   explicit FittedEffects(const format::Model& model);
@@ -20,11 +20,12 @@ class FittedEffects {
   bool empty() const { return effects_.empty(); }
   int size() const { return static_cast<int>(effects_.size()); }
 
-  /// Whether effect i is known only at measured poses, so that the runtime cannot evaluate it: a
-  /// law of the measurement, or a formula that reads the last moves or the row.
+  /// Whether effect i can be evaluated at measured poses only, and so not by the runtime: a law of
+  /// the measurement, or a formula that reads the last moves or the row.
   bool of_measurement(int i) const { return effects_[static_cast<std::size_t>(i)].of_measurement; }
 
-  /// Context and loads of one pose, shared by all effects. Points to the context that `survey` got.
+  /// Context and loads of one pose, computed once for all effects. Points to the context that
+  /// `survey` was given.
   struct Surroundings {
     const MeasuredContext* context = nullptr;
     Loads loads;

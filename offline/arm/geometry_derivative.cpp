@@ -54,7 +54,7 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& p = parameters[i];
     if (p.kind == Kind::kFrame) {
-      // Seen in the measurement frame: the turn acts about the base origin.
+      // In the measurement frame. The turn acts about the origin of the base.
       const bool shift = p.component < 3;
       const Matrix3 R_MB0 = from_pose(start.frame(p.setup)).R;
       twists_.push_back(
@@ -75,7 +75,7 @@ GeometryDerivative::GeometryDerivative(const ArmState& start,
   }
 }
 
-/// Where the motion of a parameter happens, as a constant twist behind a joint.
+/// The elementary motion of a parameter as a constant twist in the frame after a joint.
 GeometryDerivative::SlotTwist GeometryDerivative::slot_twist(const Parameter& p) const {
   const auto& chain = state_.arm.calibrated;
   const auto& row = chain.joints[p.joint];
@@ -153,19 +153,20 @@ void GeometryDerivative::add_series_column(const Parameter& p, Eigen::Index colu
   series_.back().column[place % each] = column;
 }
 
-/// One pose before and after the effects moved it.
-struct GeometryDerivative::Bent {
+/// One pose without and with the motion by the effects.
+struct GeometryDerivative::MovedPose {
   ChainFrames rigid;
-  ChainFrames frames;  // with joint effects; the tip without the twists
+  ChainFrames frames;  // with the joint motions of the effects, without shift and turn of the tip
   FittedEffects::Surroundings around;
   Motion<double> motion;
-  Matrix3 turn = Matrix3::Identity();  // of the tip, by the twists
+  Matrix3 turn = Matrix3::Identity();  // rotation of the tip by the effects
   int undefined = -1;                  // the first effect without a value
   std::array<std::array<double, 2>, format::kMaxEffects> wave_slope;  // of the joint, by wave
 };
 
-/// Adds the motion of a wave, and keeps its slopes.
-void GeometryDerivative::apply_wave(std::size_t w, std::span<const double> q, Bent& out) const {
+/// Adds the motion by a wave, and keeps its derivatives.
+void GeometryDerivative::apply_wave(std::size_t w, std::span<const double> q,
+                                    MovedPose& out) const {
   using Number = DualOf<2>;
   const Wave& wave = waves_[w];
   const auto& values = state_.arm.effects[static_cast<std::size_t>(wave.effect)].parameters;
@@ -179,7 +180,7 @@ void GeometryDerivative::apply_wave(std::size_t w, std::span<const double> q, Be
 }
 
 void GeometryDerivative::bend(std::span<const double> q, const MeasuredContext& context,
-                              Bent& out) const {
+                              MovedPose& out) const {
   chain_.frames(q, out.rigid);
   if (effects_.empty()) {
     out.frames = out.rigid;
@@ -201,8 +202,8 @@ void GeometryDerivative::bend(std::span<const double> q, const MeasuredContext& 
   out.turn = turned(out.motion.turn_B).R;
 }
 
-/// arm_B: from the tip to the reflector, before the twists turn it.
-void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& bent,
+/// arm_B: from the tip to the reflector, before the effects turn the tip.
+void GeometryDerivative::effect_columns(std::span<const double> q, const MovedPose& bent,
                                         const Vector3& arm_B, const Matrix3& R_MB,
                                         Point& out) const {
   const Matrix3 turn_rate = left_jacobian(bent.motion.turn_B);
@@ -233,7 +234,7 @@ void GeometryDerivative::effect_columns(std::span<const double> q, const Bent& b
         out.columns.col(series.column[k]) = by_joint[series.joint] * slopes[k];
   }
   std::vector<Dual> theta;
-  // Eight parameters at a time, of as many effects as they belong to: motions add up, and so do
+  // Eight parameters at a time, of one or several effects: the motions of effects add up, and so do
   // their derivatives.
   for (std::size_t first = 0; first < effect_columns_.size();) {
     const std::size_t last = std::min(first + Dual::kLanes, effect_columns_.size());
@@ -267,12 +268,12 @@ void GeometryDerivative::evaluate(std::span<const double> q, const MeasuredConte
                                   Point& out, const Vector3& departure_B, int setup) const {
   const Transformd& X_MB = X_MB_[static_cast<std::size_t>(setup)];
   const Transformd& X_TG = X_TG_[static_cast<std::size_t>(setup)];
-  Bent bent;
+  MovedPose bent;
   bend(q, context, bent);
   out.undefined = bent.undefined;
   const ChainFrames& frames = bent.frames;
   const Matrix3& R_MB = X_MB.R;
-  const Vector3 arm_B = frames.tip.R * X_TG.p;  // before the twists turn it
+  const Vector3 arm_B = frames.tip.R * X_TG.p;  // before the effects turn the tip
   const Vector3 p_B = frames.tip.p + bent.motion.shift_B + bent.turn * arm_B + departure_B;
   const Matrix3 R_BT = bent.turn * frames.tip.R;
   out.p_M = X_MB * p_B;

@@ -12,11 +12,11 @@ namespace {
 
 using WantKind = ContextWant::Kind;
 
-constexpr std::size_t kRowsListed = 4;
+constexpr std::size_t kRangesListed = 4;
 
 bool slides(const format::JointRow& row) { return row.type == format::JointType::kPrismatic; }
 
-/// "120", "-0.25": no more digits than tell something.
+/// "120", "-0.25": at most four digits.
 std::string shown(double value) { return fmt::format("{:.4g}", value); }
 
 std::string shown(double value, const format::JointRow& row) {
@@ -24,12 +24,12 @@ std::string shown(double value, const format::JointRow& row) {
                      : fmt::format("{:.1f}", value * 180.0 / std::numbers::pi);
 }
 
-struct Label {
+struct RangeLabel {
   std::string name, unit;
   double scale;  // from SI
 };
 
-Label label_of(const format::ContextRange& range) {
+RangeLabel label_of(const format::ContextRange& range) {
   if (range.input == format::ContextInput::kTemperature) return {range.name, "degC", 1.0};
   if (range.name.empty()) return {"payload", "kg", 1.0};
   if (range.name[0] == 'c') return {"payload_" + range.name, "mm", 1e3};
@@ -107,7 +107,7 @@ void KnownInputs::look_beyond(std::span<const double> q, const Context& at) {
            context_beyond_[k]);
 }
 
-void KnownInputs::note(double value, double low, double high, Beyond& out) const {
+void KnownInputs::note(double value, double low, double high, OutsideRange& out) const {
   ++out.rows;
   const double far = std::abs(value - 0.5 * (low + high));
   if (far < out.farthest) return;
@@ -130,7 +130,7 @@ void KnownInputs::add(const KnownInputs& more) {
   add(more.context_beyond_, context_beyond_);
 }
 
-void KnownInputs::add(const std::vector<Beyond>& more, std::vector<Beyond>& out) {
+void KnownInputs::add(const std::vector<OutsideRange>& more, std::vector<OutsideRange>& out) {
   for (std::size_t k = 0; k < out.size(); ++k) {
     out[k].rows += more[k].rows;
     if (more[k].farthest < out[k].farthest) continue;
@@ -141,8 +141,8 @@ void KnownInputs::add(const std::vector<Beyond>& more, std::vector<Beyond>& out)
 
 std::vector<Problem> KnownInputs::remarks() const {
   std::vector<Problem> out;
-  const bool lacking =
-      std::any_of(lacks_.begin(), lacks_.end(), [](const Lack& lack) { return lack.rows > 0; });
+  const bool lacking = std::any_of(lacks_.begin(), lacks_.end(),
+                                   [](const LackingInput& lack) { return lack.rows > 0; });
   if (lacking) out.push_back(of_lacks());
   if (outside_ > 0) out.push_back(of_outside());
   return out;
@@ -165,7 +165,7 @@ std::string KnownInputs::assumed(const ContextWant& want) const {
   }
 }
 
-/// Each effect once, with its first column and what stands for it.
+/// Names each effect once, with the first column it lacks and the value that replaces it.
 Problem KnownInputs::of_lacks() const {
   std::vector<std::string> said, columns, effects;
   for (const auto& [want, rows] : lacks_) {
@@ -179,7 +179,7 @@ Problem KnownInputs::of_lacks() const {
                     needs_place(want) ? "have no place in the cell's own series by" : "do not say",
                     want.column, want.effect, assumed(want)));
   }
-  const bool moves = std::any_of(lacks_.begin(), lacks_.end(), [](const Lack& lack) {
+  const bool moves = std::any_of(lacks_.begin(), lacks_.end(), [](const LackingInput& lack) {
     return lack.rows > 0 && lack.want.kind == WantKind::kMove;
   });
   for (auto& column : columns) {
@@ -206,14 +206,14 @@ Problem KnownInputs::of_outside() const {
   for (std::size_t k = 0; k < context_beyond_.size(); ++k) {
     if (context_beyond_[k].rows == 0) continue;
     const auto& range = domain_.context[k];
-    const Label label = label_of(range);
+    const RangeLabel label = label_of(range);
     said.push_back(fmt::format("{} {} {} (fitted {} .. {})", label.name,
                                shown(context_beyond_[k].value * label.scale), label.unit,
                                shown(range.low * label.scale), shown(range.high * label.scale)));
   }
-  if (said.size() > kRowsListed) {
-    const std::string rest = fmt::format("{} more", said.size() - kRowsListed);
-    said.resize(kRowsListed);
+  if (said.size() > kRangesListed) {
+    const std::string rest = fmt::format("{} more", said.size() - kRangesListed);
+    said.resize(kRangesListed);
     said.push_back(rest);
   }
   return {.severity = Severity::kWarning,

@@ -13,46 +13,46 @@
 
 namespace plumb::offline {
 
-/// Watches rows go by, and says of each what a prediction there is worth: whether it lies outside
-/// what the model was fitted with, and whether it lacks what an effect needs. One warning of each
-/// kind at the end, however many rows there were.
+/// Decides for each row whether a prediction can be trusted: whether the row lies inside the range
+/// that the model was fitted with, and has every input that an effect needs. Counts rows that do
+/// not, for one warning of each kind.
 class KnownInputs {
  public:
   explicit KnownInputs(const format::Model& model);
 
   /// q: shape (joints,). `placed`: whether the row has a place in the cell's own series
-  /// (SeriesPlace); rows of a compiled model need none. Returns what counts more, `said` or what is
-  /// found: refused, outside-domain, context-fallback, ok.
+  /// (SeriesPlace); rows of a compiled model need none. Returns the worse of `said`, the status of
+  /// the prediction, and of what is found here: refused, outside-domain, context-fallback, ok.
   Status mark(std::span<const double> q, const MeasuredContext& at, bool placed, Status said);
 
-  /// Whether the context alone, whatever the joints, lies so far outside that the correction has
-  /// faded to nothing.
+  /// Whether the context lies so far outside the fitted range that the correction has faded to zero
+  /// at all joint positions.
   bool beyond_correction(const Context& at) const;
 
-  /// Rows whose place in the cell's own series an effect needs and nothing tells.
+  /// Rows that an effect needs a place of in the cell's own series, while nothing tells it.
   int without_place() const;
 
-  /// Counts what another one of the same model has seen.
+  /// Adds the counts of another object of the same model.
   void add(const KnownInputs& more);
 
   /// W-PREDICT-INPUT and W-PREDICT-OUTSIDE, or none.
   std::vector<Problem> remarks() const;
 
  private:
-  struct Lack {
+  struct LackingInput {
     ContextWant want;
     int rows = 0;
   };
-  struct Beyond {
+  struct OutsideRange {
     int rows = 0;
-    double farthest = 0.0;  // from the middle
-    double value = 0.0;
+    double farthest = 0.0;  // largest distance from the middle of the range
+    double value = 0.0;     // the value at that distance
   };
 
   bool lacks(const ContextWant& want, const MeasuredContext& at, bool placed) const;
   void look_beyond(std::span<const double> q, const Context& at);
-  void note(double value, double low, double high, Beyond& out) const;
-  static void add(const std::vector<Beyond>& more, std::vector<Beyond>& out);
+  void note(double value, double low, double high, OutsideRange& out) const;
+  static void add(const std::vector<OutsideRange>& more, std::vector<OutsideRange>& out);
   std::string assumed(const ContextWant& want) const;
   Problem of_lacks() const;
   Problem of_outside() const;
@@ -61,18 +61,19 @@ class KnownInputs {
   format::Domain domain_;
   std::vector<format::JointRow> joints_;
   double payload_kg_;
-  std::vector<Lack> lacks_;
-  std::vector<Beyond> joint_beyond_, context_beyond_;
+  std::vector<LackingInput> lacks_;
+  std::vector<OutsideRange> joint_beyond_, context_beyond_;
   int rows_ = 0;
   int outside_ = 0;
 };
 
-/// Whether the guard would cut this correction to its size.
+/// Whether this correction exceeds the limits of the guard.
 bool beyond_guard(const Transformd& X_BD, const Transformd& X_BC,
                   const format::GuardLimits& limits);
 
-/// A correction as the guard lets it through once it has settled: cut to its largest size, and then
-/// marked kLimited. Refused ones as they are.
+/// The correction that the guard outputs once its slew limit has settled: scaled down to the
+/// largest allowed size and marked kLimited if it exceeds that. Refused corrections are returned
+/// unchanged.
 Correction guarded(const Correction& correction, const Transformd& X_BD,
                    const format::GuardLimits& limits);
 

@@ -12,7 +12,7 @@ namespace plumb::offline {
 
 /// The arm as it was measured: the runtime's prediction plus the effects of the measurement, which
 /// the runtime does not know. Without such effects it equals the runtime's prediction bit for bit.
-/// Refers to the model's memory.
+/// Refers to the memory of the model.
 class MeasuredArm {
  public:
   explicit MeasuredArm(const format::Model& model);

@@ -14,7 +14,11 @@ namespace {
 
 using Kind = Parameter::Kind;
 
+/// Neighbouring axes at a smaller angle are nearly parallel: Hayati's beta replaces d, which would
+/// be ill-conditioned. Chosen: 3 degrees, far above the errors of an arm.
 constexpr double kNearParallel_rad = 0.05;
+/// Shortest reach [m], so that an arm without link lengths has one. Chosen.
+constexpr double kLeastReach_m = 0.1;
 
 const char* const kTwistNames[] = {"dx", "dy", "dz", "ex", "ey", "ez"};
 const char* const kPoseNames[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -36,7 +40,7 @@ void add_dh_candidates(const Cell& cell, std::vector<Parameter>& out) {
     const int row = link_row(chain, i);
     if (!cell.mechanics[i].parallel_next && !near_parallel(chain.joints[row])) continue;
     beta[row] = true;
-    // A sliding joint keeps its d: its own travel already carries the parallel shift.
+    // A sliding joint keeps its d, which is the offset of its own travel.
     if (chain.joints[i].type == format::JointType::kRevolute) hold_d[i] = true;
   }
   for (int i = 0; i < n; ++i) {
@@ -58,14 +62,14 @@ void add_twist_candidates(const Cell& cell, std::vector<Parameter>& out) {
           {Kind::kLinkTwist, i, k, cell.nominal.joints[i].name + ".post." + kTwistNames[k]});
 }
 
-/// ".", with several set-ups "[day 2].".
+/// What follows "frame" or "target" in a name: ".", with several set-ups "[day 2].".
 std::string of_setup(const MeasurementSettings& m, int setup) {
   const std::string name = setup_name(m, setup);
   return name.empty() ? "." : "[" + name + "].";
 }
 
-/// "frame.x", with several set-ups "frame[day 2].x"; what is shared belongs to the first that has
-/// it.
+/// "frame.x", with several set-ups "frame[day 2].x". A shared frame or target belongs to the first
+/// set-up that has it.
 void add_placing_candidates(const MeasurementSettings& m, Orientation orientation,
                             std::vector<Parameter>& out) {
   for (int s = 0; s < setup_count(m); ++s) {
@@ -104,7 +108,9 @@ bool Parameter::of_robot() const {
   return kind != Kind::kFrame && kind != Kind::kTarget && kind != Kind::kTargetRotation;
 }
 
-double reach(const format::Chain& chain) { return std::max(0.1, stretched_length(chain)); }
+double reach(const format::Chain& chain) {
+  return std::max(kLeastReach_m, stretched_length(chain));
+}
 
 std::string frame_prefix(const MeasurementSettings& settings, int setup) {
   return "frame" + of_setup(settings, setup);

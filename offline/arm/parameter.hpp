@@ -25,27 +25,28 @@ struct Parameter {
     kEffect
   };
   Kind kind = Kind::kTheta;
-  int joint = 0;      // row of the chain; effect: its place in the model
-  int component = 0;  // twist: dx dy dz ex ey ez; frame the same; target: x y z; effect: parameter
+  int joint = 0;      // row of the chain; of an effect: index of the effect in the model
+  int component = 0;  // twist and frame: dx dy dz ex ey ez; target: x y z; effect: parameter
   std::string name;   // "J2.d", "J3.post.ex", "frame.x", "target.z", "reversal.J2.h"
-  int setup = 0;      // frame and target: the set-up they belong to; named with several of them:
-                      // "frame[day 2].x"
+  int setup = 0;      // of frame and target: their set-up, which is in the name if there are
+                      // several: "frame[day 2].x"
 
   bool is_length() const;
   bool of_robot() const;  // of the model rather than of frame and target
   bool of_effect() const { return kind == Kind::kEffect; }
 };
 
-/// Sum of all link lengths [m], at least 0.1: makes metres and radians comparable.
+/// Sum of all link lengths [m], at least 0.1. Multiplied by it, angles become comparable to
+/// lengths.
 double reach(const format::Chain& chain);
 
 /// Candidates of a cell in the order in which they are preferred when poses cannot tell two apart:
-/// frame, target, then the arm from base to tip. With near-parallel neighbours Hayati's beta takes
-/// the place of d. `with_orientation` adds the turn of the target.
+/// frame, target, then the arm from base to tip. Where neighbouring axes are nearly parallel,
+/// Hayati's beta takes the place of d. Orientation::kUsed adds the rotation of the target.
 enum class Orientation { kIgnored, kUsed };
 std::vector<Parameter> candidate_parameters(const Cell& cell, Orientation orientation);
 
-/// What the names of the numbers of a set-up's frame begin with: "frame.", with several set-ups
+/// Prefix of the names of a set-up's frame parameters: "frame.", with several set-ups
 /// "frame[day 2].".
 std::string frame_prefix(const MeasurementSettings& settings, int setup);
 

@@ -11,7 +11,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr Eigen::Index kBlock = 512;  // rows predicted by one thread in one go
+constexpr Eigen::Index kBlock = 512;  // rows that one thread predicts as one job
 
 /// Calls one(row) for every row, on all processors where there are many.
 template <class One>
@@ -42,9 +42,9 @@ MeasuredContext context_of(const Measurements& at, Eigen::Index row,
 namespace {
 
 /// Frame and reflector of every set-up.
-struct Placed {
+struct SetupPoses {
   std::vector<Transformd> X_MB, X_TG;
-  explicit Placed(const ArmState& state) {
+  explicit SetupPoses(const ArmState& state) {
     for (int k = 0; k < state.setups(); ++k) {
       X_MB.push_back(from_pose(state.frame(k)));
       X_TG.push_back(from_pose(state.target(k)));
@@ -57,7 +57,7 @@ struct Placed {
 Rows3 predict_points(const ArmState& state, const Measurements& at) {
   const MeasuredArm arm(state.arm);
   const auto sensors = temperature_names(state.arm);
-  const Placed placed(state);
+  const SetupPoses placed(state);
   const bool departed = at.departure_B.rows() > 0;
   const bool has_effects = !state.arm.effects.empty();
   Rows3 out(at.q.rows(), 3);
@@ -87,7 +87,7 @@ Rows3 predict_points(const ArmState& state, const RowsN& q) {
 Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured) {
   const MeasuredArm arm(state.arm);
   const auto sensors = temperature_names(state.arm);
-  const Placed placed(state);
+  const SetupPoses placed(state);
   Eigen::VectorXd out(measured.q.rows());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const auto setup = static_cast<std::size_t>(setup_of(measured, i));

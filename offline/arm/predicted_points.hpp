@@ -11,14 +11,14 @@
 
 namespace plumb::offline {
 
-/// Predicted point in the measurement frame [m], shape (n, 3), through the runtime's own code; from
-/// the controller's own positions where `at` has their departures.
+/// Predicted points in the measurement frame [m], shape (n, 3), computed by the code of the
+/// runtime. If `at` has departures of the controller's own positions, these are added.
 Rows3 predict_points(const ArmState& state, const Measurements& at);
 
-/// The same by the arm alone, where nothing but the joint positions is known; first set-up.
+/// The same if only joint positions are known, with frame and target of the first set-up.
 Rows3 predict_points(const ArmState& state, const RowsN& q);
 
-/// What is known of row `row`; the tracker stands at the origin of the measurement frame.
+/// The context of row `row`. The tracker stands at the origin of the measurement frame.
 MeasuredContext context_of(const Measurements& at, Eigen::Index row,
                            const std::vector<std::string>& sensors, const Transformd& X_MB);
 
@@ -28,7 +28,8 @@ Eigen::VectorXd turn_errors(const ArmState& state, const Measurements& measured)
 /// measured - predicted [m]; missing axes are 0.
 Rows3 residuals(const Measurements& measured, const Rows3& predicted);
 
-/// Rotates measurement-frame vectors into the base frame, row by row of `at`.
+/// Rotates vectors from the measurement frame to the base frame; row i is of the set-up of row i of
+/// `at`.
 Rows3 to_base(const ArmState& state, const Measurements& at, const Rows3& v_M);
 
 }  // namespace plumb::offline
