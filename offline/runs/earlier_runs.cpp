@@ -27,7 +27,7 @@ bool seems_fitted(const Cell& cell, const MeasurementFiles& measured) {
           read_file(cell.directory / "runs" / fmt::format("{:04}", number) / "run.json")));
       return !run.recheck && is_of_data(run, measured) && is_of_cell(run, cell);
     } catch (const std::exception&) {
-      return false;  // whoever loads it says what is wrong
+      return false;  // the error is reported when the run is loaded
     }
   });
 }
@@ -40,7 +40,7 @@ std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const Measureme
       Run run = load_run(cell, number);
       if (is_of_data(run, measured)) out.push_back(std::move(run));
     } catch (const Failure&) {
-      continue;  // damaged: no step of this model
+      continue;  // a damaged run is passed over
     }
   }
   return out;
@@ -55,7 +55,7 @@ std::vector<Run> rechecks_of(const Run& calibrated, const Cell& cell) {
       Run run = load_run(cell, number);
       if (joins_line(run, line)) out.push_back(std::move(run));
     } catch (const Failure&) {
-      continue;  // damaged: it cannot be drawn
+      continue;  // a damaged run is passed over
     }
   }
   return out;

@@ -12,16 +12,16 @@ namespace plumb::offline {
 /// Whether a run was made from exactly these files.
 bool is_of_data(const Run& run, const MeasurementFiles& measured);
 
-/// Whether a run is of the present cell and data, as run.json says, before the poses of any are
-/// read.
+/// Whether there seems to be a run of the present cell and data. Reads only run.json of each run,
+/// and neither its predictions nor its check sums.
 bool seems_fitted(const Cell& cell, const MeasurementFiles& measured);
 
-/// Runs before this one that are of the same data and can be read, oldest first: the steps by which
-/// a model may have grown. Cost: every run before it is read.
+/// The readable runs of the same data before `last`, oldest first, by which the model may have
+/// grown. Cost: reads every run before it.
 std::vector<Run> earlier_runs(const Run& last, const Cell& cell, const MeasurementFiles& measured);
 
-/// Rechecks of this calibration, and of its rechecks, that can be read, oldest first. Cost: every
-/// run after it is read.
+/// The readable rechecks of this calibration and of its rechecks, oldest first. Cost: reads every
+/// run after it.
 std::vector<Run> rechecks_of(const Run& calibrated, const Cell& cell);
 
 }  // namespace plumb::offline

@@ -4,8 +4,8 @@
 #include "noise/error_stats.hpp"
 #include "program/json.hpp"
 
-/// What the kept files of fits and fleets have in common. SI; reading throws
-/// nlohmann::json::exception on other content.
+/// Parts that the JSON files of fits and fleets share. SI. Reading throws nlohmann::json::exception
+/// if the content is of another form.
 namespace plumb::offline {
 
 inline Json to_json(const ErrorStats& s) {

@@ -93,7 +93,7 @@ void from_json(const Json& j, Tree& tree) {
                           .high = n.at(3).get<std::int16_t>()});
   j.at("coefficients").get_to(tree.coefficients);
   j.at("bounds").get_to(tree.bounds);
-  if (!j.contains("degree")) return;  // runs of before are crisp and affine
+  if (!j.contains("degree")) return;  // trees of earlier versions are crisp and affine
   j.at("blend_half_width").get_to(tree.blend_half_width);
   j.at("degree").get_to(tree.degree);
   j.at("directions").get_to(tree.directions);

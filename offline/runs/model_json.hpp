@@ -5,7 +5,8 @@
 
 #include "plumb/format/model.hpp"
 
-/// Model structs as JSON for the run store: SI, full precision, reads back to the same bits.
+/// Model structs as JSON for the run store, in SI and with full precision: reading gives the same
+/// bits.
 namespace plumb::format {
 
 void to_json(nlohmann::ordered_json& j, const Pose& pose);

@@ -86,7 +86,7 @@ Estimate estimate_from(const Json& j) {
           .std = j.at("std")};
 }
 
-/// Frame and target of the second set-up and those after it.
+/// Frames and targets of all set-ups after the first.
 Json to_json(const std::vector<ArmState::Placing>& more) {
   Json out = Json::array();
   for (const auto& p : more)

@@ -9,23 +9,23 @@
 
 namespace plumb::offline {
 
-/// run.json: everything of a run but the poses. SI, full precision.
+/// run.json: everything of a run except the poses. SI, full precision.
 nlohmann::ordered_json run_to_json(const Run& run);
 
-/// The reverse. Throws nlohmann::json::exception on content that is not a run.
+/// Reads run.json. Throws nlohmann::json::exception if the content is not a run.
 Run run_from_json(const nlohmann::ordered_json& j);
 
 /// noise_floor.json: the noise floor as a diagnosis of the model found it. SI.
 nlohmann::ordered_json floor_to_json(const NoiseFloor& floor);
 
-/// The reverse. Throws as `run_from_json`, or Failure (kInput) on another schema.
+/// Reads noise_floor.json. Throws as `run_from_json`, or Failure (kInput) if the schema is another.
 NoiseFloor floor_from_json(const nlohmann::ordered_json& j);
 
 /// predictions.csv: pose, set, fold, predicted point, and in `note` the digest of the reading.
 std::string predictions_to_csv(const Measurements& measured, const Fit& fit);
 
-/// Fills split and predictions of `fit` from predictions.csv, and returns its SHA-256 sum.
-/// Throws Failure (kInput) if it is damaged.
+/// Fills split and predictions of `fit` from predictions.csv, and returns the SHA-256 sum of the
+/// file. Throws Failure (kInput) if the file is damaged.
 std::string predictions_from_csv(const std::filesystem::path& file, Fit& fit);
 
 }  // namespace plumb::offline

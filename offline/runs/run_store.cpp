@@ -40,7 +40,7 @@ std::vector<format::InputHash> inputs_of(const MeasurementFiles& measured) {
                                        display_name(file.parent_path())});
 }
 
-/// What is wrong with the text, and in which line, without the words of the parser.
+/// Describes a syntax error with its line, in place of the message of the parser.
 std::string unreadable(const std::string& text, const nlohmann::json::parse_error& error) {
   const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
   const auto line =
@@ -51,7 +51,7 @@ std::string unreadable(const std::string& text, const nlohmann::json::parse_erro
              : fmt::format("was changed after it was written: line {} is no JSON", line);
 }
 
-/// A member that lacks, or holds another kind of value than that of a run.
+/// Describes a member that is missing or holds another kind of value than a run does.
 std::string unexpected(const nlohmann::json::exception& error) {
   const std::string what = error.what();
   const auto open = what.find('\''), close = what.rfind('\'');
@@ -84,7 +84,7 @@ nlohmann::ordered_json parsed(const fs::path& file, const std::string& text) {
 constexpr const char* kNoiseFloor = "noise_floor.json";
 constexpr std::string_view kDraft = ".draft-";
 
-/// The process that makes a run in that folder; 0 if it is no draft.
+/// Number of the process that is writing a run in that folder; 0 if the folder is no draft.
 int maker_of(const fs::path& folder) {
   const std::string name = folder.filename().string();
   int maker = 0;
@@ -94,7 +94,7 @@ int maker_of(const fs::path& folder) {
   return read.ec == std::errc{} && read.ptr == end && maker > 0 ? maker : 0;
 }
 
-/// What a crash left behind, or a process of our own number before us.
+/// Removes drafts of processes that have ended, or that had our own number before us.
 void remove_dead_drafts(const fs::path& runs) {
   std::error_code error;
   std::vector<fs::path> dead;
@@ -106,11 +106,12 @@ void remove_dead_drafts(const fs::path& runs) {
   for (const auto& draft : dead) fs::remove_all(draft, error);
 }
 
-/// The folder in which a run is made before it gets its number; gone if it never does. What denies
-/// it is the folder that is there: runs/, or the cell's own.
-class Draft {
+/// The folder in which a run is written before it is renamed to its number. The destructor removes
+/// it if that did not happen. If it cannot be created, the error names the existing folder above
+/// it: runs/, or that of the cell.
+class DraftFolder {
  public:
-  explicit Draft(const Cell& cell) {
+  explicit DraftFolder(const Cell& cell) {
     const fs::path runs = runs_folder(cell);
     std::error_code error;
     fs::create_directories(runs, error);
@@ -121,19 +122,20 @@ class Draft {
     fs::create_directory(folder_, error);
     if (error) cannot_write(runs, error.message(), runs);
   }
-  ~Draft() {
+  ~DraftFolder() {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
-  Draft(const Draft&) = delete;
-  Draft& operator=(const Draft&) = delete;
+  DraftFolder(const DraftFolder&) = delete;
+  DraftFolder& operator=(const DraftFolder&) = delete;
   const fs::path& folder() const { return folder_; }
 
  private:
   fs::path folder_;
 };
 
-/// A full disk is said of the run, not of the folder that it is made in.
+/// Writes a file of the draft. The message of an error names the folder of the run instead of that
+/// of the draft.
 void write_part(const fs::path& draft, const fs::path& run, const char* name,
                 const std::string& bytes) {
   try {
@@ -171,11 +173,11 @@ Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit) {
 namespace {
 
 Run saved(const Cell& cell, const MeasurementFiles& measured, Run run) {
-  const Draft draft(cell);
+  const DraftFolder draft(cell);
   const std::string predictions = predictions_to_csv(measured, run.fit);
   std::error_code error;
   const auto numbers = list_runs(cell);
-  // Another fit may take the number between the look and the rename: then the next one is ours.
+  // Another process may take the number before the rename; the next number is tried then.
   for (run.number = numbers.empty() ? 1 : numbers.back() + 1;; ++run.number) {
     run.directory = run_folder(cell, run.number);
     write_part(draft.folder(), run.directory, "predictions.csv", predictions);
@@ -212,8 +214,8 @@ std::optional<NoiseFloor> diagnosed_floor(const Run& run) {
 
 namespace {
 
-/// What the estimates of a run that was read are numbers of, in their order; none if the cell does
-/// not have all of them any more.
+/// The parameters of the estimates of a run that was read, in their order; empty if the cell no
+/// longer has one of them.
 std::vector<Parameter> parameters_by_name(const Cell& cell, const Calibration& c) {
   auto known = candidate_parameters(cell, Orientation::kUsed);
   const auto of_effects = effect_parameters(c.state.arm);
@@ -222,7 +224,7 @@ std::vector<Parameter> parameters_by_name(const Cell& cell, const Calibration& c
   for (const Estimate& estimate : c.estimates) {
     const auto at = std::find_if(known.begin(), known.end(),
                                  [&](const Parameter& p) { return p.name == estimate.name; });
-    // A recheck may have found a bent link, or that a tracker moved whose place the cell gives.
+    // A recheck may have fitted a bent link, or the frame of a tracker that the cell gives.
     auto number = at == known.end() ? robot_parameter(cell.nominal, estimate.name)
                                     : std::optional<Parameter>(*at);
     if (!number) number = placing_parameter(estimate.name);
@@ -316,13 +318,13 @@ Run latest_recheck(const Cell& cell, Run run) {
 }
 
 std::optional<Run> left_out_recheck(const Cell& cell, const Run& run) {
-  std::vector<int> known{run.number};  // this run and those it goes back to
+  std::vector<int> known{run.number};  // numbers of this run and of those it goes back to
   Run start = run;
   for (; start.recheck; known.push_back(start.number))
     start = load_run(cell, start.recheck->parent);
   const auto numbers = list_runs(cell);
   for (auto it = numbers.rbegin(); it != numbers.rend(); ++it) {
-    if (run.recheck && *it <= run.number) break;  // the arm was looked at again since
+    if (run.recheck && *it <= run.number) break;  // `run` itself was made after it
     if (std::find(known.begin(), known.end(), *it) != known.end()) continue;
     try {
       Run other = load_run(cell, *it);
@@ -330,7 +332,7 @@ std::optional<Run> left_out_recheck(const Cell& cell, const Run& run) {
           calibrated_run(cell, other).inputs == start.inputs)
         return other;
     } catch (const Failure&) {
-      continue;  // a damaged run says nothing
+      continue;  // a damaged run is passed over
     }
   }
   return std::nullopt;

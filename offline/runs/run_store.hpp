@@ -10,48 +10,50 @@
 
 namespace plumb::offline {
 
-/// The run that `save_run` would keep, not kept: number 0.
+/// The run that `save_run` would store, without storing it; its number is 0.
 Run draft_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
-/// Writes the next run; all or nothing.
+/// Stores the next run. Either all of its files are written or none.
 Run save_run(const Cell& cell, const MeasurementFiles& measured, Fit fit);
 
-/// The same of a recheck; `measured` are its readings.
+/// Stores a recheck; `measured` are its new readings.
 Run save_recheck(const Cell& cell, const MeasurementFiles& measured, Fit fit, RecheckOf recheck);
 
-/// Keeps the noise floor that a diagnosis of the model of a kept run found, with the scatter of the
-/// joints in it: from then on it is the floor of this run.
+/// Stores the noise floor that a diagnosis of the model of a stored run found, including the floor
+/// that the scatter of the joints implies. `load_run` takes the latter over.
 void save_floor(const Run& run, const NoiseFloor& floor);
 
-/// That floor; nothing if the model was never diagnosed.
+/// The floor that `save_floor` stored; nothing if the model was never diagnosed.
 std::optional<NoiseFloor> diagnosed_floor(const Run& run);
 
-/// The number of every run, oldest first, whether it can be read or not.
+/// The numbers of all runs, oldest first, including those that cannot be read.
 std::vector<int> list_runs(const Cell& cell);
 
-/// Throws Failure (kInput) if there is no such run or a file of it was edited or cut off.
+/// Reads a run. Throws Failure (kInput) if there is no such run, or if one of its files was edited
+/// or cut off.
 Run load_run(const Cell& cell, int number);
 
-/// Whether the run was made of what a fit reads of this cell.
+/// Whether the run was made from this cell: everything that a fit reads of cell.toml is unchanged.
 bool is_of_cell(const Run& run, const Cell& cell);
 
-/// The latest run of the present cell and data, rechecks not counted. Throws on a damaged later
-/// one: was it that?
+/// The latest run of the present cell and data that is no recheck. Throws Failure (kInput) if a
+/// later run is damaged, because that may be the latest one.
 std::optional<Run> current_run(const Cell& cell, const MeasurementFiles& measured);
 
-/// Whether a run is a recheck of one of these; then its number is added to them.
+/// Whether `later` is a recheck of one of the runs with these numbers; its number is then added to
+/// them.
 bool joins_line(const Run& later, std::vector<int>& line);
 
-/// What is known of the arm now: the latest recheck that goes back to this run, or the run itself.
-/// Throws on a damaged later one.
+/// The latest model of the arm: the last recheck that goes back to this run, or the run itself.
+/// Throws Failure (kInput) if a later run is damaged.
 Run latest_recheck(const Cell& cell, Run run);
 
-/// The latest recheck that found the arm changed and that this run does not go back to, though both
-/// go back to the same readings of a calibration: the run is of the arm before. Damaged runs
-/// are passed over.
+/// The latest recheck that found the arm changed but that `run` does not go back to, although both
+/// go back to the same readings of a calibration. If there is one, `run` describes the arm before
+/// the change. Damaged runs are passed over.
 std::optional<Run> left_out_recheck(const Cell& cell, const Run& run);
 
-/// The calibration that a recheck goes back to; a run that is no recheck is returned as it is.
+/// The calibration that a recheck goes back to. A run that is no recheck is returned unchanged.
 Run calibrated_run(const Cell& cell, Run run);
 
 }  // namespace plumb::offline
