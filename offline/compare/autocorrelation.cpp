@@ -3,13 +3,12 @@
 
 #include <cmath>
 
+#include "compare/constants.hpp"
+
 namespace plumb::offline::compare {
 namespace {
 
-constexpr int kFewest = 8;
-constexpr double k95 = 1.959964;
-
-/// Distances with every joint in units of its own spread.
+/// As Autocorrelation::closeness, with every joint in units of its standard deviation.
 double closeness(const Series& series, const RowsN& q) {
   const RowsN visited = q(series.first_row, Eigen::all);
   const Eigen::RowVectorXd mean = visited.colwise().mean();
@@ -35,7 +34,7 @@ double lag_one(const Rows3& e) {
 
 Autocorrelation autocorrelation(const Series& series, const RowsN& q) {
   Autocorrelation out;
-  if (series.size() < kFewest) return out;
+  if (series.size() < kFewestForAutocorrelation) return out;
   const Rows3 e = series.error_M.rowwise() - series.error_M.colwise().mean();
   const Eigen::Matrix3d S = e.transpose() * e;
   if (!(S.trace() > 0.0)) return out;

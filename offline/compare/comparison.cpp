@@ -12,7 +12,7 @@
 namespace plumb::offline::compare {
 namespace {
 
-/// Errors at all poses: out of sample where a pose was held out, and of the final model.
+/// Errors at all poses: out of fold where a pose was held out, and those of the final model.
 struct Errors {
   Rows3 judged_M;  // out of fold where held out
   Rows3 final_M;
@@ -96,14 +96,14 @@ Comparison comparison(const Cell& cell, const Measurements& measured, const Fit&
   });
   const ArmState& state = fit.calibration.state;
   out.profiles = profiles(cell, measured, state, samples_of(measured, errors, out.set));
-  // Leaves gross outliers out: they would pass for a jump.
+  // Without gross outliers, which would look like a jump.
   const auto alike = [&](const std::vector<int>& all) {
     return without_outliers(without_outliers(all, fit.calibration.outliers), fit.held_outliers);
   };
   out.lack_of_fit =
       lack_of_fit(measured, errors.final_M, alike(errors.fit), fitted_numbers(fit), fit.floor);
   Series in_order = series(measured, errors.judged_M, alike(errors.used));
-  errors = {};  // a tenth of what a million poses take from here on
+  errors = {};  // frees a tenth of the memory that a million poses take
   out.order = autocorrelation(in_order, measured.q);
   const StepMotions motions(state, measured, std::move(in_order));
   out.joints = joint_shares(motions, measured.q);

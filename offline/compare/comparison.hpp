@@ -15,7 +15,7 @@
 
 namespace plumb::offline::compare {
 
-/// A pose and how far the model misses it. SI, measurement frame; measured - predicted.
+/// A pose and its error, measured - predicted, in the measurement frame. SI.
 struct PoseError {
   int row = 0;
   std::string pose;
@@ -23,7 +23,7 @@ struct PoseError {
   bool held = false;
 };
 
-/// Model against measurements: how far, where, since when.
+/// Model against measurements: how large the errors are, where, and since when.
 struct Comparison {
   enum class Set { kHeldOut, kFit } set = Set::kHeldOut;  // what is judged
   ErrorStats stats;                                       // of that set

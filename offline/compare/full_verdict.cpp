@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "arm/predicted_points.hpp"
+#include "compare/constants.hpp"
 #include "compare/joint_shares.hpp"
 #include "fit/verdict.hpp"
 #include "noise/repeatability.hpp"
@@ -15,8 +16,6 @@
 namespace plumb::offline::compare {
 namespace {
 
-constexpr double kClearShare = 0.15;  // of the squared error: scatter itself shows up to a tenth
-
 /// Whether a function of one joint's angle explains a clear part of the error. Scatter hardly does.
 bool depends_on_a_joint(const Measurements& measured, const Fit& fit,
                         const std::vector<int>& rows) {
@@ -24,7 +23,7 @@ bool depends_on_a_joint(const Measurements& measured, const Fit& fit,
   const StepMotions motions(fit.calibration.state, measured, series(measured, error_M, rows));
   const auto shares = joint_shares(motions, measured.q);
   return std::any_of(shares.begin(), shares.end(),
-                     [](const auto& s) { return s.matters && s.share > kClearShare; });
+                     [](const auto& s) { return s.matters && s.share > kClearJointShare; });
 }
 
 }  // namespace

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/constants.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {
-
-constexpr int kMostJointBins = 12, kPosesPerJointBin = 15;
-constexpr double kJointChance = 0.01;
 
 JointShare share_of(const StepMotions& motions, int joint, const Eigen::VectorXd& angle) {
   JointShare out;
@@ -48,10 +46,11 @@ std::vector<JointShare> joint_shares(const StepMotions& motions, const RowsN& q)
   const RowsN used = q(motions.rows(), Eigen::all);
   for (int j = 0; j < motions.joints(); ++j) {
     const Eigen::VectorXd angle = used.col(j);
-    if (!motions.turns(j) || !(angle.maxCoeff() - angle.minCoeff() > 1e-6)) continue;
+    if (!motions.turns(j) || !(angle.maxCoeff() - angle.minCoeff() > kJointMoves_rad)) continue;
     out.push_back(share_of(motions, j, angle));
   }
-  for (auto& s : out) s.matters = s.ln_p < std::log(kJointChance / static_cast<double>(out.size()));
+  for (auto& s : out)
+    s.matters = s.ln_p < std::log(kPatternChance / static_cast<double>(out.size()));
   return out;
 }
 

@@ -4,21 +4,22 @@
 #include <algorithm>
 
 #include "cell/group_rows.hpp"
+#include "compare/constants.hpp"
 #include "noise/repeat_groups.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {
 
-constexpr double kKnownExactly = 1e7;  // degrees of freedom of a stated sigma
-
-struct Squares {
+/// Sums of squares of the means of groups of repeats and within the groups.
+struct GroupSquares {
   double model = 0.0, pure = 0.0;
-  int groups = 0, repeats = 0;  // of repeats, and readings beyond the first
+  int groups = 0, repeats = 0;  // repeats: readings beyond the first of each group
 };
 
-Squares squares_of(const Measurements& measured, const Rows3& error, const std::vector<int>& rows) {
-  Squares out;
+GroupSquares squares_of(const Measurements& measured, const Rows3& error,
+                        const std::vector<int>& rows) {
+  GroupSquares out;
   visit_groups(repeat_groups(measured), rows, [&](std::span<const int> members) {
     Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
     const auto n = static_cast<double>(members.size());
@@ -33,13 +34,15 @@ Squares squares_of(const Measurements& measured, const Rows3& error, const std::
 
 }  // namespace
 
+bool LackOfFit::significant() const { return basis != Basis::kNone && ln_p < kLackOfFit_ln_p; }
+
 LackOfFit lack_of_fit(const Measurements& measured, const Rows3& fit_error_M,
                       const std::vector<int>& rows, int parameters, const NoiseFloor& floor) {
   using Basis = LackOfFit::Basis;
   LackOfFit out;
   const auto axes =
       static_cast<int>(std::count(measured.has_axis.begin(), measured.has_axis.end(), true));
-  const Squares s = squares_of(measured, fit_error_M, rows);
+  const GroupSquares s = squares_of(measured, fit_error_M, rows);
   const bool repeated = s.repeats >= kEnoughRepeats && s.pure > 0.0;
   if (!repeated && !(floor.sigma_m > 0.0)) return out;
   out.dof_model = axes * (repeated ? s.groups : s.groups + s.repeats) - parameters;

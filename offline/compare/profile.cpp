@@ -5,22 +5,19 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/constants.hpp"
 #include "numbers/tails.hpp"
 
 namespace plumb::offline::compare {
 namespace {
 
-constexpr int kMostBins = 6;
-constexpr int kPosesPerBin = 8;  // fewer poses make wider bins
-constexpr double kProfileChance = 0.01;
-
-struct Range {
+struct ValueRange {
   double low = std::numeric_limits<double>::max(), high = -std::numeric_limits<double>::max();
   int count = 0;
 };
 
-Range range_of(const std::vector<Sample>& samples) {
-  Range out;
+ValueRange range_of(const std::vector<Sample>& samples) {
+  ValueRange out;
   for (const auto& s : samples) {
     if (std::isnan(s.value)) continue;
     out.low = std::min(out.low, s.value);
@@ -30,7 +27,7 @@ Range range_of(const std::vector<Sample>& samples) {
   return out;
 }
 
-std::vector<ErrorBin> empty_bins(const Range& range, const std::vector<double>& labels) {
+std::vector<ErrorBin> empty_bins(const ValueRange& range, const std::vector<double>& labels) {
   std::vector<ErrorBin> out;
   for (const double label : labels) out.push_back({.from = label, .to = label});
   if (!labels.empty()) return out;
@@ -43,7 +40,7 @@ std::vector<ErrorBin> empty_bins(const Range& range, const std::vector<double>& 
   return out;
 }
 
-/// The bin of a value; -1: none.
+/// Index of the bin of a value; -1 if it has none.
 int bin_of(double value, const std::vector<ErrorBin>& bins, const std::vector<double>& labels) {
   if (std::isnan(value)) return -1;
   if (!labels.empty()) {
@@ -89,7 +86,7 @@ void explain(const std::vector<Sample>& samples, const std::vector<int>& bin, Er
   if (n <= filled || filled < 2.0) return;
   const double mean_part = total * total / n;
   const double whole = squares - mean_part, left = squares - between;
-  // Errors that are all alike differ by rounding only.
+  // Errors whose variance is due to rounding only are equal.
   if (!(whole > 1e-20 * squares) || !(left > 0.0)) return;
   out.explained = (between - mean_part) / whole;
   out.ln_p = f_test(between - mean_part, filled - 1.0, left, n - filled).ln_p;
@@ -109,7 +106,7 @@ double ErrorProfile::contrast() const {
 
 ErrorProfile profile(ErrorProfile out, const std::vector<Sample>& samples,
                      const std::vector<double>& labels) {
-  const Range range = range_of(samples);
+  const ValueRange range = range_of(samples);
   if (range.count == 0) return out;
   out.bins = empty_bins(range, labels);
   std::vector<int> bin(samples.size(), -1);
@@ -125,9 +122,9 @@ ErrorProfile profile(ErrorProfile out, const std::vector<Sample>& samples,
   return out;
 }
 
-void judge(std::vector<ErrorProfile>& profiles) {
+void set_matters(std::vector<ErrorProfile>& profiles) {
   const double limit =
-      std::log(kProfileChance / static_cast<double>(std::max<std::size_t>(1, profiles.size())));
+      std::log(kPatternChance / static_cast<double>(std::max<std::size_t>(1, profiles.size())));
   for (auto& p : profiles) p.matters = p.ln_p < limit;
 }
 

@@ -6,13 +6,13 @@
 
 namespace plumb::offline::compare {
 
-/// Errors of the poses between `from` and `to` of some quantity. Fit poses count apart: their
-/// mean is never accuracy.
+/// Errors of the poses at which a quantity lies between `from` and `to`. Fitted poses are counted
+/// separately, because their error is in-sample.
 struct ErrorBin {
   double from = 0.0, to = 0.0;  // SI, [degC], or rows of the file
-  int n = 0;                    // poses of the set that is judged
+  int n = 0;                    // poses of the judged set
   double mean_m = 0.0;          // their mean error; 0 if n == 0
-  int fit_n = 0;                // the fitted ones
+  int fit_n = 0;                // fitted poses
   double fit_mean_m = 0.0;
 };
 
@@ -33,11 +33,11 @@ struct ErrorProfile {
   } unit = Unit::kAngle;
   std::vector<ErrorBin> bins;
   std::vector<std::string> names = {};  // kName: of the values 0, 1, 2 ...
-  double explained = 0.0;  // share of the variance of the error's size that the bins explain
-  double ln_p = 0.0;       // ln of the probability of so much if the quantity did not matter
-  bool matters = false;    // beyond chance, all profiles counted
+  double explained = 0.0;  // share of the variance of the error size that the bins explain
+  double ln_p = 0.0;       // ln of its probability if the error did not depend on the quantity
+  bool matters = false;    // beyond chance, corrected for the number of profiles
 
-  /// Highest over lowest bin mean; 1 if fewer than two bins are filled.
+  /// Highest bin mean over the lowest; 1 if fewer than two bins are filled.
   double contrast() const;
 };
 
@@ -47,16 +47,18 @@ struct Sample {
   double error_m = 0.0;
   enum class Set { kJudged, kFitted, kBoth } set = Set::kJudged;
   double fit_error_m = 0.0;  // of kFitted and kBoth: in-sample
-  bool repeat = false;       // of a pose that another sample stands for: no evidence of its own
+  bool repeat = false;       // another sample is of the same pose, so this one is no evidence
 };
 
-/// Equal steps between the extremes of the quantity, at most 6, with 8 poses each on average;
-/// With `labels`: one bin for each of these values instead. Samples without a value (NaN) are left
-/// out. explained and ln_p: one-way analysis of variance of error_m over all samples but repeats.
+/// Fills bins of equal width between the extremes of the quantity: at most 6, with at least 8 poses
+/// each on average. With `labels`, one bin for each of these values instead. Samples without a
+/// value (NaN) are left out. `explained` and `ln_p` come from a one-way analysis of variance of
+/// error_m over all samples except repeats.
 ErrorProfile profile(ErrorProfile empty, const std::vector<Sample>& samples,
                      const std::vector<double>& labels = {});
 
-/// Sets `matters` where the chance is below 1 %, shared among all profiles [Bonferroni].
-void judge(std::vector<ErrorProfile>& profiles);
+/// Sets `matters` of profiles whose probability by chance is below 1 % over the number of profiles
+/// [Bonferroni].
+void set_matters(std::vector<ErrorProfile>& profiles);
 
 }  // namespace plumb::offline::compare

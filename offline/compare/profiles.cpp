@@ -6,6 +6,7 @@
 
 #include "arm/effect_binding.hpp"
 #include "cell/setups.hpp"
+#include "compare/constants.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "plumb/runtime/detail/loads.hpp"
 
@@ -14,8 +15,6 @@ namespace {
 
 using Kind = ErrorProfile::Kind;
 using Unit = ErrorProfile::Unit;
-
-constexpr double kVaries = 1e-6;  // of the largest value
 
 class Profiler {
  public:
@@ -92,7 +91,8 @@ class Profiler {
     const RowsN torque = torques_of(mechanics);
     for (int j = 0; j < cell_.joints(); ++j) {
       if (cell_.nominal.joints[j].type == format::JointType::kPrismatic) continue;
-      if (torque.col(j).maxCoeff() - torque.col(j).minCoeff() < 1e-3 * torque.cwiseAbs().maxCoeff())
+      if (torque.col(j).maxCoeff() - torque.col(j).minCoeff() <
+          kTorqueVaries * torque.cwiseAbs().maxCoeff())
         continue;
       add_if_it_varies(
           Kind::kLoad,
@@ -143,7 +143,7 @@ class Profiler {
     add(Kind::kOrder, "order", Unit::kRow, [](int row) { return row + 1.0; });
   }
 
-  /// A day on which something went wrong stands out.
+  /// By set-up: a day on which something went wrong then stands out.
   void setups() {
     const MeasurementSettings& m = cell_.measurement;
     if (measured_.setup.empty() || setup_count(m) < 2) return;
@@ -171,7 +171,7 @@ class Profiler {
 std::vector<ErrorProfile> profiles(const Cell& cell, const Measurements& measured,
                                    const ArmState& state, const SamplesOf& samples) {
   auto out = Profiler(cell, measured, state, samples).all();
-  judge(out);
+  set_matters(out);
   return out;
 }
 

@@ -10,13 +10,13 @@
 
 namespace plumb::offline::compare {
 
-/// Samples of the used poses for the value that a row has.
+/// Makes the samples of all used poses from the value of a quantity at each row.
 using SamplesOf = std::function<std::vector<Sample>(const std::function<double(int row)>&)>;
 
-/// By joint angle; by region as seen from the base (reach, height, azimuth); by load (payload,
-/// torque of gravity on each turning joint, of 1 kg at the tool if no mass is known); by context
-/// (side from which each joint came, temperatures, time); and by order. What never varies is left
-/// out, except joints.
+/// Profiles by joint angle; by region as seen from the base (reach, height, azimuth); by load
+/// (payload, torque of gravity on each turning joint, of 1 kg at the flange if no mass is known);
+/// by context (side from which each joint came, temperatures, time); by order; and by set-up.
+/// Quantities that do not vary are left out, except joint angles.
 std::vector<ErrorProfile> profiles(const Cell& cell, const Measurements& measured,
                                    const ArmState& state, const SamplesOf& samples);
 

@@ -46,12 +46,12 @@ TEST(Profile, ADependenceMattersAndNoneDoesNot) {
   int false_alarms = 0;
   for (int k = 0; k < count; ++k) {
     std::vector<ErrorProfile> one{profile({}, samples(random, 60, 0.0))};
-    judge(one);
+    set_matters(one);
     false_alarms += one[0].matters ? 1 : 0;
   }
   EXPECT_LT(false_alarms, 0.02 * count);
   std::vector<ErrorProfile> one{profile({}, samples(random, 600, 1.0))};
-  judge(one);
+  set_matters(one);
   EXPECT_TRUE(one[0].matters);
   // x^2 on [-1, 1] has variance 4/45; six equal bins see bin means of it only.
   const double whole = 1e-8 * 4.0 / 45.0 + 1e-10;
