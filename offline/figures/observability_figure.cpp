@@ -11,6 +11,7 @@
 #include "draw/sheet.hpp"
 #include "figures/words.hpp"
 #include "noise/noise_floor.hpp"
+#include "noise/weights.hpp"
 #include "numbers/cholesky.hpp"
 #include "plan/design_space.hpp"
 #include "plan/information.hpp"
@@ -25,7 +26,6 @@ using draw::Tone;
 
 constexpr double kLogFall = 10.0;  // from the first to the last sigma: a logarithmic axis
 constexpr int kPool = 800, kJudged = 200;
-constexpr double kUsualReading_m = 10e-6;  // 1 sigma per axis if nothing is known of it
 constexpr std::uint64_t kPoolSeed = 1, kRandomSeed = 77, kJudgedSeed = 78;
 
 /// G = A M^-1 A^T of some poses, A the whitened derivatives of one. Kept up to date while readings
@@ -108,7 +108,7 @@ std::vector<PoseGain> gains_of(Gains poses, Gains judged, Eigen::MatrixXd covari
 /// As a plan takes it: by the repeats, or as stated; not what the model misses.
 double reading_sigma(const Cell& cell, const Measurements& used) {
   const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
-  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUsualReading_m);
+  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
 }
 
 std::string growth_sentence(const InformationGrowth& growth) {

@@ -49,7 +49,7 @@ bool moves_in_space(const Cell& cell) {
   return false;
 }
 
-/// W-CSV-AXES: the error of two axes, say, looks smaller than that of the point in space.
+/// W-CSV-AXES: an error of two axes looks smaller than that of the point in space.
 void warn_of_missing_axes(const Cell& cell, MeasurementFiles& measured) {
   std::string missing, given;
   for (int k = 0; k < 3; ++k) {

@@ -16,7 +16,7 @@ const char* name_of(MeasuredOrientations::Kind kind);
 /// to say. meant: descriptions of the readings that fit.
 std::string in_words(const MeasuredOrientations& judged, const std::vector<std::string>& meant);
 
-/// What the user can do about it; empty if nothing.
+/// What the user can do about it; empty if there is nothing to do.
 std::string remedy(const MeasuredOrientations& judged);
 
 /// The value that sigma_urad should have, with two digits.

@@ -14,9 +14,9 @@
 ///   cost      bounds the time of the search
 ///   chosen    chosen by judgement; no study varied it, and no record says that one set it
 ///
-/// kEnoughRepeats (noise/repeat_groups.hpp), kPosesOfScatter (noise/joint_scatter.hpp) and
-/// kSmallestSigma_m (noise/weights.hpp) are read by other rooms and stand there. When a reading is
-/// an outlier, solve/constants.hpp says.
+/// kEnoughRepeats (noise/repeat_groups.hpp), kPosesOfScatter (noise/joint_scatter.hpp), and
+/// kSmallestSigma_m and kUnstatedSigma_m (noise/weights.hpp) are used by other rooms and stand
+/// there. solve/constants.hpp defines when a reading is an outlier.
 namespace plumb::offline {
 
 // Noise floor.
@@ -24,9 +24,6 @@ namespace plumb::offline {
 /// Degrees of freedom of a stated sigma: it is right to some 35 %, which is 1 / sqrt(2 * 4).
 /// chosen, as the design of the diagnosis states it (nu = 4 without repeats).
 inline constexpr double kStatedDof = 4.0;
-/// 1 sigma of a coordinate where neither the files nor the cell state one [m]: a laser tracker at
-/// some metres. arms.
-inline constexpr double kUnstatedSigma_m = 10e-6;
 /// Standard deviation over the median of |x| of a normal number: 1 / 0.6745. textbook [Huber &
 /// Ronchetti 2009].
 inline constexpr double kNormalMedian = 1.4826;

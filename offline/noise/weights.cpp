@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noise/constants.hpp"
-
 namespace plumb::offline {
+
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured) {
   if (measured.sigma_m.rows() > 0) return measured.sigma_m.cwiseMax(kSmallestSigma_m);
   const double sigma = cell.measurement.sigma_m.value_or(kUnstatedSigma_m);

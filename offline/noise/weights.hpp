@@ -9,6 +9,10 @@ namespace plumb::offline {
 /// No tracker is better than this [m]. A smaller sigma, as of data without noise, is raised to it.
 inline constexpr double kSmallestSigma_m = 0.1e-6;
 
+/// 1 sigma of a coordinate if neither the files nor the cell state one [m]: that of a laser tracker
+/// at some metres.
+inline constexpr double kUnstatedSigma_m = 10e-6;
+
 /// 1 sigma of every measured coordinate, shape (n, 3) [m]: from the file's columns, else from the
 /// cell, else 10 um; never below 0.1 um.
 Rows3 stated_sigma(const Cell& cell, const Measurements& measured);

@@ -13,6 +13,7 @@
 #include "fit/calibrate.hpp"
 #include "fit/measured_orientations.hpp"
 #include "noise/noise_floor.hpp"
+#include "noise/weights.hpp"
 #include "plan/plan_steps.hpp"
 #include "solve/frame_start.hpp"
 
@@ -20,7 +21,6 @@ namespace plumb::offline {
 namespace {
 
 constexpr int kChecked = 500;
-constexpr double kUsualSigma_m = 10e-6;
 constexpr std::array<double, 3> kUsualTarget_m{0.05, 0.0, 0.1};
 
 std::vector<int> used_rows(const Measurements& measured) {
@@ -60,7 +60,7 @@ std::optional<Calibration> fitted_arm(const Cell& cell, const Measurements& used
 
 double sigma_of(const Cell& cell, const Measurements& used) {
   const double sigma = used.size() > 0 ? noise_floor(cell, used).sigma_m : 0.0;
-  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUsualSigma_m);
+  return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
 }
 
 /// The model less the two effects that are to be told apart, and less what is learnt.

@@ -87,8 +87,6 @@ inline constexpr std::array kLengths = {1e-3, 0.1, 0.2, 0.4, 0.8, 1.6};
 inline constexpr double kSamePose = 2e-3;
 /// Readings of the calibration that are compared with new ones. cost.
 inline constexpr std::size_t kMostNear = 500;
-/// No instrument is better [m]. arms.
-inline constexpr double kLeastNoise_m = 1e-7;
 /// Of the noise: what the model lacks does not matter if it is smaller. odds.
 inline constexpr double kSmallShare = 0.1;
 

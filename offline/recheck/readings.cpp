@@ -108,7 +108,7 @@ OldErrors old_errors(const Run& calibrated, const Measurements& own) {
   out.noise_m = floor.source != NoiseFloor::Source::kNone
                     ? std::min(floor.sigma_m * floor.inferred_times(), scatter)
                     : scatter;
-  out.noise_m = std::max(out.noise_m, kLeastNoise_m);
+  out.noise_m = std::max(out.noise_m, kSmallestSigma_m);
   out.lacks_m = std::sqrt(std::max(0.0, scatter * scatter - out.noise_m * out.noise_m));
   return out;
 }
