@@ -378,7 +378,7 @@ void add_likeness(const LikenessJudgement& judged, const EarlierArm& earlier, co
 
 Calibration refined(const Cell& cell, const FitData& whole, CoarseFit coarse,
                     const std::vector<Parameter>& candidates) {
-  FitData data = whole;  // with the stated sigma
+  FitData data = whole;  // its sigma is the stated one
   const ArmState nominal = nominal_state(cell, *whole.measured);
   data.rows = coarse.data.rows;
   std::optional<LikenessJudgement> judged;

@@ -10,7 +10,7 @@ namespace plumb::offline {
 /// file is missing, if an earlier run has seen these readings, or as `check_rows`.
 MeasurementFiles read_cell_measurements(const Cell& cell);
 
-/// Throws Failure (kInput, E-EFFECT-DATA) if an effect begins behind the last row.
+/// Throws Failure (kInput, E-EFFECT-DATA) if an effect begins after the last row.
 void check_rows(const Cell& cell, const Measurements& measured);
 
 }  // namespace plumb::offline

@@ -27,22 +27,23 @@ namespace plumb::offline {
 inline constexpr double kCoarseIndependence = 1e-3, kIndependence = 1e-7;
 /// Rows from which the scatter of a model, and a start for all rows, are found. cost.
 inline constexpr int kScatterRows = 4000;
-/// A second placement whose scatter is below so many times that of the best one is told as just as
-/// possible. chosen; contract (W-FIT-AMBIGUOUS).
+/// W-FIT-AMBIGUOUS is given if the scatter of a second placement is below this multiple of that of
+/// the best one. chosen; contract (W-FIT-AMBIGUOUS).
 inline constexpr double kNearlyAsGood = 1.5;
 
 // How far an arm is from nominal.
 
-/// A parameter of the arm this far from nominal [m, rad] makes the nominal value doubtful. arms;
+/// A nominal value is doubtful if its parameter ends this far from it [m, rad]. arms;
 /// contract (W-FIT-FAR).
 inline constexpr double kFar_m = 20e-3, kFar_rad = 2.0 * std::numbers::pi / 180.0;
-/// This far from nominal, the fit describes another arm. arms; contract (E-FIT-FAR).
+/// A parameter this far from nominal describes another arm. arms; contract (E-FIT-FAR).
 inline constexpr double kAnotherArm_m = 100e-3, kAnotherArm_rad = 10.0 * std::numbers::pi / 180.0;
 /// Standard deviations by which an effect must lie outside the bounds of its law. textbook: a
-/// normal number is so far off in 0.3 % of all cases.
+/// normal number is so far off, on one side, in 0.13 % of all cases.
 inline constexpr double kSureBeyond_sigma = 3.0;
 /// Mean square of the distances of an arm from the mean of its fleet, in standard deviations of the
-/// fleet, above which it is told as unlike; its expectation is 1. study (docs/fleet-study.md).
+/// fleet, above which the user is told that it is unlike; its expectation is 1. study
+/// (docs/fleet-study.md).
 inline constexpr double kUnlikeSisters = 2.0;
 
 // An earlier arm.
@@ -87,14 +88,15 @@ inline constexpr double kSameNominal = 1e-9;
 /// The largest share of the fitted readings that the earlier run may have seen. chosen; contract
 /// (E-FIT-EARLIER).
 inline constexpr double kSeenShare = 0.1;
-/// Share of the readings that may be taken out as contradicting the earlier arm. chosen.
+/// At most one in so many readings is taken out because it contradicts the earlier arm. chosen.
 inline constexpr std::size_t kOneOddOf = 10;
 
 // Held-out poses.
 
-/// Folds of held_out = "auto", up to so many poses. Of more, this share is held out, because folds
-/// take time and a fifth of so many poses is no loss. Of fewer it is: with folds the error of a
-/// real arm fell from 0.040 to 0.035 mm (2026-11-24). contract (docs/cell-file.md).
+/// held_out = "auto" makes kFolds folds of up to kFoldsUpTo poses, and holds out kHeldShare of
+/// more. Folds fit all poses, which lowered the error of a real arm from 0.040 to 0.035 mm
+/// (2026-11-24); of many poses a fifth is no loss, and folds would take time. contract
+/// (docs/cell-file.md).
 inline constexpr int kFolds = 5, kFoldsUpTo = 500;
 inline constexpr double kHeldShare = 0.2;
 /// A set-up of fewer poses is fitted as a whole: it has up to nine numbers of its own. data.
@@ -114,14 +116,15 @@ inline constexpr std::size_t kFewestForInterval = 3;
 
 /// Up to here an error is at the noise floor. chosen.
 inline constexpr double kAtTheFloor = 1.3;
-/// The same for what an earlier arm leaves open. chosen.
+/// Allowance for the sampling error where the uncertainty of an earlier arm raises the expected
+/// error. chosen.
 inline constexpr double kOpenByChance = 1.3;
-/// Below this the poses are not few: their number alone adds so little. outside.
+/// The poses are few if their number alone raises the error of a correct model to more. outside.
 inline constexpr double kFewPoses = 1.15;
-/// Clearly below the noise floor, which then is not only noise. chosen.
+/// An error below this contradicts the noise floor, which then contains more than noise. chosen.
 inline constexpr double kBelowTheFloor = 0.75;
-/// An arm whose readings say nothing may err by this much: no error is then called a lack of fit.
-/// chosen: more than any error.
+/// Unavoidable ratio if the readings cannot judge the model, so that no error is called a lack of
+/// fit. chosen: larger than any error.
 inline constexpr double kAnyError = 1e3;
 /// The largest held-out error, in tolerances, of a calibration that keeps the tolerance. outside;
 /// contract (fit/verdict.hpp).
@@ -142,7 +145,7 @@ inline constexpr double kParallel_rad = 1e-3;
 
 /// Rows that are judged: they tell a scatter to 4 % and cost less than the fit. cost.
 inline constexpr int kJudgedRows = 500;
-/// Rows and repeats below which nothing is said. data.
+/// Rows and repeats below which nothing is judged. data.
 inline constexpr int kFewestJudged = 6;
 inline constexpr std::size_t kFewestOrientationRepeats = 5;
 /// Times the stated error up to which orientations are as stated. chosen.
