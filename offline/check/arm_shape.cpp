@@ -4,20 +4,19 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "check/constants.hpp"
 #include "numbers/rotation_fit.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kFlat = 0.01;
-
 bool lie_in_a_plane(const Measurements& measured, const std::vector<int>& rows) {
   const Rows3 points = measured.p_M(rows, Eigen::all);
   const Rows3 centred = points.rowwise() - points.colwise().mean();
   const Eigen::Matrix3d spread = centred.transpose() * centred;
   const Eigen::Vector3d w = symmetric_eigenvalues(spread);
-  return std::max(0.0, w(0)) < kFlat * kFlat * w(2);
+  return std::max(0.0, w(0)) < check::kFlatShare * check::kFlatShare * w(2);
 }
 
 }  // namespace

@@ -22,7 +22,4 @@ struct ArmShape {
 ArmShape arm_shape(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                    const ArmState& state);
 
-/// A joint that uses less than this [rad] or [m] does not move.
-inline constexpr double kStill = 5e-3;
-
 }  // namespace plumb::offline

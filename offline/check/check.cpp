@@ -11,6 +11,7 @@
 #include "cell/earlier_arm.hpp"
 #include "cell/setups.hpp"
 #include "check/common_scale.hpp"
+#include "check/constants.hpp"
 #include "check/contradiction.hpp"
 #include "check/copies.hpp"
 #include "check/data_findings.hpp"
@@ -33,15 +34,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kFits = 0.01;               // of the cloud's size: no sensible arm leaves more
-constexpr double kSmallShare = 0.5;          // of the joint limits: predictions beyond are guesses
-constexpr double kFineRounding = 0.5;        // of the noise: no more than that goes unseen
-constexpr double kCoarseRounding_m = 50e-6;  // where no noise is known
-constexpr double kManyTimes = 5.0;           // the stated noise
-constexpr double kEnough = 1.5;              // coordinates for each number
+/// More warnings of one code than these are told in a single sentence.
 constexpr std::size_t kMostSentences = 4;
-constexpr double kOneChange = 1.05;  // of the labels
-constexpr int kPlacedRows = 300;
 
 std::vector<int> used_rows(const MeasurementFiles& measured) {
   std::vector<int> rows;
@@ -118,7 +112,7 @@ class Checker {
                               d.present.fitted_m * 1e3),
                   "plumb check --fix");
     for (const auto& other : d.same)
-      if (other.changes < kOneChange)
+      if (other.changes < check::kOneChange)
         find(Severity::kNote, "N-CHECK-UNDECIDED",
              fmt::format("these points cannot tell whether {}",
                          fmt::join(in_words(cell_, d.present.convention, other.convention), "; ")),
@@ -131,7 +125,7 @@ class Checker {
   void reading_fits(const Cell& cell, const MeasurementFiles& measured,
                     const std::vector<int>& rows) {
     Detection& d = out_.detection;
-    const double most = kFits * d.best.size_m;
+    const double most = check::kFits * d.best.size_m;
     if (!d.why_not.empty() || d.changed || d.best.fitted_m <= most) return;
     gross_scale_ = gross_scale(cell, measured, rows, d);
     // A full fit of all lengths can absorb a wrong unit, which must still be reported. Any other
@@ -200,8 +194,9 @@ class Checker {
     look_at_parameters(cell, measured, rows);
     reading_fits(cell, measured, rows);
     const ArmState placed =
-        out_.parameters ? out_.parameters->calibration.state
-                        : place_nominal(cell, measured, thinned(measured, rows, kPlacedRows));
+        out_.parameters
+            ? out_.parameters->calibration.state
+            : place_nominal(cell, measured, thinned(measured, rows, check::kPredictedRows));
     out_.coverage = coverage(cell, measured, rows, placed);
     out_.rounding = joint_rounding(cell, measured, rows, placed);
     add(coarse_points(measured, out_.floor));
@@ -216,7 +211,7 @@ class Checker {
   std::optional<Problem> frame_fault(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows) const {
     if (!out_.detection.why_not.empty() || out_.detection.changed) return std::nullopt;
-    return given_frame_fault(cell, measured, thinned(measured, rows, kPlacedRows));
+    return given_frame_fault(cell, measured, thinned(measured, rows, check::kPredictedRows));
   }
 
   void look_at_parameters(const Cell& cell, const MeasurementFiles& measured,
@@ -302,10 +297,9 @@ class Checker {
   /// How many of `numbers` unknowns are not known from an earlier run. The six of the frame never
   /// are.
   int open_of(int numbers) const {
-    constexpr int kPlacing = 6;
     if (!cell_.fit.earlier) return numbers;
     const int known = static_cast<int>(cell_.fit.earlier->numbers.size());
-    return std::max(std::min(numbers, kPlacing), numbers - known);
+    return std::max(std::min(numbers, check::kFrameNumbers), numbers - known);
   }
 
   /// Each distinct pose gives its measured axes once; repeats give noise only.
@@ -316,22 +310,23 @@ class Checker {
     int needed = out_.parameters->rank_anywhere;
     for (const auto& p : out_.parameters->calibration.parameters) needed += p.of_effect() ? 1 : 0;
     needed = open_of(needed);
-    if (coordinates > kEnough * needed) return;
+    if (coordinates > check::kCoordinatesEach * needed) return;
     const bool too_few = coordinates <= needed;
     find(too_few ? Severity::kError : Severity::kWarning, too_few ? "E-CHECK-FEW" : "W-CHECK-FEW",
          fmt::format(
              "{} {} coordinates for {} numbers of arm, frame and target{}",
              counted_words(static_cast<long long>(groups.size()), "pose gives", "poses give"),
              coordinates, needed, needed > out_.parameters->rank_anywhere ? " and effects" : ""),
-         fmt::format("measure at least {} poses all over the joint limits",
-                     std::max(30, 2 * needed / std::max(1, axes))));
+         fmt::format(
+             "measure at least {} poses all over the joint limits",
+             std::max(check::kAdvisedPoses, check::kAdvisedTimes * needed / std::max(1, axes))));
     if (too_few) blame(Exit::kNumbersSayNo);
   }
 
   void coverage_findings() {
     std::vector<std::string> narrow;
     for (const auto& joint : out_.coverage->joints)
-      if (joint.share < kSmallShare)
+      if (joint.share < check::kLittleOfLimits)
         narrow.push_back(fmt::format("{} ({:.0f} %)", joint.joint, 100.0 * joint.share));
     if (!narrow.empty())
       find(Severity::kWarning, "W-CHECK-COVERAGE",
@@ -347,9 +342,11 @@ class Checker {
     if (!out_.rounding) return;
     const bool known = out_.floor.source != NoiseFloor::Source::kNone;
     const double rounded = out_.rounding->at_tool_m, left = left_by_fit(measured, rows, placed);
-    if (known ? rounded < kFineRounding * out_.floor.rms_m : rounded < kCoarseRounding_m) return;
-    if (out_.parameters && left < kFineRounding * rounded) return;
-    if (!known && (!out_.parameters || left > rounded / kFineRounding)) return;
+    if (known ? rounded < check::kRoundingSeen * out_.floor.rms_m
+              : rounded < check::kCoarseRounding_m)
+      return;
+    if (out_.parameters && left < check::kRoundingLeft * rounded) return;
+    if (!known && (!out_.parameters || left > rounded / check::kRoundingLeft)) return;
     find(Severity::kWarning, "W-CHECK-ROUNDED",
          fmt::format("the joint readings are rounded to {:g} {}: that is {:.3g} mm at the tool, {} "
                      "{:.3g} mm",
@@ -367,7 +364,8 @@ class Checker {
   /// RMS 3-D error [m] of the rows that are no outliers.
   double left_by_fit(const MeasurementFiles& measured, const std::vector<int>& rows,
                      const ArmState& placed) const {
-    const Measurements some = pick(measured, thinned(measured, not_outliers(rows), kPlacedRows));
+    const Measurements some =
+        pick(measured, thinned(measured, not_outliers(rows), check::kPredictedRows));
     return std::sqrt(residuals(some, predict_points(placed, some)).squaredNorm() /
                      static_cast<double>(some.size()));
   }
@@ -400,8 +398,8 @@ class Checker {
   void repeat_findings(const Cell& cell) {
     const auto& stated = cell.measurement.sigma_m;
     if (out_.floor.source != NoiseFloor::Source::kRepeats || !stated) return;
-    const bool more = out_.floor.sigma_m >= kManyTimes * *stated;
-    const bool less = out_.floor.sigma_m * kManyTimes <= *stated;
+    const bool more = out_.floor.sigma_m >= check::kNoiseOtherwise * *stated;
+    const bool less = out_.floor.sigma_m * check::kNoiseOtherwise <= *stated;
     if (!more && !less) return;
     find(Severity::kWarning, "W-CHECK-REPEATS",
          fmt::format("repeats of a pose scatter by {:.3g} mm an axis (1 sigma), but sigma_um says "

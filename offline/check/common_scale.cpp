@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cell/units.hpp"
+#include "check/constants.hpp"
 #include "check/linear_placement.hpp"
 #include "numbers/pivoted_qr.hpp"
 #include "plumb/runtime/chain.hpp"
@@ -17,19 +18,11 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kLeastScale = 50e-6;  // less is a tracker's own accuracy
-constexpr std::size_t kFewestLengths = 5;
-constexpr double kAgree = 0.25;      // of the change: the two longest lengths ask for the same
-constexpr double kContradict = 3.0;  // times the scatter
-constexpr int kScaleMostRows = 100;
-constexpr int kScaleFewestRows = 10;
-constexpr double kScaleFits = 0.01;   // of the cloud's size
-constexpr double kSameUnit = 0.01;    // of a factor
-constexpr double kLeastGross = 0.01;  // less is found from the fitted lengths
-
 /// How many standard deviations count as certain: more if few lengths tell the scatter, because
 /// Student's t distribution then has long tails.
-double sure(std::size_t freedom) { return 5.0 * (1.0 + 6.0 / static_cast<double>(freedom)); }
+double sure(std::size_t freedom) {
+  return check::kScaleDeviations * (1.0 + check::kScaleTails / static_cast<double>(freedom));
+}
 
 /// A fitted length [m]. `change`: fitted less nominal. `whole`: by how much it would change if all
 /// measured distances doubled. That is its nominal value, unless a length that the fit holds fixed
@@ -41,7 +34,7 @@ struct Length {
 /// Change of every parameter that doubles all measured coordinates: J d = p_M by least squares.
 Eigen::VectorXd of_scale(const Measurements& measured, const std::vector<int>& rows,
                          const Calibration& fitted) {
-  const Measurements some = pick(measured, thinned(measured, rows, kScaleMostRows));
+  const Measurements some = pick(measured, thinned(measured, rows, check::kScaleRows));
   FitData data;
   data.measured = &some;
   data.sigma_m = Rows3::Ones(some.size(), 3);
@@ -98,7 +91,9 @@ bool all_agree(const std::vector<Length>& lengths, const Scale& scale) {
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double asked = scale.beyond * lengths[i].whole;
     const double off = std::abs(lengths[i].change - asked);
-    if (i < 2 ? off > kAgree * std::abs(asked) : off > kContradict * scatter) return false;
+    if (i < 2 ? off > check::kLongestAgree * std::abs(asked)
+              : off > check::kLengthContradicts * scatter)
+      return false;
   }
   return true;
 }
@@ -122,7 +117,7 @@ constexpr std::array<std::pair<const char*, double>, 7> kLengthUnits{{{"um", 1e-
 std::string unit_instead(const std::string& labelled, double factor) {
   for (const auto& [name, metres] : kLengthUnits) {
     const double ratio = metres / unit_of(labelled)->to_si(1.0);
-    if (std::abs(ratio / factor - 1.0) < kSameUnit)
+    if (std::abs(ratio / factor - 1.0) < check::kUnitOfFactor)
       return fmt::format("in {}, not {}", name, labelled);
   }
   return "";
@@ -144,13 +139,13 @@ std::string unit_cause(const Cell& cell, const Convention& labels, double factor
 std::vector<Problem> scale_findings(const Measurements& measured, const std::vector<int>& rows,
                                     const Calibration& fitted) {
   const bool all_axes = measured.has_axis[0] && measured.has_axis[1] && measured.has_axis[2];
-  if (!all_axes || static_cast<int>(rows.size()) < kScaleFewestRows || !measured.setup.empty() ||
-      fitted.estimates.size() < kFewestLengths)
+  if (!all_axes || static_cast<int>(rows.size()) < check::kFewestPoses || !measured.setup.empty() ||
+      fitted.estimates.size() < check::kFewestLengths)
     return {};
   const auto lengths = fitted_lengths(of_scale(measured, rows, fitted), fitted);
-  if (lengths.size() < kFewestLengths) return {};
+  if (lengths.size() < check::kFewestLengths) return {};
   const Scale scale = scale_of(lengths);
-  const double least = std::max(kLeastScale, sure(lengths.size() - 1) * scale.sigma);
+  const double least = std::max(check::kLeastScale, sure(lengths.size() - 1) * scale.sigma);
   if (std::abs(scale.beyond) < least || !all_agree(lengths, scale)) return {};
   const double factor = 1.0 / (1.0 - scale.beyond);  // the points were measured with it
   return {{Severity::kWarning, "W-CHECK-SCALE",
@@ -164,9 +159,9 @@ std::vector<Problem> scale_findings(const Measurements& measured, const std::vec
 std::optional<GrossScale> gross_scale(const Cell& cell, const Measurements& measured,
                                       const std::vector<int>& rows, const Detection& detection) {
   const bool all_axes = measured.has_axis[0] && measured.has_axis[1] && measured.has_axis[2];
-  if (static_cast<int>(rows.size()) < kScaleFewestRows || !all_axes || !measured.setup.empty())
+  if (static_cast<int>(rows.size()) < check::kFewestPoses || !all_axes || !measured.setup.empty())
     return std::nullopt;
-  const Measurements some = pick(measured, thinned(measured, rows, kScaleMostRows));
+  const Measurements some = pick(measured, thinned(measured, rows, check::kScaleRows));
   const Chain chain(cell.nominal);
   std::vector<Transformd> X_BT;
   for (int i = 0; i < some.size(); ++i) {
@@ -177,7 +172,8 @@ std::optional<GrossScale> gross_scale(const Cell& cell, const Measurements& meas
   LinearPlacement loose = placer.place(X_BT);
   placer.tighten(loose);
   const double factor = loose.ratio;
-  if (loose.left_handed || loose.misfit > kScaleFits || std::abs(factor - 1.0) < kLeastGross)
+  if (loose.left_handed || loose.misfit > check::kFits ||
+      std::abs(factor - 1.0) < check::kLeastGross)
     return std::nullopt;
   const std::string unit = unit_cause(cell, detection.present.convention, factor);
   return GrossScale{

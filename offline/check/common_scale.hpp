@@ -14,9 +14,9 @@ namespace plumb::offline {
 
 /// The lengths of the fitted arm are all longer, or all shorter, than the nominal ones by one
 /// factor (W-CHECK-SCALE). Said only if the two longest lengths ask for the same factor, the others
-/// do not contradict, and it is more than ten times its own standard deviation, which is taken from
-/// how far the fitted lengths scatter about it: an arm built to 0.3 mm hides 3000 ppm, one built to
-/// 0.03 mm hides 300 ppm.
+/// do not contradict, and it is far beyond its own standard deviation (12.5 times it with five
+/// lengths, 8 with eleven), which is taken from how far the fitted lengths scatter about it: an arm
+/// built to 0.3 mm hides 3000 ppm, one built to 0.03 mm hides 300 ppm.
 std::vector<Problem> scale_findings(const Measurements& measured, const std::vector<int>& rows,
                                     const Calibration& fitted);
 

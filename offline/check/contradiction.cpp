@@ -10,6 +10,7 @@
 #include "arm/predicted_points.hpp"
 #include "cell/random.hpp"
 #include "cell/table_place.hpp"
+#include "check/constants.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
 #include "numbers/quantile.hpp"
@@ -18,22 +19,10 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kContradictionMostRows = 300;
-constexpr int kContradictionFewestRows = 30;
-constexpr double kGood_m = 0.1e-3;  // a fit that leaves less has no such part
-constexpr int kContradictionMostSteps = 8;
-constexpr int kRandomStarts = 12;
-constexpr int kOfAStart = 12;            // rows
-constexpr double kGrossMisfit_m = 5e-3;  // beyond, the common fit is no start
-constexpr double kTrimmed = 0.54;        // of the rows are fitted
-constexpr double kIn = 4.0, kOut = 6.0;  // times the scatter of the majority
-constexpr double kClear = 10.0;          // times: the usual error of the part
-constexpr double kBetween = 0.04;        // of the rows may lie between: else there is no gap
-constexpr double kLeastPart = 0.08, kMostPart = 0.45;
-constexpr double kLeastError_m = 0.3e-3;
-constexpr int kFewestRuns = 5;                 // of rows one after another
-constexpr double kContradictionFollows = 0.6;  // correlation with a column that explains them
+/// Lines that a message names.
 constexpr std::size_t kListed = 5;
+/// Rounds in which the rows that agree are found and fitted: they change little after the first.
+constexpr int kPolishRounds = 3;
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const auto n = static_cast<double>(a.size());
@@ -56,7 +45,7 @@ class Majority {
   /// Starts at the common fit and, if that leaves gross errors, at fits of random rows as well.
   void find(const ArmState& placed) {
     state_ = placed;
-    const bool gross = middle_error(placed) > kGrossMisfit_m;
+    const bool gross = middle_error(placed) > check::kGross_m;
     concentrate(placed);
     if (gross) random_starts(placed);
     polish();
@@ -73,7 +62,7 @@ class Majority {
   double middle_error(const ArmState& state) const { return median(errors_of(state)); }
 
   std::size_t kept() const {
-    return static_cast<std::size_t>(kTrimmed * static_cast<double>(rows_.size()));
+    return static_cast<std::size_t>(check::kTrimmed * static_cast<double>(rows_.size()));
   }
 
   /// The kept rows with the least errors, in order.
@@ -99,7 +88,7 @@ class Majority {
   void concentrate(const ArmState& start) {
     ArmState state = start;
     std::vector<int> before;
-    for (int step = 0; step < kContradictionMostSteps; ++step) {
+    for (int step = 0; step < check::kConcentrationSteps; ++step) {
       const auto now = nearest(state);
       if (now == before) break;
       before = now;
@@ -114,12 +103,12 @@ class Majority {
     Random random(1);
     ArmState best = placed;
     double least = 1e300;
-    for (int k = 0; k < kRandomStarts; ++k) {
+    for (int k = 0; k < check::kRandomStarts; ++k) {
       std::vector<int> few = rows_;
-      for (int i = 0; i < kOfAStart; ++i)
+      for (int i = 0; i < check::kOfRandomStart; ++i)
         std::iter_swap(few.begin() + i,
                        few.begin() + i + random.below(static_cast<int>(few.size()) - i));
-      few.resize(kOfAStart);
+      few.resize(check::kOfRandomStart);
       ArmState state = robust_placement(cell_, measured_, few, placed).state;
       state = robust_placement(cell_, measured_, nearest(state), state).state;
       if (const double e = trimmed_error(state); e < least) {
@@ -132,18 +121,18 @@ class Majority {
 
   /// Fits all rows that agree, and estimates the scatter from them.
   void polish() {
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < kPolishRounds; ++round) {
       const auto e = errors();
       scatter_ = std::max(median(e), 1e-9);
       std::vector<int> in;
       for (std::size_t k = 0; k < e.size(); ++k)
-        if (e[k] <= kIn * scatter_) in.push_back(rows_[k]);
+        if (e[k] <= check::kInside * scatter_) in.push_back(rows_[k]);
       const RegularisedFit fit = regularised_fit(cell_, measured_, in, state_);
       state_ = fit.state;
     }
     double squares = 0.0, count = 0.0;
     for (const double e : errors())
-      if (e <= kIn * scatter_) {
+      if (e <= check::kInside * scatter_) {
         squares += e * e;
         count += 1.0;
       }
@@ -170,8 +159,8 @@ struct Part {
 Part part_of(const std::vector<int>& rows, const std::vector<double>& errors, double scatter) {
   Part out;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const bool outside = errors[k] > kOut * scatter;
-    out.between += errors[k] > kIn * scatter && !outside ? 1.0 : 0.0;
+    const bool outside = errors[k] > check::kOutside * scatter;
+    out.between += errors[k] > check::kInside * scatter && !outside ? 1.0 : 0.0;
     if (outside) {
       out.runs += k == 0 || !out.is_outside.back() ? 1 : 0;
       out.rows.push_back(rows[k]);
@@ -201,8 +190,7 @@ bool follows_a_column(const MeasurementFiles& measured, const std::vector<int>& 
       if (here == nullptr || here->values.empty()) break;
       values.push_back(here->values[static_cast<std::size_t>(at.row)]);
     }
-    if (values.size() == rows.size() &&
-        std::abs(correlation(values, marks)) > kContradictionFollows)
+    if (values.size() == rows.size() && std::abs(correlation(values, marks)) > check::kPartFollows)
       return true;
   }
   return false;
@@ -237,20 +225,20 @@ double rms_error(const Measurements& some, const ArmState& state) {
 
 std::optional<Problem> contradiction(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows, const ArmState& placed) {
-  if (static_cast<int>(rows.size()) < kContradictionFewestRows || !measured.setup.empty())
+  if (static_cast<int>(rows.size()) < check::kFewestRows || !measured.setup.empty())
     return std::nullopt;
-  const std::vector<int> some = thinned(measured, rows, kContradictionMostRows);
-  if (rms_error(pick(measured, some), placed) < kGood_m) return std::nullopt;
+  const std::vector<int> some = thinned(measured, rows, check::kContradictionRows);
+  if (rms_error(pick(measured, some), placed) < check::kGood_m) return std::nullopt;
   Majority majority(cell, measured, some);
   majority.find(placed);
   const Part part = part_of(some, majority.errors(), majority.scatter());
   const auto all = static_cast<double>(some.size());
   const double share = static_cast<double>(part.rows.size()) / all;
-  if (share < kLeastPart || share > kMostPart || part.between > kBetween * all ||
-      part.runs < kFewestRuns)
+  if (share < check::kLeastPart || share > check::kMostPart ||
+      part.between > check::kBetween * all || part.runs < check::kFewestRuns)
     return std::nullopt;
   const double usual = median(part.sizes);
-  if (usual < std::max(kLeastError_m, kClear * majority.scatter()) ||
+  if (usual < std::max(check::kPartError_m, check::kPartClear * majority.scatter()) ||
       follows_a_column(measured, some, part))
     return std::nullopt;
   return Problem{

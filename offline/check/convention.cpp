@@ -10,6 +10,7 @@
 #include "cell/setups.hpp"
 #include "cell/toml_text.hpp"
 #include "cell/units.hpp"
+#include "check/constants.hpp"
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline {
@@ -142,19 +143,19 @@ double changes(const Convention& present, const Convention& other) {
   out += other.turn_unit != present.turn_unit ? 1.0 : 0.0;
   out += other.slide_unit != present.slide_unit ? 1.0 : 0.0;
   out += other.point_unit != present.point_unit ? 1.0 : 0.0;
-  out += other.mirror != present.mirror ? 1.1 : 0.0;
+  out += other.mirror != present.mirror ? check::kMirrorCosts : 0.0;
   out += other.frame_inverted != present.frame_inverted ? 1.0 : 0.0;
   for (std::size_t j = 0; j < other.reversed.size(); ++j) {
     out += other.reversed[j] != present.reversed[j] ? 1.0 : 0.0;
-    out += other.quarter_turns[j] != present.quarter_turns[j] ? 1.2 : 0.0;
+    out += other.quarter_turns[j] != present.quarter_turns[j] ? check::kQuarterTurnCosts : 0.0;
     out += other.column[j] != present.column[j] ? 1.0 : 0.0;
-    out += other.zero[j] != present.zero[j] ? 1.3 : 0.0;
-    out += other.own_unit[j] != present.own_unit[j] ? 1.1 : 0.0;
-    out += other.factor[j] != present.factor[j] ? 1.4 : 0.0;
+    out += other.zero[j] != present.zero[j] ? check::kZeroCosts : 0.0;
+    out += other.own_unit[j] != present.own_unit[j] ? check::kOwnUnitCosts : 0.0;
+    out += other.factor[j] != present.factor[j] ? check::kFactorCosts : 0.0;
   }
   const double couplings =
       static_cast<double>(std::max(present.coupling.size(), other.coupling.size()));
-  return out + (other.coupling != present.coupling ? 1.1 * couplings : 0.0);
+  return out + (other.coupling != present.coupling ? check::kCouplingCosts * couplings : 0.0);
 }
 
 Cell read_as(const Cell& cell, const Convention& present, const Convention& meant) {

@@ -13,6 +13,7 @@
 #include "cell/setups.hpp"
 #include "cell/units.hpp"
 #include "check/arm_sweep.hpp"
+#include "check/constants.hpp"
 #include "check/coupling_guess.hpp"
 #include "check/given_frame.hpp"
 #include "check/joint_maps.hpp"
@@ -26,30 +27,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kSweepPoses = 40;        // for the loose look at thousands of readings
-constexpr int kPlacedPoses = 100;      // for the close look at some
-constexpr int kFewestPoses = 10;       // the loose look has 15 unknowns
-constexpr int kFewestOfOrders = 20;    // the same, among tens of thousands of readings
-constexpr std::size_t kAllOrders = 6;  // joints: of more, only swaps and turns of neighbours
-constexpr std::size_t kShort = 24;     // readings looked at closely
-constexpr double kNoBetter = 1e-5;     // of the size: rounding of the quick misfit is far less
-constexpr int kGlancePoses = 16;       // for a glance at hundreds of thousands of readings
-constexpr double kHopeless = 0.25;     // of the size, at the glance: the arm's errors are far less
-constexpr std::size_t kFitted = 8;     // readings whose geometry is fitted
-constexpr double kClearly = 10.0;      // a reading must leave that much less than the labels
-constexpr double kAlike = 1.3;         // readings that leave no more than that are equally good
-constexpr double kReadingFits = 0.01;  // of the cloud's size: no sensible arm leaves more
-constexpr double kOdd = 2.0;           // an arm of more than 23 m or less than 5 cm
-constexpr double kReasonable_m = 2e-4;
-constexpr double kReasonableShare = 1e-4;  // of the size: what may be left of a fitted arm
-
-constexpr double kMapFits = 3e-3;              // of the size, with zeros and a factor free
-constexpr double kSameFactor = 5e-3;           // of a factor
-constexpr double kSureOfFactor = 6.0;          // standard deviations: the arm's errors are no noise
-constexpr double kOneWhole = 0.3;              // no other whole number is as near
-constexpr double kNearRound_deg = 0.1;         // of a zero
-constexpr double kFitFindsZero = M_PI / 18.0;  // farther ones end in E-FIT-FAR
-constexpr double kOneKind = 0.5;               // of the changes: as simple an explanation
+/// Misfits that differ by less are equal: the quick misfit is exact to 1e-6.
+constexpr double kNoBetter = 1e-5;
 
 std::vector<int> random_rows(const Measurements& measured, int most) {
   std::vector<int> rows;
@@ -74,8 +53,8 @@ class ConventionSearch {
       : cell_(cell),
         measured_(measured),
         labels_(labelled_convention(cell, measured)),
-        few_(random_rows(measured, kSweepPoses)),
-        some_(random_rows(measured, kPlacedPoses)) {}
+        few_(random_rows(measured, check::kSweepPoses)),
+        some_(random_rows(measured, check::kPlacedPoses)) {}
 
   Detection work() {
     if (!can_work()) return std::move(out_);
@@ -91,10 +70,10 @@ class ConventionSearch {
  private:
   static double relative(double rms, double size) { return size > 0.0 ? rms / size : 1e300; }
   static double left(const Reading& reading) { return relative(reading.fitted_m, reading.size_m); }
-  bool nothing_fits() const { return left(out_.best) > kReadingFits; }
+  bool nothing_fits() const { return left(out_.best) > check::kFits; }
   /// Whether there are enough poses for searches with hundreds of alternatives, such as joints in
   /// another order or a factor for each joint.
-  bool enough_poses() const { return static_cast<int>(few_.size()) >= kFewestOfOrders; }
+  bool enough_poses() const { return static_cast<int>(few_.size()) >= check::kFewestForMany; }
 
   /// Fits the best candidates that a sweep finds.
   template <class Sweep>
@@ -111,10 +90,11 @@ class ConventionSearch {
     const auto spread = [&](const auto& columns) {
       return (columns.rowwise() - columns.colwise().mean().eval()).norm();
     };
-    if (static_cast<int>(few_.size()) < kFewestPoses)
-      out_.why_not = fmt::format(
-          "{} too few to tell conventions apart: {} are needed",
-          counted_words(static_cast<long long>(few_.size()), "pose is", "poses are"), kFewestPoses);
+    if (static_cast<int>(few_.size()) < check::kFewestPoses)
+      out_.why_not =
+          fmt::format("{} too few to tell conventions apart: {} are needed",
+                      counted_words(static_cast<long long>(few_.size()), "pose is", "poses are"),
+                      check::kFewestPoses);
     else if (axes < 2)
       out_.why_not = "one measured axis is too little to tell conventions apart";
     else if (!(spread(measured_.q) > 0.0))
@@ -174,7 +154,7 @@ class ConventionSearch {
     const Measurements few = pick(measured_, few_);
     LinearPlacer placer(few.p_M, few.has_axis);
     std::vector<int> rows = few_;
-    rows.resize(std::min<std::size_t>(rows.size(), kGlancePoses));
+    rows.resize(std::min<std::size_t>(rows.size(), check::kGlancePoses));
     const Measurements fewer = pick(measured_, rows);
     const LinearPlacer glance(fewer.p_M, fewer.has_axis);
     for_each_order(neighbour_couplings(cell_.nominal), [&](const Convention& c, double slide) {
@@ -221,7 +201,7 @@ class ConventionSearch {
     const Detection before = out_;
     judge_all_of(sweep_all);
     const bool clearly = out_.best.convention.coupling != labels_.coupling &&
-                         kClearly * left(out_.best) < left(before.best);
+                         check::kClearly * left(out_.best) < left(before.best);
     if (clearly) return;
     const auto tried = out_.tried;
     out_ = before;
@@ -246,7 +226,7 @@ class ConventionSearch {
   static std::vector<std::vector<int>> orders_of(const std::vector<int>& joints) {
     std::vector<std::vector<int>> out;
     std::vector<int> order = joints;
-    if (joints.size() <= kAllOrders) {
+    if (joints.size() <= check::kAllOrders) {
       while (std::next_permutation(order.begin(), order.end())) out.push_back(order);
       return out;
     }
@@ -299,7 +279,7 @@ class ConventionSearch {
                  const std::vector<Transformd>& X_BT) {
           ++out_.tried;
           unturned = turns;
-          if (glance.quick_misfit(X_BT) < kHopeless) near.push_back(reversed);
+          if (glance.quick_misfit(X_BT) < check::kHopeless) near.push_back(reversed);
         });
     if (near.empty()) return;
     const ArmSweep sweep(cell_as(c).nominal, joints_of(few, c, slide), 0);
@@ -310,7 +290,7 @@ class ConventionSearch {
   void offer(Convention c, double slide, const std::vector<bool>& reversed,
              const std::vector<int>& turns, const std::vector<Transformd>& X_BT,
              LinearPlacer& placer) {
-    if (leads_.size() == kShort &&
+    if (leads_.size() == check::kPlacedLeads &&
         placer.quick_misfit(X_BT) > kNoBetter + leads_.front().loose.misfit)
       return;
     c.reversed = reversed;
@@ -319,18 +299,19 @@ class ConventionSearch {
     offer({std::move(c), slide, placer.place(X_BT)}, placer);
   }
 
-  /// Keeps the kShort leads with the least misfit.
+  /// Keeps the leads with the least misfit.
   void offer(Lead lead, const LinearPlacer& placer) {
     const auto worse = [](const Lead& a, const Lead& b) { return a.loose.misfit < b.loose.misfit; };
     const auto hopeless = [&] {
-      return leads_.size() == kShort && lead.loose.misfit >= leads_.front().loose.misfit;
+      return leads_.size() == check::kPlacedLeads &&
+             lead.loose.misfit >= leads_.front().loose.misfit;
     };
     if (hopeless()) return;
     placer.tighten(lead.loose);
     if (hopeless()) return;
     leads_.push_back(std::move(lead));
     std::push_heap(leads_.begin(), leads_.end(), worse);
-    if (leads_.size() <= kShort) return;
+    if (leads_.size() <= check::kPlacedLeads) return;
     std::pop_heap(leads_.begin(), leads_.end(), worse);
     leads_.pop_back();
   }
@@ -402,7 +383,7 @@ class ConventionSearch {
       placer.tighten(loose);
     }
     Candidate out = placed(labels_, loose.M, loose.target_T);
-    if (relative(out.reading.placed_m, out.reading.size_m) > kReadingFits) place_as_fit_does(out);
+    if (relative(out.reading.placed_m, out.reading.size_m) > check::kFits) place_as_fit_does(out);
     return out;
   }
 
@@ -434,7 +415,7 @@ class ConventionSearch {
     };
     std::stable_sort(all.begin() + 1, all.end(),
                      [&](const Candidate& a, const Candidate& b) { return misfit(a) < misfit(b); });
-    if (all.size() > kFitted + 1) all.resize(kFitted + 1);
+    if (all.size() > check::kFittedLeads + 1) all.resize(check::kFittedLeads + 1);
     for (auto& candidate : all) fit(candidate);
     out_.present = all.front().reading;
     out_.table.clear();
@@ -443,7 +424,9 @@ class ConventionSearch {
   }
 
   /// The largest RMS error [m] that a correctly interpreted and fitted arm may leave.
-  double reasonable() const { return kReasonable_m + kReasonableShare * out_.present.size_m; }
+  double reasonable() const {
+    return check::kReasonable_m + check::kReasonableShare * out_.present.size_m;
+  }
 
   static void sort_by_left(std::vector<Reading>& readings) {
     std::stable_sort(readings.begin(), readings.end(),
@@ -454,20 +437,21 @@ class ConventionSearch {
   static const Reading& simplest_of_best(const std::vector<Reading>& sorted) {
     const Reading* out = &sorted.front();
     for (const Reading& r : sorted)
-      if (left(r) <= kAlike * left(sorted.front()) && r.changes < out->changes - 1e-9) out = &r;
+      if (left(r) <= check::kAlike * left(sorted.front()) && r.changes < out->changes - 1e-9)
+        out = &r;
     return *out;
   }
 
   void choose() {
     sort_by_left(out_.table);
     out_.best = simplest_of_best(out_.table);
-    const bool clearly =
-        kClearly * left(out_.best) < left(out_.present) && out_.present.fitted_m > reasonable();
-    const bool odd = oddity(reach(cell_.nominal)) > kOdd;
-    if (!(clearly || odd) || left(out_.best) > kReadingFits) out_.best = out_.present;
+    const bool clearly = check::kClearly * left(out_.best) < left(out_.present) &&
+                         out_.present.fitted_m > reasonable();
+    const bool odd = oddity(reach(cell_.nominal)) > check::kOddArm;
+    if (!(clearly || odd) || left(out_.best) > check::kFits) out_.best = out_.present;
     out_.same.clear();
     for (const auto& r : out_.table)
-      if (r.convention != out_.best.convention && left(r) <= kAlike * left(out_.best))
+      if (r.convention != out_.best.convention && left(r) <= check::kAlike * left(out_.best))
         out_.same.push_back(r);
   }
 
@@ -476,7 +460,7 @@ class ConventionSearch {
   /// Rounds the factors and zeros of a joint map to what a person would write.
   Convention convention_of(const JointMap& map) const {
     Convention c = labels_;
-    const double within = std::max(kSameFactor, kSureOfFactor * map.factor_std);
+    const double within = std::max(check::kSameFactor, check::kFactorDeviations * map.factor_std);
     for (std::size_t j = 0; j < map.zero.size(); ++j) {
       c.zero[j] = round_angle(map.zero[j]);
       if (map.factor[j] == 1.0) continue;
@@ -495,7 +479,7 @@ class ConventionSearch {
   static double round_angle(double angle) {
     const double degrees = angle * 180.0 / M_PI;
     for (const double step : {5.0, 1.0, 0.5})
-      if (std::abs(degrees - step * std::round(degrees / step)) < kNearRound_deg)
+      if (std::abs(degrees - step * std::round(degrees / step)) < check::kNearRound_deg)
         return step * std::round(degrees / step) * M_PI / 180.0;
     return 0.1 * std::round(degrees / 0.1) * M_PI / 180.0;
   }
@@ -505,7 +489,7 @@ class ConventionSearch {
     const double size = std::abs(factor), sign = factor < 0.0 ? -1.0 : 1.0;
     const double whole = std::round(std::max(size, 1.0 / size));
     const double snapped = size < 1.0 ? 1.0 / whole : whole;
-    if (within * whole > kOneWhole) within = kSameFactor;
+    if (within * whole > check::kOneWhole) within = check::kSameFactor;
     return near(size, snapped, within) ? sign * snapped : factor;
   }
 
@@ -523,13 +507,14 @@ class ConventionSearch {
     }
     sort_by_left(found);
     std::erase_if(found, [&](const Reading& r) {
-      return left(r) > kMapFits || kClearly * left(r) > left(out_.present) ||
+      return left(r) > check::kMapFits || check::kClearly * left(r) > left(out_.present) ||
              !is_large(r.convention);
     });
     if (found.empty()) return;
     const Reading& best = simplest_of_best(found);
     for (const Reading& r : found)
-      if (&r != &best && left(r) <= kAlike * left(best) && r.changes < best.changes + kOneKind)
+      if (&r != &best && left(r) <= check::kAlike * left(best) &&
+          r.changes < best.changes + check::kEquallySimple)
         return;
     out_.best = best;
     out_.table.insert(out_.table.begin(), best);
@@ -539,7 +524,8 @@ class ConventionSearch {
   /// Whether it changes more than `fit` can find by itself, such as a large joint zero or a factor.
   bool is_large(const Convention& c) const {
     for (std::size_t j = 0; j < c.zero.size(); ++j)
-      if (std::abs(c.zero[j]) > kFitFindsZero || c.factor[j] != 1.0 || !c.own_unit[j].empty())
+      if (std::abs(c.zero[j]) > check::kFitFindsZero || c.factor[j] != 1.0 ||
+          !c.own_unit[j].empty())
         return true;
     return false;
   }

@@ -7,16 +7,13 @@
 #include <array>
 #include <numeric>
 
+#include "check/constants.hpp"
 #include "check/equal_repeats.hpp"
 #include "check/row_lines.hpp"
 #include "program/counted_words.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kOnePlace = 5e-3;             // [m]: readings of one pose hardly differ by more
-constexpr std::ptrdiff_t kMostCompared = 100;  // rows with the same point
-constexpr double kWorthSaying = 0.5;           // expected number of readings equal by rounding
 
 /// A row and an earlier one with exactly the same point, preferably one with the same joint
 /// positions.
@@ -35,7 +32,7 @@ std::vector<EqualPoint> equal_points(const Measurements& m) {
   for (auto at = rows.begin(); at != rows.end(); ++at) {
     if (point(*at) != point(*first)) first = at;
     if (at == first) continue;
-    const auto end = first + std::min(at - first, kMostCompared);
+    const auto end = first + std::min(at - first, check::kMostCompared);
     const auto same = std::find_if(first, end, [&](int k) { return m.q.row(k) == m.q.row(*at); });
     out.push_back({*at, same == end ? *first : *same});
   }
@@ -71,7 +68,7 @@ Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
     return static_cast<double>(some.size()) > most_by_chance(expected);
   };
   std::vector<EqualPoint> also;
-  if (chance.assumed && chance.points >= kWorthSaying && out.points.empty()) {
+  if (chance.assumed && chance.points >= check::kWorthSaying && out.points.empty()) {
     also = repeats;
     out.perhaps = true;
   } else if (too_many(repeats, chance.points)) {
@@ -92,7 +89,7 @@ Copies copies_of(const Measurements& m, const EqualRepeats& chance) {
 Problem equal_poses(const MeasurementFiles& measured) {
   const double spread =
       (measured.p_M.colwise().maxCoeff() - measured.p_M.colwise().minCoeff()).norm();
-  const bool arm_moved = spread > kOnePlace;
+  const bool arm_moved = spread > check::kOnePlace_m;
   return {Severity::kError, "E-CHECK-EQUAL",
           arm_moved ? fmt::format(
                           "every row has the same joint positions, but the points are up to {:.3g} "
@@ -109,7 +106,7 @@ std::string why_perhaps(const Copies& copies, double step_m) {
     return fmt::format(
         "; the points are rounded to {:g} mm, so these may be copies or true repeats",
         step_m * 1e3);
-  if (copies.by_rounding >= kWorthSaying)
+  if (copies.by_rounding >= check::kWorthSaying)
     return fmt::format("; rounding alone would make about {:.0f} equal", copies.by_rounding);
   return "";
 }

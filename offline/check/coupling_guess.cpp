@@ -7,6 +7,7 @@
 namespace plumb::offline {
 namespace {
 
+/// Ratios of one pair, and those of neighbours in a wrist. They are what makers build.
 constexpr std::array<double, 6> kRatios{-1.0, 1.0, -0.5, 0.5, -2.0, 2.0};
 constexpr std::array<double, 3> kShares{-1.0, 0.0, 1.0};
 

@@ -9,13 +9,10 @@
 
 #include "arm/predicted_points.hpp"
 #include "check/arm_shape.hpp"
+#include "check/constants.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kGap = 0.25;     // of the used range: a hole worth a word
-constexpr double kCrowded = 0.6;  // of the poses in one tenth
 
 class JointReport {
  public:
@@ -42,18 +39,19 @@ class JointReport {
  private:
   std::string shown(double q) const {
     const bool slides = row_.type == format::JointType::kPrismatic;
-    return slides ? fmt::format("{:.0f} mm", q * 1e3) : fmt::format("{:.0f} deg", q / kDegree);
+    return slides ? fmt::format("{:.0f} mm", q * 1e3)
+                  : fmt::format("{:.0f} deg", q / check::kDegree_rad);
   }
 
   std::string words(const JointCoverage& c, double used) const {
-    if (used < kStill) return fmt::format("never moves, it stays at {}", shown(c.q_min));
+    if (used < check::kStill) return fmt::format("never moves, it stays at {}", shown(c.q_min));
     std::size_t widest = 1;
     for (std::size_t i = 1; i < q_.size(); ++i)
       if (q_[i] - q_[i - 1] > q_[widest] - q_[widest - 1]) widest = i;
-    if (q_[widest] - q_[widest - 1] > kGap * used)
+    if (q_[widest] - q_[widest - 1] > check::kGap * used)
       return fmt::format("nothing between {} and {}", shown(q_[widest - 1]), shown(q_[widest]));
     for (std::size_t k = 0; k < c.tenths.size(); ++k)
-      if (c.tenths[k] > kCrowded * static_cast<double>(q_.size()))
+      if (c.tenths[k] > check::kCrowded * static_cast<double>(q_.size()))
         return fmt::format("crowded near {}",
                            shown(c.q_min + used * (static_cast<double>(k) + 0.5) / 10.0));
     return "spread over its range";

@@ -9,22 +9,21 @@
 #include "cell/column_names.hpp"
 #include "cell/table_place.hpp"
 #include "check/arm_shape.hpp"
+#include "check/constants.hpp"
 #include "check/displaced_run.hpp"
 #include "check/row_lines.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kBeyond = 1e-3;  // [rad] or [m]: less is rounding of the limits
-constexpr double kOneDegree = M_PI / 180.0;
-
 std::string shown(const format::JointRow& row, double q) {
-  return row.type == format::JointType::kPrismatic ? fmt::format("{:.1f} mm", q * 1e3)
-                                                   : fmt::format("{:.1f} deg", q / kOneDegree);
+  return row.type == format::JointType::kPrismatic
+             ? fmt::format("{:.1f} mm", q * 1e3)
+             : fmt::format("{:.1f} deg", q / check::kDegree_rad);
 }
 
 bool inside(const format::JointRow& row, double q) {
-  return q >= row.q_min - kBeyond && q <= row.q_max + kBeyond;
+  return q >= row.q_min - check::kBeyondLimit && q <= row.q_max + check::kBeyondLimit;
 }
 
 bool inside_after_a_turn(const format::JointRow& row, double q) {
@@ -122,7 +121,7 @@ std::vector<Problem> constant_findings(const Cell& cell, const MeasurementFiles&
   std::vector<Problem> out;
   for (int j = 0; j < cell.joints(); ++j) {
     const auto q = measured.q.col(j);
-    if (q.maxCoeff() - q.minCoeff() >= kStill) continue;
+    if (q.maxCoeff() - q.minCoeff() >= check::kStill) continue;
     out.push_back(
         {Severity::kWarning, "W-CHECK-STILL",
          fmt::format("{} never moves: it stays at {}", cell.nominal.joints[j].name,

@@ -8,15 +8,12 @@
 #include <optional>
 
 #include "arm/predicted_points.hpp"
+#include "check/constants.hpp"
 #include "check/row_lines.hpp"
 #include "check/tool_errors.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr std::size_t kFewestOfARun = 3;
-constexpr int kNextRow = 2;         // one row in between may be no outlier
-constexpr double kOneVector = 0.2;  // scatter about the mean, as a share of the mean
 
 /// Groups the rows of the outliers into runs of neighbours, in ascending order, and drops short
 /// runs.
@@ -26,10 +23,10 @@ std::vector<std::vector<int>> neighbours(const std::vector<Outlier>& outliers) {
   std::sort(rows.begin(), rows.end());
   std::vector<std::vector<int>> out;
   for (const int row : rows) {
-    if (out.empty() || row - out.back().back() > kNextRow) out.emplace_back();
+    if (out.empty() || row - out.back().back() > check::kNextOfRun) out.emplace_back();
     out.back().push_back(row);
   }
-  std::erase_if(out, [](const auto& run) { return run.size() < kFewestOfARun; });
+  std::erase_if(out, [](const auto& run) { return run.size() < check::kFewestOfRun; });
   return out;
 }
 
@@ -59,7 +56,8 @@ std::vector<DisplacedRun> displaced_runs(const ArmState& state, const Measuremen
     if (axis[0] && axis[1] && axis[2]) tool = common_vector(errors_in_tool(state, some, errors));
     const bool of_tool = tool && tool->scatter < base.scatter;
     const CommonVector& one = of_tool ? *tool : base;
-    if (one.scatter <= kOneVector) out.push_back({rows.front(), rows.back(), one.mean, of_tool});
+    if (one.scatter <= check::kOneVector)
+      out.push_back({rows.front(), rows.back(), one.mean, of_tool});
   }
   return out;
 }

@@ -9,15 +9,10 @@
 #include "arm/parameter.hpp"
 #include "arm/predicted_points.hpp"
 #include "cell/effect_option.hpp"
+#include "check/constants.hpp"
 #include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr int kEffectSenseMostRows = 300;
-constexpr double kMostShare = 0.02;  // of the arm's length: heavy arms sag by a tenth of that
-
-}  // namespace
 
 std::vector<Problem> option_findings(const Cell& cell) {
   std::vector<Problem> out;
@@ -36,8 +31,8 @@ std::vector<Problem> option_findings(const Cell& cell) {
 std::vector<Problem> effect_size_findings(const Cell& cell, const Measurements& measured,
                                           const std::vector<int>& rows, const ArmState& fitted) {
   std::vector<Problem> out;
-  const Measurements some = pick(measured, thinned(measured, rows, kEffectSenseMostRows));
-  const double most = kMostShare * reach(cell.nominal);
+  const Measurements some = pick(measured, thinned(measured, rows, check::kPredictedRows));
+  const double most = check::kLargestEffect * reach(cell.nominal);
   const Rows3 with = predict_points(fitted, some);
   for (std::size_t k = 0; k < fitted.arm.effects.size(); ++k) {
     ArmState without = fitted;

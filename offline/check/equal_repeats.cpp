@@ -9,17 +9,14 @@
 #include <vector>
 
 #include "cell/group_rows.hpp"
+#include "check/constants.hpp"
 #include "check/rounding.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr int kNeighbours = 3;             // following repeats that each one is compared with
-constexpr double kEnoughPairs = 5.0;       // pairs that differ
-constexpr double kQuietTracker_m = 3e-6;   // no instrument repeats a point much better
-constexpr int kMostRounds = 200;           // of the fixed-point iteration
-constexpr double kUnsureShare = 1.5;       // factor: the probability is only estimated
-constexpr double kUnsureDeviations = 4.0;  // standard deviations of a count
+/// Steps of the fixed-point iteration, which always suffice for it to settle.
+constexpr int kMostRounds = 200;
 
 /// Pairs of neighbouring repeats of one pose.
 struct Pairs {
@@ -78,16 +75,17 @@ EqualRepeats equal_by_rounding(const MeasurementFiles& measured, const NoiseFloo
   visit_groups(measured.replicate_group, std::move(all), [&](std::span<const int> rows) {
     sizes.push_back(static_cast<double>(rows.size()));
     for (std::size_t a = 0; a < rows.size(); ++a)
-      for (std::size_t b = a + 1; b < std::min(rows.size(), a + 1 + kNeighbours); ++b)
+      for (std::size_t b = a + 1; b < std::min(rows.size(), a + 1 + check::kNeighbours); ++b)
         compare(measured, rows[a], rows[b], pairs);
   });
   double chance = 0.0, joints = 1.0;
-  if (pairs.differ >= kEnoughPairs) {
+  if (pairs.differ >= check::kEnoughPairs) {
     chance = chance_from_pairs(measured, pairs);
     joints = (pairs.agree_in_joints + 1.0) / (pairs.differ + 2.0);
   } else {
     out.assumed = floor.source == NoiseFloor::Source::kNone;
-    chance = chance_from_steps(measured, steps, out.assumed ? kQuietTracker_m : floor.sigma_m);
+    chance =
+        chance_from_steps(measured, steps, out.assumed ? check::kQuietTracker_m : floor.sigma_m);
   }
   for (const double n : sizes) out.points += std::min(n - 1.0, 0.5 * n * (n - 1.0) * chance);
   out.rows = out.points * joints;
@@ -95,7 +93,7 @@ EqualRepeats equal_by_rounding(const MeasurementFiles& measured, const NoiseFloo
 }
 
 double most_by_chance(double expected) {
-  return kUnsureShare * expected + kUnsureDeviations * std::sqrt(expected);
+  return check::kChanceFactor * expected + check::kChanceDeviations * std::sqrt(expected);
 }
 
 }  // namespace plumb::offline

@@ -11,18 +11,17 @@
 
 #include "cell/rotation.hpp"
 #include "cell/units.hpp"
+#include "check/constants.hpp"
 #include "check/regularised_fit.hpp"
 #include "plumb/runtime/chain.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kFrameClearly = 10.0;
+/// Share of the target's information that is added to it: a target that no pose shows becomes 0.
 constexpr double kFrameRidge = 1e-9;
-constexpr double kFrameFits = 0.01;  // of the cloud's size
-constexpr double kOneAxis = 0.98;    // of a direction: it is called that axis
-constexpr double kSameFrame = 0.02;  // of its distance
-constexpr double kTurned_rad = 5e-3, kMoved_m = 5e-3, kRound_m = 1e-4, kRound_rad = M_PI / 18000.0;
+/// Last digits of a frame in a message: 0.1 mm and 0.01 deg.
+constexpr double kRound_m = 1e-4, kRound_rad = M_PI / 18000.0;
 
 struct InFrame {
   Convention convention;
@@ -34,7 +33,7 @@ std::string unit_words(const Transformd& given, const Transformd& meant) {
   for (const auto& [factor, words] : {std::pair{1e3, "its xyz is in m instead of mm"},
                                       std::pair{1e-3, "its xyz is in mm instead of m"},
                                       std::pair{25.4, "its xyz is in inches instead of mm"}})
-    if ((meant.p - factor * given.p).norm() < kSameFrame * meant.p.norm()) return words;
+    if ((meant.p - factor * given.p).norm() < check::kFrameUnit * meant.p.norm()) return words;
   return "";
 }
 
@@ -43,11 +42,11 @@ std::string difference_words(const Transformd& given, const Transformd& meant) {
   const Transformd D = given.inverse() * meant;  // base axes as given
   const Eigen::AngleAxisd turn(D.R);
   std::vector<std::string> out;
-  if (turn.angle() > kTurned_rad) {
+  if (turn.angle() > check::kFrameTurned_rad) {
     const Eigen::Vector3d axis = turn.axis();
     int along = 0;
     axis.cwiseAbs().maxCoeff(&along);
-    const bool one_axis = std::abs(axis(along)) > kOneAxis;
+    const bool one_axis = std::abs(axis(along)) > check::kAlongAxis;
     out.push_back(one_axis
                       ? fmt::format("it is turned by {:.1f} deg about {}",
                                     turn.angle() * 180.0 / M_PI, "xyz"[along])
@@ -56,10 +55,10 @@ std::string difference_words(const Transformd& given, const Transformd& meant) {
   }
   if (const std::string unit = unit_words(given, meant); !unit.empty()) {
     out.push_back(unit);
-  } else if (D.p.norm() > kMoved_m) {
+  } else if (D.p.norm() > check::kFrameMoved_m) {
     int along = 0;
     const double most = D.p.cwiseAbs().maxCoeff(&along);
-    out.push_back(most > kOneAxis * D.p.norm()
+    out.push_back(most > check::kAlongAxis * D.p.norm()
                       ? fmt::format("it is {:.0f} mm off along its {}", 1e3 * most, "xyz"[along])
                       : fmt::format("it is {:.0f} mm off", 1e3 * D.p.norm()));
   }
@@ -74,9 +73,10 @@ bool may_be_first_zero(const Cell& cell, const Transformd& given, const Transfor
                        (row.alpha == 0.0 && row.a == 0.0);
   const Transformd D = given.inverse() * meant, base = from_pose(cell.nominal.base);
   const Eigen::AngleAxisd turn(D.R);
-  return about_z && row.type == format::JointType::kRevolute && turn.angle() > kTurned_rad &&
-         std::abs(turn.axis().dot(base.R.col(2))) > kOneAxis &&
-         (D * base.p - base.p).norm() < kMoved_m;
+  return about_z && row.type == format::JointType::kRevolute &&
+         turn.angle() > check::kFrameTurned_rad &&
+         std::abs(turn.axis().dot(base.R.col(2))) > check::kAlongAxis &&
+         (D * base.p - base.p).norm() < check::kFrameMoved_m;
 }
 
 /// The frame as the cell file would state it, to 0.1 mm and 0.01 deg.
@@ -103,8 +103,8 @@ std::optional<Problem> given_frame_fault(const Cell& cell, const Measurements& m
   const double size =
       std::sqrt((some.p_M.rowwise() - some.p_M.colwise().mean().eval()).squaredNorm() /
                 static_cast<double>(some.size()));
-  if (free.rms_m > kFrameFits * size) return std::nullopt;
-  if (misfit_in_given_frame(cell, some, all) < kFrameClearly * free.rms_m) return std::nullopt;
+  if (free.rms_m > check::kFits * size) return std::nullopt;
+  if (misfit_in_given_frame(cell, some, all) < check::kClearly * free.rms_m) return std::nullopt;
   const Transformd given = from_pose(cell.measurement.X_MB), meant = from_pose(free.state.X_MB);
   const std::string difference = difference_words(given, meant);
   if (difference.empty()) return std::nullopt;
@@ -170,7 +170,7 @@ Convention with_given_frame(const Cell& cell, const Measurements& measured,
       const double rms = left_by(c);
       if (rms < found.rms_m) found = {c, rms};
     }
-  return kFrameClearly * found.rms_m < as_given ? found.convention : best.convention;
+  return check::kClearly * found.rms_m < as_given ? found.convention : best.convention;
 }
 
 }  // namespace plumb::offline

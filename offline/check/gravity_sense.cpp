@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "check/constants.hpp"
 #include "effects/registry.hpp"
 #include "noise/weights.hpp"
 #include "numbers/lu.hpp"
@@ -19,17 +20,6 @@
 
 namespace plumb::offline {
 namespace {
-
-constexpr int kGravityMostRows = 400;
-constexpr int kSpare = 30;             // residuals beyond the parameters, at least
-constexpr double kExplains = 0.5;      // of what the geometry leaves
-constexpr double kBeatsGears = 0.5;    // of what errors of once a turn leave
-constexpr double kBetter = 0.25;       // of what the cell's direction leaves
-constexpr double kGravitySure = 10.0;  // standard deviations
-constexpr double kHint = 4.0;          // what speaks against it, at least
-constexpr double kOpposes = 0.2;       // of the surest joint
-constexpr double kGravityDegree = M_PI / 180.0;
-constexpr double kUpright = 2.0 * kGravityDegree;
 
 /// Result of fitting the residuals by the moments of gravity along one direction.
 struct Yielding {
@@ -53,7 +43,9 @@ class GravityTest {
   }
 
   double all() const { return residual_.squaredNorm(); }
-  bool can_tell() const { return residual_.size() >= basis_.cols() + joints_ + kSpare; }
+  bool can_tell() const {
+    return residual_.size() >= basis_.cols() + joints_ + check::kSpareResiduals;
+  }
 
   /// d: a direction in the base frame, of length 1.
   Yielding along(const Vector3& d) const {
@@ -137,23 +129,25 @@ class GravityTest {
 /// True if two or more joints clearly yield along the direction (against it for sign -1), and no
 /// joint clearly the other way.
 bool all_yield(const Yielding& y, double sign) {
-  const double against = std::max(kHint, kOpposes * y.times.cwiseAbs().maxCoeff());
+  const double against =
+      std::max(check::kAgainstDeviations, check::kAgainstShare * y.times.cwiseAbs().maxCoeff());
   int sure = 0;
   for (const double t : y.times) {
     if (sign * t < -against) return false;
-    sure += sign * t > kGravitySure ? 1 : 0;
+    sure += sign * t > check::kYieldDeviations ? 1 : 0;
   }
-  return sure >= 2;
+  return sure >= check::kFewestYielding;
 }
 
 /// The direction along which the joints really yield if it is not g, else zero.
 Vector3 contradicted_by(const GravityTest& test, const Vector3& g) {
-  const double enough = std::min(kExplains * test.all(), kBeatsGears * test.left_by_gears());
+  const double enough =
+      std::min(check::kGravityExplains * test.all(), check::kBeatsGears * test.left_by_gears());
   const Yielding given = test.along(g);
-  if (given.left < kExplains * test.all())
+  if (given.left < check::kGravityExplains * test.all())
     return given.left < enough && all_yield(given, -1.0) ? Vector3(-g) : Vector3(Vector3::Zero());
   Vector3 best = Vector3::Zero();
-  double least = std::min(enough, kBetter * given.left);
+  double least = std::min(enough, check::kOtherDirection * given.left);
   for (int k = 0; k < 3; ++k) {
     const Vector3 axis = Vector3::Unit(k);
     const Yielding y = test.along(axis);
@@ -173,15 +167,15 @@ std::string in_file(const Vector3& g) {
 
 std::optional<Problem> standing(const Cell& cell, const Vector3& g) {
   const double angle = std::acos(std::clamp(-g.z(), -1.0, 1.0));
-  if (angle < kUpright) return std::nullopt;
+  if (angle < check::kUpright) return std::nullopt;
   std::string how;
-  if (angle > M_PI - kUpright)
+  if (angle > M_PI - check::kUpright)
     how = "upwards in the base frame: the arm hangs head down, from a ceiling";
-  else if (std::abs(angle - M_PI_2) < kUpright)
+  else if (std::abs(angle - M_PI_2) < check::kUpright)
     how = "sideways in the base frame: the arm is mounted on a wall, or moves in an upright plane";
   else
     how = fmt::format("{:.0f} deg off -z of the base: the arm is tilted by as much",
-                      angle / kGravityDegree);
+                      angle / check::kDegree_rad);
   return Problem{
       Severity::kNote, "N-CHECK-GRAVITY",
       fmt::format("gravity = {} points {}",
@@ -207,7 +201,7 @@ std::vector<Problem> gravity_findings(const Cell& cell, const Measurements& meas
   if (only_geometry(cell) && measured.setup.empty() && !fitted.parameters.empty()) {
     const GravityTest test(
         cell, measured,
-        thinned(measured, without_outliers(rows, fitted.outliers), kGravityMostRows), fitted);
+        thinned(measured, without_outliers(rows, fitted.outliers), check::kGravityRows), fitted);
     const Vector3 other = test.can_tell() ? contradicted_by(test, g) : Vector3(Vector3::Zero());
     if (other.norm() > 0.0)
       return {{Severity::kWarning, "W-CHECK-GRAVITY",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "check/constants.hpp"
 #include "check/spectrum.hpp"
 #include "fit/calibrate.hpp"
 #include "noise/weights.hpp"
@@ -13,10 +14,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kMostRows = 1500;
-constexpr double kTypical_m = 0.5e-3;
-constexpr double kTypical_rad = 0.5e-3;
-constexpr double kMillimetre = 1e-3;
+/// The scale of the observability indices, by definition: mm of the point for each 0.5 mm or 0.5
+/// mrad of a parameter, the errors of an arm as it is built.
+constexpr double kTypical_m = 0.5e-3, kTypical_rad = 0.5e-3, kMillimetre = 1e-3;
 
 FitData data_of(const Cell& cell, const Measurements& measured, const std::vector<int>& rows) {
   FitData data;
@@ -58,7 +58,7 @@ Observability typical_observability(FitData data, const ArmState& state,
 
 IdentifiabilityReport identifiability(const Cell& cell, const Measurements& measured,
                                       const std::vector<int>& rows) {
-  const std::vector<int> thin = thinned(measured, rows, kMostRows);
+  const std::vector<int> thin = thinned(measured, rows, check::kIdentifiabilityRows);
   IdentifiabilityReport out;
   out.calibration = calibrate(cell, measured, thin);
   const FitData data = data_of(cell, measured, thin);

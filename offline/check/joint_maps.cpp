@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "check/constants.hpp"
 #include "check/linear_placement.hpp"
 #include "numbers/cholesky.hpp"
 #include "numbers/rotation_fit.hpp"
@@ -15,15 +16,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kZeroStep = M_PI / 9.0;   // of the look at zeros
-constexpr double kFactorStep_rad = 0.15;   // the same at the farthest reading
-constexpr double kMostAngle = 2.2 * M_PI;  // of a joint
-constexpr double kMoves_rad = 1e-3;
-constexpr double kLeastZero = M_PI / 180.0;                     // less is the arm's own error
-constexpr double kLeastFactor = 0.02;                           // of 1
-constexpr double kSureZero = M_PI / 180.0, kSureFactor = 0.01;  // 3 sigma
+/// Standard deviation of a number that the poses do not determine.
 constexpr double kUnknown = 1e9;
-constexpr std::size_t kMapLeads = 24, kMapsKept = 6;
+/// Steps of a fit, which ends where one lowers the cost by less than this share.
 constexpr int kMapSteps = 40;
 constexpr double kMapFall = 1e-6;
 
@@ -59,7 +54,7 @@ class JointMapSearch {
     }
     std::sort(out_.begin(), out_.end(),
               [](const JointMap& a, const JointMap& b) { return a.rms_m < b.rms_m; });
-    if (out_.size() > kMapsKept) out_.resize(kMapsKept);
+    if (out_.size() > check::kMapsKept) out_.resize(check::kMapsKept);
     return std::move(out_);
   }
 
@@ -71,12 +66,14 @@ class JointMapSearch {
   void look_at_zeros() {
     MapLead lead = plain();
     for (std::size_t a = 0; a < inner_.size(); ++a)
-      for (double first = -M_PI + kZeroStep; first < M_PI + 1e-9; first += kZeroStep) {
+      for (double first = -M_PI + check::kZeroStep; first < M_PI + 1e-9;
+           first += check::kZeroStep) {
         lead.zero[static_cast<std::size_t>(inner_[a])] = first;
         offer(lead);
         for (std::size_t b = a + 1; b < inner_.size(); ++b) {
           double& second = lead.zero[static_cast<std::size_t>(inner_[b])];
-          for (second = -M_PI + kZeroStep; second < M_PI + 1e-9; second += kZeroStep) offer(lead);
+          for (second = -M_PI + check::kZeroStep; second < M_PI + 1e-9; second += check::kZeroStep)
+            offer(lead);
           second = 0.0;
         }
         lead.zero[static_cast<std::size_t>(inner_[a])] = 0.0;
@@ -87,15 +84,16 @@ class JointMapSearch {
     const auto q = few_.q.col(j);
     const double most = q.cwiseAbs().maxCoeff();
     const double spread = (q.array() - q.mean()).abs().maxCoeff();
-    if (spread < kMoves_rad) return;
+    if (spread < check::kTellsFactor_rad) return;
     MapLead lead = plain();
     lead.scaled = j;
     const bool has_zero = std::find(inner_.begin(), inner_.end(), j) != inner_.end();
-    const double step = kFactorStep_rad / spread, last = kMostAngle / most;
+    const double step = check::kFactorStep_rad / spread, last = check::kMostAngle / most;
     for (double factor = -last; factor <= last; factor += step) {
       lead.factor[static_cast<std::size_t>(j)] = factor;
       double& zero = lead.zero[static_cast<std::size_t>(j)];
-      for (zero = 0.0; zero < (has_zero ? 2.0 * M_PI - 1e-9 : 1e-9); zero += kZeroStep) offer(lead);
+      for (zero = 0.0; zero < (has_zero ? 2.0 * M_PI - 1e-9 : 1e-9); zero += check::kZeroStep)
+        offer(lead);
     }
   }
 
@@ -112,14 +110,14 @@ class JointMapSearch {
       return a.loose.misfit < b.loose.misfit;
     };
     const auto hopeless = [&] {
-      return leads_.size() == kMapLeads && lead.loose.misfit >= leads_.front().loose.misfit;
+      return leads_.size() == check::kMapLeads && lead.loose.misfit >= leads_.front().loose.misfit;
     };
     if (hopeless()) return;
     placer_.tighten(lead.loose);
     if (lead.loose.left_handed || hopeless()) return;
     leads_.push_back(lead);
     std::push_heap(leads_.begin(), leads_.end(), worse);
-    if (leads_.size() <= kMapLeads) return;
+    if (leads_.size() <= check::kMapLeads) return;
     std::pop_heap(leads_.begin(), leads_.end(), worse);
     leads_.pop_back();
   }
@@ -253,7 +251,9 @@ class JointMapSearch {
 
   static bool tells(const std::vector<double>& deviation, const Open& open) {
     for (std::size_t k = 0; k < deviation.size(); ++k)
-      if (!(3.0 * deviation[k] < (k < open.zeros.size() ? kSureZero : kSureFactor))) return false;
+      if (!(check::kMapDeviations * deviation[k] <
+            (k < open.zeros.size() ? check::kSureZero : check::kSureFactor)))
+        return false;
     return true;
   }
 
@@ -287,14 +287,14 @@ class JointMapSearch {
     Solved solved = solve(start_of(lead), open);
     const std::vector<double> deviation = deviations(solved, open);
     if (!tells(deviation, open)) return;
-    if (open.scaled >= 0 &&
-        std::abs(solved.state.factor[static_cast<std::size_t>(open.scaled)] - 1.0) < kLeastFactor) {
+    if (open.scaled >= 0 && std::abs(solved.state.factor[static_cast<std::size_t>(open.scaled)] -
+                                     1.0) < check::kLeastFactor) {
       return;  // a zero, which the other look finds
     }
     std::erase_if(open.zeros, [&](int j) {
       double& zero = solved.state.zero[static_cast<std::size_t>(j)];
       zero = wrapped(zero);
-      const bool none = std::abs(zero) < kLeastZero;
+      const bool none = std::abs(zero) < check::kLeastZero;
       if (none) zero = 0.0;
       return none;
     });
@@ -309,8 +309,8 @@ class JointMapSearch {
 
   static bool same(const JointMap& a, const JointMap& b) {
     for (std::size_t j = 0; j < a.zero.size(); ++j)
-      if (std::abs(wrapped(a.zero[j] - b.zero[j])) > kLeastZero ||
-          std::abs(a.factor[j] - b.factor[j]) > kLeastFactor * std::abs(a.factor[j]))
+      if (std::abs(wrapped(a.zero[j] - b.zero[j])) > check::kLeastZero ||
+          std::abs(a.factor[j] - b.factor[j]) > check::kLeastFactor * std::abs(a.factor[j]))
         return false;
     return true;
   }

@@ -12,10 +12,12 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kPlacementRidge =
-    1e-9;                             // of the target's information: a reflector nobody sees is 0
-constexpr double kFlatCloud = 1e-6;   // a cloud thinner than this share of its size is flat
-constexpr double kHugeMisfit = 1e12;  // of an arm that does not move
+/// Share of the target's information that is added to it: a target that no pose shows becomes 0.
+constexpr double kPlacementRidge = 1e-9;
+/// A cloud of points is flat if it is thinner than this share of its size.
+constexpr double kFlatCloud = 1e-6;
+/// Misfit of an arm whose points do not move, so that it has no scale.
+constexpr double kHugeMisfit = 1e12;
 
 }  // namespace
 

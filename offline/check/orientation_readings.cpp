@@ -11,11 +11,11 @@
 #include "cell/arm_columns.hpp"
 #include "cell/euler.hpp"
 #include "cell/units.hpp"
+#include "check/constants.hpp"
 
 namespace plumb::offline {
 namespace {
 
-constexpr double kInverseCosts = 1.1, kRareOrderCosts = 1.3, kOtherColumnsCost = 1.4;
 constexpr std::array<const char*, 4> kQuatNames{"qw", "qx", "qy", "qz"};
 constexpr std::array<const char*, 3> kTurnNames{"rx", "ry", "rz"};
 constexpr const char* kInverse =
@@ -75,7 +75,7 @@ NamedReading quat_reading(const std::vector<std::array<double, 4>>& rows, const 
     return std::array<double, 4>{c[at[0]], sign * c[at[1]], sign * c[at[2]], sign * c[at[3]]};
   });
   const bool as_named = order.at[0] == 0;
-  out.reading.changes = (as_named ? 0.0 : 1.0) + (inverse ? kInverseCosts : 0.0);
+  out.reading.changes = (as_named ? 0.0 : 1.0) + (inverse ? check::kInverseCosts : 0.0);
   out.words = order.words;
   if (inverse) out.words += (as_named ? "" : "; ") + std::string(kInverse);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -143,7 +143,9 @@ NamedReading turn_reading(const std::vector<std::array<double, 3>>& rows,
   const bool reordered = at != labelled.column;
   if (order != labelled.convention || reordered) {
     words.push_back(order_words(active));
-    changes += reordered ? kOtherColumnsCost : is_common(order) ? 1.0 : kRareOrderCosts;
+    changes += reordered          ? check::kOtherColumnsCost
+               : is_common(order) ? 1.0
+                                  : check::kRareOrderCosts;
   }
   if (meant.unit != labelled.unit) {
     words.push_back(fmt::format("rx, ry, rz are in {}, not {}", meant.unit, labelled.unit));
@@ -151,7 +153,7 @@ NamedReading turn_reading(const std::vector<std::array<double, 3>>& rows,
   }
   if (meant.inverse) {
     words.emplace_back(kInverse);
-    changes += kInverseCosts;
+    changes += check::kInverseCosts;
   }
   out.words = fmt::format("{}", fmt::join(words, "; "));
   out.reading.changes = changes;

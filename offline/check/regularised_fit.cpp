@@ -6,6 +6,7 @@
 
 #include "arm/arm_change.hpp"
 #include "arm/predicted_points.hpp"
+#include "check/constants.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
 #include "numbers/cholesky.hpp"
@@ -15,15 +16,9 @@
 namespace plumb::offline {
 namespace {
 
+/// Steps of a fit, which ends where one lowers the cost by less than this share.
 constexpr int kMostSteps = 15;
-constexpr double kEnoughFall = 1e-4;       // relative fall of the cost at which it stops
-constexpr double kNearNominal_m = 5e-3;    // 1 sigma of a real arm's lengths
-constexpr double kNearNominal_rad = 1e-2;  // and angles, joint zeros included
-constexpr double kSigma_m = 50e-6;         // weight of a coordinate against the two above
-constexpr double kOutlier = 6.0;           // medians: a row that far off is no part of the arm
-constexpr double kMostOutliers = 0.05;     // of the rows
-constexpr int kRounds = 2;
-constexpr double kTooFar = 5.0;  // sigma: an arm that far from nominal is another arm
+constexpr double kEnoughFall = 1e-4;
 
 FitData unweighted(const Measurements& measured, const std::vector<int>& rows) {
   FitData data;
@@ -44,7 +39,8 @@ std::vector<Parameter> parameters_of(const Cell& cell, bool with_arm) {
   return out;
 }
 
-/// Sum of squares with the pull towards nominal, in the unit of kSigma_m.
+/// Sum of squares of the residuals and of the parameters' changes from nominal, each over its
+/// variance, multiplied by that of a coordinate.
 class PulledFit {
  public:
   PulledFit(const FitData& data, const ArmState& nominal, const std::vector<Parameter>& parameters)
@@ -53,7 +49,8 @@ class PulledFit {
     weight_ = Eigen::VectorXd::Zero(count);
     for (Eigen::Index i = 0; i < count; ++i)
       if (parameters[i].of_robot())
-        weight_(i) = kSigma_m / (parameters[i].is_length() ? kNearNominal_m : kNearNominal_rad);
+        weight_(i) = check::kCoordinate_m /
+                     (parameters[i].is_length() ? check::kNearNominal_m : check::kNearNominal_rad);
   }
 
   Eigen::VectorXd change(const ArmState& state) const {
@@ -67,7 +64,7 @@ class PulledFit {
 
   /// The largest change of the arm, in sigma.
   double strain(const ArmState& state) const {
-    return change(state).cwiseProduct(weight_).cwiseAbs().maxCoeff() / kSigma_m;
+    return change(state).cwiseProduct(weight_).cwiseAbs().maxCoeff() / check::kCoordinate_m;
   }
 
   double cost(const ArmState& state) const {
@@ -117,7 +114,7 @@ RegularisedFit solved_once(const Cell& cell, const Measurements& measured,
   double cost = problem.cost(start), damping = 1e-6;
   for (int i = 0; i < kMostSteps && problem.step(out.state, cost, damping); ++i) {
   }
-  if (with_arm && problem.strain(out.state) > kTooFar) out.state = start;
+  if (with_arm && problem.strain(out.state) > check::kAnotherArm) out.state = start;
   const double squares = evaluate(data, out.state, {}).residual.squaredNorm();
   out.rms_m = std::sqrt(squares / static_cast<double>(rows.size()));
   return out;
@@ -131,8 +128,8 @@ std::vector<int> without_outliers(const Measurements& measured, const std::vecto
   std::vector<double> sorted(left.data(), left.data() + left.size());
   std::sort(sorted.begin(), sorted.end());
   const auto n = sorted.size();
-  const auto spared = static_cast<std::size_t>(kMostOutliers * static_cast<double>(n));
-  const double limit = std::max(kOutlier * sorted[n / 2], sorted[n - 1 - spared]);
+  const auto spared = static_cast<std::size_t>(check::kLeftOutShare * static_cast<double>(n));
+  const double limit = std::max(check::kOffMedians * sorted[n / 2], sorted[n - 1 - spared]);
   std::vector<int> out;
   for (std::size_t i = 0; i < n; ++i)
     if (left(static_cast<Eigen::Index>(i)) <= limit) out.push_back(rows[i]);
@@ -142,7 +139,7 @@ std::vector<int> without_outliers(const Measurements& measured, const std::vecto
 RegularisedFit solved(const Cell& cell, const Measurements& measured, std::vector<int> rows,
                       const ArmState& start, bool with_arm) {
   RegularisedFit out = solved_once(cell, measured, rows, start, with_arm);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < check::kLeftOutRounds; ++round) {
     const auto fewer = without_outliers(measured, rows, out.state);
     if (fewer.size() == rows.size()) break;
     rows = fewer;

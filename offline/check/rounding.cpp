@@ -11,19 +11,19 @@
 
 #include "cell/table_place.hpp"
 #include "cell/units.hpp"
+#include "check/constants.hpp"
 #include "plumb/runtime/chain.hpp"
 #include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
 
+/// Decimal places of the finest step that is looked for.
 constexpr int kMostDigits = 9;
-constexpr double kWhole = 1e-6;  // of a step: what floating point may add
-constexpr int kRowsLookedAt = 500;
-constexpr double kSeen = 0.5;              // of the noise: less rounding than that goes unseen
-constexpr double kCoarse_m = 50e-6;        // no tracker is read coarser on purpose
-constexpr std::size_t kFewestValues = 10;  // different ones: fewer are round by chance or choice
-constexpr int kMostTens = 4;               // 10 m in mm, or 1 mm in um
+/// Distance from a whole multiple, in steps, that floating-point arithmetic may cause.
+constexpr double kWhole = 1e-6;
+/// Power of ten of the coarsest step: 10 m in mm, or 10 mm in um.
+constexpr int kMostTens = 4;
 
 /// The coarsest power of ten of which all values are multiples, in the column's unit; 0 if finer
 /// than 1e-9 or if nothing but zeros is there.
@@ -80,7 +80,7 @@ double step_of_point(const Column& column) {
   if (!unit) return 0.0;
   std::vector<double> values;
   for (const double v : column.values) values.push_back(unit->from_si(v));
-  if (!has_different(values, kFewestValues)) return 0.0;
+  if (!has_different(values, check::kFewestValues)) return 0.0;
   for (int tens = kMostTens; tens >= -kMostDigits; --tens)
     for (const double leading : {5.0, 2.5, 2.0, 1.0}) {
       // Dividing by a power of ten keeps 0.1 exact to the last place; multiplying by 1e-1 does not.
@@ -130,7 +130,8 @@ std::vector<Problem> coarse_points(const MeasurementFiles& measured, const Noise
   for (const Table& table : measured.tables) {
     const CoarseAxis axis = coarsest_axis(table);
     const double sigma = axis.si / std::sqrt(12.0);
-    if (axis.column == nullptr || (known ? sigma < kSeen * floor.sigma_m : axis.si < kCoarse_m))
+    if (axis.column == nullptr ||
+        (known ? sigma < check::kRoundingSeen * floor.sigma_m : axis.si < check::kCoarseRounding_m))
       continue;
     out.push_back(
         {Severity::kWarning, "W-CHECK-COARSE",
@@ -163,7 +164,7 @@ std::optional<Rounding> joint_rounding(const Cell& cell, const MeasurementFiles&
   if (out.step == 0.0) return std::nullopt;
   const Chain chain(placed.arm.calibrated);
   const Vector3 target(placed.X_TG.p[0], placed.X_TG.p[1], placed.X_TG.p[2]);
-  const auto thin = thinned(measured, rows, kRowsLookedAt);
+  const auto thin = thinned(measured, rows, check::kRoundingRows);
   double squares = 0.0;
   ChainFrames frames;
   for (const int i : thin) {

@@ -10,6 +10,7 @@
 
 #include "arm/parameter.hpp"
 #include "arm/predicted_points.hpp"
+#include "check/constants.hpp"
 #include "check/faulty_run.hpp"
 #include "check/regularised_fit.hpp"
 #include "check/row_lines.hpp"
@@ -20,23 +21,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kFaultFewestRows = 30;   // of a file
-constexpr std::size_t kFaultMostRows = 20000;  // of a file
-constexpr std::size_t kFewestOfPart = 15;      // rows that an arm is fitted to
-constexpr int kMostOfPart = 100;
-constexpr int kFewestFaulty = 3;              // rows in a run
-constexpr int kMostFaults = 3;                // of a file
-constexpr double kNothingToExplain = 0.3e-3;  // [m] RMS
-constexpr double kPartFits = 0.0015;          // of the reach, RMS
-constexpr double kLeastScatter_m = 10e-6;
-constexpr double kTimesBetter = 20.0;      // the median of the repaired rows
-constexpr double kLikeOthers = 3.0;        // times the median of the others
-constexpr double kMostlyLikeOthers = 6.0;  // times it, for four fifths of them
-constexpr double kNextBest = 3.0;          // times: any other explanation leaves more
-constexpr double kElsewhere = 10.0;        // medians: rows so far off may have another fault
-constexpr double kElsewhereLeast_m = 5e-3;
-constexpr double kNoPartner_m = 1e3;  // error of a row that the shift takes beyond the file
-constexpr double kDegrees = 180.0 / M_PI;
+/// Error of a row that a shift takes beyond the file.
+constexpr double kNoPartner_m = 1e3;
+constexpr double kDegrees = 180.0 / M_PI;  // in a radian
 
 /// The rows of one file.
 class RowFaults {
@@ -69,7 +56,7 @@ class RowFaults {
       if (auto all = shifted_file(left_m)) out.push_back(*all);
       return out;
     }
-    while (static_cast<int>(out.size()) < kMostFaults) {
+    while (static_cast<int>(out.size()) < check::kMostFaults) {
       const auto run = surest(*arm);
       if (!run) break;
       now_ = repaired(run->fault, run->first, run->last);
@@ -87,11 +74,11 @@ class RowFaults {
   /// An arm near nominal that fits these rows of `some`, or nothing.
   std::optional<RegularisedFit> arm_of(const Measurements& some,
                                        const std::vector<int>& rows) const {
-    if (rows.size() < kFewestOfPart) return std::nullopt;
-    const auto thin = thinned(some, rows, kMostOfPart);
+    if (rows.size() < check::kFewestFitted) return std::nullopt;
+    const auto thin = thinned(some, rows, check::kMostFitted);
     RegularisedFit out =
         regularised_fit(cell_, some, thin, placed_from_the_labels(cell_, some, thin).state);
-    if (out.rms_m > kPartFits * reach(cell_.nominal)) return std::nullopt;
+    if (out.rms_m > check::kSoundShare * reach(cell_.nominal)) return std::nullopt;
     return out;
   }
 
@@ -168,7 +155,7 @@ class RowFaults {
   std::optional<FaultyRun> surest(const ArmState& arm) const {
     const auto as_is = errors_of(arm, now_);
     // Half of the rows or fewer may be of the part that the arm was fitted to.
-    const double scatter = std::max(kLeastScatter_m, quantile(as_is, 0.2));
+    const double scatter = std::max(check::kLeastScatter_m, quantile(as_is, check::kSoundQuantile));
     FaultyRun best;
     double most = 0.0;
     for (const RowFault& fault : faults_) {
@@ -177,7 +164,7 @@ class RowFaults {
       best = run;
       most = gain;
     }
-    if (best.count() < kFewestFaulty || best.count() == size()) return std::nullopt;
+    if (best.count() < check::kFewestOfRun || best.count() == size()) return std::nullopt;
     return confirmed(best, arm, scatter);
   }
 
@@ -188,7 +175,8 @@ class RowFaults {
     const auto first_errors = errors_of(arm, better);
     std::vector<int> near;
     for (int i = 0; i < size(); ++i)
-      if (first_errors[static_cast<std::size_t>(i)] < kElsewhere * scatter + kElsewhereLeast_m)
+      if (first_errors[static_cast<std::size_t>(i)] <
+          check::kElsewhere * scatter + check::kElsewhere_m)
         near.push_back(i);
     const auto fit = arm_of(better, near);
     if (!fit) return std::nullopt;
@@ -196,19 +184,20 @@ class RowFaults {
     std::vector<double> others;
     for (const int i : near)
       if (i < run.first || i > run.last) others.push_back(after[static_cast<std::size_t>(i)]);
-    if (others.size() < kFewestOfPart) return std::nullopt;
-    run.others = std::max(kLeastScatter_m, quantile(others, 0.5));
+    if (others.size() < check::kFewestFitted) return std::nullopt;
+    run.others = std::max(check::kLeastScatter_m, quantile(others, 0.5));
     trim(run, after);
-    if (run.count() < kFewestFaulty) return std::nullopt;
+    if (run.count() < check::kFewestOfRun) return std::nullopt;
     run.after = quantile(of(after, run), 0.5);
     run.before = quantile(of(before, run), 0.5);
     const double ordinary = std::max(run.after, run.others);
-    if (run.after > kLikeOthers * run.others || run.before < kTimesBetter * ordinary ||
-        quantile(of(after, run), 0.8) > kMostlyLikeOthers * run.others)
+    if (run.after > check::kLikeOthers * run.others ||
+        run.before < check::kTimesBetter * ordinary ||
+        quantile(of(after, run), check::kMostOfRun) > check::kMostlyLikeOthers * run.others)
       return std::nullopt;
     for (const RowFault& other : faults_)
       if (!same(other, run.fault) &&
-          quantile(of(errors_without(fit->state, other), run), 0.5) < kNextBest * ordinary)
+          quantile(of(errors_without(fit->state, other), run), 0.5) < check::kNextBest * ordinary)
         return std::nullopt;
     return run;
   }
@@ -216,7 +205,7 @@ class RowFaults {
   /// Rows at the ends of a run that the repair does not bring near the others have another fault.
   static void trim(FaultyRun& run, const std::vector<double>& after) {
     const auto is_off = [&](int row) {
-      return after[static_cast<std::size_t>(row)] > kMostlyLikeOthers * run.others;
+      return after[static_cast<std::size_t>(row)] > check::kMostlyLikeOthers * run.others;
     };
     while (run.first <= run.last && is_off(run.last)) --run.last;
     while (run.first <= run.last && is_off(run.first)) ++run.first;
@@ -244,14 +233,15 @@ class RowFaults {
       const auto fit = arm_of(better, rows);
       if (!fit) continue;
       run.after = run.others =
-          std::max(kLeastScatter_m, quantile(of(errors_of(fit->state, better), run), 0.5));
+          std::max(check::kLeastScatter_m, quantile(of(errors_of(fit->state, better), run), 0.5));
       run.before = left_m;
       found.push_back(run);
     }
     std::sort(found.begin(), found.end(),
               [](const FaultyRun& a, const FaultyRun& b) { return a.after < b.after; });
-    if (found.empty() || found[0].before < kTimesBetter * found[0].after) return std::nullopt;
-    if (found.size() > 1 && found[1].after < kNextBest * found[0].after) return std::nullopt;
+    if (found.empty() || found[0].before < check::kTimesBetter * found[0].after)
+      return std::nullopt;
+    if (found.size() > 1 && found[1].after < check::kNextBest * found[0].after) return std::nullopt;
     return found[0];
   }
 
@@ -272,14 +262,15 @@ std::vector<Problem> row_fault_findings(const Cell& cell, const MeasurementFiles
     std::vector<int> of_file, places;
     for (const int row : rows)
       if (const RowPlace at = row_place(measured, row);
-          at.table == static_cast<int>(t) && of_file.size() < kFaultMostRows) {
+          at.table == static_cast<int>(t) && of_file.size() < check::kMostOfFile) {
         of_file.push_back(row);
         places.push_back(at.row);
       }
-    if (of_file.size() < kFaultFewestRows) continue;
+    if (of_file.size() < check::kFewestRows) continue;
     const Measurements some = pick(measured, of_file);
     const Eigen::VectorXd left = residuals(some, predict_points(placed, some)).rowwise().norm();
-    if (left.norm() < kNothingToExplain * std::sqrt(static_cast<double>(left.size()))) continue;
+    if (left.norm() < check::kNothingToExplain_m * std::sqrt(static_cast<double>(left.size())))
+      continue;
     const Table& table = measured.tables[t];
     RowFaults faults(cell, some, unit_of_points(table), unit_of_turns(cell, table));
     const double middle = quantile({left.data(), left.data() + left.size()}, 0.5);

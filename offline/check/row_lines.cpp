@@ -10,7 +10,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kLinesListed = 5;  // lines named in one message
+/// Lines that a message names.
+constexpr std::size_t kLinesListed = 5;
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 
 #include "arm/predicted_points.hpp"
 #include "cell/table_place.hpp"
+#include "check/constants.hpp"
 #include "check/row_lines.hpp"
 #include "check/tool_errors.hpp"
 #include "numbers/quantile.hpp"
@@ -17,17 +18,7 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kLongest = 12;             // rows of a pattern
-constexpr int kPatternFewestRows = 30;   // of a file
-constexpr int kFewestOfPhase = 8;        // rows in each place of the pattern
-constexpr int kPatternMostRows = 20000;  // of a file
-constexpr double kFar = 20.0;            // medians: what is farther off counts as if it were there
-constexpr double kLeastShare = 0.2;      // of the sum of squares that the fit leaves
-constexpr double kPatternSure = 18.0;    // standard deviations of chi^2: below 1 in 10^5 by chance
-constexpr double kPatternAlike =
-    0.8;  // of the best period's share: a multiple of a period is no better
-constexpr double kPatternFollows = 0.25;  // of a column's variance: more, and it may be the cause
-constexpr double kTwoValued = 0.7;        // of the pattern's sum of squares
+/// Lines that a message names.
 constexpr int kShown = 3;
 
 using Errors = Rows3;
@@ -45,11 +36,11 @@ std::vector<FileRows> by_file(const MeasurementFiles& measured, const std::vecto
     const RowPlace at = row_place(measured, row);
     FileRows& file = out[static_cast<std::size_t>(at.table)];
     file.table = at.table;
-    if (static_cast<int>(file.row.size()) == kPatternMostRows) continue;
+    if (static_cast<int>(file.row.size()) == check::kMostOfFile) continue;
     file.row.push_back(row);
     file.place.push_back(at.row);
   }
-  std::erase_if(out, [](const FileRows& f) { return f.row.size() < kPatternFewestRows; });
+  std::erase_if(out, [](const FileRows& f) { return f.row.size() < check::kFewestRows; });
   return out;
 }
 
@@ -58,7 +49,7 @@ void clip(Errors& errors) {
   std::vector<double> size(static_cast<std::size_t>(errors.rows()));
   for (Eigen::Index i = 0; i < errors.rows(); ++i)
     size[static_cast<std::size_t>(i)] = errors.row(i).norm();
-  const double most = kFar * median(size);
+  const double most = check::kClipMedians * median(size);
   for (Eigen::Index i = 0; i < errors.rows(); ++i)
     if (const double s = size[static_cast<std::size_t>(i)]; s > most) errors.row(i) *= most / s;
 }
@@ -85,7 +76,7 @@ Phases phases_of(const Values& v, const std::vector<int>& place, int period) {
   out.enough = true;
   for (int k = 0; k < period; ++k) {
     const int n = out.count[static_cast<std::size_t>(k)];
-    out.enough = out.enough && n >= kFewestOfPhase;
+    out.enough = out.enough && n >= check::kFewestOfPlace;
     if (n == 0) continue;
     out.mean.row(k) /= n;
     between += n * (out.mean.row(k) - all).squaredNorm();
@@ -99,21 +90,22 @@ Phases phases_of(const Values& v, const std::vector<int>& place, int period) {
 /// all of the error, so n counts rows and not coordinates.
 bool is_sure(const Phases& p, Eigen::Index n) {
   const double free = p.period - 1.0;
-  return p.enough && p.share >= kLeastShare &&
-         p.share * static_cast<double>(n) > free + kPatternSure * std::sqrt(2.0 * free);
+  return p.enough && p.share >= check::kPatternShare &&
+         p.share * static_cast<double>(n) >
+             free + check::kPatternDeviations * std::sqrt(2.0 * free);
 }
 
 std::optional<Phases> best_pattern(const Errors& v, const std::vector<int>& place) {
   std::vector<Phases> found;
   double most = 0.0;
-  for (int period = 2; period <= kLongest; ++period) {
+  for (int period = 2; period <= check::kLongestPeriod; ++period) {
     Phases p = phases_of(v, place, period);
     if (!is_sure(p, v.rows())) continue;
     most = std::max(most, p.share);
     found.push_back(std::move(p));
   }
   for (auto& p : found)
-    if (p.share >= kPatternAlike * most) return p;
+    if (p.share >= check::kPatternAlike * most) return p;
   return std::nullopt;
 }
 
@@ -125,7 +117,8 @@ bool is_followed(const MeasurementFiles& measured, const FileRows& file, int per
     for (std::size_t i = 0; i < file.row.size(); ++i)
       v(static_cast<Eigen::Index>(i), 0) = value_of(i);
     return phases_of(v, file.place, period).share >
-           kPatternFollows + static_cast<double>(period) / static_cast<double>(file.row.size());
+           check::kPatternFollows +
+               static_cast<double>(period) / static_cast<double>(file.row.size());
   };
   for (Eigen::Index j = 0; j < measured.q.cols(); ++j) {
     if (follows([&](std::size_t i) { return measured.q(file.row[i], j); })) return true;
@@ -175,7 +168,8 @@ std::optional<Odd> odd_places(const Phases& p) {
   high /= n_high;
   low /= n_low;
   const double explained = n_high * n_low / p.period * (high - low).squaredNorm();
-  if (explained < kTwoValued * (p.mean.rowwise() - middle).squaredNorm()) return std::nullopt;
+  if (explained < check::kTwoValued * (p.mean.rowwise() - middle).squaredNorm())
+    return std::nullopt;
   Odd out;
   const auto cut = order.begin() + static_cast<std::ptrdiff_t>(split);
   const bool few_high = 2 * split <= order.size();

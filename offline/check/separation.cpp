@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "check/arm_shape.hpp"
+#include "check/constants.hpp"
 #include "numbers/pivoted_qr.hpp"
 #include "solve/evaluation.hpp"
 #include "solve/imagined_poses.hpp"
@@ -15,16 +16,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kPartner = 0.1;        // share of the column that a partner takes over
-constexpr double kIndependent = 1e-6;   // share that is left where nothing separates
-constexpr double kCorrelated = 0.95;    // |rho| worth a word
-constexpr double kNearParallel = 0.05;  // as the geometric model counts it [rad]
-constexpr double kOnTheAxis_m = 5e-3;   // a reflector nearer to the last axis hardly shows it
-constexpr double kWide = M_PI / 3.0;    // a joint that uses more, and that share of its limits,
-constexpr double kWideShare = 0.4;      // is not what is missing
-constexpr std::size_t kMostPairs = 12;
-constexpr std::size_t kMostPartners = 6;
-constexpr double kOneDegree_rad = M_PI / 180.0;
+/// Pairs that are told, the most correlated ones, and partners that a sentence names.
+constexpr std::size_t kMostPairs = 12, kMostPartners = 6;
 
 /// How a column is made of others: which ones, and what is left.
 struct Mixture {
@@ -45,7 +38,7 @@ Mixture mixture(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column) {
   std::vector<std::pair<double, int>> shares;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double share = std::abs(x(i)) * kept.col(i).norm() / whole;
-    if (share > kPartner) shares.emplace_back(-share, static_cast<int>(i));
+    if (share > check::kPartnerShare) shares.emplace_back(-share, static_cast<int>(i));
   }
   std::sort(shares.begin(), shares.end());
   for (const auto& [share, i] : shares) out.partners.push_back(i);
@@ -81,7 +74,7 @@ class Explainer {
         return std::any_of(kept_.begin(), kept_.end(),
                            [&](const Parameter& p) { return p.name == name; });
       };
-      if (shape_.angle_to_next[j] > kNearParallel || has(d)) continue;
+      if (shape_.angle_to_next[j] > check::kNearParallel_rad || has(d)) continue;
       if (cell_.nominal.joints[j].type != format::JointType::kRevolute) continue;
       out_.push_back({Separation::Cause::kArm,
                       d,
@@ -93,7 +86,7 @@ class Explainer {
 
   std::string parallel(int j) const {
     return fmt::format("{} and {} are parallel to {:.2g} deg", joint(j), joint(j + 1),
-                       std::max(shape_.angle_to_next[j] / kOneDegree_rad, 1e-3));
+                       std::max(shape_.angle_to_next[j] / check::kDegree_rad, 1e-3));
   }
 
   void explain_held(const std::vector<Parameter>& held) {
@@ -103,9 +96,10 @@ class Explainer {
     for (std::size_t i = 0; i < held.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const Mixture here = mixture(K, H.col(column));
-      const bool seen = here.left > kIndependent;
-      const bool anywhere = held[i].of_effect() ||
-                            mixture(K_anywhere, anywhere_of({held[i]}).col(0)).left > kIndependent;
+      const bool seen = here.left > check::kSeparable;
+      const bool anywhere =
+          held[i].of_effect() ||
+          mixture(K_anywhere, anywhere_of({held[i]}).col(0)).left > check::kSeparable;
       out_.push_back(sentence(held[i], here, seen, anywhere));
     }
   }
@@ -158,7 +152,7 @@ class Explainer {
   std::string effect_reason(const Parameter& p) const {
     if (p.of_effect())
       for (const int j : state_.arm.effects[static_cast<std::size_t>(p.joint)].joints)
-        if (shape_.used[static_cast<std::size_t>(j)] < kStill)
+        if (shape_.used[static_cast<std::size_t>(j)] < check::kStill)
           return fmt::format("{} never moves in these poses: move it by > 60 deg", joint(j));
     return "in these poses they move the measured point alike";
   }
@@ -183,10 +177,10 @@ class Explainer {
   std::string arm_reason(const Parameter& p, const Mixture& here) const {
     if (of_effects(p, here)) return "";
     const auto [first, last] = span(p, here);
-    if (last == cell_.joints() - 1 && shape_.reflector_off_last_axis_m < kOnTheAxis_m)
+    if (last == cell_.joints() - 1 && shape_.reflector_off_last_axis_m < check::kOnAxis_m)
       return off_axis();
     for (int j = first; j < last; ++j)
-      if (shape_.angle_to_next[j] < kNearParallel) return parallel(j);
+      if (shape_.angle_to_next[j] < check::kNearParallel_rad) return parallel(j);
     return "";
   }
 
@@ -207,7 +201,7 @@ class Explainer {
 
   int still_joint(int first, int last) const {
     for (int j = first; j <= last; ++j)
-      if (shape_.used[j] < kStill) return j;
+      if (shape_.used[j] < check::kStill) return j;
     return -1;
   }
 
@@ -220,7 +214,8 @@ class Explainer {
     int least = first;
     for (int j = first; j <= last; ++j)
       if (shape_.used[j] / shape_.limits[j] < shape_.used[least] / shape_.limits[least]) least = j;
-    if (shape_.used[least] > kWide && shape_.used[least] > kWideShare * shape_.limits[least])
+    if (shape_.used[least] > check::kWideRange &&
+        shape_.used[least] > check::kWideShare * shape_.limits[least])
       return "in all these poses they move the point alike; more poses, further apart, help";
     const bool slides = cell_.nominal.joints[least].type == format::JointType::kPrismatic;
     return fmt::format("these poses do not separate them; add poses that move {} over more than {}",
@@ -234,7 +229,7 @@ class Explainer {
       for (Eigen::Index k = i + 1; k < covariance.rows(); ++k) {
         const double rho = covariance(i, k) / (sigma(i) * sigma(k));
         const Parameter &a = kept_[i], &b = kept_[k];
-        if (std::abs(rho) < kCorrelated || (!a.of_robot() && !b.of_robot())) continue;
+        if (std::abs(rho) < check::kCorrelated || (!a.of_robot() && !b.of_robot())) continue;
         Mixture both;
         both.partners = {static_cast<int>(k)};
         pairs.push_back(

@@ -9,15 +9,12 @@
 #include <optional>
 
 #include "arm/predicted_points.hpp"
+#include "check/constants.hpp"
 #include "fit/calibrate.hpp"
 #include "solve/thinned_rows.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr int kSharingMostRows = 600;
-constexpr int kSharingFewestRows = 10;  // of the set-up
-constexpr double kSharingClearly = 0.5;
 
 double rms_error(const Measurements& measured, const std::vector<int>& rows,
                  const ArmState& state) {
@@ -43,7 +40,7 @@ double distance(const format::Pose& a, const format::Pose& b) {
 class Sharing {
  public:
   Sharing(const Cell& cell, const Measurements& measured, const std::vector<int>& rows)
-      : cell_(cell), measured_(measured), rows_(thinned(measured, rows, kSharingMostRows)) {}
+      : cell_(cell), measured_(measured), rows_(thinned(measured, rows, check::kSharingRows)) {}
 
   std::vector<Problem> findings() {
     const auto& setups = cell_.measurement.setups;
@@ -81,11 +78,11 @@ class Sharing {
     const auto of_setup = std::count_if(rows_.begin(), rows_.end(), [&](int row) {
       return measured_.setup[static_cast<std::size_t>(row)] == static_cast<int>(k);
     });
-    if (of_setup < kSharingFewestRows) return;
+    if (of_setup < check::kFewestOfSetup) return;
     const auto alone = fitted(own, measured_, rows_);
     if (!alone) return;
     const double left = rms_error(measured_, rows_, *alone);
-    if (left > kSharingClearly * shared_error()) return;
+    if (left > check::kSharingExplains * shared_error()) return;
     const std::string& name = cell_.measurement.setups[k].name;
     const std::string& first = cell_.measurement.setups[other].name;
     out_.push_back(

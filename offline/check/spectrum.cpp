@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/spectrum.hpp"
 
+#include "check/constants.hpp"
 #include "numbers/spectrum.hpp"
 #include "numbers/triangle.hpp"
 
 namespace plumb::offline {
-namespace {
-
-constexpr double kNothing = 1e-7;  // of the largest: what the fit counts as no direction of its own
-
-}  // namespace
 
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& J) {
   if (J.size() == 0) return {};
@@ -26,7 +22,7 @@ Spectrum spectrum(const Eigen::MatrixXd& J) {
   Spectrum out;
   out.values = singular_values(scaled);
   if (out.values.size() == 0 || !(out.values(0) > 0.0)) return out;
-  out.rank = static_cast<int>((out.values.array() > kNothing * out.values(0)).count());
+  out.rank = static_cast<int>((out.values.array() > check::kSingular * out.values(0)).count());
   out.condition = out.values(0) / out.values(out.rank - 1);
   return out;
 }

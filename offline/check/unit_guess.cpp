@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "cell/units.hpp"
+#include "check/constants.hpp"
 
 namespace plumb::offline {
 namespace {
-
-constexpr double kMostRadians = 20.0;
-constexpr double kLeastDegrees = 3.0;
-constexpr double kRatioTolerance = 0.12;  // |log|: far less than from mm to any other unit
 
 const char* const kLengths[] = {"mm", "m", "in"};
 
@@ -20,8 +17,8 @@ double in_metres(const std::string& unit) { return unit_of(unit)->to_si(1.0); }
 /// Labelled first, then deg or rad if numbers up to `largest` can be that.
 std::vector<std::string> plausible(double largest, const std::string& labelled) {
   std::vector<std::string> out{labelled};
-  if (labelled != "rad" && largest <= kMostRadians) out.emplace_back("rad");
-  if (labelled != "deg" && largest >= kLeastDegrees) out.emplace_back("deg");
+  if (labelled != "rad" && largest <= check::kMostRadians) out.emplace_back("rad");
+  if (labelled != "deg" && largest >= check::kLeastDegrees) out.emplace_back("deg");
   return out;
 }
 
@@ -40,13 +37,14 @@ std::vector<std::string> point_lengths_with(const std::string& labelled) {
 }
 
 bool near(double ratio, double wanted) {
-  return std::abs(std::log(ratio / wanted)) < kRatioTolerance;
+  return std::abs(std::log(ratio / wanted)) < check::kRatioTolerance;
 }
 
 }  // namespace
 
 double oddity(double reach_m) {
-  return 3.0 * std::max(0.0, std::abs(std::log10(std::max(reach_m, 1e-9))) - 0.7);
+  return check::kOddPerDecade *
+         std::max(0.0, std::abs(std::log10(std::max(reach_m, 1e-9))) - check::kUsualDecades);
 }
 
 std::vector<std::string> plausible_turn_units(double largest, const std::string& labelled) {
