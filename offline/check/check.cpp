@@ -122,8 +122,8 @@ class Checker {
   /// Reports an error if no interpretation of the files fits. The convention search keeps the arm
   /// near nominal and the full fit does not: if the full fit succeeds with the lengths as labelled,
   /// the interpretation is right, and W-FIT-FAR says how far from nominal the arm is.
-  void reading_fits(const Cell& cell, const MeasurementFiles& measured,
-                    const std::vector<int>& rows) {
+  void interpretation_fits(const Cell& cell, const MeasurementFiles& measured,
+                           const std::vector<int>& rows) {
     Detection& d = out_.detection;
     const double most = check::kFits * d.best.size_m;
     if (!d.why_not.empty() || d.changed || d.best.fitted_m <= most) return;
@@ -150,8 +150,8 @@ class Checker {
   /// Notes the RMS error [m] that a full fit leaves with the files read as labelled.
   void fits_by(double left_m) {
     Detection& d = out_.detection;
-    for (Reading& reading : d.table)
-      if (reading.convention == d.best.convention) reading.fitted_m = left_m;
+    for (Interpretation& one : d.table)
+      if (one.convention == d.best.convention) one.fitted_m = left_m;
     d.best.fitted_m = d.present.fitted_m = left_m;
   }
 
@@ -192,7 +192,7 @@ class Checker {
     if (rows.empty()) return;
     out_.effects = testable_effects(data_sense(cell, measured, rows));
     look_at_parameters(cell, measured, rows);
-    reading_fits(cell, measured, rows);
+    interpretation_fits(cell, measured, rows);
     const ArmState placed =
         out_.parameters
             ? out_.parameters->calibration.state

@@ -20,8 +20,8 @@ namespace plumb::offline {
 /// Everything that can be said of a cell and its measurements before they are fitted.
 struct Check {
   Detection detection;
-  std::vector<std::string> changes;                 // of the best reading, in words
-  std::optional<IdentifiabilityReport> parameters;  // of the best reading
+  std::vector<std::string> changes;                 // of the best interpretation, in words
+  std::optional<IdentifiabilityReport> parameters;  // of the best interpretation
   std::string why_no_parameters;
   std::optional<Coverage> coverage;
   std::optional<Rounding> rounding;

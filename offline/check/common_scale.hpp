@@ -25,9 +25,9 @@ struct GrossScale {
   bool is_unit = false;  // a unit of length explains the factor
 };
 
-/// For files that no reading fits: the factor that all measured points would have to be multiplied
-/// by so that the nominal arm fits them (W-CHECK-SCALE), with the unit that would do so if there is
-/// one. Nothing if they would not fit then either. The rows: those that are used.
+/// For files that no interpretation fits: the factor that all measured points would have to be
+/// multiplied by so that the nominal arm fits them (W-CHECK-SCALE), with the unit that would do so
+/// if there is one. Nothing if they would not fit then either. The rows: those that are used.
 std::optional<GrossScale> gross_scale(const Cell& cell, const Measurements& measured,
                                       const std::vector<int>& rows, const Detection& detection);
 

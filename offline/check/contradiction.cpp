@@ -148,7 +148,7 @@ class Majority {
 };
 
 /// The rows that contradict the majority.
-struct Part {
+struct ContradictingRows {
   std::vector<bool> is_outside;  // of every row
   std::vector<int> rows;
   std::vector<double> sizes;
@@ -156,8 +156,9 @@ struct Part {
   int runs = 0;
 };
 
-Part part_of(const std::vector<int>& rows, const std::vector<double>& errors, double scatter) {
-  Part out;
+ContradictingRows contradicting_rows(const std::vector<int>& rows,
+                                     const std::vector<double>& errors, double scatter) {
+  ContradictingRows out;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const bool outside = errors[k] > check::kOutside * scatter;
     out.between += errors[k] > check::kInside * scatter && !outside ? 1.0 : 0.0;
@@ -177,7 +178,7 @@ bool is_point(const std::string& name) {
 
 /// True if a column of the file separates these rows from the others, and so may name their cause.
 bool follows_a_column(const MeasurementFiles& measured, const std::vector<int>& rows,
-                      const Part& part) {
+                      const ContradictingRows& part) {
   if (measured.tables.empty()) return false;
   std::vector<double> marks;
   for (const bool outside : part.is_outside) marks.push_back(outside ? 1.0 : 0.0);
@@ -231,7 +232,7 @@ std::optional<Problem> contradiction(const Cell& cell, const MeasurementFiles& m
   if (rms_error(pick(measured, some), placed) < check::kGood_m) return std::nullopt;
   Majority majority(cell, measured, some);
   majority.find(placed);
-  const Part part = part_of(some, majority.errors(), majority.scatter());
+  const ContradictingRows part = contradicting_rows(some, majority.errors(), majority.scatter());
   const auto all = static_cast<double>(some.size());
   const double share = static_cast<double>(part.rows.size()) / all;
   if (share < check::kLeastPart || share > check::kMostPart ||

@@ -40,7 +40,7 @@ Convention labelled_convention(const Cell& cell, const MeasurementFiles& measure
 double changes(const Convention& present, const Convention& other);
 
 /// The cell and the measurements read as `meant` instead of as `present`. Cost of the first: one
-/// reading of the cell's text.
+/// parse of the cell's text.
 Cell read_as(const Cell& cell, const Convention& present, const Convention& meant);
 Measurements read_as(const Measurements& measured, const Cell& cell, const Convention& present,
                      const Convention& meant);

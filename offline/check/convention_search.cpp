@@ -69,7 +69,9 @@ class ConventionSearch {
 
  private:
   static double relative(double rms, double size) { return size > 0.0 ? rms / size : 1e300; }
-  static double left(const Reading& reading) { return relative(reading.fitted_m, reading.size_m); }
+  static double left(const Interpretation& interpretation) {
+    return relative(interpretation.fitted_m, interpretation.size_m);
+  }
   bool nothing_fits() const { return left(out_.best) > check::kFits; }
   /// Whether there are enough poses for searches with hundreds of alternatives, such as joints in
   /// another order or a factor for each joint.
@@ -319,7 +321,7 @@ class ConventionSearch {
   // ---- the close look at some
 
   struct Candidate {
-    Reading reading;
+    Interpretation interpretation;
     RegularisedFit placed;
   };
 
@@ -331,7 +333,7 @@ class ConventionSearch {
     std::iota(rows.begin(), rows.end(), 0);
     Candidate out;
     out.placed = robust_placement(cell, some, rows, state_near(cell, some, rows, M, target_T));
-    auto& r = out.reading;
+    auto& r = out.interpretation;
     r.convention = c;
     r.changes = changes(labels_, c);
     r.placed_m = r.fitted_m = out.placed.rms_m;
@@ -341,15 +343,15 @@ class ConventionSearch {
   }
 
   void fit(Candidate& candidate) {
-    const auto& c = candidate.reading.convention;
+    const auto& c = candidate.interpretation.convention;
     const Measurements some = read_as(pick(measured_, some_), cell_, labels_, c);
     std::vector<int> rows(some_.size());
     std::iota(rows.begin(), rows.end(), 0);
-    candidate.reading.fitted_m =
+    candidate.interpretation.fitted_m =
         regularised_fit(cell_as(c), some, rows, candidate.placed.state).rms_m;
   }
 
-  /// The reading of a lead, with its length units resolved.
+  /// The interpretation of a lead, with its length units resolved.
   Candidate look_closely(const Lead& lead, bool mirrored) {
     Convention c = lead.convention;
     const auto units = explain_ratios({labels_.length_unit, labels_.slide_unit, labels_.point_unit},
@@ -383,7 +385,8 @@ class ConventionSearch {
       placer.tighten(loose);
     }
     Candidate out = placed(labels_, loose.M, loose.target_T);
-    if (relative(out.reading.placed_m, out.reading.size_m) > check::kFits) place_as_fit_does(out);
+    if (relative(out.interpretation.placed_m, out.interpretation.size_m) > check::kFits)
+      place_as_fit_does(out);
     return out;
   }
 
@@ -396,7 +399,7 @@ class ConventionSearch {
     std::iota(rows.begin(), rows.end(), 0);
     RegularisedFit other = placed_from_the_labels(cell_, some, rows);
     if (!(other.rms_m < candidate.placed.rms_m)) return;
-    candidate.reading.placed_m = candidate.reading.fitted_m = other.rms_m;
+    candidate.interpretation.placed_m = candidate.interpretation.fitted_m = other.rms_m;
     candidate.placed = std::move(other);
   }
 
@@ -408,18 +411,18 @@ class ConventionSearch {
     for (const Lead& lead : leads_) {
       const bool mirrored = lead.loose.left_handed && !flat;
       Candidate candidate = look_closely(lead, mirrored);
-      if (candidate.reading.convention != labels_) all.push_back(std::move(candidate));
+      if (candidate.interpretation.convention != labels_) all.push_back(std::move(candidate));
     }
     const auto misfit = [](const Candidate& c) {
-      return relative(c.reading.placed_m, c.reading.size_m);
+      return relative(c.interpretation.placed_m, c.interpretation.size_m);
     };
     std::stable_sort(all.begin() + 1, all.end(),
                      [&](const Candidate& a, const Candidate& b) { return misfit(a) < misfit(b); });
     if (all.size() > check::kFittedLeads + 1) all.resize(check::kFittedLeads + 1);
     for (auto& candidate : all) fit(candidate);
-    out_.present = all.front().reading;
+    out_.present = all.front().interpretation;
     out_.table.clear();
-    for (const auto& candidate : all) out_.table.push_back(candidate.reading);
+    for (const auto& candidate : all) out_.table.push_back(candidate.interpretation);
     choose();
   }
 
@@ -428,15 +431,16 @@ class ConventionSearch {
     return check::kReasonable_m + check::kReasonableShare * out_.present.size_m;
   }
 
-  static void sort_by_left(std::vector<Reading>& readings) {
-    std::stable_sort(readings.begin(), readings.end(),
-                     [](const Reading& a, const Reading& b) { return left(a) < left(b); });
+  static void sort_by_left(std::vector<Interpretation>& interpretations) {
+    std::stable_sort(
+        interpretations.begin(), interpretations.end(),
+        [](const Interpretation& a, const Interpretation& b) { return left(a) < left(b); });
   }
 
   /// The candidate nearest to the labels among those that fit about as well as the best.
-  static const Reading& simplest_of_best(const std::vector<Reading>& sorted) {
-    const Reading* out = &sorted.front();
-    for (const Reading& r : sorted)
+  static const Interpretation& simplest_of_best(const std::vector<Interpretation>& sorted) {
+    const Interpretation* out = &sorted.front();
+    for (const Interpretation& r : sorted)
       if (left(r) <= check::kAlike * left(sorted.front()) && r.changes < out->changes - 1e-9)
         out = &r;
     return *out;
@@ -497,22 +501,22 @@ class ConventionSearch {
   /// and no other map with as few changes fits as well.
   void judge_joint_maps() {
     const Measurements few = pick(measured_, few_);
-    std::vector<Reading> found;
+    std::vector<Interpretation> found;
     for (const JointMap& map : joint_maps(cell_.nominal, few, out_.tried)) {
       const Convention c = convention_of(map);
       if (c == labels_) continue;
       Candidate candidate = placed(c, map.M, map.target_T);
       fit(candidate);
-      found.push_back(candidate.reading);
+      found.push_back(candidate.interpretation);
     }
     sort_by_left(found);
-    std::erase_if(found, [&](const Reading& r) {
+    std::erase_if(found, [&](const Interpretation& r) {
       return left(r) > check::kMapFits || check::kClearly * left(r) > left(out_.present) ||
              !is_large(r.convention);
     });
     if (found.empty()) return;
-    const Reading& best = simplest_of_best(found);
-    for (const Reading& r : found)
+    const Interpretation& best = simplest_of_best(found);
+    for (const Interpretation& r : found)
       if (&r != &best && left(r) <= check::kAlike * left(best) &&
           r.changes < best.changes + check::kEquallySimple)
         return;

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "check/reading.hpp"
+#include "check/interpretation.hpp"
 
 namespace plumb::offline {
 
 /// What the convention search found.
 struct Detection {
-  Reading present;             // as labelled
-  Reading best;                // the same unless another fits clearly better
-  std::vector<Reading> table;  // best first, the present one included
-  std::vector<Reading> same;   // others that predict the same points as the best
+  Interpretation present;             // as labelled
+  Interpretation best;                // the same unless another fits clearly better
+  std::vector<Interpretation> table;  // best first, the present one included
+  std::vector<Interpretation> same;   // others that predict the same points as the best
   long tried = 0;
   std::string why_not;  // why nothing was tried: too few poses, …
   bool changed = false;
@@ -24,11 +24,11 @@ struct Detection {
 /// 180 deg at up to two joints; and then, from 20 poses on, the columns of turning joints in
 /// another order (all of six joints; of more, swaps and neighbours in turn); and last zeros of any
 /// angle, and one column alone in another unit or scale (joint_maps). The labels are kept
-/// unless another reading leaves less than a tenth and the present one is not reasonable.
+/// unless another interpretation leaves less than a tenth and the present one is not reasonable.
 /// Deterministic. Of several set-ups it looks at the one with the most rows.
 ///
-/// Cost: about 10 us a reading on 40 poses, 5 to 50 ms in all, a second for other orders. Throws
-/// Failure as parse_cell.
+/// Cost: about 10 us an interpretation on 40 poses, 5 to 50 ms in all, a second for other orders.
+/// Throws Failure as parse_cell.
 Detection detect_convention(const Cell& cell, const MeasurementFiles& measured);
 
 }  // namespace plumb::offline

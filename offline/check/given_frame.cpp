@@ -152,7 +152,7 @@ double misfit_in_given_frame(const Cell& cell, const Measurements& measured,
 
 Convention with_given_frame(const Cell& cell, const Measurements& measured,
                             const std::vector<int>& rows, const Convention& labels,
-                            const Reading& best) {
+                            const Interpretation& best) {
   const auto left_by = [&](const Convention& c) {
     return misfit_in_given_frame(read_as(cell, labels, c), read_as(measured, cell, labels, c),
                                  rows);

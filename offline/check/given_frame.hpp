@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "check/reading.hpp"
+#include "check/interpretation.hpp"
 
 namespace plumb::offline {
 
@@ -18,11 +18,11 @@ double misfit_in_given_frame(const Cell& cell, const Measurements& measured,
 std::optional<Problem> given_frame_fault(const Cell& cell, const Measurements& measured,
                                          const std::vector<int>& rows);
 
-/// The reading `best`, found with a free frame, made to agree with the frame of the cell: which
-/// axes are mirrored, and whether the frame is the inverse. Unchanged unless one of these leaves
-/// less than a tenth of the frame as given.
+/// The interpretation `best`, found with a free frame, made to agree with the frame of the cell:
+/// which axes are mirrored, and whether the frame is the inverse. Unchanged unless one of these
+/// leaves less than a tenth of the frame as given.
 Convention with_given_frame(const Cell& cell, const Measurements& measured,
                             const std::vector<int>& rows, const Convention& labels,
-                            const Reading& best);
+                            const Interpretation& best);
 
 }  // namespace plumb::offline

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "check/orientation_readings.hpp"
+#include "check/orientation_interpretations.hpp"
 #include "fit/orientation_words.hpp"
 
 namespace plumb::offline {
@@ -12,16 +12,16 @@ OrientationCheck check_orientations(const Cell& cell, const MeasurementFiles& me
   OrientationCheck out;
   if (!measured.has_orientation()) return out;
   const std::vector<int> rows = rows_to_judge(measured);
-  const auto named = orientation_readings(measured, rows);
-  std::vector<OrientationReading> readings;
-  for (const auto& one : named) readings.push_back(one.reading);
+  const auto named = orientation_interpretations(measured, rows);
+  std::vector<OrientationInterpretation> others;
+  for (const auto& one : named) others.push_back(one.interpretation);
   const Measurements& all = measured;
-  out.judged = judge_orientations(cell, pick(all, rows), readings);
+  out.judged = judge_orientations(cell, pick(all, rows), others);
   if (out.judged.kind != MeasuredOrientations::Kind::kOtherwise) return out;
-  for (const int k : out.judged.readings)
+  for (const int k : out.judged.interpretations)
     out.meant.push_back(named[static_cast<std::size_t>(k)].words);
   if (out.meant.size() == 1)
-    out.edit = named[static_cast<std::size_t>(out.judged.readings.front())].edit;
+    out.edit = named[static_cast<std::size_t>(out.judged.interpretations.front())].edit;
   return out;
 }
 

@@ -15,8 +15,8 @@ namespace plumb::offline {
 /// What the orientation columns hold.
 struct OrientationCheck {
   MeasuredOrientations judged;
-  std::vector<std::string> meant;  // the readings that fit, in words
-  MeasurementEdit edit;            // of the files, where one reading fits; else empty
+  std::vector<std::string> meant;  // the interpretations that fit, in words
+  MeasurementEdit edit;            // of the files, where one interpretation fits; else empty
 
   /// The labels are wrong, and the cell asks for orientations.
   bool stops() const { return !edit.empty() && judged.stated; }

@@ -160,7 +160,7 @@ double points_error(const ArmState& state, const Measurements& measured) {
 class OrientationJudge {
  public:
   OrientationJudge(const Cell& cell, const Measurements& measured,
-                   const std::vector<OrientationReading>& others)
+                   const std::vector<OrientationInterpretation>& others)
       : cell_(cell),
         measured_(measured),
         others_(others),
@@ -236,7 +236,7 @@ class OrientationJudge {
     return !both || points_error(*both, measured) > kHarm * points_error_;
   }
 
-  /// Whether another reading of the columns or another frame explains them, or nothing does.
+  /// Whether another interpretation of the columns or another frame explains them, or nothing does.
   bool is_meant_otherwise() {
     const double stated = cell_.measurement.sigma_rad.value_or(0.0);
     if (out_.labelled_rad < std::max(kMisread_rad, kAsStatedTimes * stated)) return false;
@@ -260,12 +260,12 @@ class OrientationJudge {
     double changes = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < each.size(); ++i) {
       if (each[i] > kAlike * best + kRounding_rad || others_[i].changes > changes) continue;
-      if (others_[i].changes < changes) out_.readings.clear();
+      if (others_[i].changes < changes) out_.interpretations.clear();
       changes = others_[i].changes;
-      out_.readings.push_back(static_cast<int>(i));
+      out_.interpretations.push_back(static_cast<int>(i));
     }
     out_.kind = Kind::kOtherwise;
-    const Rows4& quat = others_[static_cast<std::size_t>(out_.readings.front())].quat_M;
+    const Rows4& quat = others_[static_cast<std::size_t>(out_.interpretations.front())].quat_M;
     Measurements meant = measured_;
     meant.quat_M = quat;
     if (is_nominal(meant)) return;
@@ -310,7 +310,7 @@ class OrientationJudge {
 
   const Cell& cell_;
   const Measurements& measured_;
-  const std::vector<OrientationReading>& others_;
+  const std::vector<OrientationInterpretation>& others_;
   std::vector<int> rows_;
   std::vector<Matrix3> labelled_;
   ToolTurns arm_;
@@ -333,7 +333,7 @@ std::vector<int> rows_to_judge(const Measurements& measured) {
 }
 
 MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& measured,
-                                        const std::vector<OrientationReading>& others) {
+                                        const std::vector<OrientationInterpretation>& others) {
   if (!measured.has_orientation()) return {};
   MeasuredOrientations unjudged;
   unjudged.kind = Kind::kUnjudged;

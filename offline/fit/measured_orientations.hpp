@@ -19,26 +19,26 @@ struct MeasuredOrientations {
     kGood,         // they scatter as stated; if no error is stated, they are meant as labelled
     kScattered,    // they scatter by more than is stated
     kMissed,       // repeats agree as stated, but the residuals of the fitted arm are larger
-    kOtherwise,    // another reading of the columns than that of the labels fits
+    kOtherwise,    // another interpretation of the columns than that of the labels fits
     kTurned,       // right except for a constant rotation before or after them
     kConstant,     // the same in all rows: none was measured
     kNominal,      // those of the nominal arm: computed, not measured
     kContradict,   // a fit of both misses the points by far more
-    kUnexplained,  // no known reading of the columns fits the arm
+    kUnexplained,  // no known interpretation of the columns fits the arm
   };
   Kind kind = Kind::kNone;
-  std::vector<int> readings;    // kOtherwise: indices of the simplest readings that fit
-  double labelled_rad = 0.0;    // usual error per axis, as labelled
-  double left_rad = 0.0;        // the same with the best reading, frame, or weight
-  bool stated = false;          // the cell says how large their error is
-  std::optional<double> times;  // their scatter over the stated error, if it is clearly larger
+  std::vector<int> interpretations;  // kOtherwise: indices of the simplest ones that fit
+  double labelled_rad = 0.0;         // usual error per axis, as labelled
+  double left_rad = 0.0;             // the same with the best interpretation, frame, or weight
+  bool stated = false;               // the cell says how large their error is
+  std::optional<double> times;       // their scatter over the stated error, if it is clearly larger
 
   /// Whether a fit uses them.
   bool fit_to_use() const;
 };
 
-/// One way to read the orientation columns, applied to the rows that are judged.
-struct OrientationReading {
+/// One interpretation of the orientation columns, applied to the rows that are judged.
+struct OrientationInterpretation {
   Rows4 quat_M;
   double changes = 1.0;  // how many changes of the labels it needs, weighted by their rarity
 };
@@ -46,10 +46,10 @@ struct OrientationReading {
 /// Rows that are not ignored, thinned to as many as a judgement needs.
 std::vector<int> rows_to_judge(const Measurements& measured);
 
-/// Judges all rows of `measured`; `others` are ways to read them that differ from the labels. Cost:
+/// Judges all rows of `measured`; `others` are interpretations that differ from the labels. Cost:
 /// one fit of the points, and a few fits of both if the orientations are not as stated.
 MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& measured,
-                                        const std::vector<OrientationReading>& others);
+                                        const std::vector<OrientationInterpretation>& others);
 
 /// The same for `rows_to_judge`, read as labelled.
 MeasuredOrientations judge_orientations(const Cell& cell, const Measurements& measured);

@@ -13,7 +13,7 @@ namespace plumb::offline {
 const char* name_of(MeasuredOrientations::Kind kind);
 
 /// What the measured orientations are, in one sentence without full stop; empty if there is nothing
-/// to say. meant: descriptions of the readings that fit.
+/// to say. meant: descriptions of the interpretations that fit.
 std::string in_words(const MeasuredOrientations& judged, const std::vector<std::string>& meant);
 
 /// What the user can do about it; empty if there is nothing to do.

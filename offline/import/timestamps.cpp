@@ -32,7 +32,7 @@ std::optional<double> seconds_of(int year, int month, int day) {
 }
 
 /// A cell read with the day first and with the month first; empty where that gives no date.
-struct Reading {
+struct CellTime {
   std::string format;
   std::optional<double> day_first, month_first;
   bool either = false;  // written in an order that differs between countries
@@ -109,7 +109,7 @@ int month_named(const std::string& word) {
 int full_year(int year, std::size_t digits) { return digits == 2 ? 2000 + year : year; }
 
 /// "20.10.2022", "2022-10-20", "10/20/22", "20-Oct-2022", "20 Oct 2022", "Oct 20, 2022".
-std::optional<Reading> date(Scanner& s) {
+std::optional<CellTime> date(Scanner& s) {
   std::size_t digits[3] = {0, 0, 0};
   int n[3] = {0, 0, 0};
   if (const int month = month_named(s.letters()); month > 0) {
@@ -121,7 +121,7 @@ std::optional<Reading> date(Scanner& s) {
     const auto year = s.whole(4, digits[1]);
     if (!day || !year || digits[1] != 4) return std::nullopt;
     const auto t = seconds_of(*year, month, *day);
-    return Reading{"month by name", t, t};
+    return CellTime{"month by name", t, t};
   }
   auto first = s.whole(4, digits[0]);
   if (!first) return std::nullopt;
@@ -135,7 +135,7 @@ std::optional<Reading> date(Scanner& s) {
     const auto year = s.whole(4, digits[2]);
     if (month == 0 || !year || (digits[2] != 4 && digits[2] != 2)) return std::nullopt;
     const auto t = seconds_of(full_year(*year, digits[2]), month, n[0]);
-    return Reading{"month by name", t, t};
+    return CellTime{"month by name", t, t};
   }
   if (separator == '\0' || separator == ' ') return std::nullopt;
   for (int k = 1; k < 3; ++k) {
@@ -146,13 +146,13 @@ std::optional<Reading> date(Scanner& s) {
   }
   if (digits[0] == 4) {
     const auto t = seconds_of(n[0], n[1], n[2]);
-    return Reading{separator == '-' ? "ISO 8601" : fmt::format("YYYY{0}MM{0}DD", separator), t, t};
+    return CellTime{separator == '-' ? "ISO 8601" : fmt::format("YYYY{0}MM{0}DD", separator), t, t};
   }
   // With dashes, a year of two digits may stand first or last, so such a date is not accepted.
   if (digits[2] != 4 && (digits[2] != 2 || separator == '-')) return std::nullopt;
   const int year = full_year(n[2], digits[2]);
-  return Reading{fmt::format("{}", separator), seconds_of(year, n[1], n[0]),
-                 seconds_of(year, n[0], n[1]), true};
+  return CellTime{fmt::format("{}", separator), seconds_of(year, n[1], n[0]),
+                  seconds_of(year, n[0], n[1]), true};
 }
 
 /// "16:57", "16:57:03.5", "4:57:03 PM", with a Z or +02:00 behind it. Seconds of the day.
@@ -201,14 +201,14 @@ std::optional<std::string> without_signs(const std::string& text) {
                      text.substr(13));
 }
 
-std::optional<Reading> dated(const std::string& text) {
+std::optional<CellTime> dated(const std::string& text) {
   if (text.size() == 14 &&
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
     const auto part = [&](int from, int count) { return std::stoi(text.substr(from, count)); };
     auto t = seconds_of(part(0, 4), part(4, 2), part(6, 2));
     if (!t || part(8, 2) > 24 || part(10, 2) > 59 || part(12, 2) > 60) return std::nullopt;
     *t += part(8, 2) * 3600.0 + part(10, 2) * 60.0 + part(12, 2);
-    return Reading{"YYYYMMDDhhmmss", t, t};
+    return CellTime{"YYYYMMDDhhmmss", t, t};
   }
   if (const auto whole = without_signs(text)) return dated(*whole);
   Scanner s(text);
@@ -229,13 +229,13 @@ std::optional<Reading> dated(const std::string& text) {
   return out;
 }
 
-std::optional<Reading> clock(const std::string& text) {
+std::optional<CellTime> clock(const std::string& text) {
   Scanner s(text);
   bool has_seconds = false;
   const auto t = time_of_day(s, has_seconds);
   s.blanks();
   if (!t || !s.done() || !has_seconds || *t < 0.0 || *t >= kDay_s) return std::nullopt;
-  return Reading{"clock", t, t};
+  return CellTime{"clock", t, t};
 }
 
 std::string with_points(std::string_view cell, char decimal) {
@@ -249,19 +249,19 @@ std::string with_points(std::string_view cell, char decimal) {
   return out;
 }
 
-std::optional<Reading> read(std::string_view cell, char decimal) {
+std::optional<CellTime> read(std::string_view cell, char decimal) {
   const std::string text = with_points(cell, decimal);
   if (auto found = dated(text)) return found;
   if (auto found = clock(text)) return found;
   const auto number = number_in(cell, decimal);
   if (!number || cell.find_first_of("eE") != cell.npos) return std::nullopt;
   if (*number > kFirstDay && *number < kLastDay)
-    return Reading{"spreadsheet days", *number * kDay_s, *number * kDay_s};
+    return CellTime{"spreadsheet days", *number * kDay_s, *number * kDay_s};
   static constexpr std::pair<const char*, double> kParts[] = {
       {"seconds", 1.0}, {"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}};
   for (const auto& [name, in_a_second] : kParts)
     if (const double t = *number / in_a_second; may_be_epoch(t))
-      return Reading{fmt::format("{} since 1970", name), t, t};
+      return CellTime{fmt::format("{} since 1970", name), t, t};
   return std::nullopt;
 }
 
@@ -289,7 +289,7 @@ struct Times {
 };
 
 /// A column whose cells have one format.
-struct Readings {
+struct ColumnTimes {
   std::string format;
   bool either = false;
   Times day_first, month_first;  // the latter only if `either`
@@ -303,14 +303,14 @@ bool same_steps(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// The times, with day and month in the order that the whole column shows. If it shows none,
 /// `out.undecided` is set.
-std::vector<double> decided(Readings readings, DateOrder wished, Timestamps& out) {
-  auto &day_first = readings.day_first.all, &month_first = readings.month_first.all;
-  if (!readings.either) return std::move(day_first);
-  const char separator = readings.format.front();
+std::vector<double> decided(ColumnTimes column, DateOrder wished, Timestamps& out) {
+  auto &day_first = column.day_first.all, &month_first = column.month_first.all;
+  if (!column.either) return std::move(day_first);
+  const char separator = column.format.front();
   const auto named = [&](DateOrder order) {
     const bool day = order == DateOrder::kDayFirst;
     out.format = fmt::format("{1}{0}{2}{0}YYYY{3}", separator, day ? "DD" : "MM", day ? "MM" : "DD",
-                             readings.format.substr(1));
+                             column.format.substr(1));
     return std::move(day ? day_first : month_first);
   };
   if (wished != DateOrder::kUnknown) return named(wished);
@@ -334,23 +334,23 @@ bool may_be_date(double number) {
 
 Timestamps read_timestamps(const CellColumn& cells, char decimal, DateOrder order) {
   Timestamps out;
-  Readings readings;
+  ColumnTimes column;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto reading = read(cells[i], decimal);
-    if (i == 0 && reading) readings.format = reading->format, readings.either = reading->either;
-    if (!reading || readings.format != reading->format) {
-      out.damage = reading ? fmt::format("the format changes from {} to {}", readings.format,
-                                         reading->format)
-                           : damage_of(cells[i]);
+    const auto time = read(cells[i], decimal);
+    if (i == 0 && time) column.format = time->format, column.either = time->either;
+    if (!time || column.format != time->format) {
+      out.damage =
+          time ? fmt::format("the format changes from {} to {}", column.format, time->format)
+               : damage_of(cells[i]);
       out.damaged_row = i;
       return out;
     }
-    readings.day_first.add(reading->day_first);
-    if (readings.either) readings.month_first.add(reading->month_first);
+    column.day_first.add(time->day_first);
+    if (column.either) column.month_first.add(time->month_first);
   }
   if (cells.empty()) return out;
-  out.format = readings.format;
-  out.seconds = decided(std::move(readings), order, out);
+  out.format = column.format;
+  out.seconds = decided(std::move(column), order, out);
   if (out.seconds.empty()) {
     if (!out.undecided) out.damage = "no order of day and month fits all of them";
     return out;

@@ -35,7 +35,7 @@ Json convention_json(const Convention& c) {
           {"frame_inverted", c.frame_inverted}};
 }
 
-Json reading_json(const Cell& cell, const Convention& labels, const Reading& r) {
+Json interpretation_json(const Cell& cell, const Convention& labels, const Interpretation& r) {
   Json out = convention_json(r.convention);
   out["changes"] = in_words(cell, labels, r.convention);
   put(out, "placed_rms_mm", to_mm(r.placed_m));
@@ -54,10 +54,10 @@ Json detection_json(const Cell& cell, const Detection& d) {
     return out;
   }
   put(out, "residual_mm", to_mm(d.best.fitted_m));
-  out["present"] = reading_json(cell, labels, d.present);
-  out["best"] = reading_json(cell, labels, d.best);
+  out["present"] = interpretation_json(cell, labels, d.present);
+  out["best"] = interpretation_json(cell, labels, d.best);
   out["table"] = Json::array();
-  for (const auto& r : d.table) out["table"].push_back(reading_json(cell, labels, r));
+  for (const auto& r : d.table) out["table"].push_back(interpretation_json(cell, labels, r));
   out["same_points"] = Json::array();
   for (const auto& r : d.same) out["same_points"].push_back(in_words(cell, labels, r.convention));
   return out;

@@ -24,20 +24,20 @@ std::string readings_text(const Cell& cell, const Detection& d) {
   const Convention& labels = d.present.convention;
   Table table{.head = {"placed [mm]", "fitted [mm]", "how the files are read"}};
   table.left_from = 2;
-  std::vector<Reading> rows = d.table;
-  const auto is_best = [&](const Reading& r) { return r.convention == d.best.convention; };
+  std::vector<Interpretation> rows = d.table;
+  const auto is_best = [&](const Interpretation& r) { return r.convention == d.best.convention; };
   std::stable_partition(rows.begin(), rows.end(), is_best);
   // Ways to read the files that predict the same points describe the same arm, mirrored or counted
   // otherwise. They are not listed.
   const std::size_t all = rows.size();
-  std::erase_if(rows, [&](const Reading& r) {
+  std::erase_if(rows, [&](const Interpretation& r) {
     return !(r.convention == labels) &&
            std::any_of(d.same.begin(), d.same.end(),
-                       [&](const Reading& same) { return same.convention == r.convention; });
+                       [&](const Interpretation& same) { return same.convention == r.convention; });
   });
   const std::size_t hidden = all - rows.size();
   if (rows.size() > kMostReadings) rows.resize(kMostReadings);
-  const auto labelled = [&](const Reading& r) { return r.convention == labels; };
+  const auto labelled = [&](const Interpretation& r) { return r.convention == labels; };
   if (std::none_of(rows.begin(), rows.end(), labelled)) rows.push_back(d.present);
   for (const auto& r : rows) {
     const auto words = in_words(cell, labels, r.convention);

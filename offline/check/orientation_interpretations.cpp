@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/orientation_readings.hpp"
+#include "check/orientation_interpretations.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -66,16 +66,16 @@ constexpr std::array<QuatOrder, 3> kQuatOrders{{{{0, 1, 2, 3}, ""},
                                                 {{3, 0, 1, 2}, "qw, qx, qy, qz hold x, y, z, w"},
                                                 {{1, 2, 3, 0}, "qx, qy, qz, qw hold w, x, y, z"}}};
 
-NamedReading quat_reading(const std::vector<std::array<double, 4>>& rows, const QuatOrder& order,
-                          bool inverse) {
-  NamedReading out;
+NamedInterpretation quat_interpretation(const std::vector<std::array<double, 4>>& rows,
+                                        const QuatOrder& order, bool inverse) {
+  NamedInterpretation out;
   const double sign = inverse ? -1.0 : 1.0;
-  out.reading.quat_M = quaternions(rows, [&](const std::array<double, 4>& c) {
+  out.interpretation.quat_M = quaternions(rows, [&](const std::array<double, 4>& c) {
     const auto& at = order.at;
     return std::array<double, 4>{c[at[0]], sign * c[at[1]], sign * c[at[2]], sign * c[at[3]]};
   });
   const bool as_named = order.at[0] == 0;
-  out.reading.changes = (as_named ? 0.0 : 1.0) + (inverse ? check::kInverseCosts : 0.0);
+  out.interpretation.changes = (as_named ? 0.0 : 1.0) + (inverse ? check::kInverseCosts : 0.0);
   out.words = order.words;
   if (inverse) out.words += (as_named ? "" : "; ") + std::string(kInverse);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -86,18 +86,19 @@ NamedReading quat_reading(const std::vector<std::array<double, 4>>& rows, const 
   return out;
 }
 
-std::vector<NamedReading> quat_readings(const std::vector<std::array<double, 4>>& rows) {
-  std::vector<NamedReading> out;
+std::vector<NamedInterpretation> quat_interpretations(
+    const std::vector<std::array<double, 4>>& rows) {
+  std::vector<NamedInterpretation> out;
   for (const QuatOrder& order : kQuatOrders)
     for (const bool inverse : {false, true})
-      if (inverse || order.at[0] != 0) out.push_back(quat_reading(rows, order, inverse));
+      if (inverse || order.at[0] != 0) out.push_back(quat_interpretation(rows, order, inverse));
   return out;
 }
 
 // ----------------------------------------------------------------------- three angles
 
 /// Which turns the three columns hold, in which unit and which way.
-struct TurnReading {
+struct TurnInterpretation {
   EulerConvention convention;
   std::array<std::size_t, 3> column{0, 1, 2};  // that holds the first, second, third turn
   std::string unit;
@@ -116,7 +117,7 @@ bool is_common(const EulerConvention& c) {
   return name.starts_with("xyz") || name == "zyx-moving" || name.starts_with("zyz");
 }
 
-std::string order_words(const TurnReading& meant) {
+std::string order_words(const TurnInterpretation& meant) {
   const std::string name = name_of(meant.convention);
   if (meant.convention.is_vector) return "rx, ry, rz hold a rotation vector";
   if (meant.column != std::array<std::size_t, 3>{0, 1, 2})
@@ -126,17 +127,18 @@ std::string order_words(const TurnReading& meant) {
   return fmt::format("rx, ry, rz hold the three turns of {}", name);
 }
 
-NamedReading turn_reading(const std::vector<std::array<double, 3>>& rows,
-                          const TurnReading& labelled, const TurnReading& meant) {
-  NamedReading out;
+NamedInterpretation turn_interpretation(const std::vector<std::array<double, 3>>& rows,
+                                        const TurnInterpretation& labelled,
+                                        const TurnInterpretation& meant) {
+  NamedInterpretation out;
   const double ratio = unit_of(meant.unit)->to_si(1.0) / unit_of(labelled.unit)->to_si(1.0);
   const double factor = meant.inverse ? -ratio : ratio;
   const auto& at = meant.column;
-  out.reading.quat_M = quaternions(rows, [&](const std::array<double, 3>& c) {
+  out.interpretation.quat_M = quaternions(rows, [&](const std::array<double, 3>& c) {
     return quaternion(meant.convention, {factor * c[at[0]], factor * c[at[1]], factor * c[at[2]]});
   });
   const EulerConvention order = meant.inverse ? inverse_of(meant.convention) : meant.convention;
-  TurnReading active = meant;
+  TurnInterpretation active = meant;
   active.convention = order;
   std::vector<std::string> words;
   double changes = 0.0;
@@ -156,7 +158,7 @@ NamedReading turn_reading(const std::vector<std::array<double, 3>>& rows,
     changes += check::kInverseCosts;
   }
   out.words = fmt::format("{}", fmt::join(words, "; "));
-  out.reading.changes = changes;
+  out.interpretation.changes = changes;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string held = kTurnNames[at[k]];
     if (reordered && at[k] != k) out.edit.names[held] = kTurnNames[k];
@@ -169,50 +171,50 @@ NamedReading turn_reading(const std::vector<std::array<double, 3>>& rows,
 
 /// Every order of turns in which the columns may stand as first, second and third turn; and, where
 /// each turns about the axis of its name, every order of these.
-std::vector<TurnReading> orders() {
-  std::vector<TurnReading> out;
+std::vector<TurnInterpretation> orders() {
+  std::vector<TurnInterpretation> out;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       for (int c = 0; c < 3; ++c)
         for (const bool moving : {false, true}) {
           if (a == b || b == c) continue;
-          TurnReading reading{
+          TurnInterpretation interpretation{
               .convention = {{a, b, c}, moving, false}, .unit = "", .inverse = false};
-          out.push_back(reading);
+          out.push_back(interpretation);
           const bool each_once = a != c;
           if (!each_once || !moving || b == 1) continue;
-          reading.column = {static_cast<std::size_t>(a), static_cast<std::size_t>(b),
-                            static_cast<std::size_t>(c)};
-          out.push_back(reading);
+          interpretation.column = {static_cast<std::size_t>(a), static_cast<std::size_t>(b),
+                                   static_cast<std::size_t>(c)};
+          out.push_back(interpretation);
         }
   out.push_back({.convention = {{0, 1, 2}, false, true}, .unit = "", .inverse = false});
   return out;
 }
 
-std::vector<NamedReading> turn_readings(const std::vector<std::array<double, 3>>& rows,
-                                        const TurnReading& labelled) {
-  std::vector<NamedReading> out;
+std::vector<NamedInterpretation> turn_interpretations(
+    const std::vector<std::array<double, 3>>& rows, const TurnInterpretation& labelled) {
+  std::vector<NamedInterpretation> out;
   const std::string other = labelled.unit == "rad" ? "deg" : "rad";
-  for (TurnReading meant : orders())
+  for (TurnInterpretation meant : orders())
     for (const std::string& unit : {labelled.unit, other})
       for (const bool inverse : {false, true}) {
         meant.unit = unit;
         meant.inverse = inverse;
         const bool same = meant.convention == labelled.convention &&
                           meant.column == labelled.column && unit == labelled.unit && !inverse;
-        if (!same) out.push_back(turn_reading(rows, labelled, meant));
+        if (!same) out.push_back(turn_interpretation(rows, labelled, meant));
       }
   return out;
 }
 
 /// What all files say of rx, ry, rz; none if they differ.
-std::optional<TurnReading> labelled_turns(const MeasurementFiles& measured) {
-  std::optional<TurnReading> out;
+std::optional<TurnInterpretation> labelled_turns(const MeasurementFiles& measured) {
+  std::optional<TurnInterpretation> out;
   for (const Table& table : measured.tables) {
     const auto convention = stated_rotation(table);
     if (!convention) return std::nullopt;
     for (const char* name : kTurnNames) {
-      const TurnReading here{.convention = *convention, .unit = table.find(name)->unit};
+      const TurnInterpretation here{.convention = *convention, .unit = table.find(name)->unit};
       if (out && (out->convention != here.convention || out->unit != here.unit))
         return std::nullopt;
       out = here;
@@ -223,13 +225,13 @@ std::optional<TurnReading> labelled_turns(const MeasurementFiles& measured) {
 
 }  // namespace
 
-std::vector<NamedReading> orientation_readings(const MeasurementFiles& measured,
-                                               const std::vector<int>& rows) {
-  if (const auto quats = numbers(measured, rows, kQuatNames)) return quat_readings(*quats);
+std::vector<NamedInterpretation> orientation_interpretations(const MeasurementFiles& measured,
+                                                             const std::vector<int>& rows) {
+  if (const auto quats = numbers(measured, rows, kQuatNames)) return quat_interpretations(*quats);
   const auto turns = numbers(measured, rows, kTurnNames);
   if (!turns) return {};
   const auto labelled = labelled_turns(measured);
-  return labelled ? turn_readings(*turns, *labelled) : std::vector<NamedReading>{};
+  return labelled ? turn_interpretations(*turns, *labelled) : std::vector<NamedInterpretation>{};
 }
 
 }  // namespace plumb::offline

@@ -11,8 +11,8 @@
 namespace plumb::offline {
 
 /// Another way to read the orientation columns, in words and as an edit of the files.
-struct NamedReading {
-  OrientationReading reading;
+struct NamedInterpretation {
+  OrientationInterpretation interpretation;
   std::string words;
   MeasurementEdit edit;
 };
@@ -20,7 +20,7 @@ struct NamedReading {
 /// All ways but the labelled one, for these rows: quaternions in another order, three angles in
 /// another order or unit, a rotation vector, and each of them as the inverse rotation. None if the
 /// files differ in what they hold.
-std::vector<NamedReading> orientation_readings(const MeasurementFiles& measured,
-                                               const std::vector<int>& rows);
+std::vector<NamedInterpretation> orientation_interpretations(const MeasurementFiles& measured,
+                                                             const std::vector<int>& rows);
 
 }  // namespace plumb::offline

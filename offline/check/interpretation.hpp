@@ -6,7 +6,7 @@
 namespace plumb::offline {
 
 /// One way to read the files and what it leaves.
-struct Reading {
+struct Interpretation {
   Convention convention;
   double changes = 0.0;   // from the labels, see `changes`
   double placed_m = 0.0;  // RMS 3-D residual with frame and target fitted
