@@ -11,6 +11,7 @@
 #include "cell/toml_text.hpp"
 #include "cell/units.hpp"
 #include "check/constants.hpp"
+#include "check/unit_guess.hpp"
 #include "plumb/runtime/transform.hpp"
 
 namespace plumb::offline {
@@ -27,14 +28,10 @@ std::string unit_in_file(const MeasurementFiles& measured, const std::string& na
   return fallback;
 }
 
-double ratio(const std::string& meant, const std::string& present) {
-  return meant == present ? 1.0 : unit_of(meant)->to_si(1.0) / unit_of(present)->to_si(1.0);
-}
-
 /// How the joint's readings change by the unit of its column.
 double own_ratio(const Convention& meant, int joint, const std::string& now, double of_all) {
   const std::string& own = meant.own_unit[static_cast<std::size_t>(joint)];
-  return own.empty() ? of_all : ratio(own, now);
+  return own.empty() ? of_all : unit_ratio(own, now);
 }
 
 std::string column_of(int joint) { return fmt::format("q{}", joint + 1); }
@@ -178,13 +175,13 @@ Measurements read_as(const Measurements& measured, const Cell& cell, const Conve
   Measurements out = measured;
   RowsN values = measured.q;
   to_values(Coupling(present.coupling), values);
-  const double turn = ratio(meant.turn_unit, present.turn_unit);
-  const double slide = ratio(meant.slide_unit, present.slide_unit);
+  const double turn = unit_ratio(meant.turn_unit, present.turn_unit);
+  const double slide = unit_ratio(meant.slide_unit, present.slide_unit);
   for (int j = 0; j < cell.joints(); ++j)
     out.q.col(j) = (slides(cell, j) ? slide : own_ratio(meant, j, present.turn_unit, turn)) *
                    meant.factor[j] * (meant.reversed[j] ? -1.0 : 1.0) * values.col(meant.column[j]);
   to_angles(Coupling(meant.coupling), out.q);
-  out.p_M *= ratio(meant.point_unit, present.point_unit);
+  out.p_M *= unit_ratio(meant.point_unit, present.point_unit);
   mirror_points(out, meant.mirror);
   return out;
 }
@@ -197,7 +194,7 @@ MeasurementFiles read_as(const MeasurementFiles& measured, const Cell& cell,
 
 CellEdit cell_edit(const Cell& cell, const Convention& present, const Convention& meant) {
   CellEdit out = text_edit(present, meant);
-  const double angle = ratio(meant.angle_unit, present.angle_unit);
+  const double angle = unit_ratio(meant.angle_unit, present.angle_unit);
   for (int j = 0; j < cell.joints(); ++j)
     if (meant.quarter_turns[j] != 0)
       out.theta[j] = cell.nominal.joints[j].theta * angle + M_PI_2 * meant.quarter_turns[j];

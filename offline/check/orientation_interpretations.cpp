@@ -10,8 +10,8 @@
 
 #include "cell/arm_columns.hpp"
 #include "cell/euler.hpp"
-#include "cell/units.hpp"
 #include "check/constants.hpp"
+#include "check/unit_guess.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -131,7 +131,7 @@ NamedInterpretation turn_interpretation(const std::vector<std::array<double, 3>>
                                         const TurnInterpretation& labelled,
                                         const TurnInterpretation& meant) {
   NamedInterpretation out;
-  const double ratio = unit_of(meant.unit)->to_si(1.0) / unit_of(labelled.unit)->to_si(1.0);
+  const double ratio = unit_ratio(meant.unit, labelled.unit);
   const double factor = meant.inverse ? -ratio : ratio;
   const auto& at = meant.column;
   out.interpretation.quat_M = quaternions(rows, [&](const std::array<double, 3>& c) {

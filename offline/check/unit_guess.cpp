@@ -42,6 +42,10 @@ bool near(double ratio, double wanted) {
 
 }  // namespace
 
+double unit_ratio(const std::string& meant, const std::string& labelled) {
+  return meant == labelled ? 1.0 : in_metres(meant) / in_metres(labelled);
+}
+
 double oddity(double reach_m) {
   return check::kOddPerDecade *
          std::max(0.0, std::abs(std::log10(std::max(reach_m, 1e-9))) - check::kUsualDecades);

@@ -32,6 +32,9 @@ struct LengthUnits {
 LengthUnits explain_ratios(const LengthUnits& labelled, double point_ratio, double slide_ratio,
                            double reach_m);
 
+/// How many times longer or larger numbers become that are in `meant` and not in `labelled`.
+double unit_ratio(const std::string& meant, const std::string& labelled);
+
 /// Ratios of two units of length, 1 first.
 const std::vector<double>& length_ratios();
 
