@@ -2,6 +2,7 @@
 #include "check/coverage.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,18 @@ Coverage coverage(const Cell& cell, const Measurements& measured, const std::vec
     out.box_max[k] = points.col(k).maxCoeff();
   }
   return out;
+}
+
+std::vector<Problem> coverage_findings(const Coverage& coverage) {
+  std::vector<std::string> narrow;
+  for (const auto& joint : coverage.joints)
+    if (joint.share < check::kLittleOfLimits)
+      narrow.push_back(fmt::format("{} ({:.0f} %)", joint.joint, 100.0 * joint.share));
+  if (narrow.empty()) return {};
+  return {{Severity::kWarning, "W-CHECK-COVERAGE",
+           fmt::format("the poses use little of the limits of {}: predictions beyond are guesses",
+                       fmt::join(narrow, ", ")),
+           std::nullopt, "measure where the arm will work, or narrow q = [min, max] in cell.toml"}};
 }
 
 }  // namespace plumb::offline

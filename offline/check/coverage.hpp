@@ -8,6 +8,7 @@
 #include "arm/arm_state.hpp"
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
+#include "program/problem.hpp"
 
 namespace plumb::offline {
 
@@ -31,5 +32,8 @@ struct Coverage {
 /// rows: those that are used, not empty.
 Coverage coverage(const Cell& cell, const Measurements& measured, const std::vector<int>& rows,
                   const ArmState& placed);
+
+/// Joints that use less than half of their limits (W-CHECK-COVERAGE, once for all).
+std::vector<Problem> coverage_findings(const Coverage& coverage);
 
 }  // namespace plumb::offline

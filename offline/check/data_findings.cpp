@@ -139,4 +139,19 @@ std::vector<Problem> constant_findings(const Cell& cell, const MeasurementFiles&
   return out;
 }
 
+std::vector<Problem> repeat_findings(const Cell& cell, const NoiseFloor& floor) {
+  const auto& stated = cell.measurement.sigma_m;
+  if (floor.source != NoiseFloor::Source::kRepeats || !stated) return {};
+  const bool more = floor.sigma_m >= check::kNoiseOtherwise * *stated;
+  const bool less = floor.sigma_m * check::kNoiseOtherwise <= *stated;
+  if (!more && !less) return {};
+  return {{Severity::kWarning, "W-CHECK-REPEATS",
+           fmt::format("repeats of a pose scatter by {:.3g} mm an axis (1 sigma), but sigma_um "
+                       "says {:.3g} mm",
+                       floor.sigma_m * 1e3, *stated * 1e3),
+           std::nullopt,
+           more ? "are rows of one name the same pose, reached alike? else correct sigma_um"
+                : "correct sigma_um: with one that is too large effects go unseen"}};
+}
+
 }  // namespace plumb::offline

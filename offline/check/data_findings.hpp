@@ -6,6 +6,7 @@
 #include "cell/cell.hpp"
 #include "cell/measurements.hpp"
 #include "fit/calibration.hpp"
+#include "noise/noise_floor.hpp"
 
 namespace plumb::offline {
 
@@ -21,5 +22,8 @@ std::vector<Problem> outlier_findings(const MeasurementFiles& measured,
 
 /// Context columns that hold one value only (N-CHECK-CONSTANT), and joints that never move.
 std::vector<Problem> constant_findings(const Cell& cell, const MeasurementFiles& measured);
+
+/// Repeats that scatter by far more or far less than the stated noise (W-CHECK-REPEATS).
+std::vector<Problem> repeat_findings(const Cell& cell, const NoiseFloor& floor);
 
 }  // namespace plumb::offline

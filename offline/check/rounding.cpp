@@ -181,4 +181,21 @@ std::optional<Rounding> joint_rounding(const Cell& cell, const MeasurementFiles&
   return out;
 }
 
+std::vector<Problem> rounding_findings(const Rounding& rounding, const NoiseFloor& floor,
+                                       std::optional<double> left_m) {
+  const bool known = floor.source != NoiseFloor::Source::kNone;
+  const double rounded = rounding.at_tool_m;
+  if (known ? rounded < check::kRoundingSeen * floor.rms_m : rounded < check::kCoarseRounding_m)
+    return {};
+  if (left_m && *left_m < check::kRoundingLeft * rounded) return {};
+  if (!known && (!left_m || *left_m > rounded / check::kRoundingLeft)) return {};
+  return {{Severity::kWarning, "W-CHECK-ROUNDED",
+           fmt::format("the joint readings are rounded to {:g} {}: that is {:.3g} mm at the tool, "
+                       "{} {:.3g} mm",
+                       rounding.step_in_unit, rounding.unit, rounded * 1e3,
+                       known ? "the noise is" : "and the fit leaves",
+                       (known ? floor.rms_m : *left_m) * 1e3),
+           std::nullopt, "record more digits; exact commanded values are no harm"}};
+}
+
 }  // namespace plumb::offline

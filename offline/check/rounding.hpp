@@ -25,6 +25,13 @@ struct Rounding {
 std::optional<Rounding> joint_rounding(const Cell& cell, const MeasurementFiles& measured,
                                        const std::vector<int>& rows, const ArmState& placed);
 
+/// Rounded joint readings that are no longer small beside the noise (W-CHECK-ROUNDED). left_m: RMS
+/// error [m] that the fit leaves, if there was one. Rounded readings leave at least about their own
+/// error: if less is left, the arm was commanded to round values. If the noise is unknown, the two
+/// must be of similar size.
+std::vector<Problem> rounding_findings(const Rounding& rounding, const NoiseFloor& floor,
+                                       std::optional<double> left_m);
+
 /// The steps of the measured x, y, z [m], the coarsest of all files: all values are multiples of 1,
 /// 2, 2.5 or 5 times a power of ten of their unit. 0 where there is none, or too few values to
 /// tell.
