@@ -10,7 +10,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kFarthest = 1e4;  // rad or m: 1,600 turns, or ten kilometres
+/// Largest joint position [rad] or [m] and coordinate [m]: 1,600 turns or ten kilometres.
+constexpr double kFarthest = 1e4;
 
 void check(const Table& table, const Column* column, const char* whose, ProblemList& problems) {
   for (int row = 0; column != nullptr && row < table.rows() && !problems.full(); ++row) {

@@ -45,7 +45,7 @@ const Names& names_with_unit() {
   return names;
 }
 
-/// Names that others use for what has another one here.
+/// Names that other programs give to columns, and the names that they have here.
 const std::map<std::string, std::string, std::less<>>& other_words() {
   static const std::map<std::string, std::string, std::less<>> words = [] {
     std::map<std::string, std::string, std::less<>> out{
@@ -58,8 +58,10 @@ const std::map<std::string, std::string, std::less<>>& other_words() {
   return words;
 }
 
-constexpr int kMostSlips = 2;         // letters wrong, missing, too many or swapped
-constexpr std::size_t kShortest = 3;  // among shorter names everything is near to everything
+/// Letters that may be wrong, missing, too many or swapped.
+constexpr int kMostSlips = 2;
+/// Shorter names are not compared, because any two of them differ by few letters.
+constexpr std::size_t kShortest = 3;
 
 bool near(std::string_view word, std::string_view known) {
   if (word.size() < kShortest || known.size() <= kShortest) return false;

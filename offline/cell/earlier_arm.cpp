@@ -21,8 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAxes = 3.0;
-constexpr double kMost = 1e6;     // SI: beyond it the file was edited or damaged
-constexpr int kMostSteps = 1000;  // from run to run: more is a circle
+/// A larger number [SI] shows that the file was edited or damaged.
+constexpr double kMost = 1e6;
+/// A longer chain of earlier runs is a circle.
+constexpr int kMostSteps = 1000;
 
 [[noreturn]] void refuse(const fs::path& what, const std::string& why) {
   throw Failure(Exit::kInput,

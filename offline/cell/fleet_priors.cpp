@@ -12,7 +12,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kLargest = 1e6;  // SI: beyond it the file was edited or damaged
+/// A larger number [SI] shows that the file was edited or damaged.
+constexpr double kLargest = 1e6;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
   throw Failure(Exit::kInput, {.code = "E-CELL-PRIOR",

@@ -11,7 +11,8 @@ namespace {
 
 using RowsN = RowsN;
 
-constexpr double kNoMove = 1e-5;  // rad or m: encoders at rest
+/// Encoders of a joint at rest differ by less [rad] or [m].
+constexpr double kNoMove = 1e-5;
 
 /// The columns of one file; empty unless it has them for every joint.
 struct Arrivals {

@@ -13,8 +13,10 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kLongestTool_m = 1.5;  // from the flange to the reflector
-constexpr double kMostLost = 0.2;       // of the readings of a set-up
+/// Distance from the flange to the reflector.
+constexpr double kLongestTool_m = 1.5;
+/// If a larger share of the readings of a set-up is lost, something else is wrong.
+constexpr double kMostLost = 0.2;
 constexpr std::size_t kMostNamed = 10;
 
 /// No point of the arm is farther than this from its base, tool included.

@@ -32,7 +32,7 @@ class Assembler {
 
   void take(Table table) { tables_.push_back(std::move(table)); }
 
-  /// What takes much memory for a moment comes before what is kept.
+  /// The steps that need much memory for a moment stand first, before the context is read.
   MeasurementFiles finish() {
     join();
     m_.replicate_group = replicate_groups(names(), file_, m_.q);
@@ -50,7 +50,7 @@ class Assembler {
     return std::move(m_);
   }
 
-  /// For rows that are only computed with.
+  /// For rows that are only predicted, not fitted: repeats and copies are not looked for.
   MeasurementFiles finish_plainly() {
     join();
     m_.context = read_contexts(tables_, m_.q);
@@ -76,7 +76,7 @@ class Assembler {
     problems_.stop_on_errors();
   }
 
-  /// A joined column with holes would be a lie: axes must agree; the rest is dropped.
+  /// The files must have the same measured axes. Other columns that some files lack are dropped.
   void check_agreement() {
     for (std::size_t i = 1; i < tables_.size(); ++i) {
       const ArmColumns &first = columns_[0], &here = columns_[i];

@@ -18,7 +18,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kSamePose = 0.02;  // [rad] or [m]: more is another pose under the same name
+/// Rows of one name whose joints differ by more [rad] or [m] are different poses.
+constexpr double kSamePose = 0.02;
 
 std::string count_of(int doubles) {
   return doubles == 1 ? "a row is" : fmt::format("{} rows are", doubles);
@@ -79,8 +80,8 @@ Sizes sizes_of(std::vector<double> values) {
 }
 
 constexpr double kHeaviestPayload_kg = 3000.0;
-constexpr double kColdestMachine_degC = -60.0;  // no machine works colder
-constexpr double kHottest_degC = 150.0;         // nor hotter
+/// No machine works at lower or higher temperatures.
+constexpr double kColdestMachine_degC = -60.0, kHottest_degC = 150.0;
 constexpr double kLongest_rad = 20.0 * M_PI;
 constexpr double kLongest_m = 30.0;
 

@@ -11,8 +11,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kSameJoints = 1e-9;         // [rad] or [m]
-constexpr double kSamePoseElsewhere = 1e-3;  // encoder readings of one commanded pose
+/// Joints of repeats of one pose agree to this [rad] or [m] and, where two files use one name for
+/// the pose, to the second number: encoder readings of one commanded pose differ by as much.
+constexpr double kSameJoints = 1e-9, kSamePoseElsewhere = 1e-3;
 
 constexpr std::array<double, 9> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23};
 

@@ -33,7 +33,7 @@ std::string with_checksums(Json run, const std::string& predictions_csv) {
 
 bool json_sum_holds(const std::string& text) {
   const std::size_t at = digits_at(text);
-  // The sum of the predictions without that of the text itself: somebody took it out.
+  // A text that holds the sum of the predictions but not its own was edited.
   if (at == std::string::npos) return text.find(kOfPredictions) == std::string::npos;
   return text.substr(at, kDigits) == sha256(with_zeros(text, at));
 }

@@ -26,7 +26,7 @@ class TableReader {
   /// A reader of the lines from `first_line` on: it knows header and comments, and has no rows yet.
   TableReader below(int first_line) const;
 
-  /// How much is to come, so that the memory is taken once.
+  /// Reserves memory for what will be read.
   void expect(std::size_t rows, std::size_t bytes);
 
   /// Reads whole lines, those that follow the ones read before.

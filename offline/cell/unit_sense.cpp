@@ -10,10 +10,12 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kLongestLink_m = 20.0;
-constexpr double kMostTurn = 4.0 * M_PI;           // of a DH angle [rad]
-constexpr double kMostTravel = 20.0 * M_PI;        // of a joint [rad]
-constexpr double kLeastTravel = 7.0 / 180 * M_PI;  // 2 pi read as degrees is 6.3 degrees
-constexpr double kNear = 1e-3;                     // pi/2 written with four digits or more
+/// No DH angle and no limit of a joint is larger [rad].
+constexpr double kMostTurn = 4.0 * M_PI, kMostTravel = 20.0 * M_PI;
+/// Smaller limits [rad] probably are in radians: 2 pi read as degrees is 6.3 degrees.
+constexpr double kLeastTravel = 7.0 / 180 * M_PI;
+/// Distance from pi/2 of a number that is written with four digits or more.
+constexpr double kNear = 1e-3;
 
 /// A number that is half pi, in a file in degrees.
 bool is_radians_in_degrees(const toml::node& node) {
@@ -49,8 +51,8 @@ void warn_of_limits(TomlTable& joint, const format::JointRow& row) {
                 "in the file's angle_unit?", "check angle_unit in [robot]");
 }
 
-constexpr double kStandard = 9.81;     // [m/s^2]
-constexpr double kNearGravity = 0.05;  // on the Earth's surface it is 9.78 to 9.83
+/// Gravity on the Earth's surface [m/s^2] lies between 9.78 and 9.83.
+constexpr double kStandard = 9.81, kNearGravity = 0.05;
 constexpr double kHeaviestLink_kg = 5000.0;
 
 /// What a length of the vector looks like in another unit.

@@ -11,8 +11,10 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kPlainLength = 12;              // characters of a number a person would write
-constexpr double kLastPlace = 2.220446049250313e-16;  // 2^-52
+/// Characters of a number that a person would write.
+constexpr std::size_t kPlainLength = 12;
+/// Relative distance of two neighbouring doubles, 2^-52.
+constexpr double kLastPlace = 2.220446049250313e-16;
 
 constexpr std::array<std::pair<std::string_view, Unit>, 17> kUnits{{
     {"mm", {Quantity::kLength, 1.0, 1e3}},

@@ -37,6 +37,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
+/// The arm that fits the majority of the rows: least trimmed squares by concentration steps.
 class Majority {
  public:
   Majority(const Cell& cell, const MeasurementFiles& measured, const std::vector<int>& rows)

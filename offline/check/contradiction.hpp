@@ -15,7 +15,7 @@ namespace plumb::offline {
 /// Least trimmed squares with concentration steps [Rousseeuw & Van Driessen 2006], the arm held
 /// near nominal. Silent where the fit `placed` leaves less than 0.1 mm, and where these rows follow
 /// one another or differ from the rest in the joint positions or in a column.
-/// Cost: at most some 30 soft fits of 300 rows.
+/// Cost: at most some 30 regularised fits of 300 rows.
 std::optional<Problem> contradiction(const Cell& cell, const MeasurementFiles& measured,
                                      const std::vector<int>& rows, const ArmState& placed);
 

@@ -28,7 +28,7 @@ std::string unit_in_file(const MeasurementFiles& measured, const std::string& na
   return fallback;
 }
 
-/// How the joint's readings change by the unit of its column.
+/// Factor of a joint's readings by the unit of its own column or, if it has none, of all.
 double own_ratio(const Convention& meant, int joint, const std::string& now, double of_all) {
   const std::string& own = meant.own_unit[static_cast<std::size_t>(joint)];
   return own.empty() ? of_all : unit_ratio(own, now);
@@ -36,7 +36,7 @@ double own_ratio(const Convention& meant, int joint, const std::string& now, dou
 
 std::string column_of(int joint) { return fmt::format("q{}", joint + 1); }
 
-/// What a mirror does to points, as signs behind a permutation.
+/// What a mirror does to points: coordinate k becomes sign[k] times the coordinate from[k].
 struct AxisChange {
   std::array<int, 3> from{0, 1, 2};
   std::array<double, 3> sign{1.0, 1.0, 1.0};

@@ -61,7 +61,7 @@ class JointMapSearch {
  private:
   int joints() const { return static_cast<int>(rows_.joints.size()); }
 
-  // ---- the loose look
+  // ---- search on a grid, by linear placement
 
   void look_at_zeros() {
     MapLead lead = plain();
@@ -134,9 +134,9 @@ class JointMapSearch {
     }
   }
 
-  // ---- the close look
+  // ---- nonlinear fit
 
-  /// Frame, target, and the zeros and the factor that are open.
+  /// The unknowns of a fit: frame, target, and the zeros and the factor that are free.
   struct Open {
     std::vector<int> zeros;
     int scaled = -1;
@@ -176,7 +176,8 @@ class JointMapSearch {
     return out;
   }
 
-  /// Central differences of the residual; the sign is that of the residual.
+  /// The derivative of the predicted points, which is that of the residual with the other sign, by
+  /// central differences.
   Eigen::MatrixXd jacobian(const State& s, const Open& open) {
     Eigen::MatrixXd out(3 * few_.size(), open.size());
     for (Eigen::Index k = 0; k < open.size(); ++k) {
@@ -289,7 +290,7 @@ class JointMapSearch {
     if (!tells(deviation, open)) return;
     if (open.scaled >= 0 && std::abs(solved.state.factor[static_cast<std::size_t>(open.scaled)] -
                                      1.0) < check::kLeastFactor) {
-      return;  // a zero, which the other look finds
+      return;  // without a factor it is a zero alone, which look_at_zeros finds
     }
     std::erase_if(open.zeros, [&](int j) {
       double& zero = solved.state.zero[static_cast<std::size_t>(j)];

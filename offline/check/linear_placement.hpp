@@ -35,8 +35,8 @@ class LinearPlacer {
   /// The misfit of `place`, to 1e-6, in a quarter of the time: to pass over what fits no better.
   double quick_misfit(const std::vector<Transformd>& X_BT) const;
 
-  /// Adds to the misfit what M is away from the nearest s R: a loose map hides, for example, a
-  /// sliding joint in the wrong unit. Cost: a 3 x 3 singular value decomposition.
+  /// Adds the distance of M from the nearest s R to the misfit: any linear map could hide, for
+  /// example, a sliding joint in the wrong unit. Cost: a 3 x 3 singular value decomposition.
   void tighten(LinearPlacement& placement) const;
 
  private:

@@ -17,13 +17,13 @@ struct MeasurementEdit {
   bool empty() const {
     return units.empty() && names.empty() && negated.empty() && factors.empty() && rotation.empty();
   }
-  /// Both; they must be about different columns.
+  /// Adds the changes of `other`, which must concern other columns.
   void add(const MeasurementEdit& other);
 };
 
-/// The text with headings renamed and signs turned, digit for digit, and the numbers of columns
-/// with a factor to nine digits: comments, other columns,
-/// separators and line ends stay. `header_line` counts from 1.
+/// The text with headings renamed and signs changed, which keeps every digit, and the numbers of
+/// columns with a factor to nine digits. Comments, other columns, separators and line ends stay.
+/// `header_line` counts from 1.
 std::string edited(const std::string& text, int header_line, const MeasurementEdit& edit);
 
 }  // namespace plumb::offline

@@ -28,7 +28,8 @@ FitData unweighted(const Measurements& measured, const std::vector<int>& rows) {
   return data;
 }
 
-/// Frame and target free, whatever the cell says, with or without the arm.
+/// The parameters of frame and target, whatever the cell says of them, and those of the geometry if
+/// the arm is fitted as well.
 std::vector<Parameter> parameters_of(const Cell& cell, bool with_arm) {
   Cell free;
   free.nominal = cell.nominal;

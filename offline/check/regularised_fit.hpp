@@ -15,7 +15,7 @@ struct RegularisedFit {
   double rms_m = 0.0;  // 3-D, over the rows but for gross outliers
 };
 
-/// Frame and target from `start`, the arm as it is. Levenberg-Marquardt, at most 15 steps;
+/// Fits frame and target from `start` and holds the arm. Levenberg-Marquardt, at most 15 steps;
 /// rows off by 6 medians, at most 5 % a round, are left out.
 RegularisedFit robust_placement(const Cell& cell, const Measurements& measured,
                                 const std::vector<int>& rows, const ArmState& start);
@@ -24,7 +24,7 @@ RegularisedFit robust_placement(const Cell& cell, const Measurements& measured,
 RegularisedFit placed_from_the_labels(const Cell& cell, const Measurements& measured,
                                       const std::vector<int>& rows);
 
-/// Then the geometry with it, each number held near its nominal value by 5 mm or 10 mrad (1 sigma):
+/// Fits the geometry as well, each number with a prior of 5 mm or 10 mrad (1 sigma) about nominal:
 /// a real arm's errors are absorbed, a wrong convention is not. Where a number would have to move
 /// by more than 5 sigma, the placed arm is given back.
 RegularisedFit regularised_fit(const Cell& cell, const Measurements& measured,

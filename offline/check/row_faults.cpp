@@ -82,6 +82,7 @@ class RowFaults {
     return out;
   }
 
+  /// An arm near nominal that fits a half, a third or a quarter of the file.
   std::optional<ArmState> arm_of_a_part() const {
     constexpr std::array<std::pair<double, double>, 7> kParts{{{0.0, 1.0 / 2},
                                                                {1.0 / 2, 1.0},
@@ -154,7 +155,7 @@ class RowFaults {
 
   std::optional<FaultyRun> surest(const ArmState& arm) const {
     const auto as_is = errors_of(arm, now_);
-    // Half of the rows or fewer may be of the part that the arm was fitted to.
+    // The part that the arm was fitted to may be as small as a quarter of the rows.
     const double scatter = std::max(check::kLeastScatter_m, quantile(as_is, check::kSoundQuantile));
     FaultyRun best;
     double most = 0.0;
@@ -168,8 +169,8 @@ class RowFaults {
     return confirmed(best, arm, scatter);
   }
 
-  /// The repaired file fitted again: the run must then be like the rest, and nothing else explain
-  /// it.
+  /// Fits the repaired file again. The run must then fit like the other rows, and no other fault
+  /// may explain it.
   std::optional<FaultyRun> confirmed(FaultyRun run, const ArmState& arm, double scatter) const {
     const Measurements better = repaired(run.fault, run.first, run.last);
     const auto first_errors = errors_of(arm, better);
@@ -219,7 +220,7 @@ class RowFaults {
     return {errors.begin() + run.first, errors.begin() + run.last + 1};
   }
 
-  /// No part fits as it is: perhaps all do, each row with the joints of another one.
+  /// For a file of which no part fits: all points may belong to the joint positions of other rows.
   std::optional<FaultyRun> shifted_file(double left_m) const {
     std::vector<FaultyRun> found;
     for (const RowFault& fault : faults_) {

@@ -44,7 +44,7 @@ std::vector<FileRows> by_file(const MeasurementFiles& measured, const std::vecto
   return out;
 }
 
-/// Gross errors are moved nearer, so that a few of them decide nothing.
+/// Shortens gross errors, so that a few of them decide nothing.
 void clip(Errors& errors) {
   std::vector<double> size(static_cast<std::size_t>(errors.rows()));
   for (Eigen::Index i = 0; i < errors.rows(); ++i)

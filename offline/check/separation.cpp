@@ -148,7 +148,8 @@ class Explainer {
                                         [&](int i) { return kept_[i].of_effect(); });
   }
 
-  /// Joints of an effect stand with the effect, and what acts on the whole arm has none.
+  /// Why p, whose partners may be of effects, cannot be told. Only an effect of single joints can
+  /// have a joint that never moves.
   std::string effect_reason(const Parameter& p) const {
     if (p.of_effect())
       for (const int j : state_.arm.effects[static_cast<std::size_t>(p.joint)].joints)
@@ -157,7 +158,8 @@ class Explainer {
     return "in these poses they move the measured point alike";
   }
 
-  /// First and last joint that take part; no effect does.
+  /// The first and the last joint that p and its partners belong to, none of which may be of an
+  /// effect.
   std::pair<int, int> span(const Parameter& p, const Mixture& here) const {
     int first = cell_.joints() - 1, last = 0;
     const auto take = [&](const Parameter& parameter) {

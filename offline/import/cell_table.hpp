@@ -66,21 +66,22 @@ class CellTable {
     return {*texts_, cells_.data() + begins_[row], begins_[row + 1] - begins_[row]};
   }
 
-  /// How much is to come, so that the memory is taken once.
+  /// Reserves memory for so many rows and cells.
   void expect(std::size_t rows, std::size_t cells);
 
   void add(const std::vector<std::string_view>& row);
 
-  /// Drops what a row has beyond so many cells.
+  /// Drops the cells of every row behind the first `most`.
   void shorten_rows(std::size_t most);
 
-  /// Another text in place of a cell.
+  /// Replaces the text of a cell.
   void set(std::size_t row, std::size_t k, std::string_view text) {
     StoredText& cell = cells_[begins_[row] + k];
     cell = texts_->keep(text);
   }
 
-  /// The same if nobody reads the line of the cell any more.
+  /// The same, but may overwrite the line that the cell stands in. For use when no message will
+  /// show that line.
   void write_over(std::size_t row, std::size_t k, std::string_view text) {
     StoredText& cell = cells_[begins_[row] + k];
     cell = texts_->replaced(cell, text);

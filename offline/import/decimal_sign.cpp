@@ -6,7 +6,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kThousands = 4;  // a sign and the three digits behind it
+/// Characters of a group of thousands: the sign and three digits.
+constexpr std::size_t kThousands = 4;
 
 /// Cells by what their signs can mean.
 struct DecimalVotes {

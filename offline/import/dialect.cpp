@@ -24,7 +24,8 @@ namespace {
 
 constexpr std::size_t kLookedLines = 200;
 constexpr std::size_t kMostFaults = 1000;
-constexpr double kMostlyNumbers = 0.5;  // share of the cells of a row
+/// Share of the cells of a row from which on it is a row of numbers.
+constexpr double kMostlyNumbers = 0.5;
 
 std::vector<std::string_view> sample(const SourceText& text) {
   std::vector<std::string_view> out;
@@ -34,7 +35,8 @@ std::vector<std::string_view> sample(const SourceText& text) {
   return out;
 }
 
-/// The separator that cuts most lines into the same, largest number of cells.
+/// The separator with the largest sum of two shares: of the lines that it cuts into the most common
+/// number of cells, which must be two or more, and of the cells that are numbers.
 char find_separator(const SourceText& text) {
   const auto lines = sample(text);
   char best = ',';

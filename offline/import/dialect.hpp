@@ -18,8 +18,8 @@ struct DialectWishes {
 };
 
 /// Finds separator, decimal sign, header and units, and cuts every row. Throws Failure (kInput):
-/// E-IMPORT-HEADER (none, or none found), E-IMPORT-DECIMAL (a
-/// comma that may mean either), E-IMPORT-ROWS (a header and nothing else).
+/// E-IMPORT-HEADER (none, or none found), E-IMPORT-DECIMAL (a sign that may divide thousands or
+/// decimals), E-IMPORT-ROWS (a header and nothing else).
 RawRows cut(const SourceText& text, const DialectWishes& wishes);
 
 }  // namespace plumb::offline

@@ -11,7 +11,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kStill_rad = 1e-5;  // a joint that moved less stood still
+/// A joint that moved less stood still.
+constexpr double kStill_rad = 1e-5;
 
 }  // namespace
 

@@ -10,7 +10,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kUsual = 2.0;  // the coverage factor of 95 %
+/// The coverage factor of 95 %.
+constexpr double kUsual = 2.0;
 
 struct Pattern {
   std::regex regex;

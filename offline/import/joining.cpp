@@ -20,8 +20,11 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
+/// Rows by which one file may be shifted against the other.
 constexpr int kMostShift = 5;
-constexpr double kClearlyBetter = 0.2;  // a shift must lower the residual below this share
+/// A shift must lower the residual below this share of that without one.
+constexpr double kClearlyBetter = 0.2;
+/// Shifts that leave fewer pairs are not tried.
 constexpr int kFewPairs = 8;
 
 [[noreturn]] void refuse(const Imported& file, std::string message, std::string help) {

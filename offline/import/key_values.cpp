@@ -13,8 +13,9 @@
 namespace plumb::offline {
 namespace {
 
-constexpr std::size_t kFewestPairs = 3;
-constexpr std::size_t kLinesToJudge = 50;
+/// Pairs of key and number that a line must have; lines after which a file is given up if fewer
+/// than half of them are alike; and the share of all lines that must be.
+constexpr std::size_t kFewestPairs = 3, kLinesToJudge = 50;
 constexpr double kMostLines = 0.8;
 
 struct Pair {

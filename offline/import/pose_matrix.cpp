@@ -15,7 +15,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kRounded = 2e-3;  // of the numbers of a rotation with few digits
+/// Error of R R^T that a rotation matrix has whose numbers are written with few digits.
+constexpr double kRounded = 2e-3;
 
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Places = std::map<int, std::size_t>;  // 10 * row + column, as written -> column of the file

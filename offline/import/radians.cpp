@@ -14,9 +14,13 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kOneTurn = 6.3;      // [rad], rounded up
-constexpr double kLeastMove_m = 0.2;  // of the points: a few degrees may cause less
-constexpr double kLongLever_m = 1.0;  // lever arm at which all joints move the tool one way
+/// One turn [rad], rounded up.
+constexpr double kOneTurn = 6.3;
+/// Points that move by less may do so although the joints turn by a few degrees only.
+constexpr double kLeastMove_m = 0.2;
+/// Lever arm by which joints that all turn the tool the same way would have to move it.
+constexpr double kLongLever_m = 1.0;
+/// Fewer rows are not judged.
 constexpr int kRowsToJudge = 8;
 
 /// Largest minus smallest number of a column, in SI; 0 if it is not there.

@@ -15,8 +15,10 @@ namespace {
 
 constexpr std::size_t kLongestLine = 1 << 20;
 
-constexpr std::size_t kNoEuropeanWord = 4;  // different letters beyond ASCII in a row
-constexpr std::size_t kLooked = 1 << 16;    // bytes that tell a text from a binary file
+/// Different letters beyond ASCII one after another, which no European word has.
+constexpr std::size_t kNoEuropeanWord = 4;
+/// First bytes of a file, which tell a text from a binary file.
+constexpr std::size_t kLooked = 1 << 16;
 
 void append_utf8(std::string& out, unsigned code) {
   if (code < 0x80) {

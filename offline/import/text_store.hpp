@@ -32,7 +32,7 @@ class TextStore {
   /// Where a text stands; one that is no part of the file is copied behind it.
   StoredText keep(std::string_view text);
 
-  /// The same place with another text: written over the old one if it is no longer.
+  /// Replaces a text: it is overwritten in place unless the new one is longer.
   StoredText replaced(StoredText old, std::string_view text);
 
  private:

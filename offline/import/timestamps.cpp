@@ -19,9 +19,12 @@ namespace plumb::offline {
 namespace {
 
 constexpr double kDay_s = 86400.0;
-constexpr double kFirstDay = 20000.0, kLastDay = 80000.0;  // days of a spreadsheet: 1954 to 2119
-constexpr double kMostDays = 1000.0;                       // longest time that a measurement takes
-constexpr double kFirstEpoch_s = 9e8, kLastEpoch_s = 5e9;  // 1998 to 2128
+/// Days since 1900, as spreadsheets count them, of the years 1954 and 2119.
+constexpr double kFirstDay = 20000.0, kLastDay = 80000.0;
+/// No measurement takes longer.
+constexpr double kMostDays = 1000.0;
+/// Seconds since 1970 of the years 1998 and 2128.
+constexpr double kFirstEpoch_s = 9e8, kLastEpoch_s = 5e9;
 
 std::optional<double> seconds_of(int year, int month, int day) {
   if (month < 1 || day < 1) return std::nullopt;

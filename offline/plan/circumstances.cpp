@@ -14,9 +14,12 @@ namespace {
 
 constexpr unsigned kNeedsArrival = kNeedsDirection | kNeedsTravel | kNeedsSteps;
 constexpr unsigned kNeedsLater = kNeedsTime | kNeedsOrder;
-constexpr double kUsualMove = 10.0 * std::numbers::pi / 180.0;  // [rad]; of a joint that slides [m]
-constexpr std::array kMoveLengths = {0.2, 1.0, 3.0};  // in usual ones: short and long ones
-constexpr int kMostAgain = 40;                        // measured poses offered again
+/// A usual last move of a joint [rad], or [m] of one that slides, and how much shorter or longer
+/// the moves are that are offered.
+constexpr double kUsualMove = 10.0 * std::numbers::pi / 180.0;
+constexpr std::array kMoveLengths = {0.2, 1.0, 3.0};
+/// Measured poses that are offered once more.
+constexpr int kMostAgain = 40;
 
 /// Lightest and heaviest load of the readings, if they differ.
 std::vector<Payload> loads_measured(const Cell& cell, const Measurements& measured) {

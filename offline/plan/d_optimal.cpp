@@ -8,8 +8,9 @@
 namespace plumb::offline {
 namespace {
 
+/// Rounds of exchanges; they end where none gains more than the rounding of the criterion.
 constexpr int kMostRounds = 20;
-constexpr double kBetter = 1e-9;  // a smaller gain is rounding
+constexpr double kBetter = 1e-9;
 
 /// One term of the criterion: its information, and its columns of every candidate.
 struct Ledger {

@@ -11,10 +11,15 @@
 namespace plumb::offline {
 namespace {
 
-constexpr double kPlausible = 5e-3;  // [m] or [rad] of a robot parameter; [m] of an effect's motion
-constexpr double kAnywhere = 1.0;    // [m] or [rad] of frame and target
-constexpr double kMoves = 1e-9;      // [m] per width: less counts as no motion
-constexpr int kFirstNumbers = 8;     // of a series at a joint: its first four waves
+/// 1 sigma of a parameter of the arm [m] or [rad], and of the motion by an effect [m].
+constexpr double kPlausible = 5e-3;
+/// 1 sigma of frame and target [m] or [rad].
+constexpr double kAnywhere = 1.0;
+/// A parameter that moves the points by less [m] per `width` is left out.
+constexpr double kMoves = 1e-9;
+/// Numbers of a series at each joint that a plan looks at: sine and cosine of its first four waves.
+constexpr int kFirstNumbers = 8;
+/// Temperature where none was measured.
 constexpr double kRoom_degC = 20.0;
 
 double mean_of(const Eigen::VectorXd& values) {
@@ -24,7 +29,8 @@ double mean_of(const Eigen::VectorXd& values) {
   return count > 0.0 ? sum / count : kRoom_degC;
 }
 
-/// Of a series of waves all numbers but the first: a plan need not show hundreds of them.
+/// True for the higher waves of a series: their prior holds them, since a plan need not show
+/// hundreds of numbers.
 bool is_held_by_its_prior(const format::Model& arm, const Parameter& p) {
   const format::Effect& effect = arm.effects[static_cast<std::size_t>(p.joint)];
   if (!is_series(effect.name)) return false;

@@ -12,10 +12,14 @@ namespace {
 using Law = Rivals::Law;
 
 constexpr int kMostExchangeRounds = 3;
-constexpr double kWorthExchanging = 0.05;  // [nats]
-constexpr double kBothCount = 0.02;  // of the sum of both leads, where the smaller one is level
+/// An exchange must raise the value of the plan by more [nats].
+constexpr double kWorthExchanging = 0.05;
+/// Weight of the sum of both leads beside the smaller one. It decides between plans whose smaller
+/// leads are equal.
+constexpr double kBothCount = 0.02;
 
-/// Q of the residual: what is expected without noise, and the noise of the lines to come.
+/// Expected sum of squares of the residual: that without noise, and the variance of the noise in
+/// every line that is still to be measured.
 double expected_square(const Rivals& rivals, const Eigen::MatrixXd& S, Eigen::Index y,
                        double further) {
   return S(y, y) + further * rivals.scale.variance;

@@ -20,7 +20,9 @@
 namespace plumb::offline {
 namespace {
 
+/// Poses over which predictions are judged.
 constexpr int kChecked = 500;
+/// Place of the reflector on the flange, where the cell states none.
 constexpr std::array<double, 3> kUsualTarget_m{0.05, 0.0, 0.1};
 
 std::vector<int> used_rows(const Measurements& measured) {
@@ -63,7 +65,7 @@ double sigma_of(const Cell& cell, const Measurements& used) {
   return sigma > 0.0 ? sigma : cell.measurement.sigma_m.value_or(kUnstatedSigma_m);
 }
 
-/// The model less the two effects that are to be told apart, and less what is learnt.
+/// The cell without the two effects that are to be told apart and without learnt trees.
 Cell without_rivals(Cell cell, const std::vector<EffectEntry>& rivals) {
   std::erase_if(cell.effects, [](const EffectEntry& e) { return is_local_tree(e.name); });
   for (const auto& rival : rivals)

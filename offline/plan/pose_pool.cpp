@@ -11,7 +11,8 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kTries = 200;  // times the pool
+/// Random poses that are tried for each pose of the pool.
+constexpr int kTries = 200;
 
 bool inside(const Vector3& p, const std::vector<PoseRules::Box>& boxes) {
   return boxes.empty() || std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) {

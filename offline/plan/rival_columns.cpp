@@ -20,8 +20,10 @@
 namespace plumb::offline {
 namespace {
 
+/// Values of the constants of a law that are tried, and how far [nats] these may be behind the best
+/// one.
 constexpr std::size_t kMostVariants = 5;
-constexpr double kStillPossible_nats = 25.0;  // behind the best constants of the law
+constexpr double kStillPossible_nats = 25.0;
 
 /// Columns of a law at every reading, whitened, and what is known of their sizes.
 struct Variant {
@@ -37,7 +39,7 @@ Regressor rival_regressor(const WhitenedFit& whitened, const EffectEntry& entry)
                           {number_option(entry, OptionKey::kCyclesPerTurn, 1.0)});
 }
 
-/// The entry, and with other values of the constants that a diagnosis would try.
+/// The entry, and copies of it with the other values of its constants that a diagnosis would try.
 std::vector<EffectEntry> with_constants(const WhitenedFit& whitened, const EffectEntry& entry) {
   std::vector<EffectEntry> out{entry};
   if (descriptor_of(entry.name).grid.empty()) return out;
@@ -65,7 +67,8 @@ Eigen::VectorXd carried_over(const Regressor& from, const Eigen::VectorXd& sizes
   return out;
 }
 
-/// The likeliest constants of a law first. at_all: all readings; measured: those made, if any.
+/// The law with several values of its constants, the likeliest first. at_all: all readings;
+/// measured: those made so far, null if there are none.
 std::vector<Variant> variants_of(const EffectEntry& entry, const WhitenedFit& at_all,
                                  const WhitenedFit* measured) {
   std::vector<Variant> out;

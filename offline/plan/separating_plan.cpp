@@ -11,12 +11,16 @@
 namespace plumb::offline {
 namespace {
 
-constexpr int kMostOptions = 3000;
-constexpr int kRoundsBeside = 6;
+/// Readings that are chosen from, and rounds in which the choice is improved among readings at
+/// neighbouring poses. They bound the time.
+constexpr int kMostOptions = 3000, kRoundsBeside = 6;
 constexpr std::size_t kMostBeside = 1000;
-constexpr double kTrace = 1e-9;        // keeps columns that repeat each other solvable
-constexpr double kOneMotion = 0.9999;  // of either by the other: one and the same
-constexpr double kShown = 100.0;       // largest 1 sigma, in typical sizes, of what poses show
+/// Ridge, as a share of the largest diagonal element, for columns that depend on each other.
+constexpr double kTrace = 1e-9;
+/// Two laws are one and the same if each reproduces this share of the motion of the other.
+constexpr double kOneMotion = 0.9999;
+/// Poses do not show a number whose 1 sigma is larger than this, in typical sizes.
+constexpr double kShown = 100.0;
 
 using Law = Rivals::Law;
 
