@@ -88,11 +88,13 @@ class CutSearch {
     behind_ = RunningSums(motions_.cols(), U_.cols());
   }
 
-  /// To be called for the poses from the last one on.
-  void pass(int visit) {
-    const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
-    behind_.add(motions_.middleRows(at, s_.axes), y_.segment(at, s_.axes),
-                U_.middleRows(at, s_.axes));
+  /// The best of these cuts, by ln_bayes() or explained() of the motion behind it. `score_of(cut)`
+  /// returns a std::optional<double>: nothing if the cut is not to be tried. To be called once
+  /// after the construction or `beside`.
+  template <class ScoreOf>
+  std::optional<BestCut> best(const CutRange& cuts, const ScoreOf& score_of) {
+    return best_cut(
+        poses(), cuts, [&](int visit) { pass(visit); }, score_of);
   }
   double ln_bayes() const { return evidence(gram(), behind_.Xy, Q_, scale_).ln_bayes; }
 
@@ -115,6 +117,11 @@ class CutSearch {
   }
 
  private:
+  void pass(int visit) {
+    const Eigen::Index at = order_[static_cast<std::size_t>(visit)] * s_.axes;
+    behind_.add(motions_.middleRows(at, s_.axes), y_.segment(at, s_.axes),
+                U_.middleRows(at, s_.axes));
+  }
   RunningSums::Square gram() const { return behind_.XX - behind_.UX.transpose() * behind_.UX; }
 
   /// The motions behind each cut, shape (fit lines, cuts * numbers).
@@ -163,31 +170,24 @@ double row_before(const WhitenedFit& s, const std::vector<Eigen::Index>& order, 
 std::optional<int> best_beside(CutSearch& part, const std::vector<int>& others,
                                const CutRange& cuts) {
   part.beside(others);
-  const auto best = best_cut(
-      part.poses(), cuts, [&](int visit) { part.pass(visit); },
-      [&](int cut) -> std::optional<double> {
-        for (const int other : others)
-          if (std::abs(cut - other) < kFewestBesideStep) return std::nullopt;
-        return part.explained();
-      });
+  const auto best = part.best(cuts, [&](int cut) -> std::optional<double> {
+    for (const int other : others)
+      if (std::abs(cut - other) < kFewestBesideStep) return std::nullopt;
+    return part.explained();
+  });
   if (!best) return std::nullopt;
   return best->cut;
 }
 
-/// Looks for every cut again beside the others, until none changes its place. near: how far.
-void settle(CutSearch& part, std::vector<int>& cuts, int near) {
-  for (int round = 0; round < kSettlingRounds; ++round) {
-    bool changed = false;
-    for (int& cut : cuts) {
-      std::vector<int> others;
-      for (const int other : cuts)
-        if (other != cut) others.push_back(other);
-      const auto again = best_beside(part, others, cuts_near(part.cuts(), cut, near));
-      changed = changed || (again && *again != cut);
-      if (again) cut = *again;
-    }
-    if (!changed) break;
-  }
+/// Searches every cut again beside the others, at most `near` visits away, and sorts them.
+void settle_near(CutSearch& part, std::vector<int>& cuts, int near) {
+  settle(cuts, kSettlingRounds, [&](int& cut) {
+    std::vector<int> others = cuts;
+    std::erase(others, cut);
+    const int before = cut;
+    cut = best_beside(part, others, cuts_near(part.cuts(), cut, near)).value_or(cut);
+    return cut != before;
+  });
   std::sort(cuts.begin(), cuts.end());
 }
 
@@ -198,9 +198,8 @@ double price_of_place(Eigen::Index poses) {
 /// The evidence of the best single move of a part beside those of another one.
 double best_move_beside(CutSearch& part, const CutSearch& other, const std::vector<int>& cuts) {
   part.beside(other, cuts);
-  const auto best = best_cut(
-      part.poses(), part.cuts(), [&](int visit) { part.pass(visit); },
-      [&](int) -> std::optional<double> { return part.ln_bayes(); });
+  const auto best =
+      part.best(part.cuts(), [&](int) -> std::optional<double> { return part.ln_bayes(); });
   return best ? best->score : 0.0;
 }
 
@@ -226,7 +225,7 @@ std::vector<int> further_moves(const WhitenedFit& s, const MovingPart& moving, C
     const auto next = best_beside(part, out, part.cuts());
     if (!next) break;
     more.push_back(*next);
-    settle(part, more, part.poses());
+    settle_near(part, more, part.poses());
     const double with = part.ln_bayes(more);
     if (with < ln_bayes + kSupported + price_of_place(s.fit_poses())) break;
     if (other_body_moved(s, moving, part, out, with - ln_bayes)) break;
@@ -249,13 +248,11 @@ std::vector<ChangePoint> change_points(const WhitenedFit& s, int& tried) {
   std::vector<ChangePoint> out;
   for (const MovingPart& moving : moving_parts(s.joints())) {
     CutSearch part(s, moving);
-    const auto best = best_cut(
-        part.poses(), part.cuts(), [&](int visit) { part.pass(visit); },
-        [&](int cut) -> std::optional<double> {
-          if (moving.joint >= 0 && changes_payload(s, part.order(), cut)) return std::nullopt;
-          ++tried;
-          return part.ln_bayes();
-        });
+    const auto best = part.best(part.cuts(), [&](int cut) -> std::optional<double> {
+      if (moving.joint >= 0 && changes_payload(s, part.order(), cut)) return std::nullopt;
+      ++tried;
+      return part.ln_bayes();
+    });
     if (!best) continue;
     out.push_back(at_cuts(s, part,
                           moving.joint >= 0 ? std::vector<int>{best->cut}
@@ -335,7 +332,7 @@ void sharpen(const WhitenedFit& s, Eigen::Index poses, ChangePoint& point) {
           [&](Eigen::Index pose) { return s.context[static_cast<std::size_t>(pose)].order < row; });
       cuts.push_back(static_cast<int>(at - part.order().begin()));
     }
-    settle(part, cuts, static_cast<int>(poses));
+    settle_near(part, cuts, static_cast<int>(poses));
     point = at_cuts(s, part, cuts);
     return;
   }

@@ -14,6 +14,7 @@ constexpr double kChance = 0.01;
 constexpr double kChi95 = 3.84;
 constexpr int kFewestVisits = 16;
 constexpr std::size_t kMostSteps = 12;
+constexpr int kBackfittingRounds = 2;
 
 class Scanner {
  public:
@@ -27,8 +28,8 @@ class Scanner {
     if (motions_.size() < kFewestVisits || sources_.empty()) return out;
     out.visits = motions_.size();
     look(VisitRun{0, motions_.size()}, out);
-    for (int pass = 0; pass < 2 && found_.size() > 1; ++pass)
-      for (auto& jumped : found_) refine(jumped);
+    if (found_.size() > 1)
+      settle(found_, kBackfittingRounds, [&](Jumped& jumped) { return refine(jumped); });
     std::sort(found_.begin(), found_.end(),
               [](const auto& a, const auto& b) { return a.cut < b.cut; });
     for (auto& jumped : found_) out.steps.push_back(std::move(jumped.step));
@@ -85,8 +86,9 @@ class Scanner {
   }
 
   /// Finds the cut of one step again with all other steps removed. In the first search some of
-  /// them were still present, or had been removed together with a part of this one.
-  void refine(Jumped& one) {
+  /// them were still present, or had been removed together with a part of this one. Returns whether
+  /// the cut was found again, with another size at least.
+  bool refine(Jumped& one) {
     error_ = without_steps_;
     int first = 0, last = motions_.size();
     for (const auto& other : found_) {
@@ -99,10 +101,11 @@ class Scanner {
     MotionSums& sums = sources_[one.source];
     sums.sum(error_);
     const auto again = jump_of(sums, {0, motions_.size()}, task());
-    if (!again || again->cut <= first || again->cut >= last) return;
+    if (!again || again->cut <= first || again->cut >= last) return false;
     const double ln_p = one.step.ln_p;
     one = jumped(*again, {0, motions_.size()});
     one.step.ln_p = ln_p;
+    return true;
   }
 
   DriftFound described(const Explained& e, const VisitRun& s) const {

@@ -7,8 +7,12 @@
 
 namespace plumb::offline {
 
-/// The search for the moment at which something moved once. The caller puts the visits (poses with
-/// their immediate repeats) in order, walks over the cuts between them, and scores each cut.
+/// The search for the moments at which something moved, one cut at a time. Whoever searches puts
+/// the visits (poses with their immediate repeats) in order and says what a cut is worth:
+/// noise/change_points by F tests of a segment, diagnose/change_points by the evidence beside a
+/// model. The order, the cuts that may be tried, the walk over them, the running sums
+/// (noise/running_sums.hpp), the parts that may have moved (noise/moving_part.hpp) and the repeated
+/// search of every cut beside the others are the same for both.
 
 /// Sorts items by their keys, for example times; items with equal keys keep their order.
 template <class Item, class Key>
@@ -60,6 +64,18 @@ std::optional<BestCut> best_cut(int end, const CutRange& cuts, const Pass& pass,
     if (score && (!best || *score > best->score)) best = BestCut{cut, *score};
   }
   return best;
+}
+
+/// Backfitting: searches every move again beside all the others, since in the first search some of
+/// these were not yet known; until a round changes none, and at most so many rounds. `again(move)`
+/// searches one, and returns whether it changed.
+template <class Move, class Again>
+void settle(std::vector<Move>& moves, int rounds, const Again& again) {
+  bool changed = true;
+  for (int round = 0; round < rounds && changed; ++round) {
+    changed = false;
+    for (Move& move : moves) changed = again(move) || changed;
+  }
 }
 
 }  // namespace plumb::offline

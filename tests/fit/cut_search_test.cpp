@@ -87,6 +87,22 @@ TEST(CutSearch, TriesNoCutThatIsNotAllowedAndSaysSoIfNoneIs) {
   EXPECT_EQ(cuts_of({0, 5}, 3).count(), 0);
 }
 
+TEST(CutSearch, MovesAreSearchedAgainUntilNoneChanges) {
+  std::vector<int> cuts{1, 7}, searched;
+  const auto towards_five = [&](int& cut) {
+    searched.push_back(cut);
+    const int before = cut;
+    cut = cut < 5 ? cut + 2 : 5;
+    return cut != before;
+  };
+  settle(cuts, 9, towards_five);
+  EXPECT_EQ(cuts, (std::vector<int>{5, 5}));
+  EXPECT_EQ(searched, (std::vector<int>{1, 7, 3, 5, 5, 5}));
+  searched.clear();
+  settle(cuts, 0, towards_five);
+  EXPECT_TRUE(searched.empty());
+}
+
 TEST(CutSearch, VisitsOfOneMomentStayAsTheyStood) {
   std::vector<int> items{0, 1, 2, 3, 4};
   const std::vector<double> time{2.0, 1.0, 2.0, 0.0, 1.0};
