@@ -13,6 +13,7 @@
 #include "noise/cut_search.hpp"
 #include "noise/moving_part.hpp"
 #include "noise/running_sums.hpp"
+#include "numbers/gaussian.hpp"
 #include "numbers/pivoted_qr.hpp"
 
 namespace plumb::offline {
@@ -20,7 +21,6 @@ namespace {
 
 constexpr double kSamePayload_kg = 1e-6;
 constexpr double kIndependent = 1e-7;  // of a column beside the others
-constexpr double kWidest = kPriorWidths.back();
 
 EffectEntry step_of(const MovingPart& part) {
   EffectEntry out{.name = change_point_effect(), .joints = {}, .options = {}, .place = {}};
@@ -101,9 +101,8 @@ class CutSearch {
   /// What the motion behind the cut explains: as good as the evidence for finding the place, and
   /// much cheaper.
   double explained() const {
-    RunningSums::Square whole = gram();
-    whole.diagonal().array() += scale_.variance / (kWidest * kWidest);
-    return behind_.Xy.dot(whole.ldlt().solve(behind_.Xy));
+    return behind_.Xy.dot(
+        with_prior(gram(), kPriorWidths.back(), scale_.variance).ldlt().solve(behind_.Xy));
   }
 
   /// Of all these moves together.

@@ -14,7 +14,7 @@
 #include "diagnose/unless_refused.hpp"
 #include "effects/registry.hpp"
 #include "fit/calibrate.hpp"
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 #include "plumb/runtime/detail/effect_set.hpp"
 
 namespace plumb::offline {
@@ -104,8 +104,7 @@ Eigen::MatrixXd along(const Load& load, const Vector3& d) {
 
 /// Sizes that explain most, with a little damping, so that what moves nothing stays 0.
 Eigen::VectorXd solved(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v, double variance) {
-  const double ridge = variance / std::pow(kPriorWidths.back(), 2);
-  return SymmetricSolver(gram + ridge * Eigen::MatrixXd::Identity(v.size(), v.size())).solve(v);
+  return SymmetricSolver(with_prior(gram, kPriorWidths.back(), variance)).solve(v);
 }
 
 /// The direction that explains most, by turns: sizes under a direction, the direction under sizes.

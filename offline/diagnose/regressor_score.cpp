@@ -6,7 +6,7 @@
 
 #include "diagnose/constants.hpp"
 #include "diagnose/evidence_scale.hpp"
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 
 namespace plumb::offline {
 namespace {
@@ -135,10 +135,8 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
     if (out.evidence.ln_bayes <= kImpossible) out.active.clear();
     if (out.active.empty()) break;
     out.variance = variance_with(gram, v, out.evidence.width);
-    const double ridge = out.variance / std::pow(out.evidence.width, 2);
     const Eigen::VectorXd theta =
-        SymmetricSolver(gram + ridge * Eigen::MatrixXd::Identity(gram.rows(), gram.cols()))
-            .solve(v);
+        SymmetricSolver(with_prior(gram, out.evidence.width, out.variance)).solve(v);
     const Eigen::Index worst = most_negative(regressor, out.active, theta);
     if (worst < 0) {
       out.theta(out.active) = theta;
@@ -163,9 +161,8 @@ RegressorScore Scorer::score(const Regressor& regressor) const {
 /// the regressor leaves of the residual.
 double Scorer::variance_with(const Eigen::MatrixXd& gram, const Eigen::VectorXd& v,
                              double width) const {
-  const double ridge = scale_.variance / std::pow(width, 2);
-  const Eigen::MatrixXd damped = gram + ridge * Eigen::MatrixXd::Identity(v.size(), v.size());
-  const double left = std::max(0.0, whitened_.Q - v.dot(SymmetricSolver(damped).solve(v)));
+  const SymmetricSolver solver(with_prior(gram, width, scale_.variance));
+  const double left = std::max(0.0, whitened_.Q - v.dot(solver.solve(v)));
   return std::max(kLeastVariance, (scale_.dof * scale_.variance + left) /
                                       (scale_.dof + std::max(1.0, scale_.lines)));
 }
@@ -183,13 +180,11 @@ Scorer::Without Scorer::without(std::size_t f) const {
 Scorer::Without Scorer::without(std::size_t f, const RegressorScore& scored) const {
   const Products all = active_of(sum_of(scored.folds), scored.active);
   const Products held = active_of(scored.folds[f], scored.active);
-  const double ridge = scored.variance / std::pow(scored.evidence.width, 2);
-  const Eigen::Index b = all.Xy.size();
   const Fold& fold = folds_[f];
   const Eigen::MatrixXd B = all.UX - held.UX;
   const Eigen::MatrixXd AB = fold.without * B;
-  const Eigen::MatrixXd S =
-      all.XX - held.XX - B.transpose() * AB + ridge * Eigen::MatrixXd::Identity(b, b);
+  const Eigen::MatrixXd S = with_prior(all.XX - held.XX - (B.transpose() * AB).eval(),
+                                       scored.evidence.width, scored.variance);
   const Eigen::VectorXd theta =
       SymmetricSolver(S).solve(all.Xy - held.Xy + AB.transpose() * fold.Uy);
   Without out{-(fold.without * fold.Uy) - AB * theta, Eigen::VectorXd::Zero(scored.theta.size())};

@@ -117,9 +117,7 @@ struct SeriesEvidence {
 /// As `evidence`, with a prior of its own for every column, in units of the scatter that is left.
 SeriesEvidence evidence_with(const SeriesSums& sums, const SeriesPrior& prior) {
   const Eigen::VectorXd sigma = sigmas(sums, prior);
-  Eigen::MatrixXd scaled = sigma.asDiagonal() * sums.gram * sigma.asDiagonal();
-  scaled.diagonal().array() += 1.0;
-  const Cholesky llt(scaled);
+  const Cholesky llt(with_prior(sigma.asDiagonal() * sums.gram * sigma.asDiagonal()));
   if (!llt.exists()) return {prior};
   const Eigen::VectorXd v = sigma.cwiseProduct(sums.v);
   const double n = sums.scale.lines + sums.scale.dof;
@@ -250,9 +248,7 @@ RegressorScore score_series(const Scorer& scorer, const EffectEntry& entry) {
   // The scatter that is left decides how much the prior weighs, and that how much is left.
   double left = s.Q / scale.lines;
   for (int turn = 0; turn < 4; ++turn) {
-    Eigen::MatrixXd held = gram;
-    held.diagonal().array() += left;
-    const Cholesky llt(held);
+    const Cholesky llt(with_prior(gram, 1.0, left));
     out.theta = llt.solve(all.Xy);
     const double n = scale.lines + scale.dof;
     const EvidenceGain gain =

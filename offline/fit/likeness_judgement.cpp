@@ -297,9 +297,7 @@ class LikenessMixture {
                        const Eigen::MatrixXd& Ut) const {
     if (offsets_.empty()) return 0.0;
     const Eigen::MatrixXd V = Ut * equations_.R(Eigen::all, offsets_) * (kChangeTimes * h.scale);
-    Eigen::MatrixXd more = V.transpose() * S.inverse().matrix().asDiagonal() * V;
-    more.diagonal().array() += 1.0;
-    const Cholesky llt(more);
+    const Cholesky llt(with_prior(V.transpose() * S.inverse().matrix().asDiagonal() * V));
     const Eigen::VectorXd towards = V.transpose() * Sw.matrix();
     return 0.5 * towards.dot(llt.solve(towards)) - 0.5 * llt.ln_det();
   }

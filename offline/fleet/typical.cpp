@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 
 namespace plumb::offline::fleet {
 namespace {
@@ -97,11 +97,8 @@ std::vector<Typical> learn_typical(const std::vector<const CellSummary*>& arms,
     std::vector<Eigen::VectorXd> m, v;
     for (const Arm& arm : all) {
       const Eigen::VectorXd tau = sd(arm.place), center = mu(arm.place);
-      Eigen::MatrixXd information = arm.information;
-      information.diagonal() += tau.array().square().inverse().matrix();
-      const Cholesky llt(information);
-      const Eigen::MatrixXd V =
-          llt.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+      const Cholesky llt(with_prior(arm.information, tau));
+      const Eigen::MatrixXd V = llt.solve(Eigen::MatrixXd::Identity(tau.size(), tau.size()));
       m.push_back(center + V * (arm.information * (arm.x - center)));
       v.push_back(V.diagonal());
       for (std::size_t k = 0; k < arm.place.size(); ++k) {

@@ -25,9 +25,7 @@ EvidenceGain evidence_gain(double ln_det, double before, double explained, doubl
 LinearPosterior posterior(const Cholesky& S, const Eigen::MatrixXd& B,
                           const Eigen::VectorXd& prior) {
   const Eigen::MatrixXd SB = S.solve(B);
-  Eigen::MatrixXd information = B.transpose() * SB;
-  information.diagonal() += prior.array().square().inverse().matrix();
-  const SymmetricSolver solver(information);
+  const SymmetricSolver solver(with_prior(B.transpose() * SB, prior));
   return {solver.solve(SB.transpose()), solver.inverse()};
 }
 

@@ -23,6 +23,24 @@ struct EvidenceGain {
 /// included. explained: how much of it the model takes away. lines: degrees of freedom of `before`.
 EvidenceGain evidence_gain(double ln_det, double before, double explained, double lines);
 
+/// The normal matrix of least squares with a normal prior of zero mean beside the lines: every
+/// number has the standard deviation `sigma` beforehand, and every line this variance.
+template <class Matrix>
+typename Matrix::PlainObject with_prior(const Eigen::MatrixBase<Matrix>& normal_matrix,
+                                        double sigma = 1.0, double variance = 1.0) {
+  typename Matrix::PlainObject out = normal_matrix.derived();
+  out.diagonal().array() += variance / (sigma * sigma);
+  return out;
+}
+/// The same where each number has its own standard deviation, and the lines the variance 1.
+template <class Matrix>
+typename Matrix::PlainObject with_prior(const Eigen::MatrixBase<Matrix>& normal_matrix,
+                                        const Eigen::VectorXd& sigma) {
+  typename Matrix::PlainObject out = normal_matrix.derived();
+  out.diagonal() += sigma.array().square().inverse().matrix();
+  return out;
+}
+
 /// x of r = B x + noise with noise ~ N(0, S) and x ~ N(0, diag(prior)^2): its mean is gain r.
 struct LinearPosterior {
   Eigen::MatrixXd gain;        // (numbers, lines)

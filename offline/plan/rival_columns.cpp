@@ -14,7 +14,7 @@
 #include "fit/split.hpp"
 #include "noise/noise_floor.hpp"
 #include "noise/weights.hpp"
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 #include "solve/evaluation.hpp"
 
 namespace plumb::offline {
@@ -180,9 +180,7 @@ RivalColumns rival_columns(const Cell& cell, const PlanStart& start, const Effec
   out.rivals.b.expected = at + 1;
   const Eigen::Index lines = n > 0 ? at_all.fit_lines : 0;
   const auto known = G.topRows(lines);
-  Eigen::MatrixXd information = known.transpose() * known;
-  information.diagonal().array() += 1.0;
-  const Cholesky llt(information);
+  const Cholesky llt(with_prior(known.transpose() * known));
   const auto expect = [&](const Variant& variant, Eigen::Index column) {
     const Eigen::VectorXd motion = variant.columns * variant.size;
     Z.col(column) = motion;

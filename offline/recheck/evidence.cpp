@@ -59,9 +59,7 @@ double ln_evidence(const Cholesky& S, const Eigen::VectorXd& r, const Eigen::Mat
   std::vector<std::size_t> at(changes.size(), 0);
   do {
     const Eigen::VectorXd t = spread_of(changes, at);
-    Eigen::MatrixXd A = t.asDiagonal() * VV * t.asDiagonal();
-    A.diagonal().array() += 1.0;
-    const Cholesky llt(A);
+    const Cholesky llt(with_prior(t.asDiagonal() * VV * t.asDiagonal()));
     const Eigen::VectorXd tv = t.cwiseProduct(Vw);
     ln.push_back(nothing +
                  evidence_gain(llt.ln_det(), before, tv.dot(llt.solve(tv)), dof).ln_bayes);

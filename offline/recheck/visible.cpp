@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "numbers/cholesky.hpp"
+#include "numbers/gaussian.hpp"
 #include "numbers/spectrum.hpp"
 #include "recheck/constants.hpp"
 
@@ -20,9 +20,8 @@ std::vector<Visibility> visibility(const std::vector<Change>& changes, const Mea
     const Eigen::MatrixXd motion =
         derivatives(own, state, change.parameters) * change.typical.asDiagonal();
     const Eigen::MatrixXd square = motion.transpose() * motion / own.size();
-    Eigen::MatrixXd information = seen.transpose() * seen;
-    information.diagonal().array() += kNoticed / (kWidest * kWidest);
-    const double most = largest_generalised_eigenvalue(square, information);
+    const double most = largest_generalised_eigenvalue(
+        square, with_prior(seen.transpose() * seen, kWidest, kNoticed));
     out.push_back({change, std::sqrt(kNoticed * std::max(0.0, most))});
   }
   return out;

@@ -59,6 +59,21 @@ TEST(Evidence, ANormalDensityIsTheProductOfItsAxes) {
   EXPECT_NEAR(ln_normal(x, Cholesky(S)), expected, 1e-13);
 }
 
+TEST(Evidence, APriorCountsAsOneReadingOfEachNumber) {
+  Eigen::MatrixXd X(4, 2), with(6, 2);
+  X << 1.0, 0.3, -0.5, 2.0, 0.7, -1.1, 0.2, 0.4;
+  const Eigen::VectorXd sigma = Eigen::Vector2d(0.5, 4.0);
+  with << X, Eigen::MatrixXd(sigma.cwiseInverse().asDiagonal());
+  const Eigen::MatrixXd own = X.transpose() * X;
+  EXPECT_LT((with_prior(own, sigma) - with.transpose() * with).norm(), 1e-13);
+  const double variance = 0.3;
+  EXPECT_LT((with_prior(own, 2.0, variance) / variance -
+             with_prior(own / variance, Eigen::VectorXd::Constant(2, 2.0)))
+                .norm(),
+            1e-12);
+  EXPECT_LT((with_prior(X.transpose() * X) - own - Eigen::Matrix2d::Identity()).norm(), 1e-13);
+}
+
 TEST(Evidence, SumsOfExponentialsDoNotOverflow) {
   EXPECT_NEAR(ln_sum(std::array{1000.0, 1000.0}), 1000.0 + std::log(2.0), 1e-12);
   EXPECT_EQ(ln_sum({}), -HUGE_VAL);
