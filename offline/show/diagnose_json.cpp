@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "effects/registry.hpp"
+#include "runs/option_json.hpp"
 #include "show/diagnose_view.hpp"
 #include "show/error_table.hpp"
 #include "show/units.hpp"
@@ -16,11 +17,10 @@ void put_error(Json& out, const std::string& key, const ErrorStats& stats) {
   put(out, key + "_rms_mm", stats.n > 0 ? to_mm(stats.rms) : NAN, "no pose was held out");
 }
 
-Json options_json(const EffectEntry& effect) {
-  Json out = Json::object();
-  for (const auto& [key, value] : effect.options)
-    std::visit([&out, &name = key](const auto& v) { out[name] = v; }, value);
-  return out;
+/// Name, joints and options, as in cell.toml.
+Json entry_json(const Cell& cell, const EffectEntry& effect) {
+  return {
+      {"effect", effect.name}, {"joints", joints_json(cell, effect)}, {"options", effect.options}};
 }
 
 Json parameters_json(const Candidate& candidate) {
@@ -90,7 +90,7 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
   out["domain"] = c.domain;
   out["supported"] = c.supported;
   out["plausible"] = c.plausible;
-  out["options"] = options_json(c.entry);
+  out["options"] = c.entry.options;
   out["parameters"] = parameters_json(c);
   put(out, "share_pct", 100.0 * c.explained);
   put(out, "absorbed_by_geometry_pct", 100.0 * c.absorbed);
@@ -105,11 +105,9 @@ Json candidate_json(const Cell& cell, const Candidate& c) {
 Json alternatives_json(const Cell& cell, const std::vector<Alternative>& all) {
   Json out = Json::array();
   for (const auto& other : all) {
-    Json one{{"effect", other.entry.name},
-             {"joints", joints_json(cell, other.entry)},
-             {"options", options_json(other.entry)},
-             {"cycles_per_turn", other.cycles},
-             {"domain", other.domain}};
+    Json one = entry_json(cell, other.entry);
+    one["cycles_per_turn"] = other.cycles;
+    one["domain"] = other.domain;
     put(one, "behind_nats", other.behind_nats);
     if (!other.not_shown.empty()) {
       one["not_shown"] = other.not_shown;
@@ -131,6 +129,15 @@ Json unknown_json(const Cell& cell, const UnknownStructure& unknown) {
   put(out, "rms_urad", unknown.rms_rad > 0.0 ? unknown.rms_rad * 1e6 : NAN, "it is no joint's");
   if (!unknown.alternatives.empty())
     out["alternatives"] = alternatives_json(cell, unknown.alternatives);
+  return out;
+}
+
+Json undecided_json(const Cell& cell, const Undecided& undecided) {
+  Json out = entry_json(cell, undecided.entry);
+  out["cycles_per_turn"] = undecided.cycles;
+  out["domain"] = undecided.domain;
+  out["alternatives"] = alternatives_json(cell, undecided.alternatives);
+  if (undecided.slow_motion) out["slow_motion"] = unknown_json(cell, *undecided.slow_motion);
   return out;
 }
 
@@ -157,10 +164,8 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   out["held_out_after"] = stats_json(d.after);
   out["added"] = Json::array();
   for (const auto& a : d.added) {
-    Json one{{"effect", a.entry.name},
-             {"joints", joints_json(cell, a.entry)},
-             {"options", options_json(a.entry)},
-             {"cycles_per_turn", a.cycles}};
+    Json one = entry_json(cell, a.entry);
+    one["cycles_per_turn"] = a.cycles;
     put(one, "ln_bayes", a.ln_bayes);
     put_error(one, "held_out", a.held);
     one["alternatives"] = alternatives_json(cell, a.alternatives);
@@ -170,15 +175,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   out["candidates"] = Json::array();
   for (const auto& c : d.candidates) out["candidates"].push_back(candidate_json(cell, c));
   out["alternatives"] = alternatives_json(cell, d.alternatives);
-  if (d.undecided)
-    out["not_added"] = {{"effect", d.undecided->entry.name},
-                        {"joints", joints_json(cell, d.undecided->entry)},
-                        {"options", options_json(d.undecided->entry)},
-                        {"cycles_per_turn", d.undecided->cycles},
-                        {"domain", d.undecided->domain},
-                        {"alternatives", alternatives_json(cell, d.undecided->alternatives)}};
-  if (d.undecided && d.undecided->slow_motion)
-    out["not_added"]["slow_motion"] = unknown_json(cell, *d.undecided->slow_motion);
+  if (d.undecided) out["not_added"] = undecided_json(cell, *d.undecided);
   if (d.slow_motion) out["slow_motion"] = unknown_json(cell, *d.slow_motion);
   if (d.gravity) {
     out["gravity"] = {{"stated", d.gravity->stated},
@@ -200,9 +197,7 @@ Json diagnose_json(const Cell& cell, const Diagnosis& d) {
   }
   out["unlikely"] = Json::array();
   for (const auto& one : d.unlikely) {
-    Json large{{"effect", one.entry.name},
-               {"joints", joints_json(cell, one.entry)},
-               {"options", options_json(one.entry)}};
+    Json large = entry_json(cell, one.entry);
     put(large, "times_usual", one.times);
     out["unlikely"].push_back(std::move(large));
   }

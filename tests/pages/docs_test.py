@@ -10,6 +10,8 @@ import subprocess
 import tempfile
 import unittest
 
+import page_types
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 README = (SOURCE / "README.md").read_text()
 
@@ -88,6 +90,11 @@ class Ci(unittest.TestCase):
             said = re.findall(r"(?m)^\* (.*)$", page.partition(f"## `scripts/{name}`\n")[2].partition("\n## ")[0])
             self.assertEqual(said, list(stages(SOURCE / "scripts" / name)), name)
             self.assertTrue(said, name)
+
+
+class PageOfTheWorkbench(unittest.TestCase):
+    def test_its_types_of_results_are_those_of_the_schemas(self):
+        self.assertEqual(page_types.FILE.read_text(), page_types.page(), "write it anew: tests/pages/page_types.py")
 
 
 class Pages(unittest.TestCase):

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the server sends. docs/workbench.md describes it; the results of verbs are those of --json.
 
+import type { Diagnosis, Statistics } from "./results";
+
+export type { Diagnosis, Statistics };
+export type Candidate = Diagnosis["candidates"][number];
+
 export interface Place { file: string; line: number; column: number }
 
 export interface Problem {
@@ -12,14 +17,6 @@ export interface Problem {
   line?: number | null;
   help?: string;
   problems?: Problem[];
-}
-
-export interface Statistics {
-  n: number;
-  mean_mm: number | null;
-  rms_mm: number | null;
-  p95_mm: number | null;
-  max_mm: number | null;
 }
 
 export interface Joint { name: string; type: "revolute" | "prismatic"; unit: "deg" | "mm"; lower: number | null; upper: number | null }
@@ -114,40 +111,6 @@ export interface Job {
   exit: number | null;
   output?: Envelope | null;
   seconds: number | null;
-}
-
-export interface Candidate {
-  effect: string;
-  joints: string[];
-  title: string;
-  figure: string;
-  ln_bayes: number | null;
-  held_out_alone_mm: number | null;
-  held_out_after_mm: number | null;
-  gain_pct: number | null;
-  gain_se_pct: number | null;
-  cycles_per_turn: number[];
-  domain: string;
-  supported: boolean;
-  plausible: boolean;
-  options: Record<string, unknown>;
-  parameters: { name: string; unit: string; value: number | null; std: number | null; ci95: number | null; typical: number | null; plausible: boolean }[];
-  share_pct: number | null;
-  largest_mm: number | null;
-  confounded: string[];
-  confounded_with: string[];
-  separate_by?: string;
-}
-
-export interface Diagnosis {
-  verdict: string;
-  verdict_text: string;
-  held_out_before_mm: number | null;
-  held_out_after_mm: number | null;
-  candidates: Candidate[];
-  not_testable: { effect: string; why: string; measure: string }[];
-  unknown: { words: string } | null;
-  outliers: string[];
 }
 
 export interface CellFile { name: string; bytes: number; changed: string }
