@@ -44,7 +44,7 @@ Search::Search(const Judge& judge, const Readings& readings, std::vector<Change>
   if (readings.poses < kFewestForOddOnes) return;
   for (int i = 0; i < readings.rows.size(); ++i)
     possible_.push_back(odd_reading(i, readings.rows.size(), readings.sigma_m()));
-  most_odd_ = std::min(kMostOdd, static_cast<int>(kOddShare * readings.rows.size()));
+  most_odd_ = std::clamp(static_cast<int>(kOddShare * readings.rows.size()), 1, kMostOdd);
 }
 
 void Search::run() {
@@ -105,7 +105,8 @@ bool Search::add_best() {
 void Search::exchange() {
   for (std::size_t k = assumed_; k < found_.size(); ++k)
     for (const auto& change : possible_) {
-      if (holds(change)) continue;
+      const bool one_odd_more = is_reading(change) && !is_reading(found_[k]);
+      if (holds(change) || (one_odd_more && !may_be_odd())) continue;
       std::vector<Change> other = found_;
       other[k] = change;
       Judged judged = judge_.judge(other);
