@@ -9,6 +9,11 @@
 
 namespace plumb::drivers {
 
+/// What a missing key owner_register means: the default register, or none. A folder that was
+/// deployed by a version without this key must get none, because its controller may use the
+/// register for something else.
+enum class MissingOwner : std::uint8_t { kDefault, kNone };
+
 /// Reads the table [bus] of rt.toml or [deploy.bus] of cell.toml. Keys that are not there have the
 /// values of default_layout.
 ///
@@ -22,7 +27,8 @@ namespace plumb::drivers {
 ///   data_bit_rate = 4000000       # of CAN FD
 ///   temperatures = ["temp"]       # sensors that the controller reports; or how many, in the order
 ///                                 # in which the model counts its own
-///   [bus.target]                  # a table a message; also adds commanded to six joints and fewer
+///   [bus.target]                  # one table for each message; [bus.commanded] adds that message,
+///                                 # which arms of up to six joints do not have otherwise
 ///   can_id = 0x118
 ///   register = 1048
 ///   period_us = 4000
@@ -31,10 +37,6 @@ namespace plumb::drivers {
 ///
 /// Problems are reported to the table's source, among them unknown keys and every fault of the
 /// layout (code BUS). After a problem the result must not be used.
-///
-/// `owner`: what a missing owner_register means. A folder that was deployed before there was one
-/// says nothing of it, and its controller may use the register for something else.
-enum class MissingOwner : std::uint8_t { kDefault, kNone };
 BusLayout read_bus(TomlTable& bus, const BusArm& arm, BusUse use,
                    MissingOwner owner = MissingOwner::kDefault);
 

@@ -111,7 +111,7 @@ Pipe read_some(int fd, std::string& into, std::size_t most) {
 
 ShortRun run_to_end(const ChildCommand& command, std::chrono::milliseconds longest,
                     const std::atomic<bool>& stop) {
-  constexpr std::size_t kMost = std::size_t{8} << 20;
+  constexpr std::size_t kMost = std::size_t{8} << 20;  // bytes kept of what it prints
   const auto end = std::chrono::steady_clock::now() + longest;
   Child child(command);
   ShortRun out;

@@ -20,7 +20,7 @@
 namespace plumb {
 namespace {
 
-constexpr std::size_t kMostOwnedBytes = 64 << 10;
+constexpr std::size_t kMostOwnedBytes = 64 << 10;  // of a key file, which has some hundred
 
 [[noreturn]] void refuse_reading(const std::filesystem::path& file, const std::string& why) {
   throw Failure(Exit::kInput,

@@ -109,6 +109,7 @@ int edit_distance(const std::string& a, const std::string& b) {
 
 std::optional<std::string> did_you_mean(const std::string& word,
                                         const std::vector<std::string>& candidates) {
+  // One edit in three characters: a word that differs by more is another word.
   const int most = std::max(1, static_cast<int>(word.size()) / 3);
   std::optional<std::string> best;
   int best_distance = most + 1;

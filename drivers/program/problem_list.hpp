@@ -38,7 +38,7 @@ class ProblemList {
   }
 
  private:
-  static constexpr std::size_t kMost = 1000;
+  static constexpr std::size_t kMost = 1000;  // problems kept; nobody reads more
   std::vector<Problem> errors_;
   std::vector<Problem> remarks_;
 };

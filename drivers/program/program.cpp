@@ -86,7 +86,7 @@ void Program::add_globals(CLI::App& app) {
       "One JSON object on stdout; messages on stderr");
 }
 
-/// Of the program alone: no verb takes them.
+/// Adds the options that only the program itself takes, no verb.
 void Program::add_pages() {
   app_->add_flag_callback(
       "--man", [this] { page_ = "man"; }, "Print the manual page, in roff");

@@ -37,7 +37,7 @@ struct ProgramText {
   ManualText manual = {};  // what its manual page says that its options do not
 };
 
-/// Whether its verbs work in a cell, the folder of a cell.toml that -C names.
+/// Whether the verbs of a program work in a cell, which is the folder of a cell.toml; -C names it.
 enum class WorksIn { kAnywhere, kCell };
 
 /// The command line: verbs with --json and --help, usage errors with "did you mean", the manual

@@ -17,8 +17,8 @@
 namespace plumb {
 namespace {
 
-constexpr std::size_t kFewestColumns = 20;
-constexpr std::size_t kRoom = 24;  // columns for the last cell of a row, at least
+constexpr std::size_t kFewestColumns = 20;  // of a terminal; a smaller one counts as this wide
+constexpr std::size_t kRoom = 24;           // columns for the last cell of a row, at least
 
 constexpr std::string_view kGood = "\x1b[1;32m", kWarning = "\x1b[1;33m", kError = "\x1b[1;31m",
                            kNote = "\x1b[1;36m", kPlainAgain = "\x1b[0m";
@@ -28,8 +28,8 @@ struct Judgement {
   std::string_view colour;
 };
 
-/// Of answers without a class. The first that a line begins with counts, so longer ones stand
-/// before shorter ones.
+/// Beginnings of a line that are coloured where the JSON gives no class. The first that fits
+/// counts, so longer ones stand before shorter ones.
 constexpr Judgement kJudgements[] = {
     {"Good", kGood},           {"Not good enough", kError}, {"Something moved", kWarning},
     {"Complete", kGood},       {"Missing", kWarning},       {"Unknown", kWarning},
@@ -39,7 +39,7 @@ constexpr Judgement kJudgements[] = {
 
 constexpr Judgement kMessages[] = {{"error", kError}, {"warning", kWarning}, {"note", kNote}};
 
-/// Of the classes in which the JSON gives a verdict.
+/// Colours of the classes of a verdict, as the JSON names them.
 constexpr Judgement kClasses[] = {{"good", kGood}, {"partly", kWarning}, {"bad", kError}};
 
 std::string coloured(const std::string& line, std::span<const Judgement> table) {

@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-/// As a shell takes it: quoted where it must be.
+/// The word as it is typed in a shell: quoted if it has to be.
 std::string shell_word(const std::string& text);
 
 /// What a command begins with that works in the same cell: "plumb -C cell ", or "plumb " if no

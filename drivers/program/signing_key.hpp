@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-/// An Ed25519 public key [RFC 8032], and the words that stand behind it in its file.
+/// An Ed25519 public key [RFC 8032], and the comment that follows it in its file.
 struct PublicKey {
   std::array<unsigned char, 32> bytes{};
   std::string comment = {};
@@ -50,12 +50,13 @@ class SecretKey {
   std::array<unsigned char, 64> key_{};  // as the library wants it: the seed and the public key
 };
 
-/// Whether this is the signature of the bytes by this key. Constant time for bytes of one length.
+/// Whether this is the signature of the bytes by this key. The time depends on the number of bytes
+/// alone.
 bool verifies(const std::array<unsigned char, 64>& signature, std::string_view bytes,
               const PublicKey& key);
 
-/// Base64 with padding, and back. Reading throws std::invalid_argument unless the text stands for
-/// exactly `size` bytes and is written in the one usual way.
+/// Base64 with padding, and back [RFC 4648]. Reading throws std::invalid_argument unless the text
+/// is the canonical encoding of exactly `size` bytes.
 std::string base64(const unsigned char* bytes, std::size_t size);
 void read_base64(std::string_view text, unsigned char* bytes, std::size_t size);
 

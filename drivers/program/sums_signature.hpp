@@ -17,7 +17,8 @@ inline constexpr char kSignatureFile[] = "SHA256SUMS.sig";
 /// by the bytes of SHA256SUMS, which names every file. The first line keeps a signature that the
 /// same key made of anything else from standing for a folder.
 ///
-/// As text, one line: "plumb-ed25519 KEY-ID BASE64", with the id of the key that made it.
+/// The signature as one line of text: "plumb-ed25519 KEY-ID BASE64", with the id of the key that
+/// made it.
 struct SumsSignature {
   std::string key_id;
   std::array<unsigned char, 64> bytes{};

@@ -19,7 +19,7 @@ int count_characters(std::string_view text);
 /// invalid bytes become U+FFFD, so that a hostile file cannot steer the terminal.
 std::vector<std::string> printable_characters(std::string_view line);
 
-/// Without spaces, tabs and carriage returns at both ends.
+/// The text without spaces, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 
 }  // namespace plumb

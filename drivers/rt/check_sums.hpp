@@ -27,19 +27,21 @@ std::vector<SummedFile> read_sums(const std::filesystem::path& folder, const std
 void verify_sums(const std::filesystem::path& folder, const std::string& text,
                  const std::vector<std::filesystem::path>& files);
 
-/// Throws Failure (kInput, E-RT-SUMS) unless `text` lists this file with this sum: that of what was
-/// read of it, which need not be what stands there now. Reads nothing.
+/// Throws Failure (kInput, E-RT-SUMS) unless `text` lists this file with this sum. `sha256`: of the
+/// bytes that were read before; the file itself, which may have changed since, is not read again.
 void refuse_other(const std::filesystem::path& folder, const std::string& text,
                   const std::filesystem::path& file, const std::string& sha256);
 
 /// The name of a file in SHA256SUMS: relative to the folder.
 std::string listed_name(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// Writes SHA256SUMS anew with the present sum of rt.toml, all or nothing. Throws Failure (kInput,
-/// E-RT-SUMS), and writes nothing, if another file is not as listed. With kAll the present sums of
-/// rt.toml, `model` and all files that were listed and still exist. Returns what was listed before
-/// (nothing if it could not be read).
+/// Which sums are renewed: that of rt.toml, or those of rt.toml, the model and all files that were
+/// listed and still exist.
 enum class Renew { kConfiguration, kAll };
+
+/// Writes SHA256SUMS anew, all or nothing. With kConfiguration throws Failure (kInput, E-RT-SUMS),
+/// and writes nothing, if a file other than rt.toml is not as listed. Returns what was listed
+/// before (nothing if it could not be read).
 std::vector<SummedFile> renew_sums(const std::filesystem::path& folder,
                                    const std::filesystem::path& model, Renew renew);
 

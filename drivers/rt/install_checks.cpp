@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A folder made later than this from now was made by a clock that was wrong. A day: no time zone
+/// that was taken for UTC is off by more.
 constexpr std::int64_t kClockSlack_s = 86'400;
 
 /// Words on a clock that was wrong, if these times look like it.

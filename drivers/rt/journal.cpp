@@ -29,7 +29,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kJournalName = "events.jsonl";
-constexpr std::int64_t kMinute_ns = 60'000'000'000, kSeries_ns = 10 * kMinute_ns;
+constexpr std::int64_t kMinute_ns = 60'000'000'000;
+/// Faults that follow each other within this time count as one series. Chosen: an operator who
+/// acknowledges again and again without removing the cause needs minutes.
+constexpr std::int64_t kSeries_ns = 10 * kMinute_ns;
+/// Bytes read of one file: more than a journal can have, in case another program wrote it.
 constexpr std::uintmax_t kMostRead = 4 * Journal::kMostBytes;
 
 /// The wall time of a moment of CLOCK_MONOTONIC in UTC, ISO 8601 with milliseconds.
@@ -79,14 +83,14 @@ std::string time_of(const Json& event) {
                                                              : "";
 }
 
-/// With the reason where the input is not one that comes over the bus.
+/// The inputs that are lost, and why the controller refuses what is written to it, if it does.
 Json lost_details(const SessionMoment& now) {
   Json out{{"inputs", lost_words(now.lost)}};
   if (now.refusal.any()) out["refused"] = refusal_text(now.refusal);
   return out;
 }
 
-/// The name in a folder that is not the deploy folder itself, so that several do not collide.
+/// The name of the journal in a folder that the journals of several deploy folders share.
 std::string name_elsewhere(const fs::path& folder) {
   const std::string name = fs::weakly_canonical(folder).string();
   return fmt::format("{}-{}", sha256(name).substr(0, 12), kJournalName);
@@ -169,7 +173,7 @@ void Journal::append(const std::string& line) {
       ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
   const bool plain = fd >= 0 && ::fstat(fd, &now) == 0 && S_ISREG(now.st_mode);
   const std::string text = (plain && ends_within_line(file_, now.st_size) ? "\n" : "") + line;
-  if (plain) errno = ENOSPC;  // why a part of it is written, which sets no errno
+  if (plain) errno = ENOSPC;  // a write that is cut short sets no errno: the disk is full
   const bool written =
       plain && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int error = errno;
@@ -179,7 +183,7 @@ void Journal::append(const std::string& line) {
   if (fd >= 0) ::close(fd);
 }
 
-/// A series of faults has one cause, which lies before the first of them.
+/// Only for the first fault of a series: its cause lies before that one.
 void Journal::keep_what_led_to_fault(std::int64_t monotonic_ns) {
   if (file_.empty() || (fault_ns_ && monotonic_ns - *fault_ns_ < kSeries_ns)) return;
   const std::string newest = last_lines(file_, kMostOfFault);
@@ -228,7 +232,7 @@ ReadEvents read_events(const fs::path& file, std::size_t most) {
   std::vector<Json> led_to_fault = read(of_fault(file));
   add(read(older(file)));
   add(read(file));
-  if (!out.events.empty())  // of the others they are a copy
+  if (!out.events.empty())  // later ones are in the journal itself, of which NAME.fault is a copy
     std::erase_if(led_to_fault, [first = time_of(out.events.front())](const Json& event) {
       return time_of(event) >= first;
     });

@@ -11,6 +11,7 @@
 namespace plumb::drivers::rt {
 namespace {
 
+/// Bytes that are collected before they are written. Chosen: few system calls, little to lose.
 constexpr std::size_t kBlock = 64 << 10;
 
 }  // namespace
@@ -33,6 +34,7 @@ void LineFile::add(const std::string& lines) {
   if (text_.size() >= kBlock) flush();
 }
 
+/// After a failure the file is cut back to its last whole line, as far as the disk allows that.
 void LineFile::flush() {
   while (!text_.empty() && error_ == 0) {
     const auto written = ::write(fd_, text_.data(), text_.size());

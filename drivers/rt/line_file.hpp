@@ -23,7 +23,8 @@ class LineFile {
   void add(const std::string& lines);
   void flush();
 
-  /// Lets the system begin to write to the disk what it still holds, so that there never is much.
+  /// Asks the system to begin to write its buffered pages to the disk, and does not wait for it, so
+  /// that sync() never finds many of them.
   void begin_sync() noexcept;
 
   /// Waits until all of it has reached the disk.

@@ -17,7 +17,7 @@
 namespace plumb::drivers::rt {
 namespace {
 
-constexpr int kBacklog = 8;
+constexpr int kBacklog = 8;  // connections that wait to be accepted; one is served at a time
 
 /// Milliseconds that are left until a deadline, 0 when it has passed.
 class Deadline {
@@ -149,7 +149,7 @@ std::optional<Descriptor> listen_loopback(std::uint16_t port) {
 
 std::optional<std::string> ask(const std::filesystem::path& path, const std::string& request,
                                int within_ms) {
-  constexpr std::size_t kMost = 1 << 20;
+  constexpr std::size_t kMost = 1 << 20;  // bytes of an answer; a status has some 10,000
   sockaddr_un address;
   const Descriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!fd.open() || !unix_address(path, address)) return std::nullopt;

@@ -6,7 +6,7 @@
 namespace plumb::drivers::rt {
 namespace {
 
-/// As the Modbus specification names them.
+/// The name of an exception code in the Modbus specification.
 const char* name_of_exception(std::uint32_t exception) {
   switch (exception) {
     case 1:

@@ -48,7 +48,7 @@ class Metrics {
   std::string text() && { return std::move(text_); }
 
  private:
-  /// As the format asks for in the value of a label.
+  /// The text as the value of a label, with quotes, backslashes and line ends escaped.
   static std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {

@@ -11,12 +11,14 @@ namespace plumb::drivers::rt {
 /// Nobody waits for that thread: if this object goes first, it ends by itself, or with the program.
 class ModelLoading {
  public:
-  /// As load_next_model. Throws std::system_error if there is no thread for it.
+  /// Begins to load; `next`: the argument of load_next_model. Throws std::system_error if no thread
+  /// can be started.
   explicit ModelLoading(NextModel next);
 
   bool done() const noexcept;
 
-  /// The model; or throws what load_next_model threw. Once, and only when done.
+  /// Returns the model or throws what load_next_model threw. To be called once, when done() is
+  /// true.
   RunningModel result();
 
  private:

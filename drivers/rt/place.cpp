@@ -121,8 +121,7 @@ CurrentLink::~CurrentLink() {
 void CurrentLink::commit() {
   if (::rename(draft_.c_str(), link_.c_str()) != 0) refuse_file_write(link_, errno);
   draft_.clear();
-  // From here on the change has taken effect, so a failure would be told of something that was
-  // done.
+  // The rename has taken effect, so a failure from here on must not be reported as one of it.
   try {
     sync_folder(link_.parent_path());
   } catch (const Failure&) {

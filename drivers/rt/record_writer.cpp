@@ -14,6 +14,9 @@
 namespace plumb::drivers::rt {
 namespace {
 
+/// How often the disk and the files are looked at, and the longest pause after a failure: pauses
+/// that follow each other closely are doubled up to it. Chosen: a disk that fails again and again
+/// is left alone, and the record of a disk that has recovered lacks a minute at most.
 constexpr std::int64_t kLook_ns = 1'000'000'000, kMostPatience_ns = 60 * kLook_ns;
 constexpr std::int64_t kDay_s = 86'400;
 constexpr std::uint64_t kSpare = 1'000'000;  // free bytes beyond the floor before it goes on

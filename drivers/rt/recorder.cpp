@@ -7,7 +7,8 @@
 namespace plumb::drivers::rt {
 namespace {
 
-constexpr std::int64_t kPause_ns = 10'000'000;
+constexpr std::int64_t kPause_ns = 10'000'000;  // between two looks for new entries
+/// Between two copies of the whole session, from which a replay can begin.
 constexpr std::int64_t kCopyEvery_ns = 5'000'000'000;
 
 }  // namespace

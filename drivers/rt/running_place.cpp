@@ -15,8 +15,9 @@
 namespace plumb::drivers::rt {
 namespace {
 
+/// Longest waits for the answer to a status and to a swap; the latter as in verb_control.cpp.
 constexpr int kStatus_ms = 2000, kSwapAnswer_ms = 10'000;
-constexpr int kAttempts = 3;
+constexpr int kAttempts = 3;  // to get a status, see find_running
 constexpr std::chrono::milliseconds kBetweenAttempts{300};
 
 /// The object that a plumb-rt answers; nothing if none hears it.

@@ -30,7 +30,8 @@ std::uint64_t first_of(std::string_view bytes) {
   return out;
 }
 
-/// A number of the layout of sessions in this program: sizes tell what the version forgets.
+/// A number that identifies the layout of a session in memory: of the version above and of the
+/// sizes of its parts, in case somebody forgot to raise the version.
 std::uint64_t session_layout() {
   static const std::uint64_t out = first_of(fmt::format(
       "{} {} {} {} {} {} {} {} {} {}", kLayoutVersion, sizeof(Session), sizeof(SessionSettings),

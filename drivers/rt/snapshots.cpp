@@ -13,6 +13,7 @@
 namespace plumb::drivers::rt {
 namespace {
 
+/// Longest time for which further faults extend a snapshot.
 constexpr std::int64_t kLongest_ns = 60'000'000'000;
 constexpr std::string_view kFaultKind = "fault", kHoldKind = "hold";
 constexpr std::size_t kStampSize = std::string_view("20261125T093012.123Z-").size();

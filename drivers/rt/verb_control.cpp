@@ -16,12 +16,14 @@
 namespace plumb::drivers::rt {
 namespace {
 
+/// Longest wait for an answer. A swap answers at the latest after 5 s of loading and 2 s in which
+/// the cycle takes the model (service.cpp).
 constexpr int kAnswer_ms = 10'000;
 
 struct ControlOptions {
   std::string dir = ".";
   std::string file;
-  double change_mm = 0.0;  // that the operator allows to this swap; 0: what rt.toml does
+  double change_mm = 0.0;  // largest change of a correction allowed to this swap; 0: as in rt.toml
   bool once = false;
   double every_s = 0.5;
 };

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostReasons = 6;
+constexpr std::size_t kMostReasons = 6;  // named in one message
 
 [[noreturn]] void refuse_restart(const ChangeRequest& request, const std::string& version,
                                  std::vector<std::string> reasons) {
@@ -84,7 +84,7 @@ void VersionChange::commit(CurrentLink& link, bool swapped) const {
   try {
     link.commit();
   } catch (const Failure&) {
-    constexpr double kAny_m = 1.0;
+    constexpr double kAny_m = 1.0;  // allows any change: the model ran a moment ago
     if (swapped) std::ignore = ask_swap(request_.place, swap_to(running_->version, kAny_m));
     throw;
   }

@@ -11,8 +11,8 @@
 namespace plumb::drivers {
 namespace {
 
-/// Registers that are not about to be written are read so often at most. On a serial line a read
-/// takes milliseconds.
+/// Shortest time between two reads of registers that are not about to be written. On a serial line
+/// a read takes milliseconds.
 constexpr std::int64_t kTcpLook_ns = 1'000'000;
 constexpr std::int64_t kSerialLook_ns = 100'000'000;
 

@@ -60,8 +60,8 @@ class ModbusOwner {
  private:
   enum class State : std::uint8_t { kUnseen, kWatches, kClaims, kOwns };
 
-  /// The registers of a message or of the token, as they may be found: one by one as they were
-  /// confirmed, or as a write left them whose answer did not come.
+  /// The registers of a message or of the token. Each may hold what the last confirmed write left
+  /// there, or what a later write contained whose answer did not come.
   struct Part {
     std::uint16_t first = 0;
     std::uint16_t count = 0;

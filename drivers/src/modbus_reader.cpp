@@ -73,8 +73,9 @@ ModbusTalk::Result ModbusReader::read(const ModbusSpan& span) {
   return result;
 }
 
-/// As long as no message is understood, the registers on both sides of one that is read by itself
-/// may show where it stands. Returns false if the connection can no longer be used.
+/// Reads the registers of a message once more, shifted by one to either side, as long as no message
+/// has a right check sum: the peer may count its registers from 1. Returns false if the connection
+/// can no longer be used.
 bool ModbusReader::look_around(const ModbusSpan& span, std::int64_t now_ns) {
   if (span.blocks.size() != 1 || now_ns < look_ns_ || packing_.understands(now_ns)) return true;
   look_ns_ = now_ns + kLook_ns;

@@ -11,8 +11,8 @@
 namespace plumb::drivers {
 namespace {
 
-constexpr std::int64_t kOpenAgain_ns = 200'000'000;
-constexpr std::uint64_t kThePeer = 1;  // there is one master on a line
+constexpr std::int64_t kOpenAgain_ns = 200'000'000;  // pause before a lost device is opened again
+constexpr std::uint64_t kThePeer = 1;                // there is one master on a line
 constexpr std::size_t kCheckSum = 2;
 
 }  // namespace

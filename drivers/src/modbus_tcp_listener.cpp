@@ -14,6 +14,8 @@ namespace plumb::drivers {
 namespace {
 
 constexpr std::size_t kBeforePeers = 2;  // events of the thread and of new connections
+/// Pause after a connection could not be accepted for lack of file descriptors; without it the
+/// thread would try all the time.
 constexpr std::int64_t kPauseWithoutDescriptors_ns = 100'000'000;
 constexpr std::uint8_t kAnyUnit[] = {0, 255};  // sent by controllers that do not address units
 

@@ -7,8 +7,8 @@
 namespace plumb::drivers {
 namespace {
 
-constexpr std::int64_t kRecent_ns = 1'000'000'000;
-constexpr std::size_t kSumRegisters = 2;
+constexpr std::int64_t kRecent_ns = 1'000'000'000;  // for understands()
+constexpr std::size_t kSumRegisters = 2;            // of the check sum, at the end of a message
 
 std::uint16_t bytes_swapped(std::uint16_t word) noexcept {
   return static_cast<std::uint16_t>(word << 8 | word >> 8);

@@ -18,6 +18,8 @@ namespace plumb::drivers {
 /// Heap: in the constructor. Thread: one.
 class WriteRefusals {
  public:
+  /// Chosen: as long as a correction may be old at the controller (InputSettings::limit_s), and
+  /// longer than the longest usual pause between two messages of a kind.
   static constexpr std::int64_t kLimit_ns = 100'000'000, kForget_ns = 5'000'000'000;
 
   /// blocks: those that the client writes; the same indices are used below.

@@ -22,10 +22,12 @@ struct CanPortOpening;
 /// corrupt.
 ///
 /// receive() examines at most kMostFramesACall frames and then returns false, so that a flood of
-/// frames without a message cannot delay the cycle. How many messages of a flood are taken is up to
-/// the caller. Heap: only in the constructor. Thread: one; recover() may run in another.
+/// frames that complete no message cannot delay the cycle. A flood of complete messages is limited
+/// by the caller (RunLoop::kMostMessages). Heap: only in the constructor. Thread: one; recover()
+/// may run in another.
 class CanPort final : public BusPort {
  public:
+  /// Chosen: the frames of several cycles of any layout; more can only be a flood.
   static constexpr int kMostFramesACall = 64;
 
   /// Opens a port. Slow. Precondition: find_faults finds none in the layout.

@@ -25,7 +25,8 @@ enum class ModbusException : std::uint8_t {
   kNoSuchUnit = 11,  // gateway: target device failed to respond
 };
 
-inline constexpr std::size_t kMostPdu = 253;  // function code and data
+// Limits of the Modbus application protocol V1.1b3; PDU: function code and data.
+inline constexpr std::size_t kMostPdu = 253;  // bytes
 inline constexpr std::size_t kMbapHeader = 7;
 inline constexpr std::size_t kMostTcpFrame = kMbapHeader + kMostPdu;
 inline constexpr std::uint16_t kMostRead = 125;  // registers

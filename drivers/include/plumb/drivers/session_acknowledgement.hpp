@@ -17,6 +17,8 @@ namespace plumb::drivers {
 /// Heap: none. Thread: one. Cost: fixed.
 class AcknowledgeButton {
  public:
+  /// Chosen: shorter than a person presses a button, and much longer than a disturbed bit lasts;
+  /// the gap is as long as that message may be absent (InputSettings::limit_s).
   static constexpr std::int64_t kHeld_ns = 200'000'000, kGap_ns = 100'000'000;
 
   /// Takes a message of kind kController. Returns true if it acknowledges.
@@ -27,7 +29,7 @@ class AcknowledgeButton {
 
  private:
   enum class Press : std::uint8_t {
-    kVoid,  // on, or not known, and it does not count
+    kVoid,  // unknown, or on since before it counted: it must be seen off first
     kOff,
     kOn,  // since begun_ns_
   } press_ = Press::kVoid;

@@ -11,7 +11,7 @@
 
 namespace plumb::drivers {
 
-/// The most poses of which it is remembered that they are different ones.
+/// The largest number of distinct poses that are remembered.
 inline constexpr int kMostDistinct = 16;
 
 struct SyncSettings {
@@ -45,10 +45,11 @@ struct SyncCounters {
 /// counter. Another tool, another user frame or the controller's own absolute-accuracy option is
 /// detected here, before anything is corrected twice.
 ///
-/// Another frame or tool is visible at any pose, the controller's own correction may be small at
-/// one: it changes by about a millimetre per radian, so poses count as distinct if a joint differs
-/// by `moved`, over which it changes by twice the limit. Poses are compared for the whole life of
-/// the session, so differences that appear only elsewhere are found when the arm gets there.
+/// Another frame or tool is visible at any pose. The controller's own correction may be small at
+/// one pose, so several distinct poses must agree. That correction changes by about 1 mm per radian
+/// of a joint, which is twice the limit of 50 um over `moved`, the distance from which on poses
+/// count as distinct. Poses are compared for the whole life of the session, so differences that
+/// appear only elsewhere are found when the arm gets there.
 ///
 /// Heap: none. Thread: one. Cost: one nominal forward kinematics for a complete pair. Errors: none;
 /// invalid poses and joint states are not compared.
