@@ -14,24 +14,16 @@
 #include "plumb/drivers/time_source.hpp"
 #include "program/file.hpp"
 #include "program/problem.hpp"
-#include "rt/install_history.hpp"
-#include "rt/model_change.hpp"
+#include "rt/control_reply.hpp"
 #include "rt/packing_text.hpp"
-#include "rt/screen_units.hpp"
+#include "rt/place.hpp"
 
 namespace plumb::drivers::rt {
 namespace {
 
-constexpr int kPass_ms = 10;
-constexpr std::int64_t kSwap_ns = 2'000'000'000, kSecond_ns = 1'000'000'000;
+constexpr int kPass_ms = 10;  // longest wait of one pass for a request
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
-constexpr std::int64_t kLoad_ns = 5'000'000'000;  // the one who asks waits ten seconds
-
-std::string reply(const Json& json) { return json.dump() + "\n"; }
-
-std::string refusal(const char* code, const std::string& message) {
-  return reply({{"ok", false}, {"error", {{"code", code}, {"message", message}}}});
-}
 
 std::optional<Descriptor> open_metrics(int port) {
   if (port == 0) return std::nullopt;
@@ -54,11 +46,6 @@ std::string shortage_text() {
       most.rlim_cur, ::getpid());
 }
 
-std::string name_of(const RunningModel& model, const std::filesystem::path& file) {
-  const std::string& robot = model.loaded->model().robot_name;
-  return robot.empty() ? file.filename().string() : robot;
-}
-
 std::string http(const char* line, const std::string& type, const std::string& body) {
   return fmt::format(
       "HTTP/1.0 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n"
@@ -72,22 +59,17 @@ Service::Service(Deployment& deployment, OpenBus& bus, ModelSlot& slot, RunShare
                  Files files)
     : deployment_(deployment),
       bus_(bus),
-      slot_(slot),
       shared_(shared),
       control_(open_control(deployment.folder)),
       metrics_(open_metrics(deployment.config.metrics_port)),
       journal_(files == Files::kMade ? journal_file(deployment.folder, deployment.config.events)
                                      : std::filesystem::path{},
-               files == Files::kMade ? Journal::Echo::kStderr : Journal::Echo::kNone) {
-  own_name_ = user_name(::geteuid());
+               files == Files::kMade ? Journal::Echo::kStderr : Journal::Echo::kNone),
+      swap_(deployment, slot, facts_, journal_) {
   const RtConfig& config = deployment.config;
   facts_.bus = config.source->name();
-  facts_.model_file = config.model.string();
-  facts_.model_name = name_of(deployment.model, config.model);
-  facts_.model_sha256 = deployment.model.sha256;
   facts_.ceilings = config.ceilings;
-  facts_.origin = find_run_origin(deployment);
-  facts_.model_limits = deployment.model.loaded->limits();
+  put_model(deployment, config.model, facts_);
   if (files == Files::kMade)
     make_files();
   else
@@ -166,7 +148,7 @@ void Service::run() {
 
 void Service::pass() {
   serve();
-  go_on_with_swap();
+  if (swap_.go_on()) unsigned_ns_ = 0;
   write_down();
   remember();
   repeat_unsigned();
@@ -199,7 +181,8 @@ void Service::note_state(const SessionMoment& moment) {
   facts_.cause = cause_text(moment);
 }
 
-/// Once, although the link may doubt it now and then, and other messages be found to be so.
+/// Notes a packing only once, although the link may lose it and find it again, and may find it for
+/// other messages too.
 void Service::note_packing() {
   facts_.packing = packing_text(snapshot_.packing, deployment_.layout);
   RegisterPacking now = snapshot_.packing;
@@ -218,13 +201,14 @@ void Service::remember() {
   if (snapshot_.session.counters.cycles > 0 && !asks) facts_.acknowledge.clear();
 }
 
-/// What the next start of the place would run.
+/// Reads the version that the next start in this place would run.
 void Service::look_at_place() {
   if (!facts_.origin.place.empty())
     facts_.origin.current = current_version_if_any(Place{deployment_.folder});
 }
 
-/// Once a day, where signatures are demanded: nobody shall forget that one was waived.
+/// Repeats once a day, where signatures are demanded, that what runs has none: nobody shall forget
+/// that it was waived.
 void Service::repeat_unsigned() {
   const std::int64_t now_ns = MonotonicTime::now_ns();
   if (unsigned_ns_ != 0 && now_ns - unsigned_ns_ < kDay_ns) return;
@@ -269,7 +253,7 @@ void Service::serve_control() {
   facts_.shortage = reserve_.held() ? "" : shortage_text();
   look_at_place();
   if (asked->request.starts_with("swap "))
-    begin_swap(std::move(*asked));
+    swap_.begin(std::move(*asked));
   else
     reply_to(asked->peer, control(asked->request), {});
   facts_.shortage.clear();
@@ -278,120 +262,6 @@ void Service::serve_control() {
 std::string Service::control(const std::string& request) const {
   if (request == "status") return reply({{"ok", true}, {"result", status_json(snapshot_, facts_)}});
   return refusal("E-RT-CONTROL", "not a request that this plumb-rt knows");
-}
-
-/// Loads the model of a file on another thread; the answer follows when that is done.
-void Service::begin_swap(Asked asked) {
-  const SwapRequest request = read_swap(asked.request.substr(5));
-  const std::string by = asked.uid == 0 ? "root" : own_name_;
-  std::string why;
-  if (swap_) {
-    why = "another model is being loaded: " + swap_->request.file;
-  } else {
-    try {
-      ModelLoading loading({.file = request.file,
-                            .serial = deployment_.model.loaded->model().serial,
-                            .etc = deployment_.etc,
-                            .place = facts_.origin.place,
-                            .written = written_files(deployment_.config)});
-      swap_.emplace(Swap{.peer = std::move(asked.peer),
-                         .request = request,
-                         .by = by,
-                         .loading = std::move(loading),
-                         .end_ns = MonotonicTime::now_ns() + kLoad_ns});
-      return;
-    } catch (const std::exception& error) {
-      why = error.what();
-    }
-  }
-  const std::string answer = refusal("E-RT-SWAP", why);
-  note_swap(request.file, by, answer);
-  reply_to(asked.peer, answer, {});
-}
-
-/// A model that comes too late is not swapped in: who asked for it was told so.
-void Service::go_on_with_swap() {
-  if (!swap_) return;
-  const bool late = MonotonicTime::now_ns() >= swap_->end_ns;
-  if (swap_->loading.done()) {
-    if (swap_->peer.open()) end_swap(loaded_swap());
-    swap_.reset();
-  } else if (late && swap_->peer.open()) {
-    end_swap(refusal("E-RT-SWAP", "the file cannot be read in time: " + swap_->request.file));
-  }
-}
-
-/// Writes down what came of the request to swap, and answers who asked.
-void Service::end_swap(const std::string& answer) {
-  note_swap(swap_->request.file, swap_->by, answer);
-  reply_to(swap_->peer, answer, {});
-  swap_->peer = Descriptor();
-}
-
-std::string Service::loaded_swap() {
-  const SwapRequest& request = swap_->request;
-  try {
-    RunningModel next = swap_->loading.result();
-    refuse_wider(request.file, *next.loaded, deployment_.config.ceilings, deployment_.folder);
-    return swap(request, std::move(next));
-  } catch (const Failure& failure) {
-    const Problem& first = failure.problems().front();
-    return refusal(first.code.c_str(), first.message);
-  } catch (const std::exception& error) {
-    return refusal("E-RT-MODEL", error.what());
-  }
-}
-
-/// Swaps in a model. If it fails any check the running model stays in use.
-std::string Service::swap(const SwapRequest& request, RunningModel next) {
-  if (const auto short_of = find_short_reach(deployment_, *next.loaded); !short_of.empty())
-    return refusal("E-RT-SWAP", short_of.front().what);
-  if (!sensors_come(deployment_, *next.loaded))
-    return refusal("E-RT-SWAP",
-                   "it listens to a sensor that the model before does not: start plumb-rt anew");
-  const LoadedModel& running = *deployment_.model.loaded;
-  ModelChange change;
-  if (find_binding_fault(running.model(), next.loaded->model()) == BindingFault::kNone) {
-    change = find_change(running, *next.loaded);
-    const Ceilings& ceilings = deployment_.config.ceilings;
-    if (const auto fault = change_fault(change, request, ceilings); !fault.empty())
-      return refusal("E-RT-CHANGE", fault);
-  }
-  const auto published = slot_.publish(*next.loaded);
-  if (published == ModelSlot::Published::kBusy)
-    return refusal("E-RT-SWAP", "the cycle has not taken the model before yet");
-  if (published != ModelSlot::Published::kDone)
-    return refusal("E-RT-SWAP",
-                   to_string(find_binding_fault(running.model(), next.loaded->model())));
-  std::swap(deployment_.model, next);
-  const std::int64_t end_ns = MonotonicTime::now_ns() + kSwap_ns;
-  while (!slot_.settled() && MonotonicTime::now_ns() < end_ns)
-    std::ignore = MonotonicTime::sleep_until_ns(MonotonicTime::now_ns() + kSecond_ns / 1000);
-  if (!slot_.settled()) next_ = std::move(next);  // kept, because the cycle may still use it
-  facts_.model_file = request.file;
-  facts_.model_name = name_of(deployment_.model, request.file);
-  facts_.model_sha256 = deployment_.model.sha256;
-  facts_.model_limits = deployment_.model.loaded->limits();
-  facts_.origin = find_run_origin(deployment_);
-  unsigned_ns_ = 0;
-  return reply({{"ok", true},
-                {"result",
-                 {{"file", request.file},
-                  {"sha256", facts_.model_sha256},
-                  {"change_mm", 1e3 * change.position_m},
-                  {"change_deg", change.rotation_rad / kDegree},
-                  {"fingerprint", deployment_.model.loaded->number()}}}});
-}
-
-/// One line of the journal.
-void Service::note_swap(const std::string& file, const std::string& by, const std::string& answer) {
-  const Json said = Json::parse(answer, nullptr, false);
-  Json details{{"file", file}, {"by", by}};
-  const bool done = said.is_object() && said.value("ok", false);
-  const char* const part = done ? "result" : "error";
-  if (said.is_object() && said.contains(part)) details.update(said[part]);
-  if (done) details.update(event_details(facts_.origin));
-  journal_.note(done ? "swap" : "swap-refused", details);
 }
 
 std::string Service::page(const std::string& request) {

@@ -13,11 +13,10 @@
 #include "rt/deployment.hpp"
 #include "rt/journal.hpp"
 #include "rt/last_run.hpp"
-#include "rt/model_loading.hpp"
+#include "rt/model_swap.hpp"
 #include "rt/notify.hpp"
 #include "rt/recorder.hpp"
 #include "rt/status_text.hpp"
-#include "rt/swap_request.hpp"
 
 namespace plumb::drivers::rt {
 
@@ -66,12 +65,6 @@ class Service {
   void serve();
   void serve_control();
   std::string control(const std::string& request) const;
-  void begin_swap(Asked asked);
-  void go_on_with_swap();
-  std::string loaded_swap();
-  std::string swap(const SwapRequest& request, RunningModel next);
-  void end_swap(const std::string& answer);
-  void note_swap(const std::string& file, const std::string& by, const std::string& answer);
   void look_at_place();
   void repeat_unsigned();
   void remember();
@@ -79,7 +72,6 @@ class Service {
 
   Deployment& deployment_;
   OpenBus& bus_;
-  ModelSlot& slot_;
   RunShared& shared_;
   ServiceManager manager_;
   ControlSocket control_;
@@ -91,19 +83,10 @@ class Service {
   RunSnapshot snapshot_;
   RegisterPacking packing_;                   // that the journal has
   SessionState state_ = SessionState::kInit;  // whose cause is in facts_
-  RunningModel next_;  // the model before, kept while the cycle may still use it
-  struct Swap {
-    Descriptor peer;  // who asked; closed once answered
-    SwapRequest request;
-    std::string by;  // user who asked
-    ModelLoading loading;
-    std::int64_t end_ns;  // when the peer is answered that it takes too long
-  };
-  std::optional<Swap> swap_;
+  ModelSwap swap_;
   std::optional<LastRun> last_run_;  // none for targets from a file
   std::int64_t told_ns_ = 0;
   std::uint64_t told_beats_ = 0;
-  std::string own_name_;          // of the user who runs plumb-rt
   std::int64_t unsigned_ns_ = 0;  // when the journal last said that what runs is unsigned
   bool ready_ = false;
   std::atomic<bool> ended_{false};
