@@ -13,7 +13,7 @@ namespace plumb::offline::bench {
 
 using CpuSet = std::set<int>;
 
-/// The machine on which something is timed. What it does not tell is left empty.
+/// The machine on which something is timed. A member is empty if the machine does not state it.
 struct Machine {
   std::string kernel;  // release
   bool preempt_rt = false;
@@ -34,7 +34,7 @@ Machine look_at_machine(const std::filesystem::path& root = "/");
 /// A controller's PC is bare metal with an isolated core at full clock, and at rest otherwise.
 std::vector<std::string> why_not_representative(const Machine& machine, const Build& build);
 
-/// These reasons as a sentence for everyone who reads a time.
+/// The reasons as one sentence that is shown with every time.
 std::string fitness_text(const std::vector<std::string>& why_not);
 
 /// "0-2,5", as the kernel writes it.

@@ -14,7 +14,7 @@
 namespace plumb::offline::bench {
 namespace {
 
-constexpr std::size_t kSteps = 2000;
+constexpr std::size_t kSteps = 2000;  // enough for a 99 % quantile, in less than a second
 
 }  // namespace
 

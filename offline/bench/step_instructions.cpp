@@ -12,26 +12,32 @@
 namespace plumb::offline::bench {
 namespace {
 
-/// Of an arm of 1 to 9 joints without effects and trees.
+// All numbers are counted instructions of one step (see the header).
+
+/// The arm alone, without effects and trees, by its number of joints from 1 to 9. Positions: the
+/// model corrects positions only; poses: orientations too.
 constexpr std::array<double, format::kMaxJoints> kPositions{19078, 21492, 23936, 26209, 30468,
                                                             12750, 24880, 25331, 28324};
 constexpr std::array<double, format::kMaxJoints> kPoses{18319, 20505, 22721, 25270, 28335,
                                                         11760, 22291, 22586, 24817};
-/// The same without AVX2.
+/// The same in the build without AVX2.
 constexpr std::array<double, format::kMaxJoints> kBaselinePositions{
     23564, 27590, 33375, 37638, 43568, 22449, 42304, 45072, 49620};
 constexpr std::array<double, format::kMaxJoints> kBaselinePoses{22607, 26039, 30600, 34731, 38975,
                                                                 19929, 35893, 38067, 41391};
-/// Ratio without AVX2 to with it of what rows, effects and crisp trees add: 1.3 to 2.0 of single
-/// ones.
+/// By this factor rows, effects and crisp trees add more in the build without AVX2; single ones by
+/// 1.3 to 2.0.
 constexpr double kBaselineRest = 1.6;
-constexpr double kGeneralRow = 390, kGeneralRowOfEffects = 130;  // that is no plain DH row
-constexpr double kEffects = 1050, kEffectsPerJoint = 240;        // frames and loads
-constexpr double kRange = 40;
+/// For each joint if a row of the arm is no plain DH row (is_plain); the second one more if the
+/// model has effects.
+constexpr double kGeneralRow = 390, kGeneralRowOfEffects = 130;
+/// Frames and loads, which any effect needs: once, and for each joint.
+constexpr double kEffects = 1050, kEffectsPerJoint = 240;
+constexpr double kRange = 40;  // for each range of the context
 
 constexpr int kEvaluations = 3;  // of effects and trees in a step
 
-/// Of an effect: once, for each of its joints, and for each of its numbers.
+/// What one effect adds: once, for each of its joints, and for each of its parameters.
 struct LawTerms {
   std::string_view law;
   double once, per_joint, per_number;
@@ -52,10 +58,10 @@ constexpr LawTerms kLaws[] = {
 };
 constexpr LawTerms kUnknownLaw{"", 400, 840, 9};
 
-constexpr double kFormula = 180;
+constexpr double kFormula = 180;  // for each formula, beside its target and its operations
 constexpr double kFormulaTarget[] = {0, 673, 400, 349, 379, 286};  // by FormulaTarget
 
-/// Of an operation of a formula. Those whose course depends on the number, at most.
+/// What one operation of a formula adds; the largest count where that depends on the argument.
 double operation_terms(format::FormulaOp op) {
   using format::FormulaOp;
   switch (op) {
@@ -91,7 +97,8 @@ double effect_terms(const format::Effect& effect) {
          terms.per_number * static_cast<double>(effect.parameters.size());
 }
 
-/// One evaluation of the tree of one axis. walks: the share of the walk that it bears.
+/// What one evaluation of the tree of one axis adds. `walks`: the share of the search for its leaf
+/// that counts here; trees with the same leaves share one search.
 double tree_terms(const format::Tree& tree, std::size_t inputs, double walks) {
   const auto n = static_cast<double>(inputs);
   const bool blended = !tree.blend_half_width.empty(), oblique = !tree.directions.empty();
@@ -99,7 +106,7 @@ double tree_terms(const format::Tree& tree, std::size_t inputs, double walks) {
       blended ? static_cast<double>(std::min<std::size_t>(tree.leaves(), format::kMaxActiveLeaves))
               : 1.0;
   const auto terms = static_cast<double>(format::leaf_terms(inputs, tree.degree));
-  // Of six joints the sums are unrolled, of others they are loops.
+  // With six inputs the compiler unrolls the sums, with other numbers they stay loops.
   const bool loops = inputs != 6;
   const double products = loops ? (tree.degree == 2 ? 90.0 : 30.0) : 0.0;
   const double region = tree.region.empty() ? 0.0 : 9.5 * n + (loops ? 70.0 : 0.0);

@@ -30,10 +30,9 @@ struct Timings {
 
 /// Times every kernel each way, in turns, so that a machine that becomes slower does so for all.
 ///
-/// A reading of the clock covers so many calls that its own cost hardly counts, 2 us at least; the
-/// cycle as a chain, and whatever is cold, are timed call by call, so that their worst value is
-/// that of one call.
-/// The cost of the clock is subtracted from each.
+/// One timing covers several calls, 2 us at least, so that the cost of reading the clock hardly
+/// counts. Chained cycles and cold calls are timed one by one, so that their worst value is that of
+/// one call. The cost of the clock is subtracted from each timing.
 Timings time_kernels(std::span<const CycleKernel> kernels, const TimingRequest& request);
 
 }  // namespace plumb::offline::bench
